@@ -1,0 +1,46 @@
+"""cardan: universal-joint (cardan, Hooke) shaft drives, analysed and designed from one description.
+
+Python is SI and radians throughout; write ``20 * deg``. Each public name is imported on first use.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "CardanError": "errors",
+    "InputError": "errors",
+    "Drive": "drive.drive",
+    "Drives": "drive.drives",
+    "stack": "drive.drives",
+    "Motion": "analysis.motion",
+    "motion": "analysis.motion",
+    "EquivalentJoint": "analysis.equivalence",
+    "equivalent_joint": "analysis.equivalence",
+}
+
+__all__ = sorted([*_HOMES, "__version__"])
+
+if TYPE_CHECKING:
+    from .analysis.equivalence import EquivalentJoint as EquivalentJoint
+    from .analysis.equivalence import equivalent_joint as equivalent_joint
+    from .analysis.motion import Motion as Motion
+    from .analysis.motion import motion as motion
+    from .drive.drive import Drive as Drive
+    from .drive.drives import Drives as Drives
+    from .drive.drives import stack as stack
+    from .errors import CardanError as CardanError
+    from .errors import InputError as InputError
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'cardan' has no attribute {name!r}")
+    return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

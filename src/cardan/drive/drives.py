@@ -1,0 +1,150 @@
+"""Many drives as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cardan.errors import BendLimitError, Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.texts import _
+
+from .chain import Chain, chain
+from .drive import Drive
+from .geometry import geometry_from_points
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Drives:
+    """A batch of drives with free leading axes; every question takes it where it takes a `Drive`.
+
+    Attributes
+    ----------
+    chain : Chain
+        Their kinematic half, padded to the longest with straight joints (exactly the identity).
+    joints : array of int (...)
+        How many joints each drive has.
+    """
+
+    chain: Chain
+    joints: Array
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Leading axes of the batch."""
+        return tuple(self.chain.bend.shape[:-1])
+
+    @classmethod
+    def from_angles(
+        cls,
+        bend: ArrayLike,
+        *,
+        plane_twist: ArrayLike | None = None,
+        yoke_angle: ArrayLike | None = None,
+        start_phase: ArrayLike = 0.0,
+    ) -> Drives:
+        """Return drives with given bends.
+
+        Parameters
+        ----------
+        bend : array (..., n) [rad]
+            α, each in [0, π/2).
+        plane_twist, yoke_angle : array (..., n-1) [rad], optional
+            β and γ; zero when not given.
+        start_phase : array (...) [rad]
+            ψ_1.
+
+        Raises
+        ------
+        BendLimitError
+            A bend outside [0, π/2) or not finite; ``where`` is the mask (..., n).
+
+        Examples
+        --------
+        >>> Drives.from_angles([[0.1, 0.2], [0.3, 0.3]]).shape
+        (2,)
+        """
+        xp = namespace(bend, plane_twist, yoke_angle, start_phase)
+        alpha = real(bend, xp)
+        fits = (alpha >= 0.0) & (alpha < 0.5 * xp.pi)
+        if not bool(xp.all(fits)):
+            raise BendLimitError([Problem("bend", _("a bend angle must lie in [0°, 90°)"))], where=~fits)
+        between = (*alpha.shape[:-1], alpha.shape[-1] - 1)
+
+        def rest(name: str, value: ArrayLike | None) -> Array:
+            given = xp.zeros(between, dtype=xp.float64) if value is None else real(value, xp)
+            if given.shape[-1:] != between[-1:]:
+                raise refuse(
+                    name,
+                    _("{given} values given, {wanted} needed").format(given=given.shape[-1], wanted=between[-1]),
+                )
+            return xp.broadcast_to(given, between)
+
+        whole = Chain(
+            bend=alpha,
+            plane_twist=rest("plane_twist", plane_twist),
+            yoke_angle=rest("yoke_angle", yoke_angle),
+            start_phase=xp.broadcast_to(real(start_phase, xp), alpha.shape[:-1]),
+        )
+        return cls(chain=whole, joints=xp.full(alpha.shape[:-1], alpha.shape[-1]))
+
+    @classmethod
+    def from_points(
+        cls, points: ArrayLike, *, yoke_angle: ArrayLike | None = None, start_phase: ArrayLike = 0.0
+    ) -> Drives:
+        """Return drives through points (..., n+2, 3) [m]; see `Drive.from_points`."""
+        xp = namespace(points, yoke_angle, start_phase)
+        place = geometry_from_points(real(points, xp))
+        return cls.from_angles(
+            place.bend, plane_twist=place.plane_twist, yoke_angle=yoke_angle, start_phase=start_phase
+        )
+
+
+def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
+    """Return single drives as one batch.
+
+    Parameters
+    ----------
+    drives : sequence of Drive
+        N drives; shorter ones are padded with straight joints, which change nothing.
+    xp : array-API namespace, optional
+        Library of the result, NumPy by default.
+
+    Returns
+    -------
+    Drives (N,)
+
+    Examples
+    --------
+    >>> stack([Drive.from_angles([0.1]), Drive.from_angles([0.1, 0.2])]).joints
+    array([1, 2])
+    """
+    if not drives:
+        check([Problem("drives", _("an empty list has nothing to stack"))])
+    lib = np if xp is None else xp
+    chains = [chain(drive) for drive in drives]
+    most = max(one.joints for one in chains)
+
+    def padded(rows: list[Array], width: int, filler: float) -> Array:
+        table = np.full((len(rows), width), filler)
+        for row, values in zip(table, rows, strict=True):
+            row[: len(values)] = values
+        return lib.asarray(table)
+
+    whole = Chain(
+        bend=padded([c.bend for c in chains], most, 0.0),
+        plane_twist=padded([c.plane_twist for c in chains], most - 1, 0.0),
+        yoke_angle=padded([c.yoke_angle for c in chains], most - 1, 0.5 * np.pi),
+        start_phase=lib.asarray([float(c.start_phase) for c in chains]),
+    )
+    return Drives(chain=whole, joints=lib.asarray([c.joints for c in chains]))
+
+
+def kinematics(drive: Drive | Drives | Chain) -> Chain:
+    """Return the kinematic half of one drive or many."""
+    if isinstance(drive, Chain):
+        return drive
+    return chain(drive) if isinstance(drive, Drive) else drive.chain

@@ -1,0 +1,23 @@
+"""The cross-and-yokes joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from cardan.maths import mobius
+from cardan.maths.arrays import Array
+
+from .joint import Joint
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Hooke(Joint):
+    """Universal joint of Hooke: two yokes held at right angles by a cross."""
+
+    kind: ClassVar[str] = "hooke"
+
+    @staticmethod
+    def pair(bend: Array) -> mobius.Pair:
+        """Return the joint's Möbius map, see `cardan.maths.mobius`."""
+        return mobius.hooke(bend)

@@ -1,0 +1,33 @@
+"""What every kind of joint has: a place in the drive."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+from cardan.units import plain, quantity
+
+Point: TypeAlias = tuple[float, float, float]
+Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Joint:
+    """A joint and its place, in one of three forms: its centre, or its bend and plane, or neither (slopes)."""
+
+    kind: ClassVar[str]
+
+    name: str = plain("", doc="name of the joint, for tables and pictures")
+    centre: Point | None = quantity("length", None, doc="joint centre [x, y, z], z up")
+    bend: float | None = quantity(
+        "angle", None, doc="bend angle between the joint's two shafts", low=0.0, below=math.pi / 2
+    )
+    plane_twist: float | None = quantity(
+        "angle",
+        None,
+        doc="angle from the plane of the joint before to this joint's plane, about the shaft between them",
+    )
+    move_within: Box | None = quantity(
+        "length", None, doc="box [[x0, x1], [y0, y1], [z0, z1]] in which layout synthesis may put the centre"
+    )

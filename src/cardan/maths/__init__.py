@@ -1,0 +1,1 @@
+"""Mathematics without machine words: arrays in, arrays out."""

@@ -1,0 +1,61 @@
+"""The only file that knows array libraries.
+
+Formulas are written once on the array-API standard. The caller's arrays decide which library computes; plain numbers
+and lists mean NumPy.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+
+Array: TypeAlias = Any
+"""An array of any library that follows the array-API standard."""
+
+ArrayLike: TypeAlias = Any
+"""An `Array`, a number or nested lists of numbers."""
+
+
+def namespace(*values: ArrayLike) -> Any:
+    """Return the array-API namespace of the values, NumPy when they are plain.
+
+    Examples
+    --------
+    >>> namespace(1.0, [2.0]) is np
+    True
+    """
+    for value in values:
+        if hasattr(value, "__array_namespace__") and not isinstance(value, np.ndarray | np.generic):
+            return value.__array_namespace__()
+    return np
+
+
+def real(value: ArrayLike, xp: Any) -> Array:
+    """Return ``value`` as a 64-bit float array of the library ``xp``."""
+    if hasattr(value, "__array_namespace__") and value.dtype == xp.float64:
+        return value
+    return xp.asarray(value, dtype=xp.float64)
+
+
+def complex_of(value: Array, xp: Any) -> Array:
+    """Return a real array as a complex one."""
+    return xp.astype(value, xp.complex128)
+
+
+def unit_complex(angle: Array) -> Array:
+    """Return e^(i angle), a point of the unit circle.
+
+    Examples
+    --------
+    >>> unit_complex(np.asarray([0.0]))
+    array([1.+0.j])
+    """
+    xp = namespace(angle)
+    return complex_of(xp.cos(angle), xp) + 1j * complex_of(xp.sin(angle), xp)
+
+
+def argument(value: Array) -> Array:
+    """Return the argument of complex numbers in (-π, π]."""
+    xp = namespace(value)
+    return xp.atan2(xp.imag(value), xp.real(value))

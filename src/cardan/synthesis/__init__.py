@@ -1,0 +1,1 @@
+"""Choices: what the drive should be."""

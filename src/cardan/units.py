@@ -1,0 +1,157 @@
+"""Units: what a key of a file may end in, and its factor to SI.
+
+Python is SI and radians throughout. Only files, tables and axes carry units, in the key itself: ``centre_mm``,
+``speed_rpm``. A dimension lists its units, the first one is what we write.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import MISSING, dataclass, field
+from difflib import get_close_matches
+from typing import Any
+
+deg = math.pi / 180
+arcmin = deg / 60
+mm = 1e-3
+inch = 0.0254
+rpm = math.pi / 30
+percent = 1e-2
+
+DIMENSIONS: dict[str, dict[str, float]] = {
+    "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch},
+    "angle": {"deg": deg, "rad": 1.0, "arcmin": arcmin},
+    "angular_speed": {"rpm": rpm, "rad_s": 1.0, "deg_s": deg},
+    "angular_acceleration": {"rad_s2": 1.0, "deg_s2": deg},
+    "speed": {"m_s": 1.0, "mm_s": mm},
+    "time": {"s": 1.0, "ms": 1e-3, "min": 60.0},
+    "frequency": {"Hz": 2 * math.pi, "rad_s": 1.0, "per_min": 2 * math.pi / 60},
+    "share": {"percent": percent},
+}
+"""Dimension -> unit suffix -> factor to SI. A frequency is an angular one in Python [rad/s]."""
+
+LABELS = {
+    "deg": "°",
+    "rad_s": "rad/s",
+    "rad_s2": "rad/s²",
+    "deg_s": "°/s",
+    "deg_s2": "°/s²",
+    "m_s": "m/s",
+    "mm_s": "mm/s",
+    "percent": "%",
+    "per_min": "1/min",
+    "arcmin": "′",
+}
+"""How a unit suffix is printed, where it is not printed as it stands."""
+
+
+def factor(dimension: str, unit: str) -> float:
+    """Return how many SI units one ``unit`` is.
+
+    Examples
+    --------
+    >>> factor("length", "mm")
+    0.001
+    """
+    return DIMENSIONS[dimension][unit]
+
+
+def preferred(dimension: str) -> str:
+    """Return the unit we write for a dimension.
+
+    Examples
+    --------
+    >>> preferred("angular_speed")
+    'rpm'
+    """
+    return next(iter(DIMENSIONS[dimension]))
+
+
+def label(unit: str) -> str:
+    """Return the printed form of a unit suffix.
+
+    Examples
+    --------
+    >>> label("rad_s2"), label("mm")
+    ('rad/s²', 'mm')
+    """
+    return LABELS.get(unit, unit)
+
+
+def nearest(word: str, known: Any) -> str | None:
+    """Return the known word most like ``word``, or None when none is near.
+
+    Examples
+    --------
+    >>> nearest("centre_mmm", ["centre_mm", "bend_deg"])
+    'centre_mm'
+    """
+    found = get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return found[0] if found else None
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What a field of the drive model means in a file; stands in the field's metadata.
+
+    Parameters
+    ----------
+    doc : str
+        One sentence for schema, reference and error messages.
+    dimension : str or None
+        A key of `DIMENSIONS`; None for counts, ratios and names.
+    low, high : float
+        Allowed closed range in SI, `above` and `below` the open ends.
+    mirror : str
+        Name of an alternative key with the opposite sign (``yoke_lead`` for ``yoke_angle``).
+    choices : tuple of str
+        Allowed words.
+    keys : tuple of str
+        Names of the parts of a row, where a value is a table row.
+    """
+
+    doc: str
+    dimension: str | None = None
+    low: float = -math.inf
+    high: float = math.inf
+    above: float = -math.inf
+    below: float = math.inf
+    mirror: str = ""
+    choices: tuple[str, ...] = ()
+
+    def allows(self, value: float) -> bool:
+        """Tell whether a value in SI lies in the allowed range."""
+        return math.isfinite(value) and self.low <= value <= self.high and self.above < value < self.below
+
+
+KEY = "cardan"
+"""Name under which a field's metadata holds its `Key`."""
+
+
+def quantity(dimension: str, default: Any = MISSING, *, doc: str, **limits: Any) -> Any:
+    """Declare a dataclass field with a physical dimension.
+
+    Parameters
+    ----------
+    dimension : str
+        A key of `DIMENSIONS`.
+    default : object
+        Default in SI; required when missing.
+    doc : str
+        One sentence on what the field means.
+    **limits
+        ``low``, ``high``, ``above``, ``below``, ``mirror`` of `Key`.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass
+    ... class Tube:
+    ...     wall: float = quantity("length", doc="wall thickness", above=0.0)
+    """
+    return field(default=default, metadata={KEY: Key(doc, dimension, **limits)})
+
+
+def plain(default: Any = MISSING, *, doc: str, **limits: Any) -> Any:
+    """Declare a dataclass field without a dimension: a count, a ratio, a name, a table."""
+    return field(default=default, metadata={KEY: Key(doc, None, **limits)})
