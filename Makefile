@@ -1,0 +1,65 @@
+# Every target sets up what it needs in .venv; a machine needs Python 3.11 or later and make, nothing else.
+
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	command -v $$p >/dev/null 2>&1 && $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+	&& echo $$p && break; done)
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+EXAMPLE ?= truck-printed-angles
+WORKERS ?= 2
+
+.PHONY: help report test lint docs bench clean all
+
+help:
+	@echo "make report   the report of a shipped example (EXAMPLE=$(EXAMPLE)) as out/$(EXAMPLE).html"
+	@echo "make test     all tests, docstring and documentation examples"
+	@echo "make lint     format, lint, types, import contracts"
+	@echo "make docs     the documentation as docs/_build/html/index.html"
+	@echo "make bench    benchmarks as JSON lines, each against its yardstick"
+	@echo "make clean    remove everything made here"
+
+report: $(VENV)/.run
+	@mkdir -p out
+	$(BIN)/cardan report examples/$(EXAMPLE).toml -o out/$(EXAMPLE).html
+
+test: $(VENV)/.test
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -q
+
+lint: $(VENV)/.lint
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
+
+docs: $(VENV)/.docs
+	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	@echo "docs/_build/html/index.html"
+
+bench: $(VENV)/.run
+	$(BIN)/python -m benchmarks
+
+$(VENV)/.made:
+	@test -n "$(PYTHON)" || { echo "cardan needs Python 3.11 or later; none was found (set PYTHON=...)" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+# One stamp for each set of extras; the package is installed in place, so sources need no new install.
+$(VENV)/.run: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable .
+	@touch $@
+
+$(VENV)/.test: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[test,docs]'
+	@touch $@ $(VENV)/.run $(VENV)/.docs
+
+$(VENV)/.lint: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[lint]'
+	@touch $@ $(VENV)/.run
+
+$(VENV)/.docs: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[docs]'
+	@touch $@ $(VENV)/.run
+
+clean:
+	rm -rf $(VENV) out docs/_build build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
