@@ -5,7 +5,9 @@ Python is SI and radians throughout; write ``20 * deg``. Each public name is imp
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -18,6 +20,8 @@ _HOMES = {
     "stack": "drive.drives",
     "Motion": "analysis.motion",
     "motion": "analysis.motion",
+    "BookComparison": "analysis.book",
+    "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
 }
@@ -25,6 +29,8 @@ _HOMES = {
 __all__ = sorted([*_HOMES, "__version__"])
 
 if TYPE_CHECKING:
+    from .analysis.book import BookComparison as BookComparison
+    from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.motion import Motion as Motion
@@ -34,6 +40,17 @@ if TYPE_CHECKING:
     from .drive.drives import stack as stack
     from .errors import CardanError as CardanError
     from .errors import InputError as InputError
+
+
+class _Package(ModuleType):
+    """Some questions share their name with the subpackage they live in; importing that must not hide them."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in _HOMES or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> Any:
