@@ -6,6 +6,7 @@ and lists mean NumPy.
 
 from __future__ import annotations
 
+import math
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -17,14 +18,59 @@ ArrayLike: TypeAlias = Any
 """An `Array`, a number or nested lists of numbers."""
 
 
+class _Numbers:
+    """Python's own numbers as a namespace: a formula on single numbers runs ten times as fast as on NumPy scalars.
+
+    What is not listed here is NumPy's.
+    """
+
+    float64, complex128, pi = float, complex, math.pi
+    cos, sin, sqrt, atan2 = math.cos, math.sin, math.sqrt, math.atan2
+    cosh, sinh, asinh = math.cosh, math.sinh, math.asinh
+    abs, minimum, maximum = abs, min, max
+
+    @staticmethod
+    def real(value: complex) -> float:
+        return value.real
+
+    @staticmethod
+    def imag(value: complex) -> float:
+        return value.imag
+
+    @staticmethod
+    def conj(value: complex) -> complex:
+        return value.conjugate()
+
+    @staticmethod
+    def astype(value: complex, kind: type) -> Any:
+        return kind(value)
+
+    @staticmethod
+    def where(condition: Any, yes: Any, no: Any) -> Any:
+        return yes if condition else no
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(np, name)
+
+
+NUMBERS: Any = _Numbers()
+"""Namespace of formulas whose every argument is a Python float or complex."""
+
+_PLAIN = frozenset({float, complex})
+
+
 def namespace(*values: ArrayLike) -> Any:
-    """Return the array-API namespace of the values, NumPy when they are plain.
+    """Return the array-API namespace of the values, NumPy when they are lists, `NUMBERS` when they are single numbers.
 
     Examples
     --------
     >>> namespace(1.0, [2.0]) is np
     True
+    >>> namespace(1.0, 2j) is NUMBERS
+    True
     """
+    if values and _PLAIN.issuperset(map(type, values)):
+        return NUMBERS
     for value in values:
         if hasattr(value, "__array_namespace__") and not isinstance(value, np.ndarray | np.generic):
             return value.__array_namespace__()

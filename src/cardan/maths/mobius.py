@@ -124,9 +124,9 @@ def bend(pair: Pair) -> Array:
 
 
 def length(pair: Pair) -> Array:
-    """Return the hyperbolic length L = -ln cos α = 2 artanh τ of the equivalent joint."""
+    """Return the hyperbolic length L = -ln cos α = 2 arsinh |b| of the equivalent joint, short or long."""
     xp = namespace(*pair)
-    return 2.0 * xp.atanh(tau(pair))
+    return 2.0 * xp.asinh(xp.abs(pair[1]))
 
 
 def phase(pair: Pair) -> Array:
