@@ -15,6 +15,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "CardanError": "errors",
     "InputError": "errors",
+    "calc": "calc.calculations",
     "Drive": "drive.drive",
     "Drives": "drive.drives",
     "stack": "drive.drives",
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
+    from .calc.calculations import calc as calc
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
     from .drive.drives import stack as stack

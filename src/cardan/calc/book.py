@@ -1,0 +1,5 @@
+"""Calculations: book."""
+
+from .calculation import Calculation
+
+CALCULATIONS: tuple[Calculation, ...] = ()

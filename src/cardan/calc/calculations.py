@@ -1,0 +1,64 @@
+"""All calculations by name, and the way in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from cardan.errors import refuse
+from cardan.texts import _
+from cardan.units import nearest
+
+from . import book, kinematics, moving, synthesis
+from .calculation import Calculation
+
+CALCULATIONS: dict[str, Calculation] = {
+    calculation.name: calculation for part in (kinematics, synthesis, moving, book) for calculation in part.CALCULATIONS
+}
+"""Name of the capability -> its calculation."""
+
+
+def find(capability: str, *, field: str = "capability") -> Calculation:
+    """Return a calculation by its name.
+
+    Raises
+    ------
+    InputError
+        No calculation has this name; the message names the nearest.
+    """
+    if capability in CALCULATIONS:
+        return CALCULATIONS[capability]
+    near = nearest(str(capability), CALCULATIONS)
+    text = _("{given} is unknown; did you mean {near}?") if near else _("{given} is unknown; the names are {names}")
+    raise refuse(field, text.format(given=repr(capability), near=near, names=", ".join(sorted(CALCULATIONS))))
+
+
+def calc(capability: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return one calculation for inputs with unit keys.
+
+    Parameters
+    ----------
+    capability : str
+        A name of `CALCULATIONS`, or ``"errors"`` with the name under ``call``.
+    inputs : mapping
+        Key with unit -> number, list or table. Any unit of a key's dimension is read.
+
+    Returns
+    -------
+    dict
+        Key with unit -> number or list; what is undefined is None.
+
+    Raises
+    ------
+    InputError
+        With everything that is wrong, each under the key as it was given.
+
+    Examples
+    --------
+    >>> calc("single_joint_extremes", {"alpha_deg": 20})["delta"]
+    0.12448515
+    """
+    if capability == "errors":
+        rest = {key: value for key, value in inputs.items() if key != "call"}
+        return find(inputs.get("call", ""), field="call")(rest)
+    return find(capability)(inputs)

@@ -1,0 +1,5 @@
+"""Calculations: moving."""
+
+from .calculation import Calculation
+
+CALCULATIONS: tuple[Calculation, ...] = ()

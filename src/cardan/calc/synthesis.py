@@ -1,0 +1,5 @@
+"""Calculations: synthesis."""
+
+from .calculation import Calculation
+
+CALCULATIONS: tuple[Calculation, ...] = ()
