@@ -155,3 +155,31 @@ def angle_of_largest_lead(bend: Array) -> Array:
 def _extreme(k: Array) -> Array:
     xp = namespace(k)
     return 4.0 * k / (1.0 + xp.sqrt(1.0 + 8.0 * k * k))
+
+
+def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
+    """Return the equivalent joints of the first 1 … n joints: what each shaft from 2 on does.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+        One drive, or many as arrays.
+
+    Returns
+    -------
+    EquivalentJoint
+        bend, irregularity, max_lead, max_acceleration … : arrays (..., n), for shafts 2 … n+1.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> after_each_joint(Drive.from_angles([12 * deg, 20 * deg])).bend / deg
+    array([12.       , 16.1192533])
+    """
+    whole = equivalent_joint(drive)
+    products = kinematics(drive).products()
+    xp = namespace(whole.vertex)
+    pair = (xp.stack([a for a, _b in products], axis=-1), xp.stack([b for _a, b in products], axis=-1))
+    return EquivalentJoint(
+        pair=pair, shaft_irregularity=whole.shaft_irregularity[..., None], vertex=whole.vertex[..., 1:, None]
+    )
