@@ -127,8 +127,8 @@ def moving_axes(
     Notes
     -----
     The cross is rigid: the arms u_i and v_{i+1} stay at right angles, so with n = u_i × v_{i+1} the difference
-    Ω_{i+1} - Ω_i has no part along n, which gives ω_{i+1}; its time derivative gives ε_{i+1}. Positions need u_1 and the
-    axes at the instant alone, nothing is integrated; straight joints need no special case. Contains Book (97)-(99).
+    Ω_{i+1} - Ω_i has no part along n, which gives ω_{i+1}; its time derivative gives ε_{i+1}. Positions need u_1 and
+    the axes at the instant alone, nothing is integrated; straight joints need no special case. Contains Book (97)-(99).
     """
     a, rate, curve = axes
     xp = namespace(a)
@@ -190,9 +190,9 @@ def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[
     Notes
     -----
     The shafts turn many times while the centres hardly move, so at an instant every yoke position will occur. A moving
-    chain is a Möbius map that changes in time, hence ω_i Q = N with Q = ω_1/ω_i of the frozen drive, and both are of the
-    form q_0 + q_1 cos 2θ + q_2 sin 2θ over the input angle θ. Three angles fix them; the extremes λ of N/Q are where
-    N - λ Q touches zero: λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
+    chain is a Möbius map that changes in time, hence ω_i Q = N with Q = ω_1/ω_i of the frozen drive, and both are of
+    the form q_0 + q_1 cos 2θ + q_2 sin 2θ over the input angle θ. Three angles fix them; the extremes λ of N/Q are
+    where N - λ Q touches zero: λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
 
     Examples
     --------
@@ -291,8 +291,8 @@ def moving_centres(
     Notes
     -----
     θ_1 = ψ_1 + φ_1 counts from N × a_1 with N = unit(a_1 × a_2) at `start`. If a_1 itself moves, that direction is
-    carried along without twisting, so that ω_1 is the spin; a machine body that carries the input shaft and itself turns
-    with Ω_b adds Ω_b·a_1 to the speed measured against the body.
+    carried along without twisting, so that ω_1 is the spin; a machine body that carries the input shaft and itself
+    turns with Ω_b adds Ω_b·a_1 to the speed measured against the body.
 
     Examples
     --------

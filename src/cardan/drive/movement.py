@@ -6,10 +6,15 @@ applied one after the other, each to where the ones before left the points.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 from cardan.drive.joints.joint import Point
+from cardan.errors import Problem
+from cardan.texts import _
 from cardan.units import plain, quantity
 
 
@@ -22,9 +27,13 @@ class Movement:
     name: str = plain("", doc="name of the movement")
     moves: tuple[str, ...] = plain(doc='points moved: "input", "joints[0]", "joints[1]" …, "output"')
 
+    def problems(self) -> Iterator[Problem]:
+        """Yield what contradicts itself in this movement, each with its field; ranges are checked elsewhere."""
+        yield from ()
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class _Oscillation(Movement):
+class Oscillation(Movement):
     """A movement that swings as a sine of time."""
 
     frequency: float = quantity("frequency", doc="frequency of the swing", above=0.0)
@@ -32,8 +41,11 @@ class _Oscillation(Movement):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Hitch(_Oscillation):
-    """Articulation about a pin, as between tractor and trailer: yaw about z, then pitch about y."""
+class Hitch(Oscillation):
+    """Articulation about a pin, as between tractor and trailer: yaw about z, pitch about the y axis yawed with it.
+
+    By the right-hand rule: a positive yaw turns the points to the left of the power flow (x), a positive pitch down.
+    """
 
     kind: ClassVar[str] = "hitch"
 
@@ -44,7 +56,7 @@ class Hitch(_Oscillation):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Arm(_Oscillation):
+class Arm(Oscillation):
     """Turning about a fixed axis: trailing arm, torque tube, leaf spring as an equivalent arm."""
 
     kind: ClassVar[str] = "arm"
@@ -55,7 +67,7 @@ class Arm(_Oscillation):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Parallel(_Oscillation):
+class Parallel(Oscillation):
     """Parallel guidance: the first moved point swings on an arm, the others shift by the same way without turning."""
 
     kind: ClassVar[str] = "parallel"
@@ -66,7 +78,7 @@ class Parallel(_Oscillation):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Harmonic(_Oscillation):
+class Harmonic(Oscillation):
     """Harmonic shift along a line."""
 
     kind: ClassVar[str] = "harmonic"
@@ -75,8 +87,12 @@ class Harmonic(_Oscillation):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Body(_Oscillation):
-    """Bounce, roll (about x), pitch (about y) and yaw (about z) of a body that carries the points."""
+class Body(Oscillation):
+    """Bounce, roll, pitch and yaw of a body that carries the points.
+
+    Roll about the body's x axis, then pitch about y, then yaw about z (the turns of vehicle dynamics, ISO 8855), about
+    the pivot; then the shift.
+    """
 
     kind: ClassVar[str] = "body"
 
@@ -100,6 +116,25 @@ class Table(Movement):
     times: tuple[float, ...] = ()
     shifts: tuple[Point, ...] = ()
 
+    def problems(self) -> Iterator[Problem]:
+        """Yield what is wrong with the rows of the table, once they are read."""
+        if len(self.times) != len(self.shifts):
+            yield Problem(
+                "shifts", _("{shifts} rows for {times} times").format(shifts=len(self.shifts), times=len(self.times))
+            )
+        if len(self.times) == 1:
+            yield Problem("file", _("one row only; a table needs at least two"))
+        for row, (time, shift) in enumerate(zip(self.times, self.shifts, strict=False), start=1):
+            if not all(math.isfinite(x) for x in (time, *shift)):
+                yield Problem("file", _("row {row} holds something that is not a finite number").format(row=row))
+                return
+        for row, (one, two) in enumerate(pairwise(self.times), start=2):
+            if two <= one:
+                yield Problem(
+                    "file", _("row {row}: its time {time} s is not after the row before").format(row=row, time=two)
+                )
+                return
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Spectrum:
@@ -107,6 +142,22 @@ class Spectrum:
 
     frequency: tuple[float, ...] = quantity("frequency", doc="frequencies, rising", low=0.0)
     density: tuple[float, ...] = plain(doc="relative density at these frequencies; scaled to `deviation`", low=0.0)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what keeps the polygon from being a spectrum."""
+        if len(self.frequency) < 2:
+            yield Problem("spectrum.frequency", _("a spectrum needs at least two frequencies"))
+        if len(self.frequency) != len(self.density):
+            yield Problem(
+                "spectrum.density",
+                _("{given} values given for {wanted} frequencies").format(
+                    given=len(self.density), wanted=len(self.frequency)
+                ),
+            )
+        if any(two <= one for one, two in pairwise(self.frequency)):
+            yield Problem("spectrum.frequency", _("the frequencies must rise from one to the next"))
+        if not any(self.density):
+            yield Problem("spectrum.density", _("all values are zero; the movement would have no size"))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -120,6 +171,10 @@ class Random(Movement):
     spectrum: Spectrum = plain(doc="how the shift is spread over frequencies")
     seed: int = plain(0, doc="seed of the sample path", low=0)
     duration: float = quantity("time", doc="time span of the sample path", above=0.0)
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield what is wrong with the spectrum."""
+        yield from self.spectrum.problems()
 
 
 MOVEMENTS: dict[str, type[Movement]] = {

@@ -251,3 +251,5 @@ def _movement_problems(drive: Drive) -> Iterator[Problem]:
         axis = getattr(movement, "axis", None)
         if axis is not None and not any(axis):
             yield Problem(f"movements[{k}].axis", _("[0, 0, 0] has no direction"))
+        for problem in movement.problems():
+            yield Problem(f"movements[{k}].{problem.field}", problem.message)
