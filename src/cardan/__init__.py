@@ -25,6 +25,8 @@ _HOMES = {
     "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
+    "Phasing": "synthesis.phases",
+    "phases": "synthesis.phases",
 }
 
 __all__ = sorted([*_HOMES, "__version__"])
@@ -42,6 +44,8 @@ if TYPE_CHECKING:
     from .drive.drives import stack as stack
     from .errors import CardanError as CardanError
     from .errors import InputError as InputError
+    from .synthesis.phases import Phasing as Phasing
+    from .synthesis.phases import phases as phases
 
 
 class _Package(ModuleType):
