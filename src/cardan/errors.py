@@ -60,10 +60,17 @@ class InputError(CardanError):
         """Path of the first problem."""
         return self.problems[0].field
 
+    def __reduce__(self) -> Any:
+        """Keep problems and mask when the error crosses to another process."""
+        return _rebuilt, (type(self), self.problems, self.where)
+
     def renamed(self, name: Any) -> InputError:
         """Return the same problems with their fields passed through ``name``."""
-        error = type(self)([Problem(name(p.field), p.message) for p in self.problems], where=self.where)
-        return error
+        return type(self)([Problem(name(p.field), p.message) for p in self.problems], where=self.where)
+
+
+def _rebuilt(kind: type[InputError], problems: Iterable[Problem], where: Any) -> InputError:
+    return kind(problems, where=where)
 
 
 class BendLimitError(InputError):

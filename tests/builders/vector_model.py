@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -54,9 +55,7 @@ class VectorModel:
     def from_points(
         cls, points: Sequence[Sequence[Any]], yoke_angles: Sequence[Any] = (), start_phase: Any = 0, lib: Any = np
     ) -> VectorModel:
-        axes = tuple(
-            unit((b[0] - a[0], b[1] - a[1], b[2] - a[2]), lib) for a, b in zip(points, points[1:], strict=False)
-        )
+        axes = tuple(unit((b[0] - a[0], b[1] - a[1], b[2] - a[2]), lib) for a, b in pairwise(points))
         normal = unit(cross(axes[0], axes[1]), lib)
         return cls._starting(axes, normal, yoke_angles, start_phase, lib)
 
@@ -123,7 +122,7 @@ class VectorModel:
         """Return the speed of every shaft over that of the input."""
         driving, _driven = self.arms(angle)
         found = [1 + 0 * angle]
-        for u, before, after in zip(driving, self.axes, self.axes[1:], strict=False):
+        for u, before, after in zip(driving, self.axes[:-1], self.axes[1:], strict=True):
             across = cross(after, u)
             found.append(found[-1] * dot(before, after) / dot(across, across))
         return found

@@ -9,8 +9,10 @@ import numpy as np
 from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
+from cardan.errors import refuse
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
+from cardan.texts import _
 
 TURN = 361
 """Positions of one turn, both ends included, when no angles are given."""
@@ -109,9 +111,6 @@ class Motion:
 
     def _each(self, value: ArrayLike | None) -> Array:
         if value is None:
-            from cardan.errors import refuse
-            from cardan.texts import _
-
             raise refuse("duty.speed", _("missing; speeds and accelerations need the input speed"))
         xp = namespace(self.angle)
         given = real(value, xp)
@@ -219,6 +218,8 @@ def _angles(angle: ArrayLike | None, xp: object) -> Array:
     if angle is None:
         return xp.linspace(0.0, 2.0 * np.pi, TURN, dtype=xp.float64)  # type: ignore[attr-defined]
     phi = real(angle, xp)
+    if phi.ndim > 1:
+        raise refuse("angle", _("has {count} axes; one list of angles is meant").format(count=phi.ndim))
     return phi if phi.ndim else phi[None]
 
 

@@ -144,14 +144,19 @@ class Drive:
         """
         from .validity import wrong_count
 
-        twists = [float(t) for t in plane_twists] or [0.0] * (len(bends) - 1)
-        check(wrong_count("plane_twists", twists, len(bends) - 1))
-        check(wrong_count("yoke_angles", yoke_angles, len(bends) - 1, empty=True))
+        between = max(len(bends) - 1, 0)
+        check(
+            [
+                *wrong_count("plane_twists", plane_twists, between, empty=True),
+                *wrong_count("yoke_angles", yoke_angles, between, empty=True),
+            ]
+        )
+        twists = [float(twist) for twist in plane_twists] or [0.0] * between
         return cls(
             name=name,
             input=Input(start_phase=start_phase),
             joints=tuple(
-                Hooke(bend=float(bend), plane_twist=twist) for bend, twist in zip(bends, [0.0, *twists], strict=True)
+                Hooke(bend=float(bend), plane_twist=twist) for bend, twist in zip(bends, [0.0, *twists], strict=False)
             ),
             shafts=_yokes(yoke_angles),
         )

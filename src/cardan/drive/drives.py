@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from cardan.errors import BendLimitError, Problem, check, refuse
+from cardan.errors import BendLimitError, InputError, Problem, check, refuse
+from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.texts import _
 
 from .chain import Chain, chain
 from .drive import Drive
 from .geometry import geometry_from_points
+from .validity import COINCIDENT
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -69,6 +71,8 @@ class Drives:
         """
         xp = namespace(bend, plane_twist, yoke_angle, start_phase)
         alpha = real(bend, xp)
+        if not alpha.ndim or not alpha.shape[-1]:
+            raise refuse("bend", _("a drive needs at least one joint; bends are a list, of one drive or of many"))
         fits = (alpha >= 0.0) & (alpha < 0.5 * xp.pi)
         if not bool(xp.all(fits)):
             raise BendLimitError([Problem("bend", _("a bend angle must lie in [0°, 90°)"))], where=~fits)
@@ -95,12 +99,43 @@ class Drives:
     def from_points(
         cls, points: ArrayLike, *, yoke_angle: ArrayLike | None = None, start_phase: ArrayLike = 0.0
     ) -> Drives:
-        """Return drives through points (..., n+2, 3) [m]; see `Drive.from_points`."""
+        """Return drives through points of their axes.
+
+        Parameters
+        ----------
+        points : array (..., n+2, 3) [m]
+            A point of the input axis, the n joint centres, a point of the output axis.
+        yoke_angle : array (..., n-1) [rad], optional
+            γ of shafts 2 to n; zero when not given.
+        start_phase : array (...) [rad]
+            ψ_1.
+
+        Raises
+        ------
+        InputError
+            Fewer than three points, a coordinate not finite, neighbours that coincide, or shafts at 90° or more;
+            ``where`` is the mask of the drives concerned, in the last case of their joints (..., n).
+        """
         xp = namespace(points, yoke_angle, start_phase)
-        place = geometry_from_points(real(points, xp))
+        place = geometry_from_points(_sound(real(points, xp)))
         return cls.from_angles(
             place.bend, plane_twist=place.plane_twist, yoke_angle=yoke_angle, start_phase=start_phase
         )
+
+
+def _sound(points: Array) -> Array:
+    """Refuse points that make no line of shafts."""
+    xp = namespace(points)
+    if points.ndim < 2 or points.shape[-1] != 3 or points.shape[-2] < 3:
+        raise refuse("points", _("shape {shape} is not (..., n+2, 3)").format(shape=tuple(points.shape)))
+    lost = xp.any(~xp.isfinite(points), axis=(-2, -1))
+    if bool(xp.any(lost)):
+        raise InputError([Problem("points", _("not every coordinate is finite"))], where=lost)
+    length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
+    double = xp.any(length <= COINCIDENT * xp.max(length, axis=-1, keepdims=True), axis=-1)
+    if bool(xp.any(double)):
+        raise InputError([Problem("points", _("neighbouring points coincide"))], where=double)
+    return points
 
 
 def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
