@@ -19,6 +19,8 @@ _HOMES = {
     "Drive": "drive.drive",
     "Drives": "drive.drives",
     "stack": "drive.drives",
+    "Articulation": "analysis.articulation",
+    "articulation": "analysis.articulation",
     "Motion": "analysis.motion",
     "motion": "analysis.motion",
     "BookComparison": "analysis.book",
@@ -32,6 +34,8 @@ _HOMES = {
 __all__ = sorted([*_HOMES, "__version__"])
 
 if TYPE_CHECKING:
+    from .analysis.articulation import Articulation as Articulation
+    from .analysis.articulation import articulation as articulation
     from .analysis.book import BookComparison as BookComparison
     from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint

@@ -1,0 +1,156 @@
+"""What a moving drive is like at any instants: the one place where movement, frozen geometry and exact spins meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from cardan.drive.chain import Chain
+from cardan.drive.drive import Drive
+from cardan.drive.geometry import Geometry, geometry_from_points
+from cardan.errors import refuse
+from cardan.maths import frames
+from cardan.maths.arrays import Array
+from cardan.maths.paths import Path
+from cardan.texts import _
+from cardan.units import deg
+
+from .equivalence import WARN_BEND, equivalent_joint
+from .moving_chain import MovingMotion, Shafts, moving_centres, moving_shafts, speed_range
+
+
+class Position(IntEnum):
+    """What a drive is like at one instant."""
+
+    FINE = 0
+    STEEP = 1
+    """A joint bends more than 45°; the numbers hold, but no real cross joint works there."""
+    IMPOSSIBLE = 2
+    """A joint bends 90° or more, or two centres meet; the numbers of this instant are nan."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Instants:
+    """Everything known at some instants of a movement; nan where impossible. See `Articulation` for the fields."""
+
+    times: Array
+    points: Array
+    shafts: Shafts
+    bend: Array
+    plane_twist: Array
+    shaft_irregularity: Array
+    shaft_speed: Array | None
+    shaft_acceleration: Array | None
+    range: tuple[Array, Array] | None
+    status: Array
+
+    @property
+    def unevenness(self) -> Array:
+        """(ω_max - ω_min)/\\|ω_1\\| of the output over all yoke positions, array (t,)."""
+        low, high = self._outputs
+        return high - low
+
+    @property
+    def speed_error(self) -> Array:
+        """Largest \\|ω_out/ω_1 - 1\\| over all yoke positions, array (t,)."""
+        low, high = self._outputs
+        result: Array = np.maximum(high - 1.0, 1.0 - low)
+        return result
+
+    @property
+    def _outputs(self) -> tuple[Array, Array]:
+        """Lowest and highest ω_out/ω_1, nan where the input stands."""
+        if self.range is None:
+            return np.full(self.times.shape, np.nan), np.full(self.times.shape, np.nan)
+        low, high = self.range
+        omega = np.where(high[:, 0] == 0.0, np.nan, high[:, 0])
+        ends = low[:, -1] / omega, high[:, -1] / omega
+        return np.minimum(*ends), np.maximum(*ends)
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """A drive, how its points move and how fast it turns: ask it for any instants."""
+
+    drive: Drive
+    place: Geometry
+    path: Path
+    speed: float | None
+    acceleration: float
+    start: float
+
+    def answer(self, times: Array) -> Instants:
+        """Return everything at the instants (t,) [s]."""
+        jet = self.path(times)
+        points = np.asarray(jet[0])
+        if points.shape != (times.size, *self.place.points.shape):
+            raise refuse(
+                "movement",
+                _("the movement gives points of shape {given}; {wanted} needed").format(
+                    given=points.shape, wanted=(times.size, *self.place.points.shape)
+                ),
+            )
+        gamma = np.asarray([shaft.yoke_angle for shaft in self.drive.shafts[1:-1]], dtype=float)
+        impossible = _impossible(points)
+        frozen = geometry_from_points(np.where(impossible[:, None, None], _straight(points), points))
+        chain = Chain(
+            bend=frozen.bend,
+            plane_twist=frozen.plane_twist,
+            yoke_angle=gamma,
+            start_phase=np.asarray(self.drive.input.start_phase),
+        )
+        with np.errstate(invalid="ignore", divide="ignore"):
+            shafts = moving_shafts(jet)
+            motion = None if self.speed is None else self._motion(times, gamma, self.speed)
+            extremes = (
+                None if motion is None else speed_range(motion.axes, yoke_angle=gamma, speed=motion.spins.spin[:, 0])
+            )
+        steep = np.any(frozen.bend > WARN_BEND * deg, axis=-1)
+        status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
+
+        def held(table: Array) -> Array:
+            return np.where(impossible.reshape(-1, *([1] * (table.ndim - 1))), np.nan, table)
+
+        return Instants(
+            times=times,
+            points=points,
+            shafts=shafts,
+            bend=held(frozen.bend),
+            plane_twist=held(np.unwrap(frozen.plane_twist, axis=0)),
+            shaft_irregularity=held(equivalent_joint(chain).shaft_irregularity),
+            shaft_speed=None if motion is None else held(motion.spins.spin),
+            shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
+            range=None if extremes is None else (held(extremes[0]), held(extremes[1])),
+            status=status,
+        )
+
+    def _motion(self, times: Array, gamma: Array, speed: float) -> MovingMotion:
+        return moving_centres(
+            self.path,
+            times,
+            yoke_angle=gamma,
+            speed=speed,
+            acceleration=self.acceleration,
+            start_phase=self.drive.input.start_phase,
+            start=self.start,
+            normal=self.place.normal[0],
+        )
+
+
+def _impossible(points: Array) -> Array:
+    """Tell at which instants a joint bends 90° or more, or neighbouring points meet; array of bool (t,)."""
+    shaft = points[:, 1:] - points[:, :-1]
+    length = frames.norm(shaft)
+    meets = np.any(length <= 1e-9 * np.max(length, axis=-1, keepdims=True), axis=-1)
+    safe = shaft / np.where(length > 0.0, length, 1.0)[..., None]
+    beyond = np.any(frames.dot(safe[:, :-1], safe[:, 1:]) <= 1e-15, axis=-1)
+    result: Array = meets | beyond
+    return result
+
+
+def _straight(points: Array) -> Array:
+    """Return a harmless row of points that stands in for impossible ones."""
+    count = points.shape[1]
+    return np.stack((np.arange(count, dtype=float), np.zeros(count), np.zeros(count)), axis=-1)
