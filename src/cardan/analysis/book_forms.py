@@ -194,8 +194,33 @@ def double_joint(first: ArrayLike, second: ArrayLike, phase: ArrayLike, angle: A
     return _of_tangent(phi, up[..., None], across[..., None], along[..., None])
 
 
-def double_joint_length(first: ArrayLike, second: ArrayLike, phase: ArrayLike) -> Array:
-    """Return the hyperbolic length L_eq = -ln cos α_eq of double joints, array (...).
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DoubleJoint:
+    """What a double joint amounts to.
+
+    Attributes
+    ----------
+    length : array (...)
+        Hyperbolic length L_eq = -ln cos α_eq.
+    """
+
+    length: Array
+
+    @property
+    def irregularity(self) -> Array:
+        """δ = 2 sinh L_eq, array (...)."""
+        xp = namespace(self.length)
+        return 2.0 * xp.sinh(self.length)
+
+    @property
+    def bend(self) -> Array:
+        """Equivalent angle α_eq, array (...) [rad], accurate for small ones."""
+        xp = namespace(self.length)
+        return 2.0 * xp.atan(xp.sqrt(xp.tanh(0.5 * self.length)))
+
+
+def double_joint_law(first: ArrayLike, second: ArrayLike, phase: ArrayLike) -> DoubleJoint:
+    """Return what double joints amount to, by the hyperbolic law of cosines.
 
     Parameters
     ----------
@@ -204,20 +229,25 @@ def double_joint_length(first: ArrayLike, second: ArrayLike, phase: ArrayLike) -
     phase : array (...) [rad]
         ψ_2 at ψ_1 = 0; its mean value for other start phases.
 
+    Returns
+    -------
+    DoubleJoint
+        arrays (...).
+
     Notes
     -----
-    cosh L_eq = cosh L_1 cosh L_2 + sinh L_1 sinh L_2 cos 2ψ_2, the law of cosines, written for half of L_eq so that no
-    digits cancel: sinh²(L_eq/2) = sinh²((L_1 - L_2)/2) + sinh L_1 sinh L_2 cos² ψ_2. δ = 2 sinh L_eq.
+    cosh L_eq = cosh L_1 cosh L_2 + sinh L_1 sinh L_2 cos 2ψ_2, L = -ln cos α, written for half of L_eq so that no
+    digits cancel: sinh²(L_eq/2) = sinh²((L_1 - L_2)/2) + sinh L_1 sinh L_2 cos² ψ_2.
 
     Examples
     --------
     >>> import numpy as np
-    >>> length = double_joint_length(0.2, 0.3, np.pi / 2)
-    >>> print(f"{np.exp(-length):.6f} {np.cos(0.3) / np.cos(0.2):.6f}")
+    >>> law = double_joint_law(0.2, 0.3, np.pi / 2)
+    >>> print(f"{np.cos(law.bend):.6f} {np.cos(0.3) / np.cos(0.2):.6f}")
     0.974767 0.974767
     """
     xp = namespace(first, second, phase)
     one, two, psi = (real(value, xp) for value in (first, second, phase))
     one, two = -xp.log(xp.cos(one)), -xp.log(xp.cos(two))
     square = xp.sinh(0.5 * (one - two)) ** 2 + xp.sinh(one) * xp.sinh(two) * xp.cos(psi) ** 2
-    return 2.0 * xp.asinh(xp.sqrt(square))
+    return DoubleJoint(length=2.0 * xp.asinh(xp.sqrt(square)))

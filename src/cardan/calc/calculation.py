@@ -17,6 +17,9 @@ from cardan.units import DIMENSIONS, Key, factor, nearest
 Values: TypeAlias = dict[str, Any]
 """Name without unit -> value in SI."""
 
+PYTHON = {"bend": "alpha", "plane_twist": "beta", "yoke_angle": "gamma", "angle": "phi1"}
+"""What the functions call an input -> its name here, where that differs."""
+
 REQUIRED: Any = object()
 """Default of an input that must be given."""
 
@@ -343,7 +346,7 @@ def _si(item: Given, value: Any, key: str) -> Any:
 def _named(field: str, keys: Mapping[str, str]) -> str:
     """Return a field named in Python as the key it was given under."""
     name, bracket, rest = field.partition("[")
-    return keys.get(name, name) + bracket + rest
+    return keys.get(PYTHON.get(name, name), name) + bracket + rest
 
 
 def _plain(value: Any, scale: float) -> Any:

@@ -26,12 +26,12 @@ RIGHT = 0.5 * math.pi
 def bends(**options: Any) -> Given:
     """Declare the bends of a chain."""
     doc = _("bend of each joint")
-    return given("alpha_deg", doc, "angle", axes=(1, 2), low=0.0, below=RIGHT, **options)
+    return given("alpha_deg", doc, "angle", low=0.0, below=RIGHT, **{"axes": (1, 2)} | options)
 
 
 def twists(**options: Any) -> Given:
     """Declare the plane twists of a chain."""
-    return given("beta_deg", _("plane twist of joints 2 to n"), "angle", axes=(1, 2), **{"default": None} | options)
+    return given("beta_deg", _("plane twist of joints 2 to n"), "angle", **{"axes": (1, 2), "default": None} | options)
 
 
 def points(**options: Any) -> Given:
