@@ -49,6 +49,10 @@ class _Numbers:
     def where(condition: Any, yes: Any, no: Any) -> Any:
         return yes if condition else no
 
+    @staticmethod
+    def any(condition: Any) -> bool:
+        return bool(condition)
+
     def __getattr__(self, name: str) -> Any:
         return getattr(np, name)
 

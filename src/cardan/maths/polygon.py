@@ -21,6 +21,10 @@ BISECTIONS = 56
 """Halvings of a window of diagonals: as many as a double has digits."""
 
 
+POINT = 1e-15
+"""Below this length [-] a side is a point to rounding: its direction means nothing."""
+
+
 class Closure(NamedTuple):
     """A closed, or nearly closed, polygon.
 
@@ -117,6 +121,8 @@ def _slope(start: Array, k: int, lengths: Sequence[Array], weights: Sequence[flo
         inner, outer = xp.abs(here - side), here + side
         bent = xp.where(here < side, -sense, sense)
         sense = xp.where(aim < inner, bent, xp.where(aim > outer, sense, 0.0 * sense))
+        if not xp.any(sense != 0.0):
+            break
         here = xp.where(aim < inner, inner, xp.where(aim > outer, outer, aim))
         total = total + weights[j] * xp.cosh(here) * sense
     return total
@@ -175,7 +181,7 @@ def close(
         least, most = xp.maximum(xp.abs(far - step), low), xp.minimum(far + step, high)
         wish = least if aims is None else xp.minimum(xp.maximum(aims[k], least), xp.maximum(most, least))
         fold = 1.0 if folds is None else folds[k]
-        free = (far <= _POINT) | (step <= _POINT)
+        free = (far <= POINT) | (step <= POINT)
         angle = fold * _half_turn(far, step, wish) - 0.5 * argument(here[0] * here[1] * side[0] * xp.conj(side[1]))
         if keep is not None:
             angle = xp.where(free, keep[k - 1], angle)
@@ -184,10 +190,6 @@ def close(
         turns.append(angle)
         loose.append(free)
     return Closure(turns, here, loose)
-
-
-_POINT = 1e-15
-"""Below this length [-] a side is a point to rounding: its direction means nothing."""
 
 
 def _half_turn(far: Array, step: Array, wish: Array) -> Array:

@@ -82,11 +82,42 @@ class Blocks:
         folds = np.stack((-plus, plus), axis=1).reshape(-1, corners) if bent else plus[:1]
         return self.yokes(self._turns(folds, aims))
 
+    def mirrored(self, yoke_angle: Array) -> Array:
+        """Return the yoke angles (n-1,) [rad] of the polygon's mirror image, which ends as far from its start."""
+        here = there = self.sides[0]
+        turns = []
+        for k, (side, held) in enumerate(zip(self.sides[1:], self.keep, strict=True)):
+            index = self.free[k]
+            turn = float(self.between[index] - yoke_angle[index])
+            loose = min(mobius.length(here), mobius.length(side)) < polygon.POINT
+            back = held if loose else -turn - _lean(here, side) - _lean(there, side)
+            turns.append(np.asarray(back))
+            here = mobius.compose(mobius.compose(side, mobius.turn(turn)), here)
+            there = mobius.compose(mobius.compose(side, mobius.turn(back)), there)
+        return self.yokes(turns)
+
+    def members(self, count: int) -> Array:
+        """Return closed polygons spread over all that there are, array (count, n-1) [rad]; the same every time."""
+        random = np.random.default_rng(count)
+        aims = [np.asarray(self.lengths[0])]
+        for low, high in polygon.windows(self.lengths, 0.0)[1:]:
+            aims.append(random.uniform(low, high, count))
+        folds = [np.ones(count), *random.choice((-1.0, 1.0), (len(self.free), count))]
+        sides = [(np.asarray(a), np.asarray(b)) for a, b in self.sides]
+        turns = polygon.close(sides, aims=aims, folds=folds, keep=self.keep).turns
+        return self.yokes([np.broadcast_to(turn, (count,)) for turn in turns])
+
     def _turns(self, folds: Array, aims: Sequence[float] | None) -> list[Array]:
         sides = [(np.asarray(a), np.asarray(b)) for a, b in self.sides]
         columns = [np.ones(len(folds)), *folds.T]
         turns = polygon.close(sides, aims=aims, folds=columns, keep=self.keep).turns
         return [np.broadcast_to(turn, (len(folds),)) for turn in turns]
+
+
+def _lean(so_far: Pair, side: Pair) -> float:
+    """Return arg(a b c d*)/2: what the turn before a side is counted from."""
+    (a, b), (c, d) = so_far, side
+    return 0.5 * float(np.angle(a * b * c * np.conj(d)))
 
 
 def blocks(chain: Chain, yoke_angle: Array, free: Sequence[int]) -> Blocks:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.drive.chain import Chain
@@ -40,6 +41,7 @@ class LeastIntermediate:
         Weights of shafts 2 … n; those of the drive's shafts by default.
     """
 
+    blurs: ClassVar[tuple[float, ...]] = (1e-3, 1e-5, 1e-7)
     weights: tuple[float, ...] | None = None
 
     def cost(self, choice: Choice, yoke_angle: Array, *, blur: float = 0.0) -> Array:
@@ -63,6 +65,7 @@ class NearestYokes:
         Weights of shafts 2 … n; equal by default.
     """
 
+    blurs: ClassVar[tuple[float, ...]] = (0.0,)
     weights: tuple[float, ...] | None = None
 
     def cost(self, choice: Choice, yoke_angle: Array, *, blur: float = 0.0) -> Array:
@@ -74,7 +77,7 @@ class NearestYokes:
 
 
 Goal = LeastIntermediate | NearestYokes
-"""An object with a method ``cost(choice, yoke_angle, *, blur)``."""
+"""What has a method ``cost(choice, yoke_angle, *, blur)``, and the blurs with which a search follows it in turn."""
 
 SYNCHRONOUS = LeastIntermediate()
 NEAREST = NearestYokes()

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from cardan.analysis.equivalence import SYNCHRONOUS as EVEN
-from cardan.drive.chain import chain
+from cardan.drive.chain import Chain, chain
 from cardan.drive.drive import Drive
-from cardan.errors import Problem, check
+from cardan.errors import InputError, Problem, check
 from cardan.maths import polygon
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .blocks import Blocks, blocks
+from .blocks import STRETCHED, Blocks, blocks
+from .family import best_member
 from .goal import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate
+from .poses import best_for_poses, stacked
 from .setting import YokeSetting, settings
+from .spline_pitch import best_pitched, steps
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,10 +44,21 @@ class Phasing:
         Exact optima, best by the goal first: a setting and its mirror image, and what else the goal found.
     spline_settings : tuple of YokeSetting
         Best settings and runners-up that spline teeth allow; empty where no shaft has ``spline.teeth``.
+    spline_steps : mapping of int to int
+        Shaft number -> how many different yoke angles its teeth allow.
+    spline_refusal : str
+        Why the settings with spline teeth could not be enumerated; empty when they could.
     limiting_joint : int or None
         Number of the joint whose bend is too large for the others, where not feasible.
     limiting_joints : tuple of int
         The same with the joints that held yokes tie to it.
+    poses : tuple of str
+        Names of the poses that the settings are judged in.
+    pose_settings : tuple of YokeSetting
+        The setting with the least irregularity in the worst pose, and that with the least mean over the poses' shares
+        of time; empty when there are no poses.
+    complete : bool
+        False when ``progress`` stopped the search; what was found by then is kept.
     """
 
     as_built: YokeSetting
@@ -57,8 +71,13 @@ class Phasing:
     fixed: tuple[int, ...]
     settings: tuple[YokeSetting, ...]
     spline_settings: tuple[YokeSetting, ...] = ()
+    spline_steps: Mapping[int, int] = field(default_factory=dict)
+    spline_refusal: str = ""
     limiting_joint: int | None = None
     limiting_joints: tuple[int, ...] = ()
+    poses: tuple[str, ...] = ()
+    pose_settings: tuple[YokeSetting, ...] = ()
+    complete: bool = True
 
 
 def phases(
@@ -66,6 +85,7 @@ def phases(
     *,
     fixed: Mapping[int, float] | None = None,
     goal: Goal = SYNCHRONOUS,
+    poses: Mapping[str, Drive] | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Phasing:
     """Return the yoke angles that make a drive synchronous, or as even as it can be, with the proof.
@@ -78,8 +98,10 @@ def phases(
         Shaft number -> yoke angle to hold [rad].
     goal : Goal
         What to choose where synchronism leaves a choice.
+    poses : mapping of str to Drive, optional
+        The drive in several poses by name; those of the drive by default.
     progress : function, optional
-        Called with the share done.
+        Called with the share done; answering "stop" ends the search over poses.
 
     Returns
     -------
@@ -88,7 +110,8 @@ def phases(
     Raises
     ------
     InputError
-        ``fixed`` names a shaft that has no yokes to set, or a value that is not finite.
+        ``fixed`` names a shaft that has no yokes to set, or a value that is not finite; a pose has another number of
+        joints.
 
     Notes
     -----
@@ -113,10 +136,18 @@ def phases(
     low, high = polygon.reach(figure.lengths)
     feasible = 2.0 * math.sinh(low) <= EVEN
     choice = Choice(chain=whole, as_built=as_built, weight=_weights(drive))
-    rows, names = _optima(figure, choice, goal, family=feasible and len(free) > 2)
+    rows = _optima(figure, choice, goal, family=low == 0.0 and len(free) > 2)
+    teeth = _teeth(drive, free)
+    pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
+    names, chains, share = _poses(drive, poses)
+    posed, complete = _posed(chains, share, start, free, rows, progress)
     limiting = () if feasible else figure.joints[int(np.argmax(figure.lengths))]
+
+    def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
+        return settings(whole, yokes, labels, as_built, chains) if len(labels) else ()
+
     return Phasing(
-        as_built=settings(whole, as_built[None], [_("as built")], as_built)[0],
+        as_built=evaluated(as_built[None], [_("as built")])[0],
         feasible=feasible,
         irregularity_min=2.0 * math.sinh(low),
         irregularity_max=2.0 * math.sinh(high),
@@ -124,9 +155,15 @@ def phases(
         bend_max=_bend(high),
         free=tuple(k + 2 for k in free),
         fixed=tuple(sorted(held)),
-        settings=settings(whole, rows, names, as_built) if whole.joints > 1 else (),
+        settings=evaluated(rows, [chr(ord("A") + k) for k in range(len(rows))]) if whole.joints > 1 else (),
+        spline_settings=evaluated(pitched, _spline_labels(teeth, len(pitched))),
+        spline_steps={k + 2: steps(z) for k, z in teeth.items()},
+        spline_refusal=refusal,
         limiting_joint=max(limiting, key=lambda i: whole.bend[i]) + 1 if limiting else None,
         limiting_joints=tuple(i + 1 for i in limiting),
+        poses=names,
+        pose_settings=evaluated(posed, [_("least in the worst pose"), _("least mean of the poses")][: len(posed)]),
+        complete=complete,
     )
 
 
@@ -158,16 +195,101 @@ def _held(drive: Drive, fixed: Mapping[int, float]) -> dict[int, float]:
     return {**own, **{number: float(angle) for number, angle in fixed.items()}}
 
 
-def _optima(figure: Blocks, choice: Choice, goal: Goal, *, family: bool) -> tuple[Array, list[str]]:
-    """Return the sets of yoke angles to show and their names."""
-    aims = None
-    if family and isinstance(goal, LeastIntermediate):
+def _teeth(drive: Drive, free: Sequence[int]) -> dict[int, int]:
+    """Return index of the free yoke angle -> spline teeth."""
+    found = {}
+    for k in free:
+        spline = drive.shafts[k + 1].spline
+        if spline is not None and spline.teeth is not None:
+            found[k] = spline.teeth
+    return found
+
+
+def _pitched(choice: Choice, start: Array, teeth: Mapping[int, int], loose: Sequence[int]) -> tuple[Array, str]:
+    if not teeth:
+        return start[None][:0], ""
+    try:
+        return best_pitched(choice.chain, start, teeth, loose), ""
+    except InputError as error:
+        return start[None][:0], error.problems[0].message
+
+
+def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
+    kinds = "/".join(str(z) for z in dict.fromkeys(teeth.values()))
+    first = _("{teeth}-tooth splines").format(teeth=kinds)
+    return [first, *(_("{name}, no. {rank}").format(name=first, rank=rank) for rank in range(2, count + 1))][:count]
+
+
+def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Chain], Array]:
+    """Return names, kinematics and shares of the poses."""
+    shares = {pose.name: pose.share for pose in drive.poses}
+    if poses is None and drive.poses:
+        from cardan.drive.paths import pose_drives
+
+        poses = dict(zip(shares, pose_drives(drive), strict=True))
+    given = poses or {}
+    problems = [
+        Problem(
+            f"poses[{k}]",
+            _("has {count} joints, the drive has {wanted}").format(count=len(one.joints), wanted=len(drive.joints)),
+        )
+        for k, one in enumerate(given.values())
+        if len(one.joints) != len(drive.joints)
+    ]
+    check(problems)
+    said = [shares.get(name) for name in given]
+    known = [share for share in said if share is not None]
+    rest = max(0.0, 1.0 - sum(known)) / max(1, len(said) - len(known))
+    weight = np.asarray([rest if share is None else share for share in said])
+    even = np.ones(len(said)) / max(1, len(said))
+    return tuple(given), [chain(one) for one in given.values()], weight / weight.sum() if weight.sum() > 0 else even
+
+
+def _posed(
+    chains: Sequence[Chain],
+    share: Array,
+    start: Array,
+    free: Sequence[int],
+    rows: Array,
+    progress: Callable[[float], object] | None,
+) -> tuple[Array, bool]:
+    if not chains:
+        return rows[:0], True
+    known = np.concatenate([rows, *(blocks(pose, start, free).closed() for pose in chains)])
+    worst, mean, complete = best_for_poses(stacked(chains), share, start, free, known, progress)
+    return np.stack((worst, mean)), complete
+
+
+def _optima(figure: Blocks, choice: Choice, goal: Goal, *, family: bool) -> Array:
+    """Return the sets of yoke angles to show, best first: one, its mirror image, and the best by the other goal."""
+    if not family:
+        rows = figure.closed()
+        return rows[np.argsort(np.round(goal.cost(choice, rows), 9), kind="stable")]
+    rows = _least_intermediate(figure, choice, goal if isinstance(goal, LeastIntermediate) else SYNCHRONOUS)
+    nearest = best_member(figure, choice, NEAREST if isinstance(goal, LeastIntermediate) else goal, rows)
+    if isinstance(goal, LeastIntermediate):
+        return _once([*rows, nearest])
+    return _once([nearest, figure.mirrored(nearest), rows[0]])
+
+
+def _least_intermediate(figure: Blocks, choice: Choice, goal: LeastIntermediate) -> Array:
+    """Return the synchronous setting with the calmest intermediate shafts and its mirror image, array (2, n-1)."""
+    if len(figure.sides) == choice.chain.joints:
         weight = choice.weight if goal.weights is None else np.asarray(goal.weights)
-        aims = polygon.shortest_diagonals(figure.lengths, [*weight.tolist(), 0.0], 0.0)
-    rows = figure.closed(aims)
-    nearest = int(np.argmin(NEAREST.cost(choice, rows)))
-    rows = rows[nearest - nearest % 2 : nearest - nearest % 2 + 2]
-    return rows, ["A", "B"][: len(rows)]
+        rows = figure.closed(polygon.shortest_diagonals(figure.lengths, [*weight.tolist(), 0.0], 0.0))
+        nearest = int(np.argmin(NEAREST.cost(choice, rows)))
+        return rows[nearest - nearest % 2 : nearest - nearest % 2 + 2]
+    best = best_member(figure, choice, goal, figure.closed())
+    return np.stack((best, figure.mirrored(best)))
+
+
+def _once(rows: Sequence[Array]) -> Array:
+    """Return the rows without those that repeat an earlier one modulo π."""
+    kept: list[Array] = []
+    for row in rows:
+        if all(np.abs(np.sin(row - other)).max() > STRETCHED for other in kept):
+            kept.append(row)
+    return np.stack(kept)
 
 
 __all__ = ["NEAREST", "SYNCHRONOUS", "Phasing", "YokeSetting", "phases"]
