@@ -1,0 +1,97 @@
+"""Figures: a library-neutral description made from a result, and two renderers that draw any of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from .figure import Figure
+
+_MAKERS = {
+    "cardan.drive.drive.Drive": "drive.drive_figures",
+    "cardan.analysis.motion.Motion": "motion.motion_figures",
+    "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
+    "cardan.analysis.book.BookComparison": "book.book_figures",
+    "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
+    "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",
+}
+"""Result -> file and function of this folder that make its figures."""
+
+SUFFIXES = (".svg", ".png", ".pdf", ".html")
+"""Kinds of picture that `save` writes."""
+
+__all__ = ["SUFFIXES", "Figure", "for_result", "save"]
+
+
+def for_result(result: Any) -> tuple[Figure, ...]:
+    """Return the figures of a result.
+
+    Parameters
+    ----------
+    result : object
+        A drive, or the result of a question.
+
+    Raises
+    ------
+    TypeError
+        There is no figure for such a thing.
+
+    Examples
+    --------
+    >>> from cardan.drive.drive import Drive
+    >>> [figure.name for figure in for_result(Drive.from_angles([0.2, 0.2]))]
+    ['views', 'space', 'yokes']
+    """
+    for kind in type(result).__mro__:
+        maker = _MAKERS.get(f"{kind.__module__}.{kind.__qualname__}")
+        if maker:
+            module, _dot, function = maker.partition(".")
+            made = getattr(import_module(f".{module}", __name__), function)(result)
+            return (made,) if isinstance(made, Figure) else tuple(made)
+    raise TypeError(f"no figure shows a {type(result).__name__}")
+
+
+def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
+    """Draw figures into a file, whole or not at all.
+
+    Parameters
+    ----------
+    figures : Figure or sequence of Figure
+        What to draw, from the top; in a PDF one a page.
+    path : path
+        Its suffix says how: .svg, .png, .pdf, or .html to turn and measure it in a browser.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        The suffix is none of these, or the file cannot be written.
+    """
+    from cardan.errors import refuse
+    from cardan.texts import _
+
+    from .writing import whole
+
+    place = Path(path)
+    suffix = place.suffix.lower()
+    if suffix not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise refuse("path", _("{path} should end in one of {known}").format(path=place, known=known))
+    several = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    if suffix == ".html":
+        from .render_plotly import render as page
+
+        return whole(place, page(several).encode("utf-8"))
+    import io
+
+    from .render_matplotlib import render
+
+    stream = io.BytesIO()
+    render(several, stream, suffix[1:])  # type: ignore[arg-type]
+    return whole(place, stream.getvalue())

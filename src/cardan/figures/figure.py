@@ -1,0 +1,389 @@
+"""What a figure shows, whoever draws it: panels, series, axes, units, marks, and one sentence on what to see.
+
+A figure is made from a result by a function of this folder and drawn by a renderer; it knows neither. Values are in the
+units of their axes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+Dash: TypeAlias = str
+Side: TypeAlias = Literal["left", "centre", "right"]
+Level: TypeAlias = Literal["top", "middle", "bottom"]
+Direction: TypeAlias = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Curve:
+    """A line through points, in the plane or in space.
+
+    Parameters
+    ----------
+    x, y, z : array (p,)
+        Its points; ``z`` only in a panel with a view.
+    label : str
+        Its entry in the legend; none when empty.
+    role : str
+        What it stands for, see `palette`.
+    width : float
+        In points; 0 draws markers alone.
+    dash : str
+        solid, dashed, dotted or dashdot.
+    marker : float
+        Diameter of a dot at every point, in points.
+    arrow : bool
+        Put an arrowhead at its last point.
+    """
+
+    x: Array
+    y: Array
+    z: Array | None = None
+    label: str = ""
+    role: str = "ink"
+    width: float = 1.5
+    dash: Dash = "solid"
+    marker: float = 0.0
+    arrow: bool = False
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Bars:
+    """Bars from a base, upright or lying, each with the text at its end."""
+
+    at: Array
+    size: Array
+    texts: Sequence[str] = ()
+    label: str = ""
+    roles: Sequence[str] = ("accent",)
+    thick: float = 0.6
+    base: float = 0.0
+    lying: bool = False
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shape:
+    """A filled polygon."""
+
+    x: Array
+    y: Array
+    role: str = "accent"
+    opacity: float = 1.0
+    outline: float = 0.0
+    label: str = ""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Mesh:
+    """A solid's surface in space.
+
+    Parameters
+    ----------
+    corners : array (m, 3)
+        Its corners.
+    faces, triangles : sequence of sequence of int
+        The same surface, as flat faces and as triangles.
+    smooth : bool
+        Do not draw the edges of the faces.
+    shade : float
+        Share of white mixed into the colour.
+    text : str
+        What it is, for whoever points at it.
+    """
+
+    corners: Array
+    faces: Sequence[Sequence[int]]
+    triangles: Sequence[Sequence[int]]
+    role: str = "muted"
+    smooth: bool = False
+    shade: float = 0.0
+    text: str = ""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Note:
+    """A word at a point; ``shift`` moves it by points of print."""
+
+    text: str
+    x: float
+    y: float
+    z: float | None = None
+    role: str = "ink"
+    side: Side = "centre"
+    level: Level = "middle"
+    size: float = 8.0
+    shift: tuple[float, float] = (0.0, 0.0)
+    bold: bool = False
+    halo: bool = True
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rule:
+    """A line across the panel at a value: a limit, a mean, an operating point."""
+
+    value: float
+    upright: bool = False
+    text: str = ""
+    role: str = "muted"
+    width: float = 0.9
+    dash: Dash = "dashed"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Band:
+    """The range between two values, shaded across the panel."""
+
+    low: float
+    high: float
+    upright: bool = False
+    text: str = ""
+    role: str = "accent"
+    opacity: float = 0.12
+
+
+Series: TypeAlias = Curve | Bars | Shape | Mesh | Note | Rule | Band
+
+
+@dataclass(frozen=True, kw_only=True)
+class Axis:
+    """An axis with its range and the marks along it.
+
+    Parameters
+    ----------
+    label, unit : str
+        What runs along it, and in which unit it is given.
+    low, high : float
+        Its range.
+    ticks : tuple of float
+        Marked values.
+    texts : tuple of str
+        How they are written.
+    log : bool
+        Logarithmic.
+    grid : bool
+        Draw lines across the panel at the ticks.
+    """
+
+    label: str = ""
+    unit: str = ""
+    low: float = 0.0
+    high: float = 1.0
+    ticks: tuple[float, ...] = ()
+    texts: tuple[str, ...] = ()
+    log: bool = False
+    grid: bool = True
+
+    @property
+    def title(self) -> str:
+        """Label with its unit in brackets."""
+        return f"{self.label} [{self.unit}]" if self.unit else self.label
+
+
+@dataclass(frozen=True, kw_only=True)
+class View:
+    """How a panel looks at space: what runs to the right and what runs up on paper.
+
+    ``turnable`` views are drawn as a scene the reader can turn, where the renderer can.
+    """
+
+    right: Direction
+    up: Direction
+    turnable: bool = False
+
+    @property
+    def toward(self) -> Direction:
+        """Direction from the drive to the eye."""
+        a, b = self.right, self.up
+        return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Panel:
+    """One pair of axes with what is drawn in it.
+
+    Parameters
+    ----------
+    series : tuple of series
+        From the back to the front.
+    x, y : Axis
+        Its axes; in a view they run along `View.right` and `View.up`.
+    title : str
+        Its heading; the title of the upright axis when empty.
+    equal : bool
+        One unit is as long to the right as upwards.
+    bare : bool
+        No frame, ticks or grid.
+    view : View
+        Looks at space.
+    """
+
+    series: tuple[Series, ...]
+    x: Axis = field(default_factory=Axis)
+    y: Axis = field(default_factory=Axis)
+    title: str = ""
+    equal: bool = False
+    bare: bool = False
+    view: View | None = None
+
+    @property
+    def heading(self) -> str:
+        """What stands above the panel."""
+        return self.title or self.y.title
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Row:
+    """Panels side by side, all of one height [inch of print]; ``widths`` are relative."""
+
+    panels: tuple[Panel, ...]
+    height: float = 1.7
+    widths: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Figure:
+    """A whole figure.
+
+    Parameters
+    ----------
+    name : str
+        Short name for files and links: ``motion``.
+    title : str
+        Heading.
+    sentence : str
+        The one sentence under it that says what to see.
+    source : str
+        Which equation the values come from.
+    rows : tuple of Row
+        Its panels, from the top.
+    legend : bool
+        List the labelled series above the panels.
+    width : float
+        Width of the print [inch].
+    """
+
+    name: str
+    title: str
+    sentence: str
+    source: str
+    rows: tuple[Row, ...]
+    legend: bool = True
+    width: float = 7.4
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """All panels, row by row."""
+        return tuple(panel for row in self.rows for panel in row.panels)
+
+    @property
+    def entries(self) -> tuple[Curve | Bars | Shape, ...]:
+        """Labelled series for the legend, each label once."""
+        seen: dict[str, Curve | Bars | Shape] = {}
+        for panel in self.panels:
+            for item in panel.series:
+                if isinstance(item, Curve | Bars | Shape) and item.label:
+                    seen.setdefault(item.label, item)
+        return tuple(seen.values())
+
+
+def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
+    """Return round values between two bounds, about ``count`` of them.
+
+    Examples
+    --------
+    >>> steps(0.0, 1.0)
+    (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+    >>> steps(0.93, 1.07, 4)
+    (0.95, 1.0, 1.05)
+    """
+    span = high - low
+    if not span > 0.0:
+        return (low,)
+    rough = span / max(count, 1)
+    size = 10.0 ** math.floor(math.log10(rough))
+    step = min((m * size for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / rough)))
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return tuple(round(k * step, 12 - math.floor(math.log10(step))) + 0.0 for k in range(first, last + 1))
+
+
+def written(values: Sequence[float]) -> tuple[str, ...]:
+    """Return tick values with as many decimals as tell them apart, and a true minus.
+
+    Examples
+    --------
+    >>> written((-0.5, 0.0, 0.5)), written((0.0, 1000.0, 2000.0))
+    (('−0.5', '0', '0.5'), ('0', '1\u202f000', '2\u202f000'))
+    """
+    gap = min((b - a for a, b in pairwise(values)), default=abs(values[0]) if values else 1.0)
+    if gap and gap < 1e-5:
+        return tuple("0" if v == 0.0 else f"{v:.3g}".replace("-", "−") for v in values)
+    decimals = max(0, 2 - math.floor(math.log10(gap) + 1e-9)) if gap > 0.0 else 3
+    texts = [f"{v:,.{decimals}f}" for v in values]
+    while decimals and all(t.endswith("0") for t in texts):
+        decimals -= 1
+        texts = [f"{v:,.{decimals}f}" for v in values]
+    return tuple(
+        "0" if v == 0.0 else t.replace(",", "\u202f").replace("-", "−") for v, t in zip(values, texts, strict=True)
+    )
+
+
+def axis(
+    label: str,
+    unit: str,
+    values: Iterable[Array] = (),
+    *,
+    include: Sequence[float] = (),
+    least: float = 0.0,
+    mirrored: float | None = None,
+    count: int = 5,
+    margin: float = 0.06,
+) -> Axis:
+    """Return an axis that fits values, never narrower than ``least``: rounding noise stays a flat line.
+
+    Parameters
+    ----------
+    label, unit : str
+        What runs along it.
+    values : iterable of array
+        What it is to hold.
+    include : sequence of float
+        Values always within its range.
+    least : float
+        Smallest range drawn.
+    mirrored : float, optional
+        Value in the middle of the axis.
+    count : int
+        About how many ticks.
+    margin : float
+        Share of the range left free at both ends.
+    """
+    flat = [np.asarray(value, dtype=float).ravel() for value in values]
+    every = np.concatenate([*flat, np.asarray(include, dtype=float)]) if flat or include else np.asarray([0.0, 1.0])
+    every = every[np.isfinite(every)]
+    low, high = (float(np.min(every)), float(np.max(every))) if every.size else (0.0, 1.0)
+    if mirrored is not None:
+        reach = max(high - mirrored, mirrored - low)
+        low, high = mirrored - reach, mirrored + reach
+    span = high - low
+    if span < least or span == 0.0:
+        middle = mirrored if mirrored is not None else 0.5 * (low + high)
+        half = 0.5 * (least or abs(middle) or 1.0)
+        low, high = middle - half, middle + half
+    else:
+        low, high = low - margin * span, high + margin * span
+    ticks = steps(low, high, count)
+    return Axis(label=label, unit=unit, low=low, high=high, ticks=ticks, texts=written(ticks))
+
+
+def angle_axis(label: str, stop: float = 360.0) -> Axis:
+    """Return the axis of an angle of rotation [°], marked every eighth of a turn."""
+    ticks = tuple(float(k) for k in range(0, int(stop) + 1, 45 if stop <= 360.0 else 90))
+    return Axis(label=label, unit="°", low=0.0, high=stop, ticks=ticks, texts=written(ticks))

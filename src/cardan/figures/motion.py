@@ -1,0 +1,111 @@
+"""How every shaft turns, over the input angle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.analysis.motion import Motion
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import deg
+
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, angle_axis, axis
+from .palette import dash_of, shaft
+from .wording import percent, significant
+
+NOISE = 1e-12
+"""Below this a ratio's swing is rounding."""
+
+
+def motion_figures(found: Motion) -> tuple[Figure, ...]:
+    """Return the figures of a motion."""
+    return (motion_figure(found),)
+
+
+def motion_figure(found: Motion) -> Figure:
+    """Return speed ratio, angle error and acceleration of every shaft over the input angle.
+
+    Parameters
+    ----------
+    found : Motion
+        Motion of one drive.
+    """
+    angle = np.asarray(found.angle) / deg
+    lead = np.asarray(found.lead) / deg
+    known = found.speed is not None
+    steep = np.asarray(found.shaft_acceleration) if known else np.asarray(found.shaft_slope)
+    across = _across(angle)
+    panels = (
+        _panel(angle, np.asarray(found.shaft_ratio), across, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
+        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
+        _panel(
+            angle,
+            steep,
+            _across(angle, named=True),
+            _("Angular acceleration ε") if known else _("Angular acceleration per input speed squared, ε/ω₁²"),
+            "rad/s²" if known else "–",
+            0.0,
+            1.0 if known else 0.02,
+        ),
+    )
+    return Figure(
+        name="motion",
+        title=_("Motion of every shaft over the input angle"),
+        sentence=_sentence(found, lead),
+        source=_(
+            "i = 1/|b̄w + ā|², w = e^(2iφ₁), from the product of the joints' Möbius matrices; exact, equal to Book "
+            "(32), (33), (38)"
+        ),
+        rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels),
+    )
+
+
+def _across(angle: Array, *, named: bool = False) -> Axis:
+    label = _("input angle φ₁ from the start position") if named else ""
+    stop = float(np.max(angle)) if angle.size else 360.0
+    if float(np.min(angle, initial=0.0)) < 0.0 or stop > 1080.0 or stop < 45.0:
+        made = axis(label, "°" if named else "", [angle], margin=0.0, least=1.0)
+    else:
+        made = angle_axis(label, stop)
+    return made if named else Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)
+
+
+def _panel(
+    angle: Array, rows: Array, across: Axis, label: str, unit: str, middle: float, least: float, *, named: bool = False
+) -> Panel:
+    swing = float(np.max(np.abs(rows - middle), initial=0.0))
+    curves = [
+        Curve(
+            x=angle,
+            y=row,
+            label=_name(k, len(rows)) if named else "",
+            role=shaft(k),
+            dash=dash_of(k),
+            width=2.2 if k == len(rows) else 1.3,
+            marker=4.0 if len(angle) == 1 else 0.0,
+        )
+        for k, row in enumerate(rows, start=1)
+    ]
+    upright = axis(label, unit, [rows], mirrored=middle, least=least if swing < NOISE else 0.0)
+    return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=across, y=upright)
+
+
+def _name(number: int, count: int) -> str:
+    if number == 1:
+        return _("shaft 1, input")
+    if number == count:
+        return _("shaft {number}, output").format(number=number)
+    return _("shaft {number}").format(number=number)
+
+
+def _sentence(found: Motion, lead: Array) -> str:
+    ratio = np.asarray(found.ratio)
+    low, high = float(np.min(ratio)), float(np.max(ratio))
+    if high - low < NOISE:
+        between = float(np.max(np.ptp(lead, axis=-1))) / 2.0
+        return _("The output turns exactly evenly; between the ends a shaft runs ahead and back by {lead}°.").format(
+            lead=significant(between, 3)
+        )
+    return _(
+        "The output runs ahead and back by {lead}° twice a turn, its speed between {low} and {high} of the input's."
+    ).format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=percent(low, 4), high=percent(high, 4))

@@ -1,0 +1,135 @@
+"""Where everything stands on the page: the same for every renderer. Lengths in inches, from the top left."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .figure import Bars, Curve, Figure, Panel, Row, Shape
+
+LETTER = 0.066
+"""Width of an average letter of 8.5 pt."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box:
+    """A rectangle on the page."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Entry:
+    """An entry of the legend and where its sign begins."""
+
+    item: Curve | Bars | Shape
+    left: float
+    top: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Page:
+    """A laid-out figure.
+
+    Attributes
+    ----------
+    width, height : float
+        Size of the whole.
+    panels : tuple of (Panel, Box)
+        Where the frames of the panels stand.
+    legend : tuple of Entry
+        Where the legend's entries begin.
+    heading, caption : tuple of str
+        Lines of the title, and of the sentence with its source; empty when the figure stands in a page that has them.
+    caption_top : float
+        Where the caption begins.
+    """
+
+    width: float
+    height: float
+    panels: tuple[tuple[Panel, Box], ...]
+    legend: tuple[Entry, ...]
+    heading: tuple[str, ...]
+    caption: tuple[str, ...]
+    caption_top: float
+
+
+def laid_out(figure: Figure, *, words: bool) -> Page:
+    """Return where the parts of a figure stand.
+
+    Parameters
+    ----------
+    figure : Figure
+        The figure.
+    words : bool
+        Draw title, sentence and source too: in a file of its own.
+    """
+    letters = int((figure.width - 0.2) / (0.87 * LETTER))
+    heading = tuple(textwrap.wrap(figure.title, int(letters * 0.66))) if words else ()
+    top = 0.08 + 0.24 * len(heading)
+    legend, top = _legend(figure, top)
+    panels: list[tuple[Panel, Box]] = []
+    rooms = _rooms(figure)
+    for index, row in enumerate(figure.rows):
+        above = 0.28 if any(panel.heading for panel in row.panels) else 0.06
+        marked = any(not panel.bare and panel.x.texts for panel in row.panels)
+        named = any(not panel.bare and panel.x.title for panel in row.panels)
+        below = (0.24 if marked else 0.06) + (0.2 if named else 0.0)
+        top += above
+        boxes = _across(figure.width, rooms[len(row.panels)], row, top)
+        panels += zip(row.panels, boxes, strict=True)
+        top += row.height + below + (0.06 if index + 1 < len(figure.rows) else 0.0)
+    caption: tuple[str, ...] = ()
+    place = top + 0.1
+    if words:
+        caption = (*textwrap.wrap(figure.sentence, letters), *textwrap.wrap(figure.source, letters))
+        top = place + 0.165 * len(caption) + 0.06
+    return Page(
+        width=figure.width,
+        height=top + 0.03,
+        panels=tuple(panels),
+        legend=legend,
+        heading=heading,
+        caption=caption,
+        caption_top=place,
+    )
+
+
+def _rooms(figure: Figure) -> dict[int, list[float]]:
+    """Return what ticks need to the left of each column, by the number of columns: frames below each other align."""
+    rooms: dict[int, list[float]] = {}
+    for row in figure.rows:
+        known = rooms.setdefault(len(row.panels), [0.1] * len(row.panels))
+        for k, panel in enumerate(row.panels):
+            if not panel.bare:
+                known[k] = max(known[k], 0.16 + 0.068 * max(map(len, panel.y.texts), default=0))
+    return rooms
+
+
+def _across(width: float, room: Sequence[float], row: Row, top: float) -> list[Box]:
+    """Return the frames of a row."""
+    shares = row.widths or [1.0] * len(row.panels)
+    gap = 0.12
+    free = width - gap * len(row.panels) - 0.06 - sum(room)
+    boxes, left = [], 0.06
+    for share, need in zip(shares, room, strict=True):
+        wide = free * share / sum(shares)
+        boxes.append(Box(left=left + need, top=top, width=wide, height=row.height))
+        left += need + wide + gap
+    return boxes
+
+
+def _legend(figure: Figure, top: float) -> tuple[tuple[Entry, ...], float]:
+    entries = figure.entries if figure.legend else ()
+    placed, left, line = [], 0.1, top
+    for item in entries:
+        need = 0.36 + LETTER * len(item.label) + 0.12
+        if left + need > figure.width and left > 0.1:
+            left, line = 0.1, line + 0.19
+        placed.append(Entry(item=item, left=left, top=line + 0.09))
+        left += need
+    return tuple(placed), (line + 0.19 if entries else top)

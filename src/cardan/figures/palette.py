@@ -1,0 +1,76 @@
+"""One colour for one thing, everywhere: shaft k looks the same in every curve, table and view.
+
+After Okabe and Ito, told apart by readers with any colour vision; yellow and sky blue are darkened for thin lines on
+white. Red is kept for a failed limit, so no shaft is red. After eight shafts the colours come again, dashed.
+"""
+
+from __future__ import annotations
+
+SHAFTS = ("#3b4252", "#0072b2", "#d98a00", "#009e73", "#b5528b", "#3f9fd8", "#7a5230", "#8a8b00")
+
+ROLES = {
+    "ink": "#1c2330",
+    "muted": "#6b7484",
+    "faint": "#d5dae2",
+    "grid": "#e7eaef",
+    "paper": "#ffffff",
+    "accent": "#1f4e8c",
+    "cross": "#9aa3b2",
+    "good": "#1b7f4b",
+    "warning": "#b36b00",
+    "failed": "#b3261e",
+    "exact": "#1c2330",
+    "first order": "#d98a00",
+    "second order": "#0072b2",
+}
+"""Role -> colour, beside the shafts."""
+
+DASHES = ("solid", "dashed", "dotted", "dashdot")
+
+
+def shaft(number: int) -> str:
+    """Return the role of a shaft.
+
+    Examples
+    --------
+    >>> shaft(2)
+    'shaft 2'
+    """
+    return f"shaft {number}"
+
+
+def colour(role: str) -> str:
+    """Return the colour of a role.
+
+    Examples
+    --------
+    >>> colour("shaft 2"), colour("failed")
+    ('#0072b2', '#b3261e')
+    """
+    if role.startswith("shaft "):
+        return SHAFTS[(int(role[6:]) - 1) % len(SHAFTS)]
+    return ROLES[role]
+
+
+def dash_of(number: int) -> str:
+    """Return how the curve of a shaft is drawn: solid, dashed once the colours are used up.
+
+    Examples
+    --------
+    >>> dash_of(2), dash_of(10)
+    ('solid', 'dashed')
+    """
+    return DASHES[(number - 1) // len(SHAFTS) % len(DASHES)]
+
+
+def mixed(hexadecimal: str, other: str, share: float) -> str:
+    """Return a colour mixed with a share of another one.
+
+    Examples
+    --------
+    >>> mixed("#000000", "#ffffff", 0.5)
+    '#808080'
+    """
+    one = [int(hexadecimal[k : k + 2], 16) for k in (1, 3, 5)]
+    two = [int(other[k : k + 2], 16) for k in (1, 3, 5)]
+    return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in zip(one, two, strict=True))

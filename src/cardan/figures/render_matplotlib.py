@@ -1,0 +1,419 @@
+"""Draws any figure with matplotlib: SVG, PNG, PDF."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from html import escape
+from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
+
+from . import palette
+from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
+from .page import Box, Entry, Page, laid_out
+from .projection import facets, onto
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
+
+Format: TypeAlias = Literal["svg", "png", "pdf"]
+
+STYLE = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8.0,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "cardan",
+    "pdf.fonttype": 42,
+    "axes.unicode_minus": True,
+    "path.simplify": True,
+    "path.simplify_threshold": 0.2,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+}
+FONTS = "'Inter', 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif"
+"""Fonts of an SVG: that of the page it stands in, the widest one last, for which room is left."""
+
+_LINES: dict[str, Any] = {
+    "solid": "-",
+    "dashed": (0, (5, 2)),
+    "dotted": (0, (1.2, 1.6)),
+    "dashdot": (0, (7, 2, 1.3, 2)),
+}
+_SIDES = {"left": "left", "centre": "center", "right": "right"}
+_LEVELS = {"top": "top", "middle": "center", "bottom": "bottom"}
+
+
+def render(
+    figures: Figure | Sequence[Figure], target: IO[bytes], format: Format, *, words: bool = True, dpi: float = 160.0
+) -> None:
+    """Draw figures, one below the other, in a PDF one a page.
+
+    Parameters
+    ----------
+    figures : Figure or sequence of Figure
+        What to draw.
+    target : binary stream
+        Where the picture goes.
+    format : "svg", "png" or "pdf"
+        Kind of picture.
+    words : bool
+        Draw title, sentence and source too.
+    dpi : float
+        Dots per inch of a PNG.
+    """
+    from matplotlib import rc_context
+
+    several = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    pages = [laid_out(figure, words=words) for figure in several]
+    with rc_context(STYLE):  # type: ignore[arg-type]
+        if format == "pdf":
+            _pdf(pages, several, target)
+            return
+        canvas = _canvas(max(p.width for p in pages), sum(p.height for p in pages))
+        top = 0.0
+        for page in pages:
+            _draw(canvas, page, top)
+            top += page.height
+        if format == "svg":
+            target.write(_svg(canvas).encode("utf-8"))
+            return
+        _halos(canvas)
+        canvas.savefig(target, format=format, dpi=dpi, metadata={"Software": "cardan"}, facecolor="white")
+
+
+def _halos(canvas: Canvas) -> None:
+    """Give words over lines a white rim; in an SVG the style does it, so that words stay words."""
+    from matplotlib.patheffects import withStroke
+    from matplotlib.text import Text
+
+    for text in canvas.findobj(Text):
+        if str(text.get_gid() or "").startswith("halo"):
+            text.set_path_effects([withStroke(linewidth=2.4, foreground="white")])
+
+
+def _svg(canvas: Canvas) -> str:
+    stream = io.BytesIO()
+    canvas.savefig(stream, format="svg", metadata={"Date": None, "Creator": "cardan"}, facecolor="white")
+    text = stream.getvalue().decode("utf-8")
+    rim = 'style="paint-order: stroke; stroke: #fff; stroke-width: 2.4px; stroke-linejoin: round"'
+    text = re.sub(r' id="halo\d+"', f" {rim}", text)
+    text = re.sub(r"(\d+\.\d{2})\d+", r"\1", text).replace("'DejaVu Sans'", FONTS)
+    return re.sub(r">\s+<", "><", text)
+
+
+def inline_svg(figure: Figure) -> str:
+    """Return a figure as an SVG element for a page: without title, as wide as its place, with words for the blind.
+
+    Parameters
+    ----------
+    figure : Figure
+        What to draw.
+    """
+    stream = io.BytesIO()
+    render(figure, stream, "svg", words=False)
+    text = stream.getvalue().decode("utf-8")
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, count=1, flags=re.DOTALL)
+    text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<path d=\"[^\"]*\"\s*style=\"fill: #ffffff\"\s*/>", "", text, count=1)
+    text = _own_names(text, figure.name)
+    size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', text)
+    box = f"0 0 {size[1]} {size[2]}" if size else "0 0 1 1"
+    body = text[text.index(">") + 1 :]
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{box}" '
+        f'role="img" aria-label="{escape(f"{figure.title}. {figure.sentence}")}">{body}'
+    )
+
+
+def _own_names(text: str, name: str) -> str:
+    """Keep only the ids that are referred to, with the figure's name before them: a page has many figures."""
+    used = set(re.findall(r"url\(#([^)]+)\)", text)) | set(re.findall(r'href="#([^"]+)"', text))
+    text = re.sub(r' id="([^"]+)"', lambda m: f' id="{name}-{m[1]}"' if m[1] in used else "", text)
+    text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
+    return re.sub(r'href="#([^"]+)"', rf'href="#{name}-\1"', text)
+
+
+def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) -> None:
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    metadata = {"Creator": "cardan", "Title": figures[0].title, "CreationDate": None}
+    with PdfPages(target, metadata=metadata) as book:
+        for page in pages:
+            canvas = _canvas(page.width, page.height)
+            _draw(canvas, page, 0.0)
+            _halos(canvas)
+            book.savefig(canvas)
+
+
+def _canvas(width: float, height: float) -> Canvas:
+    from matplotlib.figure import Figure as Sheet
+
+    return Sheet(figsize=(width, height))
+
+
+def _draw(canvas: Canvas, page: Page, down: float) -> None:
+    """Draw a laid-out figure, its top ``down`` inches below that of the canvas."""
+    wide, high = canvas.get_size_inches()
+
+    def words(left: float, top: float, text: str, **how: Any) -> None:
+        canvas.text(left / wide, 1.0 - (down + top) / high, text, va="top", **how)
+
+    for k, line in enumerate(page.heading):
+        words(0.1, 0.08 + 0.24 * k, line, fontsize=11.5, fontweight="bold", color=palette.colour("ink"))
+    for k, line in enumerate(page.caption):
+        words(0.1, page.caption_top + 0.165 * k, line, fontsize=8.2, color=palette.colour("muted"))
+    for panel, box in page.panels:
+        rectangle = (
+            box.left / wide,
+            1.0 - (down + box.top + box.height) / high,
+            box.width / wide,
+            box.height / high,
+        )
+        _panel(canvas.add_axes(rectangle), panel, box)
+    if page.legend:
+        _legend(canvas.add_axes((0.0, 1.0 - (down + page.height) / high, page.width / wide, page.height / high)), page)
+
+
+def _legend(axes: Axes, page: Page) -> None:
+    axes.set_xlim(0.0, page.width)
+    axes.set_ylim(page.height, 0.0)
+    axes.axis("off")
+    for entry in page.legend:
+        _sign(axes, entry)
+        axes.text(
+            entry.left + 0.34,
+            entry.top,
+            entry.item.label,
+            fontsize=8.2,
+            va="center_baseline",
+            color=palette.colour("ink"),
+        )
+
+
+def _sign(axes: Axes, entry: Entry) -> None:
+    item, left, top = entry.item, entry.left, entry.top
+    if isinstance(item, Curve):
+        tint = palette.colour(item.role)
+        if item.width:
+            style = _LINES[item.dash]
+            axes.plot([left, left + 0.26], [top, top], color=tint, linewidth=max(item.width, 1.3), linestyle=style)
+        if item.marker:
+            axes.plot([left + 0.13], [top], "o", color=tint, markersize=min(item.marker, 5.0))
+        return
+    role = item.roles[0] if isinstance(item, Bars) else item.role
+    opacity = item.opacity if isinstance(item, Shape) else 1.0
+    xs, ys = [left, left + 0.26, left + 0.26, left], [top - 0.045, top - 0.045, top + 0.045, top + 0.045]
+    axes.fill(xs, ys, color=palette.colour(role), alpha=opacity, linewidth=0.0)
+
+
+def _panel(axes: Axes, panel: Panel, box: Box) -> None:
+    _frame(axes, panel)
+    meshes = [item for item in panel.series if isinstance(item, Mesh)]
+    if meshes and panel.view is not None:
+        _solids(axes, panel, meshes)
+    for order, item in enumerate(panel.series):
+        _series(axes, panel, item, 3.0 + 0.01 * order)
+    if panel.heading:
+        axes.annotate(
+            panel.heading,
+            (0.0, 1.0),
+            xycoords="axes fraction",
+            xytext=(0.0, 6.0),
+            textcoords="offset points",
+            fontsize=8.4,
+            fontweight="bold",
+            color=palette.colour("ink"),
+            va="bottom",
+            ha="left",
+        )
+
+
+def _frame(axes: Axes, panel: Panel) -> None:
+    x, y = _ranges(panel, axes)
+    axes.set_xlim(*x)
+    axes.set_ylim(*y)
+    axes.set_facecolor("none")
+    for side in ("top", "right", "left"):
+        axes.spines[side].set_visible(False)
+    if panel.bare:
+        axes.axis("off")
+        return
+    axes.spines["bottom"].set_color(palette.colour("faint"))
+    axes.spines["bottom"].set_linewidth(0.9)
+    axes.set_axisbelow(True)
+    for name, one in (("x", panel.x), ("y", panel.y)):
+        _scale(axes, name, one)
+    axes.tick_params(length=0, pad=3.0, labelsize=7.6, labelcolor=palette.colour("muted"))
+    if panel.x.title:
+        axes.set_xlabel(panel.x.title, fontsize=8.0, color=palette.colour("muted"), labelpad=2.0)
+
+
+def _scale(axes: Axes, name: str, one: Axis) -> None:
+    from matplotlib.ticker import NullLocator
+
+    if one.log:
+        (axes.set_xscale if name == "x" else axes.set_yscale)("log")
+    scale = axes.xaxis if name == "x" else axes.yaxis
+    scale.set_minor_locator(NullLocator())
+    scale.set_ticks(list(one.ticks), list(one.texts) or [""] * len(one.ticks))
+    if one.grid:
+        scale.grid(True, color=palette.colour("grid"), linewidth=0.7)
+
+
+def _ranges(panel: Panel, axes: Axes) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ranges of the axes, widened about their middles where both have the same scale."""
+    x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
+    if not panel.equal:
+        return x, y
+    box = axes.get_window_extent()
+    across, upright = box.width / (x[1] - x[0]), box.height / (y[1] - y[0])
+    scale = min(across, upright)
+
+    def about(span: tuple[float, float], size: float) -> tuple[float, float]:
+        middle, half = 0.5 * (span[0] + span[1]), 0.5 * size / scale
+        return middle - half, middle + half
+
+    return about(x, box.width), about(y, box.height)
+
+
+def _flat(panel: Panel, x: Any, y: Any, z: Any) -> tuple[Any, Any]:
+    """Return points on paper."""
+    if panel.view is None or z is None:
+        return x, y
+    import numpy as np
+
+    seen = onto(panel.view, np.stack(np.broadcast_arrays(x, y, z), axis=-1))
+    return seen[..., 0], seen[..., 1]
+
+
+def _solids(axes: Axes, panel: Panel, meshes: Sequence[Mesh]) -> None:
+    from matplotlib.collections import PolyCollection
+
+    found = facets(panel.view, meshes)  # type: ignore[arg-type]
+    axes.add_collection(
+        PolyCollection(
+            [facet.corners for facet in found],
+            facecolors=[facet.fill for facet in found],
+            edgecolors=[facet.edge for facet in found],
+            linewidths=0.35,
+            zorder=2.5,
+        )
+    )
+
+
+def _series(axes: Axes, panel: Panel, item: Series, order: float) -> None:
+    if isinstance(item, Curve):
+        _curve(axes, panel, item, order)
+    elif isinstance(item, Note):
+        _note(axes, panel, item)
+    elif isinstance(item, Bars):
+        _bars(axes, item, order)
+    elif isinstance(item, Shape):
+        tint = palette.colour(item.role)
+        axes.fill(item.x, item.y, facecolor=tint, alpha=item.opacity, linewidth=0.0, zorder=order)
+        if item.outline:
+            axes.plot([*item.x, item.x[0]], [*item.y, item.y[0]], color=tint, linewidth=item.outline, zorder=order)
+    elif isinstance(item, Rule):
+        _rule(axes, item)
+    elif isinstance(item, Band):
+        span = axes.axvspan if item.upright else axes.axhspan
+        span(item.low, item.high, color=palette.colour(item.role), alpha=item.opacity, linewidth=0.0, zorder=1.0)
+        if item.text:
+            _rule_text(axes, item.high, item.text, item.role, item.upright)
+
+
+def _curve(axes: Axes, panel: Panel, item: Curve, order: float) -> None:
+    x, y = _flat(panel, item.x, item.y, item.z)
+    tint = palette.colour(item.role)
+    axes.plot(
+        x,
+        y,
+        color=tint,
+        linewidth=item.width,
+        linestyle=_LINES[item.dash] if item.width else "none",
+        marker="o" if item.marker else "",
+        markersize=item.marker,
+        markeredgewidth=0.0,
+        zorder=order,
+    )
+    if item.arrow and len(x) > 1:
+        axes.annotate(
+            "",
+            (x[-1], y[-1]),
+            (x[-2], y[-2]),
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": tint,
+                "linewidth": item.width,
+                "shrinkA": 0,
+                "shrinkB": 0,
+                "mutation_scale": 7.0,
+            },
+            zorder=order,
+        )
+
+
+def _note(axes: Axes, panel: Panel, item: Note) -> None:
+    x, y = _flat(panel, item.x, item.y, item.z)
+    text = axes.annotate(
+        item.text,
+        (float(x), float(y)),
+        xytext=item.shift,
+        textcoords="offset points",
+        fontsize=item.size,
+        fontweight="bold" if item.bold else "normal",
+        color=palette.colour(item.role),
+        ha=_SIDES[item.side],
+        va=_LEVELS[item.level],
+        zorder=6.0,
+        annotation_clip=False,
+    )
+    if item.halo:
+        text.set_gid(f"halo{id(text)}")
+
+
+def _bars(axes: Axes, item: Bars, order: float) -> None:
+    tints = [palette.colour(item.roles[k % len(item.roles)]) for k in range(len(item.at))]
+    lengths = [size - item.base for size in item.size]
+    if item.lying:
+        axes.barh(item.at, lengths, item.thick, left=item.base, color=tints, linewidth=0.0, zorder=order)
+    else:
+        axes.bar(item.at, lengths, item.thick, bottom=item.base, color=tints, linewidth=0.0, zorder=order)
+    for at, size, text in zip(item.at, item.size, item.texts, strict=False):
+        axes.annotate(
+            text,
+            (size, at) if item.lying else (at, size),
+            xytext=(4.0, 0.0) if item.lying else (0.0, 2.5),
+            textcoords="offset points",
+            fontsize=7.6,
+            color=palette.colour("ink"),
+            ha="left" if item.lying else "center",
+            va="center" if item.lying else "bottom",
+            annotation_clip=False,
+            zorder=6.0,
+        )
+
+
+def _rule(axes: Axes, item: Rule) -> None:
+    line = axes.axvline if item.upright else axes.axhline
+    line(item.value, color=palette.colour(item.role), linewidth=item.width, linestyle=_LINES[item.dash], zorder=2.0)
+    if item.text:
+        _rule_text(axes, item.value, item.text, item.role, item.upright)
+
+
+def _rule_text(axes: Axes, value: float, text: str, role: str, upright: bool) -> None:
+    transform = axes.get_xaxis_transform() if upright else axes.get_yaxis_transform()
+    axes.annotate(
+        text,
+        (value, 1.0) if upright else (1.0, value),
+        xycoords=transform,
+        xytext=(3.0, -1.0) if upright else (-2.0, 2.0),
+        textcoords="offset points",
+        fontsize=7.4,
+        color=palette.colour(role),
+        ha="left" if upright else "right",
+        va="top" if upright else "bottom",
+        zorder=6.0,
+    )

@@ -1,0 +1,82 @@
+"""Numbers as people read them."""
+
+from __future__ import annotations
+
+import math
+
+THIN = "\u202f"
+
+
+def significant(value: float, digits: int = 4) -> str:
+    """Return a number with so many significant digits, a true minus and thin grouping.
+
+    Examples
+    --------
+    >>> significant(0.125603), significant(-12.0, 3), significant(123456.0), significant(0.0)
+    ('0.1256', '−12.0', '123\u202f456', '0')
+    """
+    if not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    size = math.floor(math.log10(abs(value)))
+    if not -5 <= size < 9:
+        mantissa, _e, power = f"{value:.{digits - 1}e}".partition("e")
+        return f"{mantissa}·10{_raised(int(power))}".replace("-", "−")
+    return f"{value:,.{max(0, digits - 1 - size)}f}".replace(",", THIN).replace("-", "−")
+
+
+def fixed(value: float, decimals: int = 2) -> str:
+    """Return a number with so many decimals, never "-0".
+
+    Examples
+    --------
+    >>> fixed(-0.001), fixed(-22.918)
+    ('0.00', '−22.92')
+    """
+    if not math.isfinite(value):
+        return "–"
+    return f"{value:z,.{decimals}f}".replace(",", THIN).replace("-", "−")
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """Return a share in percent; what is nothing but rounding is 0.
+
+    Examples
+    --------
+    >>> percent(0.12512), percent(3e-16), percent(2.34e-6)
+    ('12.5 %', '0 %', '0.000234 %')
+    """
+    if abs(share) < 1e-13:
+        return "0 %"
+    text = significant(100.0 * share, digits)
+    if "·" not in text and abs(share) < 1e-3:
+        text = f"{100.0 * share:.{digits}g}" if abs(share) >= 1e-6 else text
+    return f"{text} %"
+
+
+def half_turn(angle: float) -> float:
+    """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows.
+
+    Examples
+    --------
+    >>> half_turn(-90.0), half_turn(178.0)
+    (90.0, -2.0)
+    """
+    return 90.0 - (90.0 - angle) % 180.0
+
+
+def power_of_ten(value: float) -> str:
+    """Return a power of ten, in full where it is short.
+
+    Examples
+    --------
+    >>> power_of_ten(0.01), power_of_ten(1e-6)
+    ('0.01', '10⁻⁶')
+    """
+    power = round(math.log10(value))
+    return f"{value:g}" if -3 < power < 4 else f"10{_raised(power)}"
+
+
+def _raised(number: int) -> str:
+    return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
