@@ -1,5 +1,408 @@
-"""Calculations: moving."""
+"""Calculations of drives that move: varying bends, moving centres, motion generators, length compensation."""
 
-from .calculation import Calculation
+from __future__ import annotations
 
-CALCULATIONS: tuple[Calculation, ...] = ()
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.analysis.equivalence import equivalent_joint
+from cardan.analysis.length import length_compensation
+from cardan.analysis.moving_chain import MovingMotion, harmonic_points, moving_centres
+from cardan.analysis.moving_points import moving_points
+from cardan.analysis.random_bend import random_bend
+from cardan.analysis.varying_bend import swinging_chain, swinging_joint
+from cardan.drive.drives import Drives
+from cardan.drive.duty import Limits
+from cardan.drive.geometry import geometry_from_points
+from cardan.drive.movement import Arm, Hitch, Movement
+from cardan.drive.shaft import Spline
+from cardan.drive.validity import point_problems
+from cardan.errors import Problem, refuse
+from cardan.texts import _
+
+from .calculation import Calculation, Values, given, gives
+from .kinematics import ACCELERATION, RIGHT
+
+MOVED = ("joints[1]", "output")
+"""What a hitch or an arm carries in a double joint."""
+
+TIME = given("t_s", _("time"), "time", axes=(0, 1))
+
+
+def _swing_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Refuse bends that swing to a right angle."""
+    for mean, amplitude in (
+        ("alpha_mean", "alpha_amp"),
+        ("alpha12_mean", "alpha12_sin_amp"),
+        ("alpha23_mean", "alpha23_cos_amp"),
+    ):
+        if mean in values and amplitude in values and abs(values[mean]) + abs(values[amplitude]) >= RIGHT:
+            yield Problem(key(mean), _("the bend reaches 90° with the given amplitude"))
+
+
+def _single(values: Values) -> Values:
+    found = swinging_joint(
+        values["t"],
+        mean=values["alpha_mean"],
+        amplitude=values["alpha_amp"],
+        frequency=values["alpha_omega"],
+        phase=values["alpha_phase"],
+        speed=values["omega1_at_t0"],
+        acceleration=values["eps1"],
+        start_phase=values["psi1"],
+    )
+    return {
+        "alpha_deg": found.bend,
+        "alpha_rate_rad_s": found.bend_rate,
+        "alpha_acc_rad_s2": found.bend_acceleration,
+        "phi1_rad": found.angle,
+        "omega2_rad_s": found.driven_speed,
+        "eps2_rad_s2": found.driven_acceleration,
+    }
+
+
+def _double(values: Values) -> Values:
+    found = swinging_chain(
+        values["t"],
+        mean=[values["alpha12_mean"], values["alpha23_mean"]],
+        amplitude=[values["alpha12_sin_amp"], values["alpha23_cos_amp"]],
+        frequency=values["omega_angle"],
+        phase=[0.0, RIGHT],
+        yoke_angle=[values["gamma2"]],
+        speed=values["omega1"],
+    )
+    return {"omega3_rad_s": found.driven_speed, "eps3_rad_s2": found.driven_acceleration}
+
+
+def _random(values: Values) -> Values:
+    found = random_bend(
+        values["phi1"],
+        mean=values["alpha_mean"],
+        deviation=values["alpha_std"],
+        rate_deviation=values["alpha_rate_std"],
+        speed=values["omega1"],
+    )
+    return {
+        "omega2_mean_rad_s": found.mean,
+        "omega2_std_rad_s": found.deviation,
+        "omega2_std_first_order_rad_s": found.small,
+    }
+
+
+def _random_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    if "alpha_mean" in values and "alpha_std" in values and values["alpha_mean"] + 6 * values["alpha_std"] >= RIGHT:
+        yield Problem(key("alpha_std"), _("the mean and six standard deviations reach 90°"))
+
+
+def _axis_of_time(values: Values) -> Callable[[Any], Any]:
+    """Return what takes the axis of instants away again where a single time was given."""
+    return (lambda array: array[0]) if np.ndim(values["t"]) == 0 else (lambda array: array)
+
+
+def _path(values: Values, times: Any) -> MovingMotion:
+    path = harmonic_points(
+        values["points0"], values["amplitude"], frequency=values["omega_motion"], phase=values["phase"]
+    )
+    yokes = np.zeros(len(values["points0"]) - 3) if values["gamma"] is None else values["gamma"]
+    return moving_centres(
+        path,
+        times,
+        yoke_angle=yokes,
+        speed=values["omega1"],
+        acceleration=values["eps1"],
+        start_phase=values["theta1_at_t0"],
+    )
+
+
+def _centres(values: Values) -> Values:
+    moved = _path(values, np.atleast_1d(values["t"]))
+    if np.any(moved.shafts.bend >= RIGHT):
+        raise refuse("points0", _("at a given time a joint bends 90° or more"))
+    at = _axis_of_time(values)
+    return {
+        "spin_rad_s": at(moved.spins.spin),
+        "spin_acc_rad_s2": at(moved.spins.spin_acceleration),
+        "alpha_deg": at(moved.shafts.bend),
+        "length_m": at(moved.shafts.length),
+        "length_rate_m_s": at(moved.shafts.length_rate),
+        "length_acc_m_s2": at(moved.shafts.length_acceleration),
+    }
+
+
+def _path_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Refuse tables of different lengths and points that make no line of shafts at time zero."""
+    if "points0" not in values:
+        return
+    named = key("points0")
+    for problem in point_problems(values["points0"].tolist()):
+        yield Problem(problem.field.replace("points", named), problem.message.replace("points[", f"{named}["))
+    count = len(values["points0"])
+    for name, wanted in (("amplitude", count), ("phase", count), ("gamma", max(count - 3, 0))):
+        value = values.get(name)
+        if value is not None and np.ndim(value) and len(value) != wanted:
+            yield Problem(key(name), _("{given} values given, {wanted} needed").format(given=len(value), wanted=wanted))
+
+
+def _sliding(values: Values) -> Values:
+    times = values["t"]
+    shafts = _path(values | {"omega1": 0.0, "eps1": 0.0, "theta1_at_t0": 0.0, "gamma": None}, times).shafts
+    k = values["shaft"] - 1
+    found = length_compensation(
+        times,
+        shafts.length[:, k],
+        shafts.length_rate[:, k],
+        shafts.length_acceleration[:, k],
+        spline=Spline(engaged=values["overlap0"], gap=values["gap0"]),
+        limits=Limits(spline_overlap=values["overlap_min_allowed"]),
+        drawn=float(np.linalg.norm(values["points0"][k + 1] - values["points0"][k])),
+        shaft=values["shaft"],
+    )
+    return {
+        "length_min_m": found.length_min,
+        "length_max_m": found.length_max,
+        "stroke_m": found.stroke,
+        "rate_max_m_s": found.max_rate,
+        "acc_max_m_s2": found.max_acceleration,
+        "slip_path_m": found.slip_path,
+        "engaged_min_m": found.engaged_min,
+        "gap_min_m": found.gap_min,
+        "flags": [flag.message for flag in found.flags],
+    }
+
+
+def _sliding_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    yield from _path_check(values, key)
+    if "points0" in values and "shaft" in values and not 1 <= values["shaft"] < len(values["points0"]):
+        yield Problem(key("shaft"), _("there is no shaft {number}").format(number=values["shaft"]))
+
+
+def _standing(points: Any, movement: Movement) -> Any:
+    """Return the points with a movement held at its amplitude."""
+    return moving_points(points, [movement], [0.0])[0][0]
+
+
+def _turned(points: Any, gamma: float) -> Values:
+    place = geometry_from_points(points)
+    whole = equivalent_joint(Drives.from_points(points, yoke_angle=[gamma]))
+    return {"bend": place.bend, "length": place.length[1], "twist": place.plane_twist, "delta": whole.irregularity}
+
+
+def _hitch(values: Values) -> Values:
+    one, two = values["l1"], values["l2"]
+    line = [[-2 * one - two, 0.0, 0.0], [-one, 0.0, 0.0], [two, 0.0, 0.0], [2 * two + one, 0.0, 0.0]]
+    hitch = Hitch(
+        moves=MOVED, pivot=(0.0, 0.0, 0.0), yaw=values["yaw"], pitch=values["pitch"], frequency=1.0, phase=RIGHT
+    )
+    found = _turned(_standing(line, hitch), values["gamma2"])
+    return {
+        "alpha12_deg": found["bend"][0],
+        "alpha23_deg": found["bend"][1],
+        "length2_m": found["length"],
+        "beta2_deg": found["twist"][0],
+        "delta": found["delta"],
+    }
+
+
+def _arm(values: Values) -> Values:
+    one, two = values["B1"], values["B2_at_rest"]
+    rest = np.stack((one - values["a1"], one, two, two + values["a3_at_rest"]))
+    arm = Arm(
+        moves=MOVED,
+        pivot=tuple(values["pivot"].tolist()),
+        axis=tuple(values["axis"].tolist()),
+        amplitude=values["arm_rotation"],
+        frequency=1.0,
+        phase=RIGHT,
+    )
+    points = _standing(rest, arm)
+    found = _turned(points, values["gamma2"])
+    return {
+        "B2_m": points[2],
+        "a3": geometry_from_points(points).axis[-1],
+        "alpha_deg": found["bend"],
+        "beta_deg": found["twist"],
+        "length2_m": found["length"],
+        "delta": found["delta"],
+    }
+
+
+def _arm_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    for name in ("a1", "axis", "a3_at_rest"):
+        if name in values and not np.any(values[name]):
+            yield Problem(key(name), _("[0, 0, 0] has no direction"))
+
+
+def _vector(key: str, doc: str, dimension: str | None = None) -> Any:
+    return given(key, doc, dimension, axes=(1,), width=3)
+
+
+_POINTS = (
+    given("points0_m", _("middle positions of the points of the axis"), "length", axes=(2,), width=3),
+    given("amplitude_m", _("amplitude of each point [x, y, z]"), "length", axes=(2,), width=3),
+    given("omega_motion_rad_s", _("angular frequency of the swing"), "angular_speed"),
+    given("phase_rad", _("phase of each point"), "angle", axes=(0, 1), default=0.0),
+)
+
+CALCULATIONS = (
+    Calculation(
+        name="varying_angle_single",
+        doc=_("one joint whose bend swings harmonically, the plane of the shafts at rest"),
+        source="Book (96)-(98), completed",
+        takes=(
+            given("alpha_mean_deg", _("mean bend"), "angle"),
+            given("alpha_amp_deg", _("amplitude of the bend"), "angle"),
+            given("alpha_omega_rad_s", _("angular frequency of the bend"), "angular_speed"),
+            given("alpha_phase_deg", _("phase of the bend at time zero"), "angle", default=0.0),
+            given("omega1_at_t0_rad_s", _("input speed at time zero"), "angular_speed"),
+            ACCELERATION,
+            given("psi1_deg", _("phase angle of the joint at time zero"), "angle", default=0.0),
+            TIME,
+        ),
+        returns=(
+            gives("alpha_deg", _("bend"), "angle"),
+            gives("alpha_rate_rad_s", _("rate of the bend"), "angular_speed"),
+            gives("alpha_acc_rad_s2", _("acceleration of the bend"), "angular_acceleration"),
+            gives("phi1_rad", _("input angle"), "angle"),
+            gives("omega2_rad_s", _("speed of the driven shaft"), "angular_speed"),
+            gives("eps2_rad_s2", _("acceleration of the driven shaft"), "angular_acceleration"),
+        ),
+        answer=_single,
+        check=_swing_check,
+    ),
+    Calculation(
+        name="varying_angle_double",
+        doc=_("planar double joint whose bends swing, one as a sine, the other as a cosine"),
+        source="Book (99)",
+        takes=(
+            given("alpha12_mean_deg", _("mean bend of joint 1"), "angle"),
+            given("alpha12_sin_amp_deg", _("amplitude of the bend of joint 1"), "angle"),
+            given("alpha23_mean_deg", _("mean bend of joint 2"), "angle"),
+            given("alpha23_cos_amp_deg", _("amplitude of the bend of joint 2"), "angle"),
+            given("omega_angle_rad_s", _("angular frequency of the bends"), "angular_speed"),
+            given("omega1_rad_s", _("input speed"), "angular_speed"),
+            given("gamma2_deg", _("yoke angle of shaft 2"), "angle", default=0.0),
+            TIME,
+        ),
+        returns=(
+            gives("omega3_rad_s", _("output speed"), "angular_speed"),
+            gives("eps3_rad_s2", _("output acceleration"), "angular_acceleration"),
+        ),
+        answer=_double,
+        check=_swing_check,
+    ),
+    Calculation(
+        name="varying_angle_random",
+        doc=_("mean and standard deviation of the driven speed of a joint with a random bend"),
+        source=_("expectations of Book (97) over the normal law"),
+        takes=(
+            given("alpha_mean_deg", _("mean bend"), "angle", low=0.0, below=RIGHT),
+            given("alpha_std_deg", _("standard deviation of the bend"), "angle", low=0.0),
+            given("alpha_rate_std_rad_s", _("standard deviation of its rate"), "angular_speed", low=0.0),
+            given("omega1_rad_s", _("input speed"), "angular_speed"),
+            given("phi1_deg", _("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
+        ),
+        returns=(
+            gives("omega2_mean_rad_s", _("mean speed of the driven shaft"), "angular_speed"),
+            gives("omega2_std_rad_s", _("standard deviation of that speed"), "angular_speed"),
+            gives("omega2_std_first_order_rad_s", _("the same to first order in the bend's"), "angular_speed"),
+        ),
+        answer=_random,
+        check=_random_check,
+    ),
+    Calculation(
+        name="moving_centres",
+        doc=_("exact spin of every shaft, and lengths, while the joint centres swing along lines"),
+        source=_("rigid crosses; contains Book (97)-(99)"),
+        takes=(
+            *_POINTS,
+            given("gamma_deg", _("yoke angle of shafts 2 to n"), "angle", axes=(1,), default=None),
+            given("omega1_rad_s", _("spin of the input shaft at time zero"), "angular_speed"),
+            ACCELERATION,
+            given("theta1_at_t0_deg", _("joint angle of joint 1 at time zero"), "angle", default=0.0),
+            TIME,
+        ),
+        returns=(
+            gives("spin_rad_s", _("spin of each shaft"), "angular_speed"),
+            gives("spin_acc_rad_s2", _("its time derivative"), "angular_acceleration"),
+            gives("alpha_deg", _("bend of each joint"), "angle"),
+            gives("length_m", _("length of each shaft"), "length"),
+            gives("length_rate_m_s", _("sliding speed of each shaft"), "speed"),
+            gives("length_acc_m_s2", _("sliding acceleration of each shaft"), "acceleration"),
+        ),
+        answer=_centres,
+        check=_path_check,
+    ),
+    Calculation(
+        name="length_compensation",
+        doc=_("stroke, sliding speed, slip path, engaged length and gap of a splined shaft between swinging points"),
+        source=_("geometry of two moving points"),
+        takes=(
+            *_POINTS,
+            given("t_s", _("instants, rising"), "time", axes=(1,)),
+            given("shaft", _("number of the shaft"), kind="whole", low=1, default=2),
+            given("overlap0_m", _("engaged length in the middle position"), "length", above=0.0, default=None),
+            given("gap0_m", _("way left to bottoming in the middle position"), "length", above=0.0, default=None),
+            given("overlap_min_allowed_m", _("smallest engaged length allowed"), "length", above=0.0, default=None),
+        ),
+        returns=(
+            gives("length_min_m", _("shortest length"), "length"),
+            gives("length_max_m", _("longest length"), "length"),
+            gives("stroke_m", _("longest less shortest length"), "length"),
+            gives("rate_max_m_s", _("largest sliding speed"), "speed"),
+            gives("acc_max_m_s2", _("largest sliding acceleration"), "acceleration"),
+            gives("slip_path_m", _("total way slid"), "length"),
+            gives("engaged_min_m", _("shortest engaged length"), "length"),
+            gives("gap_min_m", _("least way left to bottoming"), "length"),
+            gives("flags", _("limits passed")),
+        ),
+        answer=_sliding,
+        check=_sliding_check,
+    ),
+    Calculation(
+        name="motion_hitch",
+        doc=_("double joint over a hitch pin that both end shafts point at"),
+        source="Book Figs 56, 57",
+        takes=(
+            given("l1_m", _("distance of joint 1 before the pin"), "length", above=0.0),
+            given("l2_m", _("distance of joint 2 behind the pin"), "length", above=0.0),
+            given("yaw_deg", _("yaw of the drawn body"), "angle", default=0.0),
+            given("pitch_deg", _("pitch of the drawn body"), "angle", default=0.0),
+            given("gamma2_deg", _("yoke angle of shaft 2"), "angle", default=0.0),
+        ),
+        returns=(
+            gives("alpha12_deg", _("bend of joint 1"), "angle"),
+            gives("alpha23_deg", _("bend of joint 2"), "angle"),
+            gives("length2_m", _("length of the shaft between"), "length"),
+            gives("beta2_deg", _("plane twist"), "angle"),
+            gives("delta", _("irregularity")),
+        ),
+        answer=_hitch,
+    ),
+    Calculation(
+        name="motion_arm",
+        doc=_("double joint whose second joint and output shaft turn with an arm"),
+        source=_("trailing arm, torque tube, leaf spring as an equivalent arm"),
+        takes=(
+            _vector("B1_m", _("centre of joint 1"), "length"),
+            _vector("a1", _("direction of the input shaft")),
+            _vector("pivot_m", _("a point of the arm's axis"), "length"),
+            _vector("axis", _("direction of the arm's axis")),
+            _vector("B2_at_rest_m", _("centre of joint 2 before the arm turns"), "length"),
+            _vector("a3_at_rest", _("direction of the output shaft before the arm turns")),
+            given("arm_rotation_deg", _("turn of the arm"), "angle"),
+            given("gamma2_deg", _("yoke angle of shaft 2"), "angle", default=0.0),
+        ),
+        returns=(
+            gives("B2_m", _("centre of joint 2"), "length"),
+            gives("a3", _("direction of the output shaft")),
+            gives("alpha_deg", _("bends"), "angle"),
+            gives("beta_deg", _("plane twist"), "angle"),
+            gives("length2_m", _("length of the shaft between"), "length"),
+            gives("delta", _("irregularity")),
+        ),
+        answer=_arm,
+        check=_arm_check,
+    ),
+)
