@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.maths import frames
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike
 
 from .chain import Chain, chain
 from .drive import Drive
@@ -26,13 +26,13 @@ SIDES = 10
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Arms:
-    """Where the yokes stand at one input angle.
+    """Where the yokes stand, at one input angle or many (...).
 
     Attributes
     ----------
-    driving : array (n, 3)
+    driving : array (n, ..., 3)
         u_i, direction of the cross arm that the driving yoke of joint i holds; the yoke is part of shaft i.
-    driven : array (n, 3)
+    driven : array (n, ..., 3)
         v_{i+1}, direction of the cross arm that the driven yoke of joint i holds; the yoke is part of shaft i+1.
     """
 
@@ -40,7 +40,7 @@ class Arms:
     driven: Array
 
 
-def arms(place: Geometry, train: Chain, angle: float = 0.0) -> Arms:
+def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0) -> Arms:
     """Return the directions of all cross arms.
 
     Parameters
@@ -49,13 +49,13 @@ def arms(place: Geometry, train: Chain, angle: float = 0.0) -> Arms:
         Where the drive lies.
     train : Chain
         Its yoke angles and start phase.
-    angle : float [rad]
+    angle : array (...) [rad]
         Input angle φ_1 from the start position.
 
     Returns
     -------
     Arms
-        driving, driven : arrays (n, 3).
+        driving, driven : arrays (n, ..., 3).
 
     Notes
     -----

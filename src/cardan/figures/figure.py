@@ -309,7 +309,7 @@ def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
         return (low,)
     rough = span / max(count, 1)
     size = 10.0 ** math.floor(math.log10(rough))
-    step = min((m * size for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / rough)))
+    step = min((m * size for m in (1.0, 2.0, 5.0, 10.0)), key=lambda s: abs(math.log(s / rough)))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return tuple(round(k * step, 12 - math.floor(math.log10(step))) + 0.0 for k in range(first, last + 1))
 
