@@ -17,8 +17,14 @@ from cardan.units import DIMENSIONS, Key, factor, nearest
 Values: TypeAlias = dict[str, Any]
 """Name without unit -> value in SI."""
 
-PYTHON = {"bend": "alpha", "plane_twist": "beta", "yoke_angle": "gamma", "angle": "phi1"}
-"""What the functions call an input -> its name here, where that differs."""
+PYTHON = {
+    "bend": ("alpha",),
+    "plane_twist": ("beta", "beta2"),
+    "yoke_angle": ("gamma", "gamma2"),
+    "angle": ("phi1",),
+    "deviation": ("alpha_std",),
+}
+"""What the functions call an input -> its names here, where they differ."""
 
 REQUIRED: Any = object()
 """Default of an input that must be given."""
@@ -346,7 +352,8 @@ def _si(item: Given, value: Any, key: str) -> Any:
 def _named(field: str, keys: Mapping[str, str]) -> str:
     """Return a field named in Python as the key it was given under."""
     name, bracket, rest = field.partition("[")
-    return keys.get(PYTHON.get(name, name), name) + bracket + rest
+    own = [keys[one] for one in (name, *PYTHON.get(name, ())) if one in keys]
+    return (own[0] if own else name) + bracket + rest
 
 
 def _plain(value: Any, scale: float) -> Any:
