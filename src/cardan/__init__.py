@@ -27,6 +27,12 @@ _HOMES = {
     "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
+    "Extremes": "analysis.extremes",
+    "extremes": "analysis.extremes",
+    "Traces": "analysis.traces",
+    "traces": "analysis.traces",
+    "Compiled": "maths.compiled.method",
+    "Plain": "maths.compiled.method",
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
 }
@@ -40,14 +46,20 @@ if TYPE_CHECKING:
     from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
     from .analysis.equivalence import equivalent_joint as equivalent_joint
+    from .analysis.extremes import Extremes as Extremes
+    from .analysis.extremes import extremes as extremes
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
+    from .analysis.traces import Traces as Traces
+    from .analysis.traces import traces as traces
     from .calc.calculations import calc as calc
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
     from .drive.drives import stack as stack
     from .errors import CardanError as CardanError
     from .errors import InputError as InputError
+    from .maths.compiled.method import Compiled as Compiled
+    from .maths.compiled.method import Plain as Plain
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
 

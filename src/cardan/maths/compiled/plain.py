@@ -1,0 +1,86 @@
+"""What the kernels compute, as array expressions: their reference, and what serves where numba is missing."""
+
+from __future__ import annotations
+
+from cardan.maths import mobius
+from cardan.maths.arrays import Array, namespace
+
+
+def traces(
+    pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, cosine: Array, sine: Array
+) -> tuple[Array, Array, Array]:
+    """Return output angle, speed ratio and output acceleration of chains over the input angle.
+
+    Parameters
+    ----------
+    pair : Pair (...)
+        Möbius pair of each chain.
+    angle : array (p,) [rad]
+        Input angle φ.
+    speed : array (...) [rad/s]
+        ω_1.
+    acceleration : array (...) [rad/s²]
+        ε_1.
+    cosine, sine : array (p,)
+        cos 2φ and sin 2φ, shared by all chains.
+
+    Returns
+    -------
+    output_angle, ratio, acceleration : arrays (..., p)
+
+    Notes
+    -----
+    With q = b̄/ā and x + iy = 1 + q e^(2iφ): ratio 1/(\\|a\\|²(x² + y²)), its slope 4 \\|a\\|² y ratio², lead
+    -arg(x + iy); x > 0, so the argument never jumps.
+    """
+    a, b = pair
+    xp = namespace(cosine, a)
+    size = xp.real(a) ** 2 + xp.imag(a) ** 2
+    turned = xp.conj(b) * a
+    along, across = (xp.real(turned) / size)[..., None], (xp.imag(turned) / size)[..., None]
+    x = 1.0 + along * cosine - across * sine
+    y = along * sine + across * cosine
+    ratio = 1.0 / (size[..., None] * (x * x + y * y))
+    begin = xp.atan2(across, 1.0 + along)
+    pull = (4.0 * size * speed**2)[..., None]
+    return angle + (begin - xp.atan2(y, x)), ratio, ratio * (acceleration[..., None] + pull * (y * ratio))
+
+
+def extremes(pair: mobius.Pair) -> tuple[Array, Array, Array, Array, Array, Array]:
+    """Return what a chain reaches over a turn, without positions.
+
+    Parameters
+    ----------
+    pair : Pair (...)
+        Möbius pair of each chain.
+
+    Returns
+    -------
+    irregularity, tau, bend, phase, ratio_max, max_acceleration : arrays (...)
+        δ, τ, α_eq [rad], ψ_eq in [0, π] [rad], i_max, max \\|ε\\|/ω_1².
+
+    Notes
+    -----
+    δ = 4 \\|a\\|\\|b\\|, τ = \\|b\\|/\\|a\\|, α_eq = 2 atan √τ, i_max = (\\|a\\| + \\|b\\|)² = 1/c. The acceleration is
+    that of Book Table 4 with sin² α_eq = δ c, which loses nothing for small bends.
+    """
+    a, b = pair
+    xp = namespace(a)
+    far, near = xp.abs(a), xp.abs(b)
+    irregularity = 4.0 * far * near
+    tau = near / far
+    ratio_max = (far + near) ** 2
+    phase = mobius.phase(pair)
+    c = 1.0 / ratio_max
+    square = irregularity * c
+    k = square / (2.0 - square)
+    x = 4.0 * k / (1.0 + xp.sqrt(1.0 + 8.0 * k * k))
+    steepest = 4.0 * c * square * xp.sqrt(1.0 - x * x) / ((2.0 - square) * (1.0 - k * x)) ** 2
+    return (
+        irregularity,
+        tau,
+        2.0 * xp.atan(xp.sqrt(tau)),
+        xp.where(phase < 0.0, phase + xp.pi, phase),
+        ratio_max,
+        steepest,
+    )

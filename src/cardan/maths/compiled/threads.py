@@ -1,0 +1,47 @@
+"""Rows of a batch shared out among threads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+PARTS = 8
+"""Pieces for each thread, so that a thread that was held up leaves work to the others."""
+
+
+def available() -> int:
+    """Return how many processors this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not every system can say
+        return os.cpu_count() or 1
+
+
+def share(work: Callable[[int, int], None], rows: int, *, threads: int | None = None, least: int = 1) -> None:
+    """Call ``work(first, last)`` for pieces that together are ``range(rows)``.
+
+    Parameters
+    ----------
+    work : function
+        Must release the interpreter lock to gain anything.
+    rows : int
+        How many rows there are.
+    threads : int, optional
+        All available processors by default.
+    least : int
+        Smallest piece worth a thread.
+
+    Examples
+    --------
+    >>> share(lambda first, last: print(first, last), 5, threads=1)
+    0 5
+    """
+    count = min(threads or available(), max(1, rows // least))
+    if count == 1:
+        work(0, rows)
+        return
+    pieces = min(count * PARTS, max(1, rows // least))
+    ends = [rows * k // pieces for k in range(pieces + 1)]
+    with ThreadPoolExecutor(count) as pool:
+        list(pool.map(work, ends[:-1], ends[1:]))
