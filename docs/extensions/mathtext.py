@@ -28,7 +28,10 @@ LETTERS = {Path.MOVETO: "M", Path.LINETO: "L", Path.CURVE3: "Q", Path.CURVE4: "C
 @cache
 def outline(latex: str) -> tuple[str, float, float, float]:
     """Return SVG path data (y downwards), width, ascent and descent of one line, in points at size `EM`."""
-    text = "$" + re.sub(r"\\(mathbf|mathrm|mathcal) (\w)", r"\\\1{\2}", latex) + "$"
+    latex = " ".join(latex.split())
+    text = re.sub(r"\\(mathbf|mathrm|mathcal)(?: (\w)|(\\[A-Za-z]+))", r"\\\1{\2\3}", latex)
+    text = re.sub(r"([\w})])\\(sin|cos|tan|sinh|cosh|ln)\b", r"\1\\,\\\2", text)
+    text = "$" + text.replace(r"\lvert", "|").replace(r"\rvert", "|") + "$"
     font = FontProperties(family="STIXGeneral", math_fontfamily="stix", size=EM)
     try:
         glyphs = TextPath((0.0, 0.0), text, size=EM, prop=font)
@@ -73,7 +76,7 @@ def svg(rows: list[list[str]], latex: str, *, display: bool) -> str:
 
 def inline(self: Any, node: nodes.math) -> None:
     """Write a formula that stands in a line of text."""
-    latex = node.astext()
+    latex = node.astext().replace("\n", " ")
     self.body.append(svg([[latex]], latex, display=False))
     raise nodes.SkipNode
 
