@@ -33,6 +33,8 @@ _HOMES = {
     "traces": "analysis.traces",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "YokeAngles": "synthesis.batch",
+    "synchronous_yokes": "synthesis.batch",
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
 }
@@ -60,6 +62,8 @@ if TYPE_CHECKING:
     from .errors import InputError as InputError
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
+    from .synthesis.batch import YokeAngles as YokeAngles
+    from .synthesis.batch import synchronous_yokes as synchronous_yokes
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
 

@@ -127,6 +127,6 @@ def _followed(figure: Blocks, choice: Choice, goal: Goal, start: Array) -> Array
             jac=slope,
             method="SLSQP",
             constraints=[{"type": "eq", "fun": gap, "jac": gap_slope}],
-            options={"maxiter": 200, "ftol": 1e-13},
+            options={"maxiter": 60, "ftol": 1e-11},
         ).x
     return whole(near)

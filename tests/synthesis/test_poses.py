@@ -1,0 +1,77 @@
+"""One set of yokes for several poses, against a fine grid."""
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, phases
+from cardan.units import deg
+from tests.builders import closing
+
+TWISTS = np.asarray([0.3, -0.7])
+POSES = {
+    "empty": np.asarray([10, 14, 12]) * deg,
+    "laden": np.asarray([13, 16, 9]) * deg,
+    "turned": np.asarray([8, 15, 16]) * deg,
+}
+
+
+def drive(bends):
+    return Drive.from_angles(bends, plane_twists=TWISTS)
+
+
+@pytest.fixture(scope="module")
+def grid():
+    axis = np.linspace(0, np.pi, 361)
+    one, two = np.meshgrid(axis, axis)
+    rows = np.stack((one.ravel(), two.ravel()), axis=-1)
+    return np.stack([closing.irregularity(bends, TWISTS, rows) for bends in POSES.values()], axis=-1)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return phases(drive(POSES["empty"]), poses={name: drive(bends) for name, bends in POSES.items()})
+
+
+def test_every_setting_tells_what_it_leaves_in_each_pose(found):
+    assert found.poses == tuple(POSES)
+    for setting in (found.as_built, *found.settings, *found.pose_settings):
+        truth = [closing.irregularity(bends, TWISTS, setting.yoke_angle) for bends in POSES.values()]
+        np.testing.assert_allclose(setting.pose_irregularity, truth, atol=2e-14)
+
+
+def test_the_worst_pose_is_as_even_as_a_fine_grid_can_make_it(found, grid):
+    worst, _mean = found.pose_settings
+    assert worst.pose_irregularity.max() <= grid.max(axis=-1).min() + 1e-12
+    # half a degree of grid, slope below 0.3 per rad
+    assert worst.pose_irregularity.max() == pytest.approx(grid.max(axis=-1).min(), abs=2e-3)
+
+
+def test_the_mean_is_as_small_as_a_fine_grid_can_make_it(found, grid):
+    _worst, mean = found.pose_settings
+    assert mean.pose_irregularity.mean() <= grid.mean(axis=-1).min() + 1e-12
+    assert mean.pose_irregularity.mean() == pytest.approx(grid.mean(axis=-1).min(), abs=2e-3)
+
+
+def test_one_pose_is_the_drive_itself():
+    alone = phases(drive(POSES["empty"]), poses={"empty": drive(POSES["empty"])})
+    for setting in alone.pose_settings:
+        assert setting.irregularity < 1e-13
+
+
+def test_stopping_keeps_what_was_found():
+    asked = []
+
+    def stop(share):
+        asked.append(share)
+        return "stop"
+
+    found = phases(drive(POSES["empty"]), poses={k: drive(v) for k, v in POSES.items()}, progress=stop)
+    assert not found.complete
+    assert len(found.pose_settings) == 2
+    assert asked == [0.0]
+
+
+def test_a_pose_with_another_number_of_joints_is_refused():
+    with pytest.raises(InputError) as caught:
+        phases(drive(POSES["empty"]), poses={"odd": Drive.from_angles([0.1, 0.2])})
+    assert caught.value.field == "poses[0]"
