@@ -60,7 +60,8 @@ def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
         here = f"{path}.{field.name}" if path else field.name
         if isinstance(value, tuple) and value and is_dataclass(value[0]):
             for index, item in enumerate(value):
-                yield from range_problems(item, f"{here}[{index}]")
+                place = item.number - 1 if isinstance(item, Shaft) else index
+                yield from range_problems(item, f"{here}[{place}]")
         elif is_dataclass(value):
             yield from range_problems(value, here)
         elif KEY in field.metadata and not isinstance(value, str | bool):
