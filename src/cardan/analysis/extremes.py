@@ -26,7 +26,7 @@ LARGE = 50_000
 """Drives from which the compiled form is faster even when numba has yet to be imported."""
 
 _PIECE = 4096
-"""Drives that are worth a thread."""
+"""Drives that are worth a thread, or that stay in the caches of the plain form."""
 
 _NAMES = ("irregularity", "tau", "bend", "any_phase", "ratio_max", "max_acceleration")
 
@@ -137,9 +137,10 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
 
 
 def _plain(chain: Chain, room: tuple[Array, ...]) -> None:
+    turn_before = chain.turn_before
     for first in range(0, int(chain.bend.shape[0]), _PIECE):
         part = slice(first, first + _PIECE)
-        pair = mobius.partial_products(chain.bend[part], chain.turn_before[part])[-1]
+        pair = mobius.partial_products(chain.bend[part], turn_before[part])[-1]
         for place, values in zip(room, plain.extremes(pair), strict=True):
             place.reshape(-1)[part] = values
 

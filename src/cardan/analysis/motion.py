@@ -161,7 +161,7 @@ def motion(
     """
     chain = kinematics(drive)
     xp = namespace(chain.bend, angle)
-    phi = _angles(angle, xp)
+    phi = positions(angle, xp)
     w = unit_complex(phi)
     w = w * w
     start = xp.ones_like(w[..., :1])
@@ -174,9 +174,10 @@ def motion(
         pair = (a[..., None], b[..., None])
         begin = mobius.lead(pair, start)
         before.append(xp.broadcast_to(turns[-1] + psi[..., None], shape))
-        turns.append(phi + mobius.lead(pair, w) - begin)
-        ratios.append(mobius.ratio(pair, w))
-        slopes.append(mobius.ratio_slope(pair, w))
+        lead, ratio, slope = mobius.course(pair, w)
+        turns.append(phi + (lead - begin))
+        ratios.append(ratio)
+        slopes.append(slope)
         if i + 1 < chain.joints:
             psi = _next_phase(psi, chain.bend[..., i]) + mu[..., i + 1]
     duty = drive.duty if isinstance(drive, Drive) else None
@@ -214,7 +215,8 @@ def _next_phase(psi: Array, bend: Array) -> Array:
     return psi + mobius.lead(mobius.hooke(bend), w)
 
 
-def _angles(angle: ArrayLike | None, xp: object) -> Array:
+def positions(angle: ArrayLike | None, xp: object) -> Array:
+    """Return the input angles to look at, one turn in steps of a degree when none are given; array (p,) [rad]."""
     if angle is None:
         return xp.linspace(0.0, 2.0 * np.pi, TURN, dtype=xp.float64)  # type: ignore[attr-defined]
     phi = real(angle, xp)

@@ -11,20 +11,23 @@ from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
 from cardan.errors import refuse
-from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.maths.compiled import plain
 from cardan.maths.compiled.buffers import buffers
 from cardan.maths.compiled.method import Compiled, Method, chosen
 from cardan.maths.compiled.threads import share
 from cardan.texts import _
 
-from .motion import _angles as angles
+from .motion import positions
 
 LARGE = 2_000_000
 """Values of each output from which the compiled form is faster even when numba has yet to be imported."""
 
-_PIECE = 100_000
-"""Values of each output that are worth a thread, or that stay in the caches of the plain form."""
+_THREAD = 100_000
+"""Values of each output that are worth a thread."""
+
+_CACHE = 16_000
+"""Values of each output for which the plain form stays in the caches."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -103,7 +106,7 @@ def traces(
     """
     chain = kinematics(drives)
     xp = namespace(chain.bend, angle)
-    phi = angles(angle, xp)
+    phi = positions(angle, xp)
     duty = drives.duty if isinstance(drives, Drive) else None
     lead = tuple(chain.bend.shape[:-1])
     omega = _each(speed, duty.speed if duty else None, 1.0, lead, xp)
@@ -114,8 +117,7 @@ def traces(
     if xp is not np:
         if out is not None:
             raise refuse("out", _("only results held in NumPy arrays can be written over"))
-        turned = xp.cos(2.0 * phi), xp.sin(2.0 * phi)
-        return _written(phi, plain.traces(chain.products()[-1], phi, omega, epsilon, *turned))
+        return _written(phi, plain.traces(chain.products()[-1], phi, omega, epsilon, unit_complex(2.0 * phi)))
     room = buffers(("output_angle", "ratio", "acceleration"), shape, out)
     if size:
         job = (rows_of(chain), phi, omega.reshape(-1), epsilon.reshape(-1), room)
@@ -148,13 +150,13 @@ def rows_of(chain: Chain) -> Chain:
 
 
 def _plain(chain: Chain, phi: Array, speed: Array, acceleration: Array, room: tuple[Array, ...]) -> None:
-    cosine, sine = np.cos(2.0 * phi), np.sin(2.0 * phi)
+    w = unit_complex(2.0 * phi)
     rows = int(chain.bend.shape[0])
     a, b = chain.products()[-1]
-    piece = max(1, _PIECE // phi.size)
+    piece = max(1, _CACHE // phi.size)
     for first in range(0, rows, piece):
         part = slice(first, first + piece)
-        found = plain.traces((a[part], b[part]), phi, speed[part], acceleration[part], cosine, sine)
+        found = plain.traces((a[part], b[part]), phi, speed[part], acceleration[part], w)
         for place, values in zip(room, found, strict=True):
             place.reshape(rows, phi.size)[part] = values
 
@@ -173,4 +175,4 @@ def _compiled(
             *(*shared, phi.size, first, last, *places),
         )
 
-    share(work, int(chain.bend.shape[0]), threads=threads, least=max(1, _PIECE // phi.size))
+    share(work, int(chain.bend.shape[0]), threads=threads, least=max(1, _THREAD // phi.size))

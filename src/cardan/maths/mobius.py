@@ -110,6 +110,29 @@ def lead(pair: Pair, w: Array) -> Array:
     return -argument(1.0 + xp.conj(b) / xp.conj(a) * w)
 
 
+def course(pair: Pair, w: Array) -> tuple[Array, Array, Array]:
+    """Return `lead`, `ratio` and `ratio_slope` at once, for half the work.
+
+    Notes
+    -----
+    With x + iy = (b̄ w + ā)/ā: -arg(x + iy), 1/(|a|² (x² + y²)), 4 |a|² y ratio².
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> lead, ratio, slope = course(hooke(np.asarray(0.5)), np.asarray([1.0 + 0.0j]))
+    >>> print(lead, ratio * np.cos(0.5), slope)
+    [0.] [1.] [0.]
+    """
+    a, b = pair
+    xp = namespace(a, b, w)
+    z = xp.conj(b) / xp.conj(a) * w
+    x, y = 1.0 + xp.real(z), xp.imag(z)
+    size = _square(a)
+    speed = 1.0 / (size * (x * x + y * y))
+    return -xp.atan2(y, x), speed, 4.0 * size * (y * speed * speed)
+
+
 def tau(pair: Pair) -> Array:
     """Return τ = |b|/|a| = tan²(α/2) of the equivalent joint."""
     a, b = pair
@@ -167,8 +190,10 @@ def partial_products(bend: Array, turn_before: Array) -> list[Pair]:
     -------
     list of n Pair, each (...)
     """
+    xp = namespace(bend, turn_before)
     products: list[Pair] = []
     for i in range(bend.shape[-1]):
-        step = compose(hooke(bend[..., i]), turn(turn_before[..., i]))
+        (c, d), e = hooke(bend[..., i]), unit_complex(turn_before[..., i])
+        step = c * e, d * xp.conj(e)
         products.append(compose(step, products[-1]) if products else step)
     return products

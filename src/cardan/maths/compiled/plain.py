@@ -6,9 +6,7 @@ from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace
 
 
-def traces(
-    pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, cosine: Array, sine: Array
-) -> tuple[Array, Array, Array]:
+def traces(pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, w: Array) -> tuple[Array, Array, Array]:
     """Return output angle, speed ratio and output acceleration of chains over the input angle.
 
     Parameters
@@ -21,29 +19,17 @@ def traces(
         ω_1.
     acceleration : array (...) [rad/s²]
         ε_1.
-    cosine, sine : array (p,)
-        cos 2φ and sin 2φ, shared by all chains.
+    w : complex array (p,)
+        e^(2iφ), shared by all chains.
 
     Returns
     -------
     output_angle, ratio, acceleration : arrays (..., p)
-
-    Notes
-    -----
-    With q = b̄/ā and x + iy = 1 + q e^(2iφ): ratio 1/(\\|a\\|²(x² + y²)), its slope 4 \\|a\\|² y ratio², lead
-    -arg(x + iy); x > 0, so the argument never jumps.
     """
-    a, b = pair
-    xp = namespace(cosine, a)
-    size = xp.real(a) ** 2 + xp.imag(a) ** 2
-    turned = xp.conj(b) * a
-    along, across = (xp.real(turned) / size)[..., None], (xp.imag(turned) / size)[..., None]
-    x = 1.0 + along * cosine - across * sine
-    y = along * sine + across * cosine
-    ratio = 1.0 / (size[..., None] * (x * x + y * y))
-    begin = xp.atan2(across, 1.0 + along)
-    pull = (4.0 * size * speed**2)[..., None]
-    return angle + (begin - xp.atan2(y, x)), ratio, ratio * (acceleration[..., None] + pull * (y * ratio))
+    a, b = (part[..., None] for part in pair)
+    begin = mobius.lead((a, b), 1.0 + 0.0 * w[:1])
+    lead, ratio, slope = mobius.course((a, b), w)
+    return angle + (lead - begin), ratio, acceleration[..., None] * ratio + speed[..., None] ** 2 * slope
 
 
 def extremes(pair: mobius.Pair) -> tuple[Array, Array, Array, Array, Array, Array]:
