@@ -162,7 +162,7 @@ def transport(direction: Callable[[Array], tuple[Array, Array]], times: Array, s
 
     Notes
     -----
-    The angular velocity of the shortest-arc frame has the component a_0·(a × ȧ)/(1 + a_0·a) along a; its time integral
+    The angular velocity of the shortest-arc frame has the component a_0·(ȧ × a)/(1 + a_0·a) along a; its time integral
     is taken by Gauss-Legendre panels, halved until the answer stands to 1e-12. Zero when a moves in one plane through
     a_0. Singular only for a direction that has turned by 180°.
     """
@@ -175,7 +175,7 @@ def transport(direction: Callable[[Array], tuple[Array, Array]], times: Array, s
         half = 0.5 * np.diff(instants)[:, None, None] / panels
         at = edges[..., None] + half * (1.0 + nodes)
         a, rate = direction(at.reshape(-1))
-        spin = frames.dot(frames.cross(a, rate), origin) / (1.0 + frames.dot(a, origin))
+        spin = frames.dot(frames.cross(rate, a), origin) / (1.0 + frames.dot(a, origin))
         return np.sum(half * weights * spin.reshape(at.shape), axis=(1, 2))
 
     panels, found = 1, swept(1)
