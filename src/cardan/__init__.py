@@ -37,6 +37,9 @@ _HOMES = {
     "synchronous_yokes": "synthesis.batch",
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
+    "example": "io.examples",
+    "load": "io.drive_file",
+    "save": "io.drive_file",
 }
 
 __all__ = sorted([*_HOMES, "__version__"])
@@ -60,6 +63,9 @@ if TYPE_CHECKING:
     from .drive.drives import stack as stack
     from .errors import CardanError as CardanError
     from .errors import InputError as InputError
+    from .io.drive_file import load as load
+    from .io.drive_file import save as save
+    from .io.examples import example as example
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
     from .synthesis.batch import YokeAngles as YokeAngles

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
@@ -16,6 +17,7 @@ from .shaft import Shaft
 
 if TYPE_CHECKING:
     from .drive import Drive
+    from .movement import Movement
 
 MAX_JOINTS = 1000
 """More joints than this are refused: no drive has them, and a report could not show them."""
@@ -137,12 +139,13 @@ def problems(drive: Drive) -> Iterator[Problem]:
     if n > MAX_JOINTS:
         yield Problem("joints", _("{n} joints given; the limit is {limit}").format(n=n, limit=MAX_JOINTS))
         return
-    found = [*range_problems(drive), *_shaft_problems(drive), *_form_problems(drive)]
+    found = [*range_problems(drive), *shaft_problems(drive.shafts, n), *_form_problems(drive)]
     yield from found
     if not found and drive.form == "points":
         for problem in point_problems(axis_points(drive)):
-            yield Problem(_drive_path(problem.field, n), problem.message.replace("points[", "point ["))
-    yield from _movement_problems(drive)
+            message = re.sub(r"points\[\d+\]", lambda found: _drive_path(found[0], n), problem.message)
+            yield Problem(_drive_path(problem.field, n), message)
+    yield from movement_problems(drive.movements, n)
 
 
 def axis_points(drive: Drive) -> list[tuple[float, float, float]]:
@@ -157,10 +160,10 @@ def _drive_path(field: str, n: int) -> str:
     return "input.point" if k == 0 else "output.point" if k == n + 1 else f"joints[{k - 1}].centre"
 
 
-def _shaft_problems(drive: Drive) -> Iterator[Problem]:
-    n = len(drive.joints)
+def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
+    """Yield what is wrong with the shafts of an n-joint drive."""
     seen: set[int] = set()
-    for shaft in drive.shafts:
+    for shaft in shafts:
         path = f"shafts[{shaft.number - 1}]"
         if shaft.number > n + 1:
             yield Problem(
@@ -236,9 +239,10 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
             yield Problem(path, _("missing; a drive given by {form} needs it").format(form=form))
 
 
-def _movement_problems(drive: Drive) -> Iterator[Problem]:
-    known = ["input", *(f"joints[{i}]" for i in range(len(drive.joints))), "output"]
-    for k, movement in enumerate(drive.movements):
+def movement_problems(movements: Sequence[Movement], n: int) -> Iterator[Problem]:
+    """Yield what is wrong with the movements of an n-joint drive."""
+    known = ["input", *(f"joints[{i}]" for i in range(n)), "output"]
+    for k, movement in enumerate(movements):
         if not movement.moves:
             yield Problem(f"movements[{k}].moves", _("names no point"))
         for moved in movement.moves:

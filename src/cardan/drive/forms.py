@@ -1,0 +1,127 @@
+"""From one form of geometry to another: joint centres, bends, slopes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.maths.frames import angle_about
+from cardan.texts import _
+
+from .drive import Drive, Form
+from .geometry import Geometry, geometry
+from .joints.joint import Point
+
+
+def in_form(drive: Drive, form: Form) -> Drive:
+    """Return the same drive with its geometry in another form; its motion does not change.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    form : {"points", "angles", "slopes"}
+        The form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole; slopes
+        put joint 1 at the origin. Boxes for layout synthesis and movements, which stand in coordinates, need points.
+
+    Raises
+    ------
+    InputError
+        A shaft does not run along +x and so has no slopes; poses, movements or boxes stand in coordinates.
+
+    Examples
+    --------
+    >>> drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 1, 0)])
+    >>> round(math.degrees(in_form(drive, "angles").joints[0].bend), 12)
+    45.0
+    """
+    if form == drive.form:
+        return drive
+    check(_bound_to_coordinates(drive, form))
+    place = geometry(drive)
+    if form == "points":
+        return _to_points(drive, place)
+    return _to_angles(drive, place) if form == "angles" else _to_slopes(drive, place)
+
+
+def _bound_to_coordinates(drive: Drive, form: Form) -> list[Problem]:
+    tied = [(f"joints[{i}].move_within", joint.move_within is not None) for i, joint in enumerate(drive.joints)]
+    tied += [("movements", bool(drive.movements)), ("poses", bool(drive.poses))]
+    message = _("stands in the coordinates of the present form and would lose its meaning by {form}")
+    return [Problem(path, message.format(form=form)) for path, there in tied if there]
+
+
+def _to_points(drive: Drive, place: Geometry) -> Drive:
+    points: list[Point] = [(float(p[0]), float(p[1]), float(p[2])) for p in place.points]
+    return replace(
+        drive,
+        input=replace(drive.input, point=points[0]),
+        output=replace(drive.output, point=points[-1]),
+        joints=tuple(
+            replace(joint, centre=point, bend=None, plane_twist=None)
+            for joint, point in zip(drive.joints, points[1:-1], strict=True)
+        ),
+        shafts=tuple(replace(s, length=None, side_slope=None, plan_slope=None) for s in drive.shafts),
+    )
+
+
+def _to_angles(drive: Drive, place: Geometry) -> Drive:
+    first = _first_twist(place)
+    twists = [first, *(float(t) for t in place.plane_twist)]
+    return replace(
+        drive,
+        input=replace(drive.input, point=None),
+        output=replace(drive.output, point=None),
+        joints=tuple(
+            replace(joint, centre=None, bend=float(bend), plane_twist=twist)
+            for joint, bend, twist in zip(drive.joints, place.bend, twists, strict=True)
+        ),
+        shafts=tuple(
+            replace(shaft, length=length, side_slope=None, plan_slope=None)
+            for shaft, length in zip(drive.shafts, _lengths(drive, place), strict=True)
+        ),
+    )
+
+
+def _first_twist(place: Geometry) -> float:
+    """Return the turn of the whole drive about shaft 1, from joint 1 bending downwards (N_1 to the left, level)."""
+    axis = place.axis[0]
+    left = np.asarray([-axis[1], axis[0], 0.0])
+    size = float(np.linalg.norm(left))
+    level = left / size if size > 1e-9 else np.asarray([0.0, 1.0, 0.0])
+    return float(angle_about(axis, level, place.normal[0]))
+
+
+def _to_slopes(drive: Drive, place: Geometry) -> Drive:
+    check(
+        Problem(
+            f"shafts[{k}]",
+            _("shaft {number} does not run along +x, so it has no side and plan slope").format(number=k + 1),
+        )
+        for k, axis in enumerate(place.axis)
+        if axis[0] <= 1e-9
+    )
+    return replace(
+        drive,
+        input=replace(drive.input, point=None),
+        output=replace(drive.output, point=None),
+        joints=tuple(replace(joint, centre=None, bend=None, plane_twist=None) for joint in drive.joints),
+        shafts=tuple(
+            replace(
+                shaft,
+                length=length,
+                side_slope=math.atan2(axis[2], axis[0]),
+                plan_slope=math.atan2(axis[1], axis[0]),
+            )
+            for shaft, axis, length in zip(drive.shafts, place.axis, _lengths(drive, place), strict=True)
+        ),
+    )
+
+
+def _lengths(drive: Drive, place: Geometry) -> list[float | None]:
+    """Return the lengths the drive says; what a drawing assumes is not written into a file."""
+    assumed = {f"shafts[{k}].length" for k in range(len(drive.shafts))} & set(place.assumed)
+    return [None if f"shafts[{k}].length" in assumed else float(length) for k, length in enumerate(place.length)]

@@ -1,0 +1,156 @@
+"""The drive file: load and save, TOML and JSON."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from cardan.drive.drive import Drive
+from cardan.drive.movement import Table
+from cardan.drive.paths import pose_drives
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.texts import _
+
+from .atomic import write_text
+from .reader import drive_from_tree
+from .shifts import read_shifts
+from .writer import toml_text, tree_of
+
+MAX_BYTES = 20_000_000
+"""Larger files are refused unread: no drive needs them."""
+
+
+def load(path: str | Path) -> Drive:
+    """Return the drive a file describes.
+
+    Parameters
+    ----------
+    path : str or Path
+        A ``.toml`` file, or ``.json`` with the same tables.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is no TOML, or describes no drive; every problem at once, each with its path.
+
+    Examples
+    --------
+    >>> import cardan
+    >>> cardan.save(cardan.Drive.from_angles([0.1]), "drive.toml")  # doctest: +SKIP
+    >>> cardan.load("drive.toml").form  # doctest: +SKIP
+    'angles'
+    """
+    where = Path(path)
+    try:
+        if where.stat().st_size > MAX_BYTES:
+            raise refuse(str(where), _("is larger than {limit} MB; no drive file is").format(limit=MAX_BYTES // 10**6))
+        text = where.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
+    except UnicodeDecodeError as error:
+        raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
+    return loads(text, folder=where.parent, form=where.suffix.lower().lstrip(".") or "toml", name=str(where))
+
+
+def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str = "file") -> Drive:
+    """Return the drive a text describes.
+
+    Parameters
+    ----------
+    text : str
+        The drive file.
+    folder : str or Path
+        Where files that it names are looked for.
+    form : str
+        ``"toml"`` or ``"json"``.
+    name : str
+        What messages call the text.
+
+    Raises
+    ------
+    InputError
+        Every problem of the text at once.
+
+    Examples
+    --------
+    >>> from cardan.io import loads
+    >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
+    0.3490658503988659
+    """
+    tree = _parsed(text, form, name)
+    drive = drive_from_tree(tree)
+    drive = _with_tables(drive, Path(folder))
+    pose_drives(drive)
+    return drive
+
+
+def dumps(drive: Drive, *, form: str = "toml") -> str:
+    """Return the text of a drive file; ``loads`` of it gives an equal drive.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    form : str
+        ``"toml"`` or ``"json"``.
+    """
+    tree = tree_of(drive)
+    return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
+
+
+def save(thing: Any, path: str | Path) -> None:
+    """Write a drive, or a result, to a file; the suffix says how.
+
+    Parameters
+    ----------
+    thing : Drive or result
+        A drive is written as ``.toml`` or ``.json``, a result in one of the formats of `cardan.io.formats`.
+    path : str or Path
+        Replaced as a whole or not at all.
+
+    Raises
+    ------
+    InputError
+        The suffix is not known or the file cannot be written.
+    """
+    where = Path(path)
+    if not isinstance(thing, Drive):
+        from .formats import write
+
+        write(thing, where)
+        return
+    form = where.suffix.lower().lstrip(".")
+    if form not in ("toml", "json"):
+        raise refuse(str(where), _("a drive is saved as .toml or .json"))
+    write_text(where, dumps(thing, form=form))
+
+
+def _parsed(text: str, form: str, name: str) -> dict[str, Any]:
+    try:
+        tree = json.loads(text) if form == "json" else tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise refuse(name, _("is not TOML: {why}").format(why=error)) from None
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise refuse(name, _("is not JSON: {why}").format(why=error)) from None
+    if not isinstance(tree, dict):
+        raise refuse(name, _("holds no table"))
+    return tree
+
+
+def _with_tables(drive: Drive, folder: Path) -> Drive:
+    """Return the drive with the CSV files of its table movements read."""
+    problems: list[Problem] = []
+    movements = []
+    for k, movement in enumerate(drive.movements):
+        if isinstance(movement, Table):
+            try:
+                times, shifts = read_shifts(folder / movement.file)
+                movement = replace(movement, times=times, shifts=shifts)
+            except InputError as error:
+                problems += [Problem(f"movements[{k}].file", f"{p.field} {p.message}") for p in error.problems]
+        movements.append(movement)
+    check(problems)
+    return replace(drive, movements=tuple(movements)) if movements else drive

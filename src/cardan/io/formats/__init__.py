@@ -1,0 +1,32 @@
+"""Formats of results: one module each, with ``suffix`` and ``text``, and its name in `FORMATS`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from cardan.errors import refuse
+from cardan.io.atomic import write_text
+from cardan.texts import _
+
+from . import csv, json
+
+FORMATS = {module.suffix: module for module in (csv, json)}
+"""Suffix -> module."""
+
+
+def write(result: Any, path: Path) -> None:
+    """Write a result to a file in the format of its suffix.
+
+    Raises
+    ------
+    InputError
+        The suffix is not known or the file cannot be written.
+    """
+    module = FORMATS.get(path.suffix.lower())
+    if module is None:
+        known = ", ".join(FORMATS)
+        raise refuse(
+            str(path), _("{suffix} is no format of results; known are {known}").format(suffix=path.suffix, known=known)
+        )
+    write_text(path, module.text(result))

@@ -1,0 +1,97 @@
+"""The reference of all keys of the drive file, generated from the fields of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import is_dataclass
+from typing import Any, get_args, get_origin
+
+from cardan.drive.drive import Drive, Input, Output
+from cardan.drive.duty import Duty, Limits
+from cardan.drive.joints import JOINTS
+from cardan.drive.keys import Field, fields_of
+from cardan.drive.movement import MOVEMENTS, Spectrum
+from cardan.drive.pose import Pose
+from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.validity import allowed
+from cardan.units import DIMENSIONS
+
+from .writer import written
+
+SECTIONS: tuple[tuple[str, type], ...] = (
+    ("Head of the file", Drive),
+    ("`input`", Input),
+    ("`output`", Output),
+    *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
+    ("`[[shafts]]`", Shaft),
+    ("`spline` of a shaft", Spline),
+    ("`[duty]`", Duty),
+    ("`[limits]`", Limits),
+    *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
+    ("`spectrum` of a random movement", Spectrum),
+    ("`[[poses]]`", Pose),
+)
+
+
+def reference() -> str:
+    """Return the reference of the drive file as Markdown: a table of keys for each table of the file.
+
+    Examples
+    --------
+    >>> reference().splitlines()[0]
+    '## Head of the file'
+    """
+    return "\n".join(line for title, cls in SECTIONS for line in _section(title, cls))
+
+
+def _section(title: str, cls: type) -> Iterator[str]:
+    yield f"## {title}"
+    yield ""
+    if cls.__doc__ and cls not in (Drive, Input, Output):
+        yield cls.__doc__.strip().splitlines()[0]
+        yield ""
+    yield "| key | units | value | default | meaning |"
+    yield "|---|---|---|---|---|"
+    if cls is Drive:
+        yield "| `format` | | 1 | required | version of the file format |"
+    for one in fields_of(cls).values():
+        units = ", ".join(f"`_{unit}`" for unit in DIMENSIONS[one.key.dimension]) if one.key.dimension else ""
+        mirror = f" or `{one.key.mirror}` (opposite sign)" if one.key.mirror else ""
+        yield f"| `{one.name}`{mirror} | {units} | {_kind(one)} | {_default(one)} | {one.key.doc} |"
+    yield ""
+
+
+def _kind(one: Field) -> str:
+    limits = allowed(one.key)
+    ending = "" if limits == "a finite number" else f", {limits}"
+    return _shape(one.type, one) + ending
+
+
+def _shape(kind: Any, one: Field) -> str:
+    if one.name == "set":
+        return "table of paths"
+    if get_origin(kind) is tuple:
+        parts = get_args(kind)
+        if parts[-1] is Ellipsis:
+            return "tables" if is_dataclass(parts[0]) else f"list of {_shape(parts[0], one)}s"
+        inner = _shape(parts[0], one)
+        return f"{len(parts)} {inner}s" if inner == "number" else f"{len(parts)} pairs of numbers"
+    if is_dataclass(kind):
+        return "table"
+    return {float: "number", int: "whole number", bool: "true or false"}.get(kind, "text")
+
+
+def _default(one: Field) -> str:
+    if one.required:
+        return "required"
+    value = one.default
+    if value is None or is_dataclass(value) or value in ((), ""):
+        return ""
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if isinstance(value, float) and one.key.dimension is not None:
+        unit, number = written(value, one.key.dimension)
+        return f"{number:g} {unit}"
+    if isinstance(value, tuple):
+        return f"`{[0 if x == 0 else x for x in value]}`"
+    return f"`{value:g}`" if isinstance(value, float) else f"`{value}`"

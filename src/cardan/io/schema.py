@@ -1,0 +1,107 @@
+"""JSON Schema of the drive file, generated from the fields of the model: editors complete and check with it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import is_dataclass
+from typing import Any, get_args, get_origin
+
+from cardan.drive.drive import Drive
+from cardan.drive.keys import Field, fields_of
+from cardan.units import label
+
+from .reader import KINDS
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of the drive file.
+
+    Examples
+    --------
+    >>> schema()["properties"]["format"]
+    {'const': 1, 'description': 'version of the file format'}
+    """
+    head = _table(Drive)
+    head["properties"] = {
+        "format": {"const": Drive.format, "description": "version of the file format"},
+        **head["properties"],
+    }
+    head["required"] = ["format", *head.get("required", [])]
+    return {"$schema": DIALECT, "title": "cardan drive file", **head}
+
+
+def _table(cls: type) -> dict[str, Any]:
+    properties: dict[str, Any] = {}
+    required: list[str] = []
+    rules: list[dict[str, Any]] = []
+    for one in fields_of(cls).values():
+        for spelling, factor in one.spellings.items():
+            properties[spelling] = {**_shape(one.type, one, factor), "description": _described(one, spelling)}
+        names = list(one.spellings)
+        if len(names) == 1 and one.required:
+            required += names
+        elif one.required:
+            rules.append({"oneOf": [{"required": [name]} for name in names]})
+        elif len(names) > 1:
+            rules.append({"oneOf": [*({"required": [n]} for n in names), {"not": _any_of(names)}]})
+    table: dict[str, Any] = {"type": "object", "properties": properties, "additionalProperties": False}
+    if required:
+        table["required"] = required
+    if rules:
+        table["allOf"] = rules
+    return table
+
+
+def _any_of(names: list[str]) -> dict[str, Any]:
+    return {"anyOf": [{"required": [name]} for name in names]}
+
+
+def _shape(kind: Any, one: Field, factor: float) -> dict[str, Any]:
+    if one.name == "set":
+        value = {"type": ["number", "array", "boolean", "string"]}
+        return {"type": "object", "additionalProperties": value, "minProperties": 1}
+    if get_origin(kind) is tuple:
+        parts = get_args(kind)
+        if parts[-1] is Ellipsis:
+            return {"type": "array", "items": _shape(parts[0], one, factor)}
+        items = _shape(parts[0], one, factor)
+        return {"type": "array", "items": items, "minItems": len(parts), "maxItems": len(parts)}
+    if kind in KINDS:
+        return _kinds(kind)
+    if is_dataclass(kind):
+        return _table(kind)  # type: ignore[arg-type]
+    if kind is bool:
+        return {"type": "boolean"}
+    if kind is str:
+        return {"type": "string", **({"enum": list(one.key.choices)} if one.key.choices else {})}
+    return {"type": "integer" if kind is int else "number", **_range(one, factor)}
+
+
+def _kinds(base: type) -> dict[str, Any]:
+    kinds, default = KINDS[base]
+    variants = []
+    for name, cls in kinds.items():
+        table = _table(cls)
+        table["properties"] = {"kind": {"const": name}, **table["properties"]}
+        if name != default:
+            table["required"] = ["kind", *table.get("required", [])]
+        variants.append(table)
+    return variants[0] if len(variants) == 1 else {"oneOf": variants}
+
+
+def _range(one: Field, factor: float) -> dict[str, float]:
+    key = one.key
+    bounds = {"minimum": key.low, "maximum": key.high, "exclusiveMinimum": key.above, "exclusiveMaximum": key.below}
+    if factor < 0:
+        turned = {"minimum": "maximum", "maximum": "minimum"}
+        turned |= {"exclusiveMinimum": "exclusiveMaximum", "exclusiveMaximum": "exclusiveMinimum"}
+        bounds = {turned[word]: bound for word, bound in bounds.items()}
+    return {word: bound / factor for word, bound in bounds.items() if math.isfinite(bound)}
+
+
+def _described(one: Field, spelling: str) -> str:
+    unit = spelling.removeprefix(one.key.mirror if one.key.mirror and spelling.startswith(one.key.mirror) else one.name)
+    opposite = " (with the opposite sign)" if one.spellings[spelling] < 0 else ""
+    return f"{one.key.doc}{opposite}" + (f" [{label(unit.lstrip('_'))}]" if unit else "")

@@ -1,0 +1,86 @@
+"""The file that ``cardan init`` writes."""
+
+from __future__ import annotations
+
+STARTER = """\
+# A drive file of cardan. Every key carries its unit; any usual one will do (_mm, _m, _in; _deg, _rad; _rpm, _rad_s).
+# Lengths along x run with the power flow, y to the left, z up. Shaft 1 is the input shaft, joints are numbered along
+# the power flow; shaft k lies between joint k-1 and joint k.
+
+format = 1
+name = "my drive"
+
+# --- Geometry by joint centres -------------------------------------------------------------------------------------
+input.point_mm = [-300, 0, 0]       # any point of the input axis before joint 1
+# input.start_phase_deg = 0         # driving yoke of joint 1 from the plane of its two shafts at the start
+output.point_mm = [1900, 40, -260]  # any point of the output axis behind the last joint
+
+[[joints]]
+name = "gearbox"
+centre_mm = [0, 0, 0]
+
+[[joints]]
+name = "axle"
+centre_mm = [1200, 0, -160]
+# move_within_mm = [[1150, 1250], [0, 0], [-180, -120]]   # box in which `cardan phases --layout` may put this centre
+
+# --- Yokes and splines ---------------------------------------------------------------------------------------------
+[[shafts]]
+number = 2
+yoke_angle_deg = 0                  # FROM the driving TO the driven yoke, about the shaft along the power flow
+# yoke_fixed = true                 # not to be turned by synthesis
+# spline = { teeth = 16, engaged_mm = 90, gap_mm = 40 }
+
+[duty]
+speed_rpm = 3000
+
+# --- Instead of centres: bends and plane twists --------------------------------------------------------------------
+# [[joints]]
+# bend_deg = 7.6                    # angle between the joint's two shafts
+# [[joints]]
+# bend_deg = 5.2
+# plane_twist_deg = 35              # from the plane of the joint before to this one, about the shaft between them
+# [[shafts]]
+# number = 2
+# length_mm = 1200
+
+# --- Or: slopes and lengths, as measured under the vehicle ---------------------------------------------------------
+# [[joints]]
+# [[joints]]
+# [[shafts]]
+# number = 1
+# side_slope_deg = 0                # rising along the power flow is positive
+# plan_slope_deg = 0                # to the left is positive
+# [[shafts]]
+# number = 2
+# side_slope_deg = -7.6
+# length_mm = 1210
+# [[shafts]]
+# number = 3
+# side_slope_deg = -8.1
+# plan_slope_deg = 3.3
+
+# --- How the drive moves, and standing variants --------------------------------------------------------------------
+# [[movements]]
+# kind = "harmonic"                 # hitch, arm, parallel, harmonic, body, table, random
+# moves = ["joints[1]", "output"]
+# amplitude_mm = [0, 0, 60]
+# frequency_Hz = 1.5
+#
+# [[poses]]
+# name = "full load"
+# share_percent = 30
+# set = { "joints[1].centre_mm" = [1200, 0, -110], "output.point_mm" = [1900, 40, -210] }
+"""
+
+
+def starter() -> str:
+    """Return a commented drive file to start from; it loads as it is.
+
+    Examples
+    --------
+    >>> from cardan.io import loads
+    >>> loads(starter()).name
+    'my drive'
+    """
+    return STARTER
