@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
-import math
-import types
-import typing
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import cardan
-from cardan.units import DIMENSIONS, KEY, Key, label, preferred
-
-UNITLESS = {float: "number", int: "whole number", bool: "`true` or `false`", str: "text"}
+from cardan.units import DIMENSIONS
 
 
 def write(folder: Path) -> None:
     """Write all generated pages, touching only those that changed."""
     folder.mkdir(parents=True, exist_ok=True)
-    pages = {"drive-file.md": drive_file(), "units.md": units(), "commands.md": commands(), "names.md": names()}
+    pages = {"drive-file.md": drive_file(), "units.md": units(), "commands.md": commands(), "names.md": names(), "examples.md": examples()}
     for name, text in pages.items():
         file = folder / name
         if not file.exists() or file.read_text(encoding="utf-8") != text:
@@ -36,95 +30,25 @@ def units() -> str:
 
 def drive_file() -> str:
     """Return one section for each table of the drive file."""
-    from cardan.drive.drive import Drive, Input, Output
-    from cardan.drive.duty import Duty, Limits
-    from cardan.drive.joints import JOINTS
-    from cardan.drive.movement import MOVEMENTS, Spectrum
-    from cardan.drive.pose import Pose
-    from cardan.drive.shaft import Shaft, Spline
+    from cardan.io import reference
 
-    parts = [("Head", Drive, "", {"input", "output", "joints", "shafts", "duty", "limits", "movements", "poses"})]
-    parts += [("`[input]`", Input, "", set()), ("`[output]`", Output, "", set())]
-    parts += [(f'`[[joints]]`, `kind = "{kind}"`', of, doc(of), set()) for kind, of in JOINTS.items()]
-    parts += [("`[[shafts]]`", Shaft, doc(Shaft), {"spline"}), ("`spline` of a shaft", Spline, doc(Spline), set())]
-    parts += [("`[duty]`", Duty, doc(Duty), set()), ("`[limits]`", Limits, doc(Limits), set())]
-    hidden = {"times", "shifts"}
-    parts += [(f'`[[movements]]`, `kind = "{kind}"`', of, doc(of), hidden) for kind, of in MOVEMENTS.items()]
-    parts += [("`spectrum` of a random movement", Spectrum, doc(Spectrum), set()), ("`[[poses]]`", Pose, doc(Pose), set())]
-    return "\n".join(_section(*part) for part in parts)
+    return reference()
 
 
-def doc(thing: Any) -> str:
-    """Return the first paragraph of a docstring."""
-    return " ".join((inspect.getdoc(thing) or "").split("\n\n")[0].split())
+def examples() -> str:
+    """Return one section for each shipped example: its picture, what the program says of it, its text."""
+    from cardan import equivalent_joint
+    from cardan.io import example, example_names, example_text
 
-
-def _section(title: str, owner: Any, intro: str, left_out: set[str]) -> str:
-    hints = typing.get_type_hints(owner)
-    rows = [f"## {title}", "", intro, "", "| key | meaning | value | default |", "|---|---|---|---|"]
-    if title == "Head":
-        rows.append("| `format` | version of the file format | `1` | **needed** |")
-    if "kind = " in title:
-        kind = title.split('"')[1]
-        rows.append(f'| `kind` | which {title[3:].split("]")[0][:-1]} this is | `"{kind}"` | '
-                    + ('`"hooke"`' if kind == "hooke" else "**needed**") + " |")
-    for item in dataclasses.fields(owner):
-        if KEY not in item.metadata or item.name in left_out:
-            continue
-        key: Key = item.metadata[KEY]
-        names = [item.name, *([key.mirror] if key.mirror else [])]
-        shown = " or ".join(f"`{_suffixed(name, key)}`" for name in names)
-        extra = f" (`{key.mirror}` is the same with the opposite sign)" if key.mirror else ""
-        rows.append(f"| {shown} | {key.doc}{extra} | {_value(hints[item.name], key)} | {_default(item, key)} |")
-    return "\n".join([*rows, ""])
-
-
-def _suffixed(name: str, key: Key) -> str:
-    return f"{name}_{preferred(key.dimension)}" if key.dimension else name
-
-
-def _value(hint: Any, key: Key) -> str:
-    if key.choices:
-        return ", ".join(f'`"{choice}"`' for choice in key.choices)
-    text = _kind(hint)
-    if key.dimension:
-        text = f"{key.dimension.replace('_', ' ')}" + ("" if text == "number" else f", {text}")
-    limits = [(key.low, "≥"), (key.above, ">"), (key.high, "≤"), (key.below, "<")]
-    kept = [f"{sign} {_number(value, key)}" for value, sign in limits if math.isfinite(value)]
-    return text + (f"; {' and '.join(kept)}" if kept else "")
-
-
-def _kind(hint: Any) -> str:
-    given = typing.get_args(hint)
-    if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        return _kind(next(one for one in given if one is not type(None)))
-    if typing.get_origin(hint) is tuple:
-        if given[-1] is Ellipsis:
-            return "list"
-        if typing.get_origin(given[0]) is tuple:
-            return "`[[x0, x1], [y0, y1], [z0, z1]]`"
-        return "`[x, y, z]`" if len(given) == 3 else "list"
-    return UNITLESS.get(hint, "table")
-
-
-def _number(value: float, key: Key) -> str:
-    if key.dimension is None:
-        return f"{value:g}"
-    unit = preferred(key.dimension)
-    return f"{value / DIMENSIONS[key.dimension][unit]:.4g} {label(unit)}".replace(" °", "°")
-
-
-def _default(item: Any, key: Key) -> str:
-    value = item.default
-    if value is dataclasses.MISSING:
-        return "**needed**"
-    if value is None or value in ("", ()):
-        return "–"
-    if isinstance(value, bool):
-        return f"`{str(value).lower()}`"
-    if isinstance(value, int | float):
-        return _number(value, key)
-    return "`[0, 0, 0]`" if isinstance(value, tuple) else "–"
+    parts = []
+    for name in example_names():
+        drive, text = example(name), example_text(name)
+        joint = equivalent_joint(drive)
+        said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
+        parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")
+        parts.append(f"{drive.name}: {said}, irregularity of the output {100 * float(joint.irregularity):.3g} %.\n")
+        parts.append(f"```toml\n{text.strip()}\n```\n")
+    return "\n".join(parts) or "\n"
 
 
 def commands() -> str:
@@ -159,7 +83,7 @@ def _commands(group: Any, path: str) -> Iterator[str]:
             yield "\n".join(rows) + "\n"
         if command.epilog:
             lines = [line.strip() for line in _plain(command.epilog).splitlines() if line.strip()]
-            yield "```text\n" + "\n".join(line for line in lines if line.startswith("cardan")) + "\n```\n"
+            yield "```text\n" + "\n".join(line for line in lines if line.lstrip("$ ").startswith("cardan")) + "\n```\n"
 
 
 def _plain(text: str | None) -> str:
@@ -199,9 +123,9 @@ def names() -> str:
             continue
         parts.append(f"## {title}\n\n```{{eval-rst}}")
         for name, home in found:
-            thing = getattr(__import__(f"cardan.{home}", fromlist=[name]), name)
+            thing = getattr(cardan, name)
             kind = "autoclass" if inspect.isclass(thing) else "autofunction" if callable(thing) else "autodata"
-            if issubclass(thing, Exception) if inspect.isclass(thing) else False:
+            if inspect.isclass(thing) and issubclass(thing, Exception):
                 kind = "autoexception"
             parts.append(f".. {kind}:: cardan.{home}.{name}")
         parts.append("```\n")
