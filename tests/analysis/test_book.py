@@ -16,7 +16,7 @@ from cardan.analysis.book_forms import (
     double_joint,
     double_joint_law,
 )
-from cardan.analysis.single_joint import book_coefficients, extremes, fourier
+from cardan.analysis.single_joint import book_coefficients, fourier, joint_extremes
 from cardan.units import arcmin, deg
 from tests.builders.drives import plans
 
@@ -223,7 +223,7 @@ def test_table_4_has_the_digits_of_the_book_but_for_its_slips():
         (40, 1.3054, 0.7660, 420 + 36.8, 0.539363, 0.5762153),
         (45, 1.4142, 0.7071, 540 + 52.8, 0.707107, 0.7872003),
     ]
-    table = extremes(np.asarray([row[0] for row in rows]) * deg)
+    table = joint_extremes(np.asarray([row[0] for row in rows]) * deg)
     columns = (table.ratio_max, table.ratio_min, table.lead / arcmin, table.irregularity, table.acceleration)
     for k, tolerance in enumerate((5e-5, 5e-5, 0.05, 5e-7, 5e-8)):
         assert np.allclose(columns[k], [row[k + 1] for row in rows], rtol=0, atol=1.01 * tolerance)
@@ -231,7 +231,7 @@ def test_table_4_has_the_digits_of_the_book_but_for_its_slips():
 
 @given(st.floats(0.5 * deg, 85 * deg))
 def test_extremes_are_extreme(bend):
-    found = extremes(np.asarray([bend]))
+    found = joint_extremes(np.asarray([bend]))
     drive = Drive.from_angles([bend])
     at = motion(drive, [0.0, math.pi / 2, found.angle_of_lead[0], found.angle_of_acceleration[0]])
     assert at.ratio[0] == pytest.approx(found.ratio_max[0], rel=1e-12)

@@ -11,7 +11,7 @@ from .equivalence import angle_of_largest_acceleration, angle_of_largest_lead, l
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Extremes:
+class JointExtremes:
     """One row of Book Table 4 for each bend, and the angles at which the extremes stand.
 
     Attributes
@@ -39,7 +39,7 @@ class Extremes:
     angle_of_acceleration: Array
 
 
-def extremes(bend: Array) -> Extremes:
+def joint_extremes(bend: Array) -> JointExtremes:
     """Return the extremes of single joints, exactly.
 
     Parameters
@@ -49,7 +49,7 @@ def extremes(bend: Array) -> Extremes:
 
     Returns
     -------
-    Extremes
+    JointExtremes
         arrays (...).
 
     Notes
@@ -60,11 +60,11 @@ def extremes(bend: Array) -> Extremes:
     --------
     >>> import numpy as np
     >>> from cardan.units import deg
-    >>> extremes(np.asarray([20 * deg])).acceleration
+    >>> joint_extremes(np.asarray([20 * deg])).acceleration
     array([0.12496558])
     """
     xp = namespace(bend)
-    return Extremes(
+    return JointExtremes(
         ratio_max=1.0 / xp.cos(bend),
         ratio_min=xp.cos(bend),
         irregularity=xp.sin(bend) * xp.tan(bend),

@@ -11,7 +11,7 @@ import numpy as np
 from cardan.analysis.book import book_series
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.analysis.motion import Motion, motion, phase_angles
-from cardan.analysis.single_joint import book_coefficients, extremes, fourier
+from cardan.analysis.single_joint import book_coefficients, fourier, joint_extremes
 from cardan.drive.drives import Drives
 from cardan.drive.geometry import geometry_from_points
 from cardan.drive.validity import point_problems
@@ -109,7 +109,7 @@ def _single_joint(values: Values) -> Values:
 
 
 def _extremes(values: Values) -> Values:
-    found = extremes(np.asarray(values["alpha"]))
+    found = joint_extremes(np.asarray(values["alpha"]))
     return {
         "ratio_max": found.ratio_max,
         "ratio_min": found.ratio_min,

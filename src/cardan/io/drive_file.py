@@ -31,6 +31,11 @@ def load(path: str | Path) -> Drive:
     path : str or Path
         A ``.toml`` file, or ``.json`` with the same tables.
 
+    Returns
+    -------
+    Drive
+        In SI, as the file gives it.
+
     Raises
     ------
     InputError
@@ -68,6 +73,10 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
         ``"toml"`` or ``"json"``.
     name : str
         What messages call the text.
+
+    Returns
+    -------
+    Drive
 
     Raises
     ------
@@ -115,6 +124,14 @@ def save(thing: Any, path: str | Path) -> None:
     ------
     InputError
         The suffix is not known or the file cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     save(Drive.from_angles([0.1]), Path(folder) / "drive.toml")
+    ...     load(Path(folder) / "drive.toml").form
+    'angles'
     """
     where = Path(path)
     if not isinstance(thing, Drive):

@@ -65,6 +65,10 @@ def example(name: str) -> Drive:
     name : str
         One of `example_names`.
 
+    Returns
+    -------
+    Drive
+
     Raises
     ------
     InputError

@@ -1,0 +1,89 @@
+"""The docstring is a contract: every public thing says what it takes, in which shape and unit, and shows it."""
+
+import inspect
+import re
+from dataclasses import fields, is_dataclass
+
+import pytest
+
+import cardan
+
+PUBLIC = {name: getattr(cardan, name) for name in cardan.__all__ if name != "__version__"}
+FUNCTIONS = {name: thing for name, thing in PUBLIC.items() if inspect.isfunction(thing)}
+RECORDS = {name: thing for name, thing in PUBLIC.items() if is_dataclass(thing)}
+
+
+def section(doc, title):
+    """Return the entries of a numpydoc section as (name, what stands after its colon)."""
+    found = re.search(rf"^{title}\n-+\n(.*?)(?=^\S[^\n]*\n-{{3,}}\n|\Z)", doc, re.M | re.S)
+    lines = found.group(1).splitlines() if found else []
+    entries = []
+    for line in lines:
+        match = re.match(r"^(\*{0,2}\w[\w, *]*)(?: : (.*))?$", line)
+        if match:
+            entries += [(name.strip(" *"), match.group(2) or "") for name in match.group(1).split(",")]
+    return entries
+
+
+def test_every_public_thing_is_of_a_known_sort():
+    other = set(PUBLIC) - set(FUNCTIONS) - set(RECORDS)
+    assert all(inspect.isclass(PUBLIC[name]) or not callable(PUBLIC[name]) for name in other)
+
+
+@pytest.mark.parametrize("name", [name for name, thing in PUBLIC.items() if callable(thing)])
+def test_the_summary_is_one_sentence(name):
+    summary = inspect.getdoc(PUBLIC[name]).split("\n\n")[0]
+    assert summary.endswith((".", "?"))
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_parameters_are_those_of_the_signature_in_its_order(name):
+    takes = [p.name for p in inspect.signature(FUNCTIONS[name]).parameters.values()]
+    documented = section(inspect.getdoc(FUNCTIONS[name]), "Parameters")
+    assert [entry for entry, _ in documented] == takes
+    assert all(kind for _, kind in documented)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_functions_say_what_they_return_and_show_it(name):
+    doc = inspect.getdoc(FUNCTIONS[name])
+    if inspect.signature(FUNCTIONS[name]).return_annotation not in (None, "None"):
+        assert "\nReturns\n---" in doc
+    assert "\nExamples\n---" in doc
+    assert ">>> " in doc
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_results_document_every_field(name):
+    kind = RECORDS[name]
+    doc = inspect.getdoc(kind)
+    documented = [entry for entry, _ in section(doc, "Attributes") + section(doc, "Parameters")]
+    # Parts of the drive file carry a sentence with each field, from which schema and reference are made.
+    bare = [field.name for field in fields(kind) if not field.name.startswith("_") and "cardan" not in field.metadata]
+    assert set(bare) <= set(documented)
+    assert set(documented) <= {field.name for field in fields(kind)}
+
+
+@pytest.mark.parametrize("name", [*FUNCTIONS, *RECORDS])
+def test_numbers_have_units_and_arrays_shapes(name):
+    doc = inspect.getdoc(PUBLIC[name])
+    entries = section(doc, "Parameters") + section(doc, "Attributes")
+    for entry, kind in entries:
+        if re.search(r"\barrays?\b", kind) and "optional" not in kind:
+            assert "(" in kind, f"{name}.{entry} does not say its shape"
+    assert "[rad]" in doc or "[deg]" not in doc, "Python is SI"
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_properties_have_a_sentence(name):
+    for attribute, thing in vars(RECORDS[name]).items():
+        if isinstance(thing, property) and not attribute.startswith("_"):
+            assert inspect.getdoc(thing), f"{name}.{attribute}"
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_records_are_frozen_and_named(name):
+    kind = RECORDS[name]
+    if not issubclass(kind, Exception):
+        assert kind.__dataclass_params__.frozen
+        assert all(field.kw_only for field in fields(kind))
