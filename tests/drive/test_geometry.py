@@ -104,6 +104,14 @@ def test_straight_joints_have_a_plane_and_no_bend(points):
         assert place.plane_twist[i - 1] == pytest.approx(0.0, abs=1e-15), "a straight joint keeps the plane before it"
 
 
+def test_straight_joints_at_the_start_take_the_first_plane_there_is():
+    points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [4, 1, 0], [5, 1, 1], [6, 0, 2]]
+    place = geometry_from_points(np.asarray(points, dtype=float))
+    assert place.bend[:2].tolist() == [0.0, 0.0]
+    assert place.plane_twist[:2] == pytest.approx([0.0, 0.0], abs=1e-15)
+    assert abs(place.plane_twist[2]) > 0.5
+
+
 def test_the_free_choice_of_a_straight_joints_plane_does_not_show():
     """A straight joint hardly bent to either side: the output moves alike."""
     from cardan import motion

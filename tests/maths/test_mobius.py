@@ -65,6 +65,24 @@ def test_ratios_in_series_multiply(f, g, angle):
     assert mobius.ratio(mobius.compose(g, f), w) == pytest.approx(chained, rel=1e-13)
 
 
+@given(pairs(), ANGLES)
+def test_the_course_is_lead_ratio_and_slope_and_each_derives_from_the_one_before(f, angle):
+    h = 1e-3
+    w = [unit_complex(np.asarray(2 * (angle + k * h))) for k in (-2, -1, 0, 1, 2)]
+    lead, ratio, slope = mobius.course(f, w[2])
+    assert lead == pytest.approx(mobius.lead(f, w[2]), abs=ROUNDING)
+    assert ratio == pytest.approx(mobius.ratio(f, w[2]), rel=1e-14)
+    assert slope == pytest.approx(mobius.ratio_slope(f, w[2]), rel=1e-13, abs=1e-14)
+
+    def derivative(of):
+        far, near, _, near_, far_ = (of(f, x) for x in w)
+        return (8 * (near_ - near) - (far_ - far)) / (12 * h)
+
+    # Fourth order: h⁴ f⁽⁵⁾/30 with f⁽⁵⁾ < 1e4 at 60°, and rounding over h.
+    assert derivative(mobius.lead) == pytest.approx(ratio - 1, abs=1e-9)
+    assert derivative(mobius.ratio) == pytest.approx(slope, abs=1e-8)
+
+
 @given(BENDS, st.floats(-1.5, 1.5))
 def test_a_hooke_joint_turns_as_its_tangents_say(bend, theta):
     w = unit_complex(np.asarray(2 * theta))
