@@ -11,7 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Table
 from cardan.drive.shaft import Shaft, Spline
-from cardan.errors import InputError
+from cardan.errors import BendLimitError, InputError
 from cardan.units import deg
 
 REAR = ("joints[1]", "output")
@@ -40,18 +40,6 @@ def test_hitch_closed_form_and_moved_drive_agree_with_vector_geometry(before, be
     assert np.rad2deg(found.bend[0]) == pytest.approx(expected[:2], abs=1e-9)
     assert found.length[0, 1] == pytest.approx(expected[2], abs=1e-12)
     assert found.irregularity[0] == pytest.approx(expected[3], abs=1e-12)
-
-
-def test_hitch_irregularity_closed_form():
-    yaw = np.linspace(-0.8, 0.8, 9)
-    found = hitch(yaw, 0.1, before=0.3, behind=0.5)
-    ratio = np.cos(found.bend[:, 0]) / np.cos(found.bend[:, 1])
-    np.testing.assert_allclose(found.irregularity, 2.0 * np.sinh(np.abs(np.log(ratio))), rtol=1e-12)
-    np.testing.assert_allclose(found.bend.sum(axis=-1), found.articulation, rtol=1e-13)
-    with pytest.raises(InputError, match="before"):
-        hitch(0.1, before=0.0, behind=1.0)
-    with pytest.raises(InputError, match="90"):
-        hitch(175 * deg, before=0.3, behind=1.0)
 
 
 def test_hitch_half_way_stays_synchronous_moving_too_at_every_yaw_and_pitch():
@@ -142,6 +130,8 @@ def test_sampled_speeds_stay_in_their_range():
     found = articulation(drive, move, speed=170.0)
     assert np.all(found.shaft_speed <= found.speed_high + 1e-9)
     assert np.all(found.shaft_speed >= found.speed_low - 1e-9)
+    assert np.all(found.shaft_acceleration <= found.acceleration_high + 1e-6)
+    assert np.all(found.shaft_acceleration >= found.acceleration_low - 1e-6)
     np.testing.assert_allclose(found.speed_low[:, 0], 170.0)
     # Over 361 unrelated yoke positions the sampled speeds come near both ends.
     assert np.max((found.shaft_speed - found.speed_low)[:, -1] / (found.speed_high - found.speed_low)[:, -1]) > 0.99
@@ -221,6 +211,12 @@ def test_without_a_speed_there_are_no_speeds():
     assert found.speed_low is None
     assert np.all(np.isnan(found.moving_irregularity))
     assert {one.what for one in found.worst} == {"bend", "irregularity", "length_min", "length_max"}
+
+
+def test_a_movement_without_a_possible_instant_is_refused():
+    drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, 0]])
+    with pytest.raises(BendLimitError, match="every instant"):
+        articulation(drive, Harmonic(moves=("output",), amplitude=(-3.0, 0.0, 0.0), frequency=1.0), [1.0, 2.0])
 
 
 def test_the_file_says_movement_and_speed():

@@ -5,7 +5,8 @@ import pytest
 
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.analysis.motion import motion
-from cardan.analysis.moving_chain import harmonic_points, moving_axes, moving_centres, moving_shafts, speed_range
+from cardan.analysis.moving_chain import harmonic_points, moving_axes, moving_centres, moving_shafts
+from cardan.analysis.spin_range import acceleration_range, speed_range
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import geometry
 from cardan.maths import frames, paths
@@ -142,32 +143,6 @@ def test_moving_input_axis_carries_the_yoke_without_twisting():
     np.testing.assert_allclose(found.spins.spin[2:-2, 1:], following, rtol=1e-7)
 
 
-def test_transport_round_a_cone_twists_by_its_solid_angle():
-    half = 0.3
-
-    def direction(times):
-        c, s = np.cos(times), np.sin(times)
-        a = np.stack((np.sin(half) * c, np.sin(half) * s, np.cos(half) + 0.0 * times), axis=-1)
-        return a, np.stack((-np.sin(half) * s, np.sin(half) * c, 0.0 * times), axis=-1)
-
-    found = paths.transport(direction, np.asarray([2.0 * np.pi, 0.0, -2.0 * np.pi]))
-    solid = 2.0 * np.pi * (1.0 - np.cos(half))
-    # The shortest-arc frame comes back to itself; the carried one has turned by the solid angle of the cone.
-    np.testing.assert_allclose(np.abs(found), [solid, 0.0, solid], atol=1e-11)
-    assert found[0] == pytest.approx(-found[2], abs=1e-11)
-
-
-def test_transport_of_a_plane_swing_is_nothing():
-    path = harmonic_points([[-1, 0, 0], [0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 0.4], [0, 0, 0]], frequency=3.0)
-    times = np.linspace(0.0, 4.0, 41)
-
-    def direction(at):
-        shafts = moving_shafts(path(at))
-        return shafts.axis[:, 0], shafts.axis_rate[:, 0]
-
-    np.testing.assert_array_equal(paths.transport(direction, times), 0.0)
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_spin_range_holds_every_yoke_position(seed):
     path = wild(seed, fixed=0, frequency=25.0)
@@ -177,10 +152,14 @@ def test_spin_range_holds_every_yoke_position(seed):
     low, high = speed_range(axes, yoke_angle=gamma, speed=30.0)
     theta = np.linspace(0.0, np.pi, 40_001)
     arms = frames.rotate(frames.perpendicular(axes[0][0]), axes[0][0], theta)
-    spin = moving_axes(tuple(part[None] for part in axes), arms, yoke_angle=gamma, speed=30.0).spin
+    each = moving_axes(tuple(part[None] for part in axes), arms, yoke_angle=gamma, speed=30.0, acceleration=70.0)
     # The grid misses an extreme by (8e-5 rad)² of the swing at most.
-    np.testing.assert_allclose(low, spin.min(axis=0), rtol=2e-7)
-    np.testing.assert_allclose(high, spin.max(axis=0), rtol=2e-7)
+    np.testing.assert_allclose(low, each.spin.min(axis=0), rtol=2e-7)
+    np.testing.assert_allclose(high, each.spin.max(axis=0), rtol=2e-7)
+    low, high = acceleration_range(axes, yoke_angle=gamma, speed=30.0, acceleration=70.0)
+    gain = each.spin_acceleration
+    np.testing.assert_allclose(low, gain.min(axis=0), atol=2e-7 * np.ptp(gain), rtol=1e-12)
+    np.testing.assert_allclose(high, gain.max(axis=0), atol=2e-7 * np.ptp(gain), rtol=1e-12)
 
 
 def test_spin_range_at_rest_is_the_equivalent_joint():
@@ -188,6 +167,9 @@ def test_spin_range_at_rest_is_the_equivalent_joint():
     axis = geometry(drive).axis
     low, high = speed_range((axis, 0.0 * axis, 0.0 * axis), yoke_angle=[0.1, 0.9], speed=1.0)
     np.testing.assert_allclose((high - low)[1:], equivalent_joint(drive).shaft_irregularity, rtol=1e-13)
+    low, high = acceleration_range((axis, 0.0 * axis, 0.0 * axis), yoke_angle=[0.1, 0.9], speed=1.0)
+    largest = equivalent_joint(drive).max_acceleration
+    assert (-low[-1], high[-1]) == pytest.approx((largest, largest), rel=1e-12)
 
 
 def test_rigid_motion_of_the_whole_drive_adds_the_turn_about_each_axis():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.analysis.moving_chain import speed_range
+from cardan.analysis.spin_range import speed_range
 from cardan.analysis.varying_bend import (
     double_joint_speed,
     driven_motion,

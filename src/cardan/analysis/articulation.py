@@ -11,7 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
 from cardan.drive.movement import Movement
 from cardan.drive.validity import shown
-from cardan.errors import refuse
+from cardan.errors import BendLimitError, Problem, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.paths import Path
 from cardan.texts import _
@@ -33,7 +33,8 @@ class Worst:
     Attributes
     ----------
     what : str
-        ``bend`` [rad], ``irregularity``, ``moving_irregularity``, ``speed_error``, ``length_max`` [m], ``length_min``.
+        ``bend`` [rad], ``irregularity``, ``moving_irregularity``, ``speed_error``, ``acceleration`` [rad/s²],
+        ``length_max`` [m], ``length_min`` [m].
     number : int
         Number of the joint (``bend``) or shaft.
     time : float [s]
@@ -73,6 +74,8 @@ class Articulation:
         neighbouring instants catch unrelated yoke positions: plot `speed_low` and `speed_high` instead.
     speed_low, speed_high : arrays (t, n+1) [rad/s] or None
         Exact extremes of ω_i over all yoke positions at each instant.
+    acceleration_low, acceleration_high : arrays (t, n+1) [rad/s²] or None
+        The same of ε_i.
     moving_irregularity : array (t,)
         (ω_max - ω_min)/\\|ω_1\\| of the output over all yoke positions at each instant, the movement counted; nan
         without a speed.
@@ -104,6 +107,8 @@ class Articulation:
     shaft_acceleration: Array | None
     speed_low: Array | None
     speed_high: Array | None
+    acceleration_low: Array | None
+    acceleration_high: Array | None
     moving_irregularity: Array
     speed_error: Array
     status: Array
@@ -158,6 +163,8 @@ def articulation(
     ------
     InputError
         No movement, or instants outside a table.
+    BendLimitError
+        A joint bends 90 degrees or more at every instant.
 
     Notes
     -----
@@ -183,6 +190,10 @@ def articulation(
     omega = drive.duty.speed if speed is None else speed
     ask = Question(drive, place, path, omega, drive.duty.acceleration, start)
     found = ask.answer(at)
+    if np.all(found.status == Position.IMPOSSIBLE):
+        raise BendLimitError(
+            [Problem("movements", _("at every instant a joint bends 90° or more; a universal joint needs less"))]
+        )
     splines = _splines(drive, place, found)
     return Articulation(
         times=at,
@@ -197,8 +208,10 @@ def articulation(
         acceleration=drive.duty.acceleration,
         shaft_speed=found.shaft_speed,
         shaft_acceleration=found.shaft_acceleration,
-        speed_low=None if found.range is None else found.range[0],
-        speed_high=None if found.range is None else found.range[1],
+        speed_low=None if found.speed_range is None else found.speed_range[0],
+        speed_high=None if found.speed_range is None else found.speed_range[1],
+        acceleration_low=None if found.acceleration_range is None else found.acceleration_range[0],
+        acceleration_high=None if found.acceleration_range is None else found.acceleration_range[1],
         moving_irregularity=found.unevenness,
         speed_error=found.speed_error,
         status=found.status,
@@ -286,6 +299,7 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
         ("irregularity", n + 1, lambda some: some.shaft_irregularity[:, -1]),
         ("moving_irregularity", n + 1, lambda some: some.unevenness),
         ("speed_error", n + 1, lambda some: some.speed_error),
+        ("acceleration", n + 1, lambda some: some.largest_acceleration),
     ]
     for what, number, value in wanted:
         found_worst = _largest(found, value)

@@ -18,7 +18,8 @@ from cardan.texts import _
 from cardan.units import deg
 
 from .equivalence import WARN_BEND, equivalent_joint
-from .moving_chain import MovingMotion, Shafts, moving_centres, moving_shafts, speed_range
+from .moving_chain import MovingMotion, Shafts, moving_centres, moving_shafts
+from .spin_range import acceleration_range, speed_range
 
 
 class Position(IntEnum):
@@ -43,7 +44,8 @@ class Instants:
     shaft_irregularity: Array
     shaft_speed: Array | None
     shaft_acceleration: Array | None
-    range: tuple[Array, Array] | None
+    speed_range: tuple[Array, Array] | None
+    acceleration_range: tuple[Array, Array] | None
     status: Array
 
     @property
@@ -60,11 +62,20 @@ class Instants:
         return result
 
     @property
+    def largest_acceleration(self) -> Array:
+        """Largest \\|ε_out\\| over all yoke positions, array (t,) [rad/s²]."""
+        if self.acceleration_range is None:
+            return np.full(self.times.shape, np.nan)
+        low, high = self.acceleration_range
+        result: Array = np.maximum(np.abs(low[:, -1]), np.abs(high[:, -1]))
+        return result
+
+    @property
     def _outputs(self) -> tuple[Array, Array]:
         """Lowest and highest ω_out/ω_1, nan where the input stands."""
-        if self.range is None:
+        if self.speed_range is None:
             return np.full(self.times.shape, np.nan), np.full(self.times.shape, np.nan)
-        low, high = self.range
+        low, high = self.speed_range
         omega = np.where(high[:, 0] == 0.0, np.nan, high[:, 0])
         ends = low[:, -1] / omega, high[:, -1] / omega
         return np.minimum(*ends), np.maximum(*ends)
@@ -104,9 +115,11 @@ class Question:
         with np.errstate(invalid="ignore", divide="ignore"):
             shafts = moving_shafts(jet)
             motion = None if self.speed is None else self._motion(times, gamma, self.speed)
-            extremes = (
-                None if motion is None else speed_range(motion.axes, yoke_angle=gamma, speed=motion.spins.spin[:, 0])
-            )
+            speeds, gains = None, None
+            if motion is not None:
+                omega = motion.spins.spin[:, 0]
+                speeds = speed_range(motion.axes, yoke_angle=gamma, speed=omega)
+                gains = acceleration_range(motion.axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration)
         steep = np.any(frozen.bend > WARN_BEND * deg, axis=-1)
         status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
 
@@ -122,7 +135,8 @@ class Question:
             shaft_irregularity=held(equivalent_joint(chain).shaft_irregularity),
             shaft_speed=None if motion is None else held(motion.spins.spin),
             shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
-            range=None if extremes is None else (held(extremes[0]), held(extremes[1])),
+            speed_range=None if speeds is None else (held(speeds[0]), held(speeds[1])),
+            acceleration_range=None if gains is None else (held(gains[0]), held(gains[1])),
             status=status,
         )
 

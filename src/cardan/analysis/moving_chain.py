@@ -171,62 +171,6 @@ def moving_axes(
     )
 
 
-def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[Array, Array]:
-    """Return the lowest and highest spin of every shaft over all yoke positions, at each instant, exactly.
-
-    Parameters
-    ----------
-    axes : Jet (..., n+1, 3)
-        Directions of the shafts and their rates [1/s]; accelerations do not matter.
-    yoke_angle : array (n-1,) [rad]
-        γ_2 … γ_n.
-    speed : float or array (...) [rad/s]
-        ω_1.
-
-    Returns
-    -------
-    low, high : arrays (..., n+1) [rad/s]
-
-    Notes
-    -----
-    The shafts turn many times while the centres hardly move, so at an instant every yoke position will occur. A moving
-    chain is a Möbius map that changes in time, hence ω_i Q = N with Q = ω_1/ω_i of the frozen drive, and both are of
-    the form q_0 + q_1 cos 2θ + q_2 sin 2θ over the input angle θ. Three angles fix them; the extremes λ of N/Q are
-    where N - λ Q touches zero: λ² - 2⟨N,Q⟩λ + ⟨N,N⟩ = 0 with ⟨x,y⟩ = x_0 y_0 - x_1 y_1 - x_2 y_2 and ⟨Q,Q⟩ = 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> bend = np.deg2rad(20.0)
-    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(bend), np.sin(bend), 0.0]])
-    >>> low, high = speed_range((a, 0.0 * a, 0.0 * a), yoke_angle=[], speed=100.0)
-    >>> low, high
-    (array([100.        ,  93.96926208]), array([100.        , 106.41777725]))
-    """
-    a = axes[0]
-    xp = namespace(a)
-    theta = xp.asarray([0.0, xp.pi / 3.0, 2.0 * xp.pi / 3.0])
-    arm = frames.perpendicular(a[..., 0, :])
-    arms = frames.rotate(arm[..., None, :], a[..., 0, None, :], theta)
-    omega = real(speed, xp) * xp.ones_like(a[..., 0, 0])
-    found = moving_axes(
-        tuple(part[..., None, :, :] for part in axes),
-        arms,
-        yoke_angle=yoke_angle,
-        speed=omega[..., None],
-    )
-    lower = 1.0 / found.frozen_ratio
-    upper = found.spin * lower
-    parts = xp.stack((xp.full((3,), 1.0 / 3.0), xp.cos(2.0 * theta) / 1.5, xp.sin(2.0 * theta) / 1.5))
-    q, n = parts @ lower, parts @ upper
-    sign = xp.asarray([1.0, -1.0, -1.0])[:, None]
-    middle = xp.sum(sign * n * q, axis=-2)
-    # ⟨N,Q⟩² - ⟨N,N⟩ written as the squared distance of N from its part along Q: no difference of near numbers.
-    rest = n - middle[..., None, :] * q
-    spread = xp.sqrt(xp.maximum(-xp.sum(sign * rest * rest, axis=-2), 0.0 * middle))
-    return middle - spread, middle + spread
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MovingMotion:
     """Motion of a drive over given instants of a movement.
