@@ -81,7 +81,8 @@ class Extremes:
         powers = [self.tau]
         for _k in range(1, count):
             powers.append(powers[-1] * self.tau)
-        return xp.stack([power / k for k, power in enumerate(powers[:count], start=1)], axis=-1)
+        rows = xp.stack([power / k for k, power in enumerate(powers[:count], start=1)])
+        return xp.moveaxis(rows, 0, -1)
 
 
 def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, method: Method | None = None) -> Extremes:

@@ -10,7 +10,7 @@ from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace
 
 from .drive import Drive
-from .geometry import geometry
+from .geometry import geometry, given_angles
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,10 +61,15 @@ def chain(drive: Drive) -> Chain:
     >>> chain(Drive.from_angles([20 * deg, 20 * deg])).turn_before
     array([0.        , 1.57079633])
     """
-    place = geometry(drive)
+    if drive.form == "angles":
+        bend, twist = given_angles(drive)
+        twist = twist[1:]
+    else:
+        place = geometry(drive)
+        bend, twist = place.bend, place.plane_twist
     return Chain(
-        bend=place.bend,
-        plane_twist=place.plane_twist,
+        bend=bend,
+        plane_twist=twist,
         yoke_angle=np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float),
         start_phase=np.asarray(drive.input.start_phase, dtype=float),
     )

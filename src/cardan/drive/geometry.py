@@ -177,8 +177,7 @@ def geometry(drive: Drive) -> Geometry:
         points = np.concatenate((-steps[:1], np.zeros((1, 3)), np.cumsum(steps[1:], axis=0)))
         found = geometry_from_points(points)
         return Geometry(**{**vars(found), "assumed": assumed})
-    bend = np.asarray([joint.bend for joint in drive.joints], dtype=float)
-    twist = np.asarray([joint.plane_twist or 0.0 for joint in drive.joints])
+    bend, twist = given_angles(drive)
     points = points_from_angles(bend, twist[1:], length, first_twist=twist[0])
     found = geometry_from_points(points)
     normal = _normals(found.axis, twist)
@@ -191,6 +190,12 @@ def geometry(drive: Drive) -> Geometry:
         plane_twist=twist[1:],
         assumed=assumed,
     )
+
+
+def given_angles(drive: Drive) -> tuple[Array, Array]:
+    """Return bends and plane twists (n,) of a drive that is given by them [rad]."""
+    bend = np.asarray([joint.bend for joint in drive.joints], dtype=float)
+    return bend, np.asarray([joint.plane_twist or 0.0 for joint in drive.joints])
 
 
 def _normals(axis: Array, twist: Array) -> Array:
@@ -211,4 +216,4 @@ def _lengths(drive: Drive) -> tuple[Array, tuple[str, ...]]:
     return length, assumed
 
 
-__all__ = ["Geometry", "geometry", "geometry_from_points", "points_from_angles"]
+__all__ = ["Geometry", "geometry", "geometry_from_points", "given_angles", "points_from_angles"]

@@ -61,6 +61,7 @@ NUMBERS: Any = _Numbers()
 """Namespace of formulas whose every argument is a Python float or complex."""
 
 _PLAIN = frozenset({float, complex})
+_NUMPY = frozenset({np.ndarray, np.float64, np.complex128})
 
 
 def namespace(*values: ArrayLike) -> Any:
@@ -73,12 +74,16 @@ def namespace(*values: ArrayLike) -> Any:
     >>> namespace(1.0, 2j) is NUMBERS
     True
     """
-    if values and _PLAIN.issuperset(map(type, values)):
-        return NUMBERS
+    numbers = bool(values)
     for value in values:
-        if hasattr(value, "__array_namespace__") and not isinstance(value, np.ndarray | np.generic):
-            return value.__array_namespace__()
-    return np
+        kind = type(value)
+        if kind in _PLAIN:
+            continue
+        numbers = False
+        if kind in _NUMPY or not hasattr(value, "__array_namespace__") or isinstance(value, np.ndarray | np.generic):
+            continue
+        return value.__array_namespace__()
+    return NUMBERS if numbers else np
 
 
 def real(value: ArrayLike, xp: Any) -> Array:
