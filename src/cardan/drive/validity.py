@@ -206,8 +206,6 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
             ("angles", f"joints[{i}].bend", joint.bend is not None),
             ("", f"joints[{i}].plane_twist", joint.plane_twist is not None),
         ]
-        if form != "angles" and joint.plane_twist is not None:
-            yield Problem(f"joints[{i}].plane_twist", _("only drives given by bends have plane twists"))
         if form != "points" and joint.move_within is not None:
             yield Problem(f"joints[{i}].move_within", _("only drives given by joint centres can be moved within a box"))
         for box, (low, high) in enumerate(joint.move_within or ()):
@@ -220,7 +218,7 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
         given.append(("slopes", f"shafts[{k - 1}].side_slope", sloped))
         if form == "points" and shaft is not None and shaft.length is not None:
             yield Problem(f"shafts[{k - 1}].length", _("the joint centres already give the length of every shaft"))
-    if not any(present for _form, _path, present in given):
+    if not any(present for owner, _path, present in given if owner):
         yield Problem(
             "joints",
             _(
@@ -230,7 +228,9 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
         )
         return
     for owner, path, present in given:
-        if owner and owner != form and present:
+        if not owner and present and form != "angles":
+            yield Problem(path, _("only drives given by bends have plane twists"))
+        elif owner and owner != form and present:
             yield Problem(
                 path,
                 _("this drive's geometry is given by {form}; this field belongs to another form").format(form=form),
