@@ -35,8 +35,15 @@ _HOMES = {
     "Plain": "maths.compiled.method",
     "YokeAngles": "synthesis.batch",
     "synchronous_yokes": "synthesis.batch",
+    "LeastIntermediate": "synthesis.goal",
+    "NEAREST": "synthesis.goal",
+    "NearestYokes": "synthesis.goal",
+    "SYNCHRONOUS": "synthesis.goal",
+    "Layout": "synthesis.layout",
+    "layout": "synthesis.layout",
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
+    "YokeSetting": "synthesis.setting",
     "example": "io.examples",
     "load": "io.drive_file",
     "save": "io.drive_file",
@@ -70,8 +77,15 @@ if TYPE_CHECKING:
     from .maths.compiled.method import Plain as Plain
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
+    from .synthesis.goal import NEAREST as NEAREST
+    from .synthesis.goal import SYNCHRONOUS as SYNCHRONOUS
+    from .synthesis.goal import LeastIntermediate as LeastIntermediate
+    from .synthesis.goal import NearestYokes as NearestYokes
+    from .synthesis.layout import Layout as Layout
+    from .synthesis.layout import layout as layout
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
+    from .synthesis.setting import YokeSetting as YokeSetting
 
 
 class _Package(ModuleType):

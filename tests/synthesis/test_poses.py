@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, phases
+from cardan.drive.pose import Pose
 from cardan.units import deg
 from tests.builders import closing
 
@@ -75,3 +76,19 @@ def test_a_pose_with_another_number_of_joints_is_refused():
     with pytest.raises(InputError) as caught:
         phases(drive(POSES["empty"]), poses={"odd": Drive.from_angles([0.1, 0.2])})
     assert caught.value.field == "poses[0]"
+
+
+def test_poses_of_the_drive_count_by_their_shares():
+    base = drive(POSES["empty"])
+    laden = tuple((f"joints[{i}].bend_deg", float(b / deg)) for i, b in enumerate(POSES["laden"]))
+    mostly = Drive(
+        joints=base.joints,
+        shafts=base.shafts,
+        poses=(Pose(name="laden", share=0.999, set=laden), Pose(name="empty", set=())),
+    )
+    found = phases(mostly)
+    assert found.poses == ("laden", "empty")
+    _worst, mean = found.pose_settings
+    # nearly all the time laden: the mean is least where laden is as even as it can be
+    assert mean.pose_irregularity[0] == pytest.approx(phases(drive(POSES["laden"])).irregularity_min, abs=1e-6)
+    assert mean.pose_irregularity[1] > 1e-2

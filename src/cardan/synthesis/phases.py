@@ -222,27 +222,33 @@ def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
 
 def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Chain], Array]:
     """Return names, kinematics and shares of the poses."""
-    shares = {pose.name: pose.share for pose in drive.poses}
     if poses is None and drive.poses:
         from cardan.drive.paths import pose_drives
 
-        poses = dict(zip(shares, pose_drives(drive), strict=True))
-    given = poses or {}
+        given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
+        said = [pose.share for pose in drive.poses]
+    else:
+        given = list((poses or {}).items())
+        shares = {pose.name: pose.share for pose in drive.poses}
+        said = [shares.get(name) for name, _pose in given]
     problems = [
         Problem(
             f"poses[{k}]",
             _("has {count} joints, the drive has {wanted}").format(count=len(one.joints), wanted=len(drive.joints)),
         )
-        for k, one in enumerate(given.values())
+        for k, (_name, one) in enumerate(given)
         if len(one.joints) != len(drive.joints)
     ]
     check(problems)
-    said = [shares.get(name) for name in given]
     known = [share for share in said if share is not None]
     rest = max(0.0, 1.0 - sum(known)) / max(1, len(said) - len(known))
     weight = np.asarray([rest if share is None else share for share in said])
     even = np.ones(len(said)) / max(1, len(said))
-    return tuple(given), [chain(one) for one in given.values()], weight / weight.sum() if weight.sum() > 0 else even
+    return (
+        tuple(name for name, _one in given),
+        [chain(one) for _name, one in given],
+        weight / weight.sum() if weight.sum() > 0 else even,
+    )
 
 
 def _posed(
