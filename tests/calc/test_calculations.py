@@ -15,6 +15,10 @@ from cardan.units import DIMENSIONS
 CHAIN = {"alpha_deg": [10, 20], "beta_deg": [30], "gamma_deg": [0], "phi1_deg": 40}
 
 
+OWN = [name for name in CALCULATIONS if name != "errors"]
+"""Those that answer by themselves; `errors` hands on to another."""
+
+
 def problems(capability, inputs):
     with pytest.raises(InputError) as caught:
         calc(capability, inputs)
@@ -25,8 +29,8 @@ def test_no_file_of_calculations_is_left_out():
     folder = import_module("cardan.calc").__path__
     parts = [import_module(f"cardan.calc.{module.name}") for module in iter_modules(folder)]
     declared = [one for part in parts for one in getattr(part, "CALCULATIONS", ()) if not isinstance(one, str)]
-    assert {one.name for one in declared} == set(CALCULATIONS)
-    assert len(declared) == len(CALCULATIONS), "two calculations share a name"
+    assert {one.name for one in declared} == set(OWN)
+    assert len(declared) == len(OWN), "two calculations share a name"
 
 
 @pytest.mark.parametrize("one", CALCULATIONS.values(), ids=CALCULATIONS)
@@ -66,14 +70,14 @@ FIRST = {case["capability"]: case["inputs"] for case in reversed(CASES) if case[
 }
 
 
-@pytest.mark.parametrize("name", CALCULATIONS)
+@pytest.mark.parametrize("name", OWN)
 def test_every_calculation_answers_in_plain_values_under_declared_keys(name):
     found = calc(name, FIRST[name])
     assert set(found) <= {output.key for output in CALCULATIONS[name].returns}
     assert json.loads(json.dumps(found, allow_nan=False)) == found
 
 
-@pytest.mark.parametrize("name", CALCULATIONS)
+@pytest.mark.parametrize("name", OWN)
 def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misses(name):
     found = problems(name, {"colour": "red"})
     required = {item.key for item in CALCULATIONS[name].takes if item.required}
@@ -81,7 +85,7 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
     assert set(found) == {"colour"} | required | either
 
 
-@pytest.mark.parametrize("name", CALCULATIONS)
+@pytest.mark.parametrize("name", OWN)
 def test_every_number_must_be_a_finite_number(name):
     for item in CALCULATIONS[name].takes:
         for bad in ("x", True, {"a": 1}, [[["x"]]], math.nan):
@@ -173,6 +177,12 @@ def test_an_unknown_capability_is_met_with_the_nearest():
     assert "the names are" in problems("xyz", {})["capability"]
     assert problems("errors", {"call": "chian"}) == {"call": "'chian' is unknown; did you mean chain?"}
     assert find("chain").name == "chain"
+
+
+def test_a_calculation_may_be_called_through_errors():
+    assert calc("errors", {"call": "chain", **CHAIN}) == calc("chain", CHAIN)
+    assert set(problems("errors", {"call": "chain", "phi1_deg": "x"})) == {"alpha_deg", "phi1_deg"}
+    assert set(problems("errors", {})) == {"call"}
 
 
 def test_problems_of_the_functions_below_come_under_the_keys_given():

@@ -77,6 +77,8 @@ class Given:
         """What form the value has, in words."""
         if self.kind == "table":
             return _("table from shaft number to value")
+        if self.kind == "word" and not self.meaning.choices:
+            return _("name")
         if self.kind == "word":
             return _("one of {choices}").format(choices=", ".join(self.meaning.choices))
         wide = "" if self.width is None else f" × {self.width}"

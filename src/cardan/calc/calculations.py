@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from cardan.errors import refuse
@@ -10,11 +11,31 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from . import book, kinematics, moving, synthesis
-from .calculation import Calculation
+from .calculation import Calculation, given
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Call(Calculation):
+    """The calculation named under ``call`` with the rest of the inputs; the cases for bad input are written so."""
+
+    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the answer of the named calculation."""
+        rest = {key: value for key, value in inputs.items() if key != "call"}
+        return find(inputs.get("call", ""), field="call")(rest)
+
+
+ERRORS = Call(
+    name="errors",
+    doc=_("any other formula, by its name under call; its answer, or what is wrong with its inputs"),
+    source=_("see the formula named"),
+    takes=(given("call", _("name of the formula; its own keys follow"), kind="word"),),
+    returns=(),
+    answer=dict,
+)
 
 CALCULATIONS: dict[str, Calculation] = {
     calculation.name: calculation for part in (kinematics, synthesis, moving, book) for calculation in part.CALCULATIONS
-}
+} | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""
 
 
@@ -39,7 +60,7 @@ def calc(capability: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     capability : str
-        A name of `CALCULATIONS`, or ``"errors"`` with the name under ``call``.
+        A name of `CALCULATIONS`.
     inputs : mapping
         Key with unit -> number, list or table. Any unit of a key's dimension is read.
 
@@ -58,7 +79,4 @@ def calc(capability: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
     >>> calc("single_joint_extremes", {"alpha_deg": 20})["delta"]
     0.12448515
     """
-    if capability == "errors":
-        rest = {key: value for key, value in inputs.items() if key != "call"}
-        return find(inputs.get("call", ""), field="call")(rest)
     return find(capability)(inputs)

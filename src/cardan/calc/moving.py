@@ -191,7 +191,8 @@ def _turned(points: Any, gamma: float) -> Values:
 
 def _hitch(values: Values) -> Values:
     one, two = values["l1"], values["l2"]
-    line = [[-2 * one - two, 0.0, 0.0], [-one, 0.0, 0.0], [two, 0.0, 0.0], [2 * two + one, 0.0, 0.0]]
+    end = one + two
+    line = [[-one - end, 0.0, 0.0], [-one, 0.0, 0.0], [two, 0.0, 0.0], [two + end, 0.0, 0.0]]
     hitch = Hitch(
         moves=MOVED, pivot=(0.0, 0.0, 0.0), yaw=values["yaw"], pitch=values["pitch"], frequency=1.0, phase=RIGHT
     )
@@ -203,6 +204,11 @@ def _hitch(values: Values) -> Values:
         "beta2_deg": found["twist"][0],
         "delta": found["delta"],
     }
+
+
+def _hitch_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    if values.get("l1") == 0.0 and values.get("l2") == 0.0:
+        yield Problem(key("l2"), _("both joints stand at the pin"))
 
 
 def _arm(values: Values) -> Values:
@@ -365,8 +371,8 @@ CALCULATIONS = (
         doc=_("double joint over a hitch pin that both end shafts point at"),
         source="Book Figs 56, 57",
         takes=(
-            given("l1_m", _("distance of joint 1 before the pin"), "length", above=0.0),
-            given("l2_m", _("distance of joint 2 behind the pin"), "length", above=0.0),
+            given("l1_m", _("distance of joint 1 before the pin"), "length", low=0.0),
+            given("l2_m", _("distance of joint 2 behind the pin"), "length", low=0.0),
             given("yaw_deg", _("yaw of the drawn body"), "angle", default=0.0),
             given("pitch_deg", _("pitch of the drawn body"), "angle", default=0.0),
             given("gamma2_deg", _("yoke angle of shaft 2"), "angle", default=0.0),
@@ -379,6 +385,7 @@ CALCULATIONS = (
             gives("delta", _("irregularity")),
         ),
         answer=_hitch,
+        check=_hitch_check,
     ),
     Calculation(
         name="motion_arm",
