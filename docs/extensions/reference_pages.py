@@ -14,7 +14,13 @@ from cardan.units import DIMENSIONS
 def write(folder: Path) -> None:
     """Write all generated pages, touching only those that changed."""
     folder.mkdir(parents=True, exist_ok=True)
-    pages = {"drive-file.md": drive_file(), "units.md": units(), "commands.md": commands(), "names.md": names(), "examples.md": examples()}
+    pages = {
+        "drive-file.md": drive_file(),
+        "units.md": units(),
+        "commands.md": commands(),
+        "names.md": names(),
+        "examples.md": examples(),
+    }
     for name, text in pages.items():
         file = folder / name
         if not file.exists() or file.read_text(encoding="utf-8") != text:
@@ -24,7 +30,9 @@ def write(folder: Path) -> None:
 def units() -> str:
     """Return the table of units each dimension may be written in."""
     rows = ["| dimension | key ends in (the first is what cardan writes) |", "|---|---|"]
-    rows += [f"| {name.replace('_', ' ')} | {', '.join(f'`_{u}`' for u in given)} |" for name, given in DIMENSIONS.items()]
+    rows += [
+        f"| {name.replace('_', ' ')} | {', '.join(f'`_{u}`' for u in given)} |" for name, given in DIMENSIONS.items()
+    ]
     return "\n".join(rows) + "\n"
 
 
@@ -54,6 +62,7 @@ def examples() -> str:
 def commands() -> str:
     """Return one section for each command."""
     import typer.main
+
     from cardan.cli.app import app
 
     return "\n".join(_commands(typer.main.get_command(app), "cardan"))

@@ -15,8 +15,9 @@ def newest(folder: Path) -> float:
 
 def make_pictures(app: Sphinx) -> None:
     """Draw the pictures, unless those there are younger than everything that draws them."""
-    import cardan
     import pictures
+
+    import cardan
 
     here = Path(app.srcdir)
     folder, stamp = here / "_build" / "pictures", here / "_build" / "pictures" / ".drawn"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -45,11 +46,11 @@ def solids(scene: Scene, drive: Drive, *, angle: float = 0.0, size: float = 0.3,
     return place
 
 
-
 def overview() -> Figure:
     """Draw a three-joint drive with everything numbered."""
     drive = Drive.from_points(
-        [[-0.9, 0, 0.05], [0, 0, 0], [1.35, 0.25, -0.5], [2.75, -0.1, -0.55], [3.6, -0.1, -0.2]], yoke_angles=[0.2, -0.4]
+        [[-0.9, 0, 0.05], [0, 0, 0], [1.35, 0.25, -0.5], [2.75, -0.1, -0.55], [3.6, -0.1, -0.2]],
+        yoke_angles=[0.2, -0.4],
     )
     figure, axes = page(11, 3.9)
     bare(axes)
@@ -141,9 +142,6 @@ def bend() -> Figure:
     before, after = place.axis
     inside = np.cross(normal, before)
     _place, u, v = pins(drive)
-    sheet = [centre - 1.0 * before, centre, centre + 1.0 * after]
-    left.fill(*np.array([scene.flat(p) for p in [*sheet, sheet[2] - 0.9 * unit(after - before), sheet[0] + 0.35 * inside]]).T,
-              color=ACCENT, alpha=0.0)
     scene.arrow(left, centre, centre + 0.95 * normal, color=ACCENT, lw=2)
     scene.text(left, centre + 1.08 * normal, r"$\mathbf{N}_1$", color=ACCENT, size=16)
     scene.arrow(left, centre, centre + 0.72 * inside, color=ACCENT, lw=2)
@@ -185,7 +183,7 @@ def plane_twist() -> Figure:
     points[0] = points[1] - 0.9 * place.axis[0]
     points[2] = points[1] + 1.7 * place.axis[1]
     points[3] = points[2] + 0.9 * place.axis[2]
-    for a, b in zip(points[:-1], points[1:], strict=True):
+    for a, b in pairwise(points):
         scene.tube(a, b, 0.05)
     for point in points[1:-1]:
         scene.tube(point - 0.09 * unit([0.2, -1, 0.3]), point + 0.09 * unit([0.2, -1, 0.3]), 0.08, kit.CROSS)
@@ -194,7 +192,14 @@ def plane_twist() -> Figure:
         corner, one, two = points[i], -place.axis[i - 1], place.axis[i]
         sheet = [corner + 0.9 * one, corner + 0.9 * one + 0.9 * two, corner + 0.9 * two, corner]
         left.fill(*np.array([scene.flat(p) for p in sheet]).T, color=colour, alpha=0.16, zorder=2)
-        scene.text(left, corner + (0.62 * one + 0.5 * two if i == 1 else 0.72 * one + 0.9 * two - np.array([0.12, 0, 0.1])), f"plane of joint {i}", color=colour, size=11, halo=False)
+        scene.text(
+            left,
+            corner + (0.62 * one + 0.5 * two if i == 1 else 0.72 * one + 0.9 * two - np.array([0.12, 0, 0.1])),
+            f"plane of joint {i}",
+            color=colour,
+            size=11,
+            halo=False,
+        )
         scene.arrow(left, corner, corner + 0.66 * place.normal[i - 1], color=colour, lw=2.2)
         scene.text(left, corner + 0.80 * place.normal[i - 1], rf"$\mathbf{{N}}_{i}$", color=colour, size=16)
     at = points[2]
@@ -202,8 +207,14 @@ def plane_twist() -> Figure:
     middle = scene.arc(left, at, place.axis[1], place.normal[0], 50 * deg, 0.5, color="#a3004f", lw=2.2)
     scene.text(left, at + 0.66 * unit(middle - at), r"$\beta_2$", color="#a3004f", size=17)
     half = points[1] + 0.9 * place.axis[1]
-    scene.arrow(left, half + [-0.05, 0, 0.2], half + 0.36 * place.axis[1] + [-0.05, 0, 0.2], color=ACCENT, lw=2)
-    scene.text(left, half + [0.15, 0, 0.26], r"$\mathbf{a}_2$", color=ACCENT, size=16)
+    scene.arrow(
+        left,
+        half + np.array([-0.05, 0, 0.2]),
+        half + 0.36 * place.axis[1] + np.array([-0.05, 0, 0.2]),
+        color=ACCENT,
+        lw=2,
+    )
+    scene.text(left, half + np.array([0.15, 0, 0.26]), r"$\mathbf{a}_2$", color=ACCENT, size=16)
     for k, words in ((0, "shaft 1"), (1, "shaft 2"), (2, "shaft 3")):
         spot = points[k] + (0.12 if k == 0 else 0.62 if k == 1 else 0.82) * (points[k + 1] - points[k])
         scene.text(left, spot - [0, 0, 0.17], words, size=11)
@@ -245,11 +256,27 @@ def yoke_angle() -> Figure:
     scene.text(top, start + 0.66 * unit(middle - start), r"$\gamma_2$", color="#a3004f", size=18)
     scene.arrow(top, 0.85 * along + [0, 0, 0.25], 1.75 * along + [0, 0, 0.25], color=ACCENT, lw=2.2)
     scene.text(top, 1.3 * along + [0, 0, 0.42], r"$\mathbf{a}_2$, power flow", color=ACCENT, size=14)
-    note(top, scene.flat(start) + [-1.15, 0.0], "DRIVEN yoke\nat the START of the shaft,\nturned by joint 1", color=DRIVEN, size=11.5)
-    note(top, scene.flat(end) + [1.15, 0.0], "DRIVING yoke\nat the END of the shaft,\nturns joint 2", color=DRIVING, size=11.5)
+    note(
+        top,
+        np.add(scene.flat(start), (-1.15, 0.0)),
+        "DRIVEN yoke\nat the START of the shaft,\nturned by joint 1",
+        color=DRIVEN,
+        size=11.5,
+    )
+    note(
+        top,
+        np.add(scene.flat(end), (1.15, 0.0)),
+        "DRIVING yoke\nat the END of the shaft,\nturns joint 2",
+        color=DRIVING,
+        size=11.5,
+    )
     top.set_xlim(scene.flat(start)[0] - 1.95, scene.flat(end)[0] + 1.95)
     top.set_ylim(-1.0, 1.12)
-    cases = ((40, "yoke_angle_deg = 40\nor  yoke_lead_deg = −40"), (0, "yoke_angle_deg = 0\nears in line"), (90, "yoke_angle_deg = 90\nears crossed"))
+    cases = (
+        (40, "yoke_angle_deg = 40\nor  yoke_lead_deg = −40"),
+        (0, "yoke_angle_deg = 0\nears in line"),
+        (90, "yoke_angle_deg = 90\nears crossed"),
+    )
     for each, (angle, title) in zip(axes[1], cases, strict=True):
         clock(each, title)
         hub(each)
@@ -311,7 +338,11 @@ def slopes() -> Figure:
     """Draw the senses of side and plan slope."""
     figure, axes = page(10.5, 2.9, 1, 2)
     for each, name, up, words in zip(
-        axes, ("side_slope", "plan_slope"), ("z", "y"), ("side view, from the right", "plan view, from above"), strict=True
+        axes,
+        ("side_slope", "plan_slope"),
+        ("z", "y"),
+        ("side view, from the right", "plan view, from above"),
+        strict=True,
     ):
         bare(each)
         each.set_title(words, size=12)

@@ -24,7 +24,9 @@ def portrait(drive: Drive) -> Figure:
     points[-1] = points[-2] + 0.45 * reach * axis[-1]
     size = 0.3 * float(min(inner)) / reach if len(inner) else 0.3
     shown = Drive.from_points(
-        points / reach, yoke_angles=[shaft.yoke_angle for shaft in drive.shafts[1:-1]], start_phase=drive.input.start_phase
+        points / reach,
+        yoke_angles=[shaft.yoke_angle for shaft in drive.shafts[1:-1]],
+        start_phase=drive.input.start_phase,
     )
     figure, axes = page(8.0, 3.0)
     bare(axes)

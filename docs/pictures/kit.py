@@ -114,7 +114,9 @@ class Scene:
         across = unit(np.cross(axis, [0.3, 0.5, 1.0]))
         other = np.cross(axis, across)
         t = np.linspace(0, 2 * np.pi, sides, endpoint=False)[:, None]
-        self.extrude(np.asarray(start) + radius * (np.cos(t) * across + np.sin(t) * other), np.subtract(end, start), colour)
+        self.extrude(
+            np.asarray(start) + radius * (np.cos(t) * across + np.sin(t) * other), np.subtract(end, start), colour
+        )
 
     def yoke(self, centre: Array, inward: Array, pin: Array, colour: str, size: float = 1.0) -> None:
         """Add a fork whose two tines hold the cross along ``pin``; ``inward`` points from its shaft to the joint."""
@@ -191,8 +193,13 @@ class Scene:
         with np.errstate(invalid="ignore", divide="ignore"):
             image[..., :3] = np.where(image[..., 3:] > 0, image[..., :3] / image[..., 3:], 1.0)
         high = low + np.array([width, height]) * step
-        axes.imshow(np.clip(image, 0, 1), origin="lower", extent=(low[0], high[0], low[1], high[1]), zorder=1,
-                    interpolation="bilinear")
+        axes.imshow(
+            np.clip(image, 0, 1),
+            origin="lower",
+            extent=(low[0], high[0], low[1], high[1]),
+            zorder=1,
+            interpolation="bilinear",
+        )
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
 
@@ -205,7 +212,9 @@ class Scene:
         """Draw an arrow in space."""
         arrow(axes, self.flat(start), self.flat(end), **style)
 
-    def arc(self, axes: Axes, centre: Array, axis: Array, start: Array, angle: float, radius: float, **style: Any) -> Array:
+    def arc(
+        self, axes: Axes, centre: Array, axis: Array, start: Array, angle: float, radius: float, **style: Any
+    ) -> Array:
         """Draw an arc arrow about an axis, from ``start`` on; return the point in its middle, in space."""
         t = np.linspace(0, angle, 60)
         ring = np.array([np.asarray(centre) + radius * turn(unit(start), unit(axis), a) for a in t])
@@ -230,8 +239,13 @@ def arrow(axes: Axes, start: Array, end: Array, **style: Any) -> None:
     """Draw a straight arrow on paper."""
     options = {"color": INK, "lw": 1.4, "zorder": 5} | style
     head = options.pop("head", "-|>")
-    axes.annotate("", xy=end, xytext=start, zorder=options.pop("zorder"),
-                  arrowprops=dict(arrowstyle=head, shrinkA=0, shrinkB=0, mutation_scale=12, **options))
+    axes.annotate(
+        "",
+        xy=end,
+        xytext=start,
+        zorder=options.pop("zorder"),
+        arrowprops=dict(arrowstyle=head, shrinkA=0, shrinkB=0, mutation_scale=12, **options),
+    )
 
 
 def curve(axes: Axes, points: Array, **style: Any) -> None:

@@ -22,7 +22,9 @@ def line_of(axes: Any, points: Array, **style: Any) -> None:
 def movements() -> Figure:
     """Draw hitch, arm and parallel guidance."""
     figure, axes = page(10.5, 3.9, 1, 3)
-    for each, title in zip(axes, ("hitch, from above", "arm, from the side", "parallel guidance, from behind"), strict=True):
+    for each, title in zip(
+        axes, ("hitch, from above", "arm, from the side", "parallel guidance, from behind"), strict=True
+    ):
         bare(each)
         each.set_title(title, size=12.5)
     hitch, arm, parallel = axes
@@ -42,19 +44,34 @@ def movements() -> Figure:
     for turn, colour in ((0.0, INK), (-0.22, PALE), (0.22, PALE)):
         c, s = np.cos(turn), np.sin(turn)
         spin = np.array([[c, -s], [s, c]])
-        joint, end = pivot + spin @ (rest - pivot), pivot + spin @ (rest + [0.9, -0.02] - pivot)
-        line_of(arm, [[-1.2, 0], [0, 0], joint, end], color=colour, lw=3.2 if colour == INK else 2, zorder=3 if colour == INK else 2)
+        joint, end = pivot + spin @ (rest - pivot), pivot + spin @ (np.add(rest, (0.9, -0.02)) - pivot)
+        line_of(
+            arm,
+            [[-1.2, 0], [0, 0], joint, end],
+            color=colour,
+            lw=3.2 if colour == INK else 2,
+            zorder=3 if colour == INK else 2,
+        )
         arm.plot(*np.array([pivot, joint]).T, color=ACCENT, lw=1.6, alpha=1 if colour == INK else 0.35)
     t = np.linspace(-0.32, 0.32, 60) + np.arctan2(*(rest - pivot)[::-1])
-    arm.plot(*(pivot[:, None] + np.linalg.norm(rest - pivot) * np.array([np.cos(t), np.sin(t)])), color=ACCENT, lw=1, ls=":")
+    arm.plot(
+        *(pivot[:, None] + np.linalg.norm(rest - pivot) * np.array([np.cos(t), np.sin(t)])), color=ACCENT, lw=1, ls=":"
+    )
     arm.plot(*pivot, "^", ms=11, color=ACCENT, zorder=5)
-    note(arm, pivot + [-0.1, -0.35], "pivot", color=ACCENT, size=11)
+    note(arm, np.add(pivot, (-0.1, -0.35)), "pivot", color=ACCENT, size=11)
     for lift, colour in ((0.0, INK), (0.62, PALE), (-0.62, PALE)):
-        line_of(parallel, [[-0.9, 0], [0, 0], [2.0, lift], [2.9, lift]], color=colour, lw=3.2 if colour == INK else 2,
-                zorder=3 if colour == INK else 2)
+        line_of(
+            parallel,
+            [[-0.9, 0], [0, 0], [2.0, lift], [2.9, lift]],
+            color=colour,
+            lw=3.2 if colour == INK else 2,
+            zorder=3 if colour == INK else 2,
+        )
     for low in (-0.28, 0.28):
         for lift in (0.0, 0.62, -0.62):
-            parallel.plot([0.35, 1.75], [low, low + 0.86 * lift], color=ACCENT, lw=1.4, alpha=0.9 if lift == 0 else 0.3, zorder=1)
+            parallel.plot(
+                [0.35, 1.75], [low, low + 0.86 * lift], color=ACCENT, lw=1.4, alpha=0.9 if lift == 0 else 0.3, zorder=1
+            )
         parallel.plot(0.35, low, "^", ms=8, color=ACCENT, zorder=5)
     arrow(parallel, (2.45, 0.15), (2.45, 0.52), color="#a3004f")
     arrow(parallel, (2.45, -0.15), (2.45, -0.52), color="#a3004f")
@@ -94,7 +111,13 @@ def spline() -> Figure:
         y = -0.26 + 0.52 * (k + 0.5) / 6
         axes.plot([0, 2.2], [y, y], color=INK, lw=0.5, zorder=2)
     for sign in (1, -1):
-        axes.fill([0.7, 3.1, 3.1, 0.7], [sign * 0.27, sign * 0.27, sign * 0.46, sign * 0.46], color="#7b8794", ec=INK, zorder=3)
+        axes.fill(
+            [0.7, 3.1, 3.1, 0.7],
+            [sign * 0.27, sign * 0.27, sign * 0.46, sign * 0.46],
+            color="#7b8794",
+            ec=INK,
+            zorder=3,
+        )
     axes.fill([3.1, 3.4, 3.4, 3.1], [-0.46, -0.46, 0.46, 0.46], color="#7b8794", ec=INK, zorder=3)
     axes.fill([3.4, 5.6, 5.6, 3.4], [-0.18, -0.18, 0.18, 0.18], color=STEEL, ec=INK)
     for x in (-3, 5.6):
@@ -103,7 +126,9 @@ def spline() -> Figure:
     for x in (0.7, 2.2, 3.1):
         axes.plot([x, x], [0.5, 1.0], color=PALE, lw=0.8)
     for a, b, y, words, colour in (
-        (0.7, 2.2, 0.9, "engaged", DRIVEN), (2.2, 3.1, 0.9, "gap", DRIVING), (-3, 5.6, -1.05, "$L$", INK)
+        (0.7, 2.2, 0.9, "engaged", DRIVEN),
+        (2.2, 3.1, 0.9, "gap", DRIVING),
+        (-3, 5.6, -1.05, "$L$", INK),
     ):
         arrow(axes, (a, y), (b, y), head="<|-|>", color=colour, lw=1.3)
         note(axes, ((a + b) / 2, y + 0.2), words, color=colour, size=13)

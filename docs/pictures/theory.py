@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -33,14 +34,24 @@ def circle_map() -> Figure:
     pair = mobius.hooke(np.asarray(45 * deg))
     w = np.exp(2j * np.linspace(0, np.pi, 48, endpoint=False))
     for each, points, title in zip(
-        axes, (w, mobius.apply(pair, w)), (r"driving yoke: $w = e^{2i\theta}$", r"driven yoke: $w' = (w-\tau)/(1-\tau w)$"), strict=True
+        axes,
+        (w, mobius.apply(pair, w)),
+        (r"driving yoke: $w = e^{2i\theta}$", r"driven yoke: $w' = (w-\tau)/(1-\tau w)$"),
+        strict=True,
     ):
         bare(each)
         t = np.linspace(0, 2 * np.pi, 300)
         each.plot(np.cos(t), np.sin(t), color=PALE, lw=1)
         for k, z in enumerate(points):
             each.plot([0, z.real], [0, z.imag], color=ACCENT, lw=0.5, alpha=0.35)
-            each.plot(z.real, z.imag, "o", ms=6.5 if k % 12 == 0 else 4, color="#d55e00" if k % 12 == 0 else SERIES[0], zorder=3)
+            each.plot(
+                z.real,
+                z.imag,
+                "o",
+                ms=6.5 if k % 12 == 0 else 4,
+                color="#d55e00" if k % 12 == 0 else SERIES[0],
+                zorder=3,
+            )
         each.set_title(title, size=15)
         for angle, words in ((0, "θ = 0°"), (90, "45°"), (180, "90°"), (270, "135°")):
             if each is axes[0]:
@@ -82,13 +93,19 @@ def walk(axes: Any, vertex: Array, title: str, limit: float, shift: complex = 0.
     for radius in np.arange(0.01, 2 * limit, 0.01):
         t = np.linspace(0, 2 * np.pi, 200)
         axes.plot(radius * np.cos(t), radius * np.sin(t), color="#e8ebee", lw=0.7, zorder=0)
-    for k, (a, b) in enumerate(zip(vertex[:-1], vertex[1:], strict=True)):
+    for k, (a, b) in enumerate(pairwise(vertex)):
         line = geodesic(a, b)
         axes.plot(line.real, line.imag, color=SERIES[k], lw=3, zorder=3, solid_capstyle="round")
         middle = line[30]
         way = 1j * (b - a) / abs(b - a)
         out = way if ((middle - vertex.mean()) * np.conj(way)).real > 0 else -way
-        note(axes, [(middle + 0.09 * limit * out).real, (middle + 0.09 * limit * out).imag], f"{k + 1}", color=SERIES[k], size=13)
+        note(
+            axes,
+            [(middle + 0.09 * limit * out).real, (middle + 0.09 * limit * out).imag],
+            f"{k + 1}",
+            color=SERIES[k],
+            size=13,
+        )
     gap = geodesic(vertex[-1], vertex[0])
     if abs(vertex[-1]) > 1e-9:
         axes.plot(gap.real, gap.imag, color="#b00020", lw=1.6, ls=(0, (4, 3)), zorder=2)
@@ -109,7 +126,8 @@ def polygon() -> Figure:
     settings = found.settings[:2]
     cases = [(built.vertex, f"as built: gap = {100 * float(built.irregularity):.1f} % irregularity")]
     cases += [
-        (setting.vertex, "closed: γ = " + ", ".join(f"{np.rad2deg(g):.1f}°" for g in setting.yoke_angle)) for setting in settings
+        (setting.vertex, "closed: γ = " + ", ".join(f"{np.rad2deg(g):.1f}°" for g in setting.yoke_angle))
+        for setting in settings
     ]
     for each, (vertex, title) in zip(axes, cases, strict=True):
         vertex = np.asarray(vertex)

@@ -14,12 +14,14 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
-from doctest import ELLIPSIS, NORMALIZE_WHITESPACE, OutputChecker
+from doctest import ELLIPSIS, OutputChecker
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 
-FILE = re.compile(r"^```\{code-block\} \w+\n:caption: (\S+)\n\n?(.*?)^```$|^<!-- file: (\S+) -->\n```\w+\n(.*?)^```$", re.M | re.S)
+FILE = re.compile(
+    r"^```\{code-block\} \w+\n:caption: (\S+)\n\n?(.*?)^```$|^<!-- file: (\S+) -->\n```\w+\n(.*?)^```$", re.M | re.S
+)
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
 
 
@@ -39,7 +41,11 @@ class Shown:
 def pages() -> list[Path]:
     """Return the pages that show commands of ours."""
     found = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-    return [p for p in found if "_build" not in p.parts and "generated" not in p.parts and "$ cardan" in p.read_text("utf-8")]
+    return [
+        p
+        for p in found
+        if "_build" not in p.parts and "generated" not in p.parts and "$ cardan" in p.read_text("utf-8")
+    ]
 
 
 def steps(text: str) -> Iterator[re.Match[str]]:
@@ -69,13 +75,26 @@ def folder(where: Path) -> dict[str, str]:
     ours.chmod(0o755)
     shutil.copytree(ROOT / "examples", where / "examples")
     path = f"{tools}{os.pathsep}{os.environ['PATH']}"
-    return os.environ | {"PATH": path, "COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb", "PYTHONUTF8": "1", "CARDAN_LANG": "en"}
+    return os.environ | {
+        "PATH": path,
+        "COLUMNS": "100",
+        "NO_COLOR": "1",
+        "TERM": "dumb",
+        "PYTHONUTF8": "1",
+        "CARDAN_LANG": "en",
+    }
 
 
 def run(command: str, where: Path, environment: dict[str, str]) -> str:
     """Return what a command prints, answer and complaint together."""
     done = subprocess.run(
-        ["sh", "-c", command], cwd=where, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False
+        ["sh", "-c", command],
+        cwd=where,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=120,
+        check=False,
     )
     return "\n".join(line.rstrip() for line in done.stdout.decode("utf-8").splitlines()) + "\n" * bool(done.stdout)
 
@@ -84,7 +103,7 @@ def agree(want: str, got: str) -> bool:
     """Tell whether an output is what the page shows; ``...`` stands for anything."""
     if "Traceback" in got:
         return False
-    return OutputChecker().check_output(want.strip() + "\n", got.strip() + "\n", ELLIPSIS | NORMALIZE_WHITESPACE)
+    return OutputChecker().check_output(" ".join(want.split()), " ".join(got.split()), ELLIPSIS)
 
 
 def follow(page: Path, where: Path) -> Iterator[tuple[Shown, str]]:

@@ -12,7 +12,9 @@ from .console import ROOT, agree, follow, pages, shown
 @pytest.mark.parametrize("page", pages(), ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_commands_print_what_the_page_shows(page: Path, tmp_path: Path) -> None:
     wrong = [
-        f"$ {one.command}\n--- shown\n{one.output}--- printed\n{got}" for one, got in follow(page, tmp_path) if not agree(one.output, got)
+        f"$ {one.command}\n--- shown\n{one.output}--- printed\n{got}"
+        for one, got in follow(page, tmp_path)
+        if not agree(one.output, got)
     ]
     assert not wrong, "\n".join(wrong)
 

@@ -66,6 +66,8 @@ def test_every_picture_is_drawn(module: str, tmp_path: Path, monkeypatch: pytest
     text = file.read_text("utf-8")
     assert text.startswith("<?xml")
     assert len(text) > 5000
-    assert "http://" not in text.replace("http://www.w3.org", "").replace("http://purl.org", "").replace("http://creativecommons.org", "")
+    assert "http://" not in text.replace("http://www.w3.org", "").replace("http://purl.org", "").replace(
+        "http://creativecommons.org", ""
+    )
     for name in [name for name in sys.modules if name.split(".")[0] == "pictures"]:
         del sys.modules[name]

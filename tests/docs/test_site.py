@@ -12,7 +12,15 @@ from urllib.parse import unquote, urldefrag
 import pytest
 
 ROOT = Path(__file__).parents[2]
-LOADS = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src", "object": "data", "use": "href"}
+LOADS = {
+    "script": "src",
+    "img": "src",
+    "link": "href",
+    "iframe": "src",
+    "source": "src",
+    "object": "data",
+    "use": "href",
+}
 FAR = re.compile(r"^(https?:)?//", re.I)
 
 
@@ -45,7 +53,20 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pytest.importorskip("furo")
     out = tmp_path_factory.mktemp("site")
     made = subprocess.run(
-        [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", str(out / "tree"), str(ROOT / "docs"), str(out / "html")],
+        [
+            sys.executable,
+            "-m",
+            "sphinx",
+            "-q",
+            "-W",
+            "--keep-going",
+            "-b",
+            "html",
+            "-d",
+            str(out / "tree"),
+            str(ROOT / "docs"),
+            str(out / "html"),
+        ],
         capture_output=True,
         text=True,
         timeout=300,
@@ -62,7 +83,11 @@ def read(site: Path) -> dict[Path, Page]:
 
 def test_nothing_is_loaded_from_a_network(site: Path, read: dict[Path, Page]) -> None:
     assert [(file.name, what) for file, page in read.items() for what in page.loads if FAR.match(what)] == []
-    styles = [file for file in site.rglob("*.css") if re.search(r"(@import|url\()\s*[\"']?\s*(https?:)?//", file.read_text("utf-8"))]
+    styles = [
+        file
+        for file in site.rglob("*.css")
+        if re.search(r"(@import|url\()\s*[\"']?\s*(https?:)?//", file.read_text("utf-8"))
+    ]
     assert styles == []
 
 
@@ -71,7 +96,8 @@ def test_what_pages_load_is_there(read: dict[Path, Page]) -> None:
         (file.name, what)
         for file, page in read.items()
         for what in page.loads
-        if not what.startswith(("data:", "#")) and not (file.parent / unquote(what.split("?")[0].split("#")[0])).exists()
+        if not what.startswith(("data:", "#"))
+        and not (file.parent / unquote(what.split("?")[0].split("#")[0])).exists()
     ]
     assert [one for one in lost if one[1] != "#"] == []
 
@@ -84,9 +110,8 @@ def test_links_within_the_pages_lead_somewhere(read: dict[Path, Page]) -> None:
                 continue
             path, place = urldefrag(link)
             goal = (file.parent / unquote(path)).resolve() if path else file
-            if goal.suffix == ".html" and (goal not in read or (place and unquote(place) not in read[goal].places)):
-                lost.append((file.name, link))
-            elif goal.suffix != ".html" and not goal.exists():
+            there = goal.exists() and (goal not in read or not place or unquote(place) in read[goal].places)
+            if not there:
                 lost.append((file.name, link))
     assert lost == []
 
