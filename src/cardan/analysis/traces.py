@@ -20,8 +20,8 @@ from cardan.texts import _
 
 from .motion import positions
 
-LARGE = 2_000_000
-"""Values of each output from which the compiled form is faster even when numba has yet to be imported."""
+LARGE = 10_000_000
+"""Values of each output that are worth loading the kernel: half a second in a new process, two when first compiled."""
 
 _THREAD = 100_000
 """Values of each output that are worth a thread."""
@@ -79,7 +79,7 @@ def traces(
     out : Traces, optional
         Results of an earlier call of the same size, to be written over: fresh memory costs more than the arithmetic.
     method : Plain or Compiled, optional
-        Compiled by default from two million values on, where numba is installed; small jobs never wait for it.
+        Compiled by default from ten million values on, where numba is installed; small jobs never wait for it.
 
     Returns
     -------

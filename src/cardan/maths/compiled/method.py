@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from cardan.errors import MissingExtraError
+from cardan.errors import MissingExtraError, refuse
 from cardan.texts import _
 
 
@@ -28,6 +28,10 @@ class Compiled:
     """
 
     threads: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.threads is not None and self.threads < 1:
+            raise refuse("threads", _("{given} given; at least one is needed").format(given=self.threads))
 
 
 Method: TypeAlias = Plain | Compiled
