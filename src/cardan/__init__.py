@@ -47,6 +47,7 @@ _HOMES = {
     "example": "io.examples",
     "load": "io.drive_file",
     "save": "io.drive_file",
+    "report": "report.report",
 }
 
 __all__ = sorted([*_HOMES, "__version__"])
@@ -75,6 +76,7 @@ if TYPE_CHECKING:
     from .io.examples import example as example
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
+    from .report.report import report as report
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
     from .synthesis.goal import NEAREST as NEAREST

@@ -149,7 +149,7 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     Returns
     -------
     Solids
-        Sizes are in proportion to the shafts; the end shafts are cut to the length of an intermediate one.
+        Sizes are in proportion to the shafts; the end shafts are cut or lengthened to show a yoke and a piece of tube.
 
     Examples
     --------
@@ -161,7 +161,7 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     stand = arms(place, train, angle)
     centres = place.points[1:-1]
     size, radius = _sizes(place)
-    reach = np.minimum(place.length[[0, -1]], size)
+    reach = np.clip(place.length[[0, -1]], 2.4 * radius, size)
     ends = np.stack((centres[0] - reach[0] * place.axis[0], centres[-1] + reach[1] * place.axis[-1]))
     stations = np.concatenate((ends[:1], centres, ends[1:]))
     bodies: list[Body] = []

@@ -6,7 +6,8 @@ Yokes stand where the drive file puts them at the start, so that a wrong sign is
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -36,6 +37,9 @@ SPACE = View(
 WIDE = 6.75
 """Width of a panel across the page [inch]."""
 
+MARGIN = 0.34
+"""Room for words around a view [inch]."""
+
 
 def drive_figures(drive: Drive) -> tuple[Figure, ...]:
     """Return all drawings of a drive."""
@@ -45,7 +49,7 @@ def drive_figures(drive: Drive) -> tuple[Figure, ...]:
 
 
 def views_figure(drive: Drive, seen: Solids) -> Figure:
-    """Return side and plan view, one above the other.
+    """Return side and plan view, one above the other, to the same scale.
 
     Parameters
     ----------
@@ -54,19 +58,21 @@ def views_figure(drive: Drive, seen: Solids) -> Figure:
     seen : Solids
         Its bodies.
     """
-    side, plan = _view(drive, seen, SIDE, "z"), _view(drive, seen, PLAN, "y")
-    wide = side.x.high - side.x.low
+    meshes = _meshes(seen)
+    sheets = [_sheet(SIDE, meshes, 3.4), _sheet(PLAN, meshes, 3.4)]
+    inch = max(sheet.inch for sheet in sheets)
+    titles = (_("Side view: z over x [mm]"), _("Plan view: y over x [mm]"))
     return Figure(
         name="views",
         title=_("Side and plan view"),
         sentence=_(
-            "Yokes stand at the start position, each in the colour of its shaft; yoke sizes are drawn in proportion, "
-            "not to scale."
+            "Yokes stand at the start position, each in the colour of its shaft; places and directions are exact, "
+            "sizes are not."
         ),
         source=_("Geometry: plain vectors through the joint centres, Book (87)–(89)"),
         rows=tuple(
-            Row(panels=(panel,), height=min(3.4, max(0.85, WIDE * (panel.y.high - panel.y.low) / wide)))
-            for panel in (side, plan)
+            Row(panels=(_view(drive, seen, meshes, sheet, inch, title),), height=max(0.85, sheet.height(inch)))
+            for sheet, title in zip(sheets, titles, strict=True)
         ),
         legend=False,
     )
@@ -84,8 +90,8 @@ def space_figure(drive: Drive, seen: Solids, *, name: str = "space") -> Figure:
     name : str
         Name of the figure.
     """
-    panel = _view(drive, seen, SPACE, "")
-    wide, high = panel.x.high - panel.x.low, panel.y.high - panel.y.low
+    meshes = _meshes(seen)
+    sheet = _sheet(SPACE, meshes, 3.6)
     return Figure(
         name=name,
         title=_("The drive in space"),
@@ -93,13 +99,38 @@ def space_figure(drive: Drive, seen: Solids, *, name: str = "space") -> Figure:
             last=len(drive.joints) + 1
         ),
         source=_("Geometry: plain vectors through the joint centres"),
-        rows=(Row(panels=(panel,), height=min(4.2, max(1.3, 7.0 * high / wide))),),
+        rows=(
+            Row(panels=(_view(drive, seen, meshes, sheet, sheet.inch, ""),), height=max(1.3, sheet.height(sheet.inch))),
+        ),
         legend=False,
     )
 
 
-def _view(drive: Drive, seen: Solids, view: View, upwards: str) -> Panel:
-    meshes = tuple(
+@dataclass(frozen=True, kw_only=True)
+class _Sheet:
+    """What a view covers on paper [mm], and how many mm an inch of print shows at most."""
+
+    view: View
+    left: float
+    right: float
+    low: float
+    high: float
+    inch: float
+
+    def height(self, inch: float) -> float:
+        """Return the height of the panel [inch]."""
+        return (self.high - self.low) / inch + 2.0 * MARGIN
+
+
+def _sheet(view: View, meshes: Sequence[Mesh], tallest: float) -> _Sheet:
+    corners = np.concatenate([onto(view, mesh.corners) for mesh in meshes])
+    (left, low), (right, high) = (tuple(map(float, edge[:2])) for edge in (corners.min(axis=0), corners.max(axis=0)))
+    inch = max((right - left) / (WIDE - 0.5 * MARGIN), (high - low) / (tallest - 2.0 * MARGIN))
+    return _Sheet(view=view, left=left, right=right, low=low, high=high, inch=inch)
+
+
+def _meshes(seen: Solids) -> tuple[Mesh, ...]:
+    return tuple(
         Mesh(
             corners=body.corners / mm,
             faces=body.faces,
@@ -111,24 +142,29 @@ def _view(drive: Drive, seen: Solids, view: View, upwards: str) -> Panel:
         )
         for body in seen.bodies
     )
-    corners = np.concatenate([onto(view, mesh.corners) for mesh in meshes])
-    (left, low), (right, high) = corners.min(axis=0)[:2], corners.max(axis=0)[:2]
-    inch = max(right - left, 1e-9) / WIDE
-    labels = 0.26 * inch
-    low, high, left, right = low - 1.2 * labels, high + 1.2 * labels, left - 0.3 * labels, right + 0.3 * labels
-    across = _axis("x", left, right, 8)
-    upright = _axis(upwards or "z", low, high, 4)
-    bare = not upwards
-    series: list[Series] = [*meshes, *_labels(drive, seen, 72.0 * seen.radius / mm / inch)]
-    if bare:
-        series += _triad(view, np.asarray([left, low]), inch)
-    title = {"z": _("Side view: z over x [mm]"), "y": _("Plan view: y over x [mm]")}.get(upwards, "")
-    return Panel(series=tuple(series), x=across, y=upright, title=title, equal=True, bare=bare, view=view)
 
 
-def _axis(label: str, low: float, high: float, count: int) -> Axis:
+def _view(drive: Drive, seen: Solids, meshes: Sequence[Mesh], sheet: _Sheet, inch: float, title: str) -> Panel:
+    """Return a panel; one without a title has no frame either, but the directions of x, y and z."""
+    middle, half = 0.5 * (sheet.left + sheet.right), 0.5 * WIDE * inch
+    low, high = sheet.low - MARGIN * inch, sheet.high + MARGIN * inch
+    series: list[Series] = [*meshes, *_labels(drive, seen, sheet.view, 72.0 / inch)]
+    if not title:
+        series += _triad(sheet.view, np.asarray([sheet.left, low]), inch)
+    return Panel(
+        series=tuple(series),
+        x=_axis(middle - half, middle + half, 8),
+        y=_axis(low, high, 4),
+        title=title,
+        equal=True,
+        bare=not title,
+        view=sheet.view,
+    )
+
+
+def _axis(low: float, high: float, count: int) -> Axis:
     ticks = steps(low, high, count)
-    return Axis(label="", unit="", low=low, high=high, ticks=ticks, texts=written(ticks), grid=True)
+    return Axis(low=low, high=high, ticks=ticks, texts=written(ticks))
 
 
 def _body_text(part: str, number: int) -> str:
@@ -141,23 +177,44 @@ def _body_text(part: str, number: int) -> str:
     return texts[part].format(number=number)
 
 
-def _labels(drive: Drive, seen: Solids, radius: float) -> Iterator[Note]:
-    """Yield the numbers of joints above and of shafts below them; ``radius`` of a yoke in points of print."""
+def _labels(drive: Drive, seen: Solids, view: View, print_size: float) -> Iterator[Note]:
+    """Yield the numbers of joints above and of shafts below them, square to the shafts; ``print_size`` in points/mm."""
     stations = np.concatenate((seen.ends[:1], seen.centres, seen.ends[1:])) / mm
-    away = 1.25 * radius + 3.0
+    radius = seen.radius / mm * print_size
+    ways = np.diff(onto(view, stations)[:, :2], axis=0)
     close = len(drive.joints) > 6
-    for k, point in enumerate(stations[1:-1], start=1):
-        text = str(k) if close else _("joint {number}").format(number=k)
-        yield _note(text, point, "ink", away, "bottom")
-    middles = 0.5 * (stations[1:] + stations[:-1])
-    for k, point in enumerate(middles, start=1):
+    for k, point in enumerate(stations[1:-1]):
+        text = str(k + 1) if close else _("joint {number}").format(number=k + 1)
+        yield _beside(text, point, _square(ways[k] + ways[k + 1]), 1.15 * radius + 4.0, "ink")
+    for k, point in enumerate(0.5 * (stations[1:] + stations[:-1]), start=1):
         text = str(k) if close else _("shaft {number}").format(number=k)
-        yield _note(text, point, role_of(k), -away, "top", bold=True)
+        room = float(np.hypot(*ways[k - 1])) * print_size - 2.8 * radius
+        away = 0.45 * radius + 4.0 if room > 5.0 * len(text) else 1.15 * radius + 4.0
+        yield _beside(text, point, -_square(ways[k - 1]), away, role_of(k), bold=True)
 
 
-def _note(text: str, point: Array, role: str, up: float, level: str, *, bold: bool = False) -> Note:
+def _square(way: Array) -> Array:
+    """Return the direction on paper square to a way, upwards."""
+    size = float(np.hypot(*way))
+    across = np.asarray([-way[1], way[0]]) / size if size > 0.0 else np.asarray([0.0, 1.0])
+    return across if across[1] >= 0.0 else -across
+
+
+def _beside(text: str, point: Array, toward: Array, away: float, role: str, *, bold: bool = False) -> Note:
     x, y, z = (float(value) for value in point)
-    return Note(text=text, x=x, y=y, z=z, role=role, shift=(0.0, up), level=level, bold=bold, size=7.6)  # type: ignore[arg-type]
+    right, up = (float(value) for value in toward)
+    return Note(
+        text=text,
+        x=x,
+        y=y,
+        z=z,
+        role=role,
+        shift=(away * right, away * up),
+        side="left" if right > 0.35 else "right" if right < -0.35 else "centre",
+        level="bottom" if up > 0.35 else "top" if up < -0.35 else "middle",
+        bold=bold,
+        size=7.6,
+    )
 
 
 def _triad(view: View, corner: Array, inch: float) -> Iterator[Series]:

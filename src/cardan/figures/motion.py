@@ -37,7 +37,7 @@ def motion_figure(found: Motion) -> Figure:
     across = _across(angle)
     panels = (
         _panel(angle, np.asarray(found.shaft_ratio), across, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
-        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
+        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2, even_sided=False),
         _panel(
             angle,
             steep,
@@ -71,7 +71,16 @@ def _across(angle: Array, *, named: bool = False) -> Axis:
 
 
 def _panel(
-    angle: Array, rows: Array, across: Axis, label: str, unit: str, middle: float, least: float, *, named: bool = False
+    angle: Array,
+    rows: Array,
+    across: Axis,
+    label: str,
+    unit: str,
+    middle: float,
+    least: float,
+    *,
+    named: bool = False,
+    even_sided: bool = True,
 ) -> Panel:
     swing = float(np.max(np.abs(rows - middle), initial=0.0))
     curves = [
@@ -86,7 +95,15 @@ def _panel(
         )
         for k, row in enumerate(rows, start=1)
     ]
-    upright = axis(label, unit, [rows], mirrored=middle, least=least if swing < NOISE else 0.0)
+    flat = swing < NOISE
+    upright = axis(
+        label,
+        unit,
+        [rows],
+        include=(middle,),
+        mirrored=middle if even_sided or flat else None,
+        least=least if flat else 0.0,
+    )
     return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=across, y=upright)
 
 

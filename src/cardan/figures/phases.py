@@ -17,7 +17,7 @@ from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series, a
 from .palette import dash_of, shaft
 from .wording import percent, significant
 
-FLAT = 1e-9
+FLAT = 1e-6
 """Below this slope of δ [1/rad] a setting is a smooth minimum: small errors of the yokes cost next to nothing."""
 
 
@@ -25,8 +25,16 @@ def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     """Return the figures of a phasing."""
     if not found.settings:
         return (polygon_figure(found),)
-    strict = float(np.max(np.abs(found.settings[0].sensitivity))) > FLAT
-    return (polygon_figure(found), settings_figure(found), *((sensitivity_figure(found),) if strict else ()))
+    made = [polygon_figure(found)]
+    if max(one.irregularity for one in _compared(found)) > SYNCHRONOUS:
+        made.append(settings_figure(found))
+    if float(np.max(np.abs(found.settings[0].sensitivity))) > FLAT:
+        made.append(sensitivity_figure(found))
+    return tuple(made)
+
+
+def _compared(found: Phasing) -> list[YokeSetting]:
+    return [found.as_built, *found.settings[:4], *found.spline_settings[:3]]
 
 
 def polygon_figure(found: Phasing) -> Figure:
@@ -94,6 +102,7 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
         )
     middle = Curve(x=np.asarray([0.0]), y=np.asarray([0.0]), role="ink", width=0.0, marker=5.0)
     sides: list[Series] = []
+    count = len(one.vertex) - 1
     for k, (start, end) in enumerate(zip(one.vertex, one.vertex[1:], strict=False), start=1):
         path = _side(complex(start), complex(end))
         sides.append(
@@ -102,7 +111,7 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
                 y=path.imag,
                 role=shaft(k + 1),
                 dash=dash_of(k + 1),
-                width=2.2,
+                width=4.4 - 2.6 * k / count,  # later sides narrower: one that runs back over another hides nothing
                 label=_("joint {number}").format(number=k) if named else "",
             )
         )
@@ -145,7 +154,7 @@ def settings_figure(found: Phasing) -> Figure:
     found : Phasing
         What the yoke angles can do.
     """
-    shown = [found.as_built, *found.settings[:4], *found.spline_settings[:3]]
+    shown = _compared(found)
     share = 100.0 * np.asarray([one.irregularity for one in shown])
     at = np.arange(len(shown), 0, -1, dtype=float)
     low, high = 100.0 * found.irregularity_min, 100.0 * found.irregularity_max

@@ -98,8 +98,13 @@ def _svg(canvas: Canvas) -> str:
     text = stream.getvalue().decode("utf-8")
     rim = 'style="paint-order: stroke; stroke: #fff; stroke-width: 2.4px; stroke-linejoin: round"'
     text = re.sub(r' id="halo\d+"', f" {rim}", text)
-    text = re.sub(r"(\d+\.\d{2})\d+", r"\1", text).replace("'DejaVu Sans'", FONTS)
+    text = re.sub(r"<[^>]*>", _short, text).replace("'DejaVu Sans'", FONTS)
     return re.sub(r">\s+<", "><", text)
+
+
+def _short(tag: re.Match[str]) -> str:
+    """Return a tag with two decimals in its numbers, a hundredth of a point; words between tags stay as they are."""
+    return re.sub(r"(\d+\.\d{2})\d+", r"\1", tag[0])
 
 
 def inline_svg(figure: Figure) -> str:

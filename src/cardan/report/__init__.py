@@ -1,0 +1,1 @@
+"""The report: one page for one drive, that needs no network and prints well."""

@@ -1,0 +1,139 @@
+"""What a page of the report is made of: words, tables, pictures. Only data; the template gives it its looks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from cardan.figures import Figure
+from cardan.figures.palette import colour, shaft
+
+Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
+
+SIGNS: dict[Tone, str] = {"plain": "○", "good": "✓", "warning": "▲", "failed": "✖"}
+"""Every tone by a sign too, never by colour alone."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """A cell of a table.
+
+    Parameters
+    ----------
+    text : str
+        What it says.
+    tone : str
+        How good that is.
+    full : str
+        The number in full precision, for whoever points at it.
+    chip : str
+        Colour of a chip before the text.
+    """
+
+    text: str
+    tone: Tone = "plain"
+    full: str = ""
+    chip: str = ""
+
+    @property
+    def sign(self) -> str:
+        """Sign of the tone; none for plain words."""
+        return "" if self.tone == "plain" else SIGNS[self.tone]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """A column of a table: its heading with the unit of its numbers."""
+
+    heading: str
+    unit: str = ""
+    left: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A table with a line of words above it."""
+
+    columns: Sequence[Column]
+    rows: Sequence[Sequence[Cell]]
+    title: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """A paragraph; with a tone, a boxed remark."""
+
+    text: str
+    tone: Tone = "plain"
+    title: str = ""
+
+    @property
+    def sign(self) -> str:
+        """Sign of the tone."""
+        return SIGNS[self.tone]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Points:
+    """A list of short remarks."""
+
+    title: str
+    items: Sequence[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Listing:
+    """Text as it stands in a file."""
+
+    title: str
+    text: str
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Picture:
+    """A figure of the report."""
+
+    figure: Figure
+
+
+Block: TypeAlias = Table | Words | Points | Listing | Picture
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Page:
+    """A numbered part of the report.
+
+    Parameters
+    ----------
+    name : str
+        For links.
+    title : str
+        Heading.
+    answer : str
+        What it comes to, in a sentence.
+    blocks : sequence of block
+        From the top.
+    """
+
+    name: str
+    title: str
+    answer: str
+    blocks: Sequence[Block]
+
+
+def words(text: str, tone: Tone = "plain") -> Cell:
+    """Return a cell of words."""
+    return Cell(text=text, tone=tone)
+
+
+def number(text: str, value: float | None = None, tone: Tone = "plain") -> Cell:
+    """Return a cell with a number, and the same in full precision."""
+    return Cell(text=text, tone=tone, full="" if value is None else repr(float(value)))
+
+
+def of_shaft(k: int, name: str = "", *, end: str = "") -> Cell:
+    """Return the cell that heads the row of a shaft, with its colour."""
+    text = " ".join(part for part in (str(k), end, name) if part)
+    return Cell(text=text, chip=colour(shaft(k)))

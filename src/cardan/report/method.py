@@ -1,0 +1,150 @@
+"""Last page: how it was reckoned, and why to believe it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan import __version__
+from cardan.figures.wording import fixed, significant
+from cardan.texts import _
+from cardan.units import deg
+
+from .block import Block, Cell, Column, Listing, Page, Table, Words, number, words
+from .subject import Subject
+
+
+def method(on: Subject, source_text: str | None) -> Page:
+    """Return the page of the method and the evidence."""
+    blocks: list[Block] = [
+        Words(
+            text=_(
+                "A universal joint is a Möbius map of the unit circle: with w = e^(2iθ), θ the angle of the driving "
+                "yoke, it maps w to (w − τ)/(1 − τw), τ = tan²(α/2). A chain of joints is a product of 2×2 matrices, "
+                "so it moves exactly like one joint. Nothing here is a small-angle approximation unless it says so."
+            )
+        ),
+        _equations(on),
+        _checks(on),
+    ]
+    if source_text is not None:
+        blocks.append(Listing(title=_("Input file"), text=source_text))
+    passed = all(check.passed for check in on.checks)
+    answer = (
+        _("Reckoned by cardan {version}; all self-checks leave nothing but rounding.")
+        if passed
+        else _("Reckoned by cardan {version}; a self-check leaves more than rounding.")
+    )
+    return Page(name="method", title=_("Method and evidence"), answer=answer.format(version=__version__), blocks=blocks)
+
+
+def _equations(on: Subject) -> Table:
+    rows = [[words(name), words(line), words(put), words(source)] for name, line, put, source in _lines(on)]
+    return Table(
+        title=_("Equations used"),
+        columns=(
+            Column(heading=_("what"), left=True),
+            Column(heading=_("equation"), left=True),
+            Column(heading=_("with the numbers of this drive"), left=True),
+            Column(heading=_("source"), left=True),
+        ),
+        rows=rows,
+    )
+
+
+def _lines(on: Subject) -> Iterator[tuple[str, str, str, str]]:
+    a, b = (float(abs(part)) for part in on.whole.pair)
+    if on.even:
+        b = 0.0
+    half = 0.5 * float(on.train.bend[0])
+    yield (
+        _("joint 1"),
+        "τ = tan²(α/2)",
+        f"tan²({fixed(half / deg, 3)}°) = {significant(float(np.tan(half)) ** 2)}",
+        _("Book (18), as a map of the circle"),
+    )
+    if on.joints > 1:
+        turn = np.asarray(on.train.turn_before)[1]
+        gamma, beta = (fixed(float(part[0]) / deg) for part in (on.train.yoke_angle, on.train.plane_twist))
+        yield (
+            _("between joints 1 and 2"),
+            "μ = 90° − γ − β",
+            f"90° − ({gamma}°) − ({beta}°) = {fixed(float(turn) / deg)}°",
+            _("Book (31), (38)"),
+        )
+    yield (
+        _("whole drive"),
+        "G = J R … J R = [[a, b], [b̄, ā]]",
+        f"|a| = {fixed(a, 6)}, |b| = {fixed(b, 6)}",
+        _("matrix product"),
+    )
+    yield (
+        _("irregularity"),
+        "δ = 4|a||b|",
+        f"4 · {fixed(a, 6)} · {fixed(b, 6)} = {significant(4.0 * a * b)}",
+        _("Book (79), exact"),
+    )
+    yield (
+        _("equivalent joint"),
+        "cos α = (|a| − |b|)²",
+        f"({fixed(a, 6)} − {fixed(b, 6)})² = {significant((a - b) ** 2, 6)}",
+        _("matrix product"),
+    )
+    yield (
+        _("ahead and back"),
+        "arcsin τ, τ = |b|/|a|",
+        f"arcsin {significant(b / a)} = {fixed(float(np.arcsin(b / a)) / deg, 4)}°",
+        _("extreme of Book (19)"),
+    )
+    closing = on.closing
+    if on.joints > 1:
+        sign = "≤" if closing.closes else ">"
+        yield (
+            _("can be even"),
+            _("L_max ≤ Σ of the others, L = −ln cos α"),
+            f"{fixed(float(closing.length[closing.longest - 1]), 5)} {sign} {fixed(closing.others, 5)}",
+            _("in place of Book (77), (86)"),
+        )
+
+
+def _checks(on: Subject) -> Table:
+    rows: list[list[Cell]] = [
+        [
+            words(check.name),
+            words(check.way),
+            number(_small(check.residual), check.residual),
+            number(_small(check.allowed), check.allowed),
+            words(_("passed") if check.passed else _("failed"), "good" if check.passed else "failed"),
+        ]
+        for check in on.checks
+    ]
+    if on.replayed is not None and on.best is not None:
+        miss = abs(on.replayed - on.best.irregularity)
+        # Sampled at whole steps: the swing seen can fall short of the true one by the curvature of the peak.
+        allowed = 1e-12 + 0.001 * on.best.irregularity
+        good = miss <= allowed
+        rows.append(
+            [
+                words(_("irregularity at setting {label}").format(label=on.best.label)),
+                words(_("swing of the output by plain vectors, sampled over a turn")),
+                number(_small(miss), miss),
+                number(_small(allowed), allowed),
+                words(_("passed") if good else _("failed"), "good" if good else "failed"),
+            ]
+        )
+    return Table(
+        title=_("Self-checks on this drive"),
+        columns=(
+            Column(heading=_("what"), left=True),
+            Column(heading=_("compared with"), left=True),
+            Column(heading=_("residual")),
+            Column(heading=_("allowed")),
+            Column(heading=_("verdict"), left=True),
+        ),
+        rows=rows,
+    )
+
+
+def _small(value: float) -> str:
+    return "0" if value == 0.0 else significant(value, 2)

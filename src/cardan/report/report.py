@@ -1,0 +1,152 @@
+"""Writes the report of a drive."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from cardan import __version__
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.errors import refuse
+from cardan.figures import Figure
+from cardan.figures.drive import space_figure
+from cardan.figures.writing import whole
+from cardan.texts import _
+
+from .block import Listing, Page, Picture, Points, Table, Words
+from .method import method
+from .moving import moving
+from .phasing import phasing
+from .subject import Subject, asked
+from .summary import changes, judgement, key_figures, warnings
+from .turning import turning
+from .understood import understood
+
+SUFFIXES = (".html", ".htm")
+
+
+def report(
+    drive: Drive,
+    duty: Duty | None,
+    path: Path | str,
+    *,
+    source_text: str | None = None,
+    interactive: bool = False,
+    progress: Callable[[float], object] | None = None,
+) -> Path:
+    """Write the report of a drive as one HTML file that needs nothing else.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    duty : Duty or None
+        What it does; None takes the drive's own duty.
+    path : path
+        Where the report goes, ending in .html; written whole or not at all.
+    source_text : str, optional
+        Text of the drive file, shown in full at the end.
+    interactive : bool
+        Draw figures to point at, zoom and turn, at the price of some megabytes.
+    progress : function, optional
+        Called with the share done; answering "stop" leaves out what is still to be reckoned.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        The path does not end in .html or cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> from cardan.units import deg
+    >>> report(Drive.from_angles([20 * deg, 20 * deg]), None, mkdtemp() + "/even.html").name
+    'even.html'
+    """
+    place = Path(path)
+    if place.suffix.lower() not in SUFFIXES:
+        raise refuse("path", _("{path} should end in .html").format(path=place))
+    text = page(drive, duty, source_text=source_text, interactive=interactive, progress=progress)
+    return whole(place, text.encode("utf-8"))
+
+
+def page(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    source_text: str | None = None,
+    interactive: bool = False,
+    progress: Callable[[float], object] | None = None,
+) -> str:
+    """Return the report of a drive as the text of an HTML page; see `report`."""
+    on = asked(drive, duty, progress)
+    pages: list[Page] = [understood(on), turning(on), phasing(on)]
+    if on.moving is not None:
+        pages.append(moving(on))
+    pages.append(method(on, source_text))
+
+    def drawn(figure: Figure) -> str:
+        if interactive:
+            from cardan.figures.render_plotly import fragment
+
+            return fragment(figure)
+        from cardan.figures.render_matplotlib import inline_svg
+
+        return inline_svg(figure)
+
+    text: str = _template().render(
+        _=_,
+        title=drive.name or _("Universal-joint drive"),
+        note=drive.note,
+        version=__version__,
+        date=datetime.datetime.now(tz=datetime.UTC).date().isoformat(),
+        judgement=judgement(on),
+        warnings=list(warnings(on)),
+        figures=key_figures(on),
+        changes=changes(on),
+        sketch=_sketch(on),
+        pages=pages,
+        drawn=drawn,
+        kind=_kind,
+        program=_program() if interactive else "",
+    )
+    if progress is not None:
+        progress(1.0)
+    return text
+
+
+def _sketch(on: Subject) -> Figure:
+    return space_figure(on.drive, on.seen, name="sketch")
+
+
+def _program() -> str:
+    from cardan.figures.render_plotly import program
+
+    return program()
+
+
+def _kind(block: object) -> str:
+    """Return which macro of the template shows a block."""
+    return {Table: "table", Words: "words", Points: "points", Listing: "listing", Picture: "picture"}[type(block)]
+
+
+def _template() -> Any:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    folder = Path(__file__).parent / "templates"
+    world = Environment(
+        loader=FileSystemLoader(folder),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return world.get_template("report.html")

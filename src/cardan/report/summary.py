@@ -1,0 +1,278 @@
+"""Page 1: is this drive good, and what should be changed?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cardan.analysis.equivalence import WARN_BEND
+from cardan.figures.wording import fixed, half_turn, percent, significant
+from cardan.synthesis.setting import YokeSetting
+from cardan.texts import _, plural
+from cardan.units import deg, rpm
+
+from .block import SIGNS, Cell, Column, Table, Tone, Words, number, words
+from .subject import Subject
+
+ILL = 80.0
+"""Bend [°] above which rounding grows so much that the last digits mean nothing."""
+
+CALM = 1e-3
+"""Irregularity below which a drive is called nearly even: some tenth of what one joint of 5° does."""
+
+UTMOST = 1e-9
+"""Changes of the irregularity smaller than this help nobody."""
+
+
+def judgement(on: Subject) -> Words:
+    """Return the one sentence the reader came for."""
+    name = on.drive.name or _("The drive")
+    share = percent(float(on.whole.irregularity))
+    best = on.best
+    steep = float(np.max(on.train.bend)) > WARN_BEND * deg
+    tone: Tone
+    if on.even:
+        tone = "good"
+        text = _("{name} is synchronous as built: the output turns exactly evenly.").format(name=name)
+        if on.moving is not None:
+            text = _("{name} is synchronous as drawn, standing still.").format(name=name)
+    elif on.curable and best is not None:
+        tone = "warning"
+        text = _(
+            "{name} is {share} irregular as built; with its yokes set differently it turns exactly evenly."
+        ).format(name=name, share=share)
+    elif best is None:
+        tone = "warning"
+        text = _("{name} has one joint and turns {share} irregularly; one joint alone is never even.").format(
+            name=name, share=share
+        )
+    elif float(on.whole.irregularity) - best.irregularity > UTMOST:
+        tone = "warning"
+        text = _(
+            "{name} is {share} irregular as built; no setting of the yokes makes it even, the best one leaves {least}."
+        ).format(name=name, share=share, least=percent(best.irregularity))
+    else:
+        tone = "warning"
+        text = _("{name} is {share} irregular, and no setting of the yokes makes it any better.").format(
+            name=name, share=share
+        )
+    if float(on.whole.irregularity) < CALM:
+        tone = "good"
+    swings = _while_moving(on)
+    if swings > UTMOST:
+        tone = "warning" if tone == "good" and swings > CALM else tone
+        text += " " + _("While it moves, the output is up to {share} irregular.").format(share=percent(swings))
+    if steep:
+        tone = "failed"
+    return Words(text=text, tone=tone)
+
+
+def _while_moving(on: Subject) -> float:
+    """Return the largest irregularity over the movement, the movement counted where a speed is known."""
+    found = {one.what: one.value for one in on.moving.worst} if on.moving else {}
+    return float(found.get("moving_irregularity", found.get("irregularity", 0.0)))
+
+
+def warnings(on: Subject) -> Iterator[Words]:
+    """Yield what the reader must not overlook."""
+    for k, bend in enumerate(np.asarray(on.train.bend) / deg, start=1):
+        if bend > ILL:
+            yield Words(
+                text=_(
+                    "Joint {k} bends {bend}°: the motion is so steep that rounding costs digits; see the residuals in "
+                    "the last part."
+                ).format(k=k, bend=fixed(bend, 1)),
+                tone="failed",
+            )
+        elif bend > WARN_BEND:
+            yield Words(
+                text=_("Joint {k} bends {bend}°; no real cross joint works above {limit:g}°.").format(
+                    k=k, bend=fixed(bend, 1), limit=WARN_BEND
+                ),
+                tone="failed",
+            )
+    if on.joints > 1 and not on.phasing.feasible and on.phasing.limiting_joint is not None:
+        yield Words(
+            text=_("It cannot be made synchronous: joint {k} bends more than the others can cancel.").format(
+                k=on.phasing.limiting_joint
+            ),
+            tone="warning",
+        )
+    if on.phasing.spline_refusal:
+        yield Words(text=on.phasing.spline_refusal, tone="warning")
+    if on.moving is not None:
+        yield from (Words(text=text, tone="warning") for text in on.moving.warnings)
+        yield from (Words(text=flag.message, tone="failed") for one in on.moving.splines for flag in one.flags)
+    if not on.complete:
+        yield Words(text=_("Stopped by the reader: what was not reckoned by then is left out."), tone="warning")
+    if not all(check.passed for check in on.checks):
+        yield Words(text=_("A self-check failed; see the last part."), tone="failed")
+
+
+def key_figures(on: Subject) -> Table:
+    """Return the figures a reader compares drives by, with their limits where there are any."""
+    share = float(on.whole.irregularity)
+    rows = [
+        _figure(
+            _("irregularity δ of the output"), 100.0 * share, "%", _evenness(on), percent(share, 4).removesuffix(" %")
+        ),
+        _figure(_("the same as one joint bent by"), float(on.whole.bend) / deg, "°", words("")),
+        _figure(_("output ahead and back by"), float(on.whole.max_lead) / deg, "°", words("")),
+        _acceleration(on),
+        _bend(on),
+    ]
+    if on.moving is not None:
+        rows += list(_moving(on))
+    return Table(
+        columns=(
+            Column(heading=_("what"), left=True),
+            Column(heading=_("value")),
+            Column(heading="", left=True),
+            Column(heading=_("limit")),
+            Column(heading=_("utilisation")),
+            Column(heading=_("verdict"), left=True),
+        ),
+        rows=rows,
+    )
+
+
+def _figure(name: str, value: float, unit: str, verdict: Cell, text: str = "") -> list[Cell]:
+    small = abs(value) < 1e-5
+    return [
+        words(name),
+        number(text or ("0" if small else significant(value)), value),
+        words(unit),
+        words("–"),
+        words("–"),
+        verdict,
+    ]
+
+
+def _bend(on: Subject) -> list[Cell]:
+    bends = np.asarray(on.train.bend) / deg
+    joint, bend = int(np.argmax(bends)) + 1, float(np.max(bends))
+    name = _("largest bend, joint {k}")
+    steeper = [one for one in on.moving.worst if one.what == "bend" and one.value > bend * deg] if on.moving else []
+    if steeper:
+        most = max(steeper, key=lambda one: one.value)
+        joint, bend, name = most.number, most.value / deg, _("largest bend while moving, joint {k}")
+    use = bend / WARN_BEND
+    tone: Tone = "failed" if use > 1.0 else "warning" if use >= 0.9 else "good"
+    verdict = {"failed": _("too much"), "warning": _("near the limit"), "good": _("passed")}[tone]
+    return [
+        words(name.format(k=joint)),
+        number(significant(bend), bend),
+        words("°"),
+        number(f"{WARN_BEND:g}"),
+        number(fixed(use, 2), use),
+        words(verdict, tone),
+    ]
+
+
+def _acceleration(on: Subject) -> list[Cell]:
+    relative = float(on.whole.max_acceleration)
+    speed = on.drive.duty.speed
+    even = on.even
+    if speed is None:
+        return _figure(_("largest acceleration of the output over ω₁²"), 0.0 if even else relative, "–", words(""))
+    value = 0.0 if even else relative * speed**2
+    name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
+    return _figure(name, value, "rad/s²", words(""))
+
+
+def _evenness(on: Subject) -> Cell:
+    if on.even:
+        return words(_("exactly even"), "good")
+    if float(on.whole.irregularity) < CALM:
+        return words(_("nearly even"))
+    if on.curable:
+        return words(_("can be made even"), "warning")
+    return words(_("cannot be even"), "warning")
+
+
+def _moving(on: Subject) -> Iterator[list[Cell]]:
+    assert on.moving is not None
+    for one in on.moving.worst:
+        if one.what in ("irregularity", "moving_irregularity"):
+            name = {
+                "irregularity": _("largest irregularity while moving, standing still at {time} s"),
+                "moving_irregularity": _("largest irregularity while moving, movement counted, at {time} s"),
+            }[one.what].format(time=significant(one.time, 3))
+            yield _figure(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
+
+
+def changes(on: Subject) -> Table | Words:
+    """Return the changes that help most, with their effect, at most three."""
+    if on.even:
+        if _while_moving(on) > UTMOST:
+            return Words(
+                text=_("The yokes stand right; what is left comes from bends that differ while the drive moves.")
+            )
+        return Words(text=_("Nothing needs to be changed for an even output."))
+    rows = list(_changes(on))[:3]
+    if not rows:
+        if on.joints == 1:
+            return Words(
+                text=_("Add a second joint of the same bend, its yokes set to undo the first: then the output is even.")
+            )
+        return Words(text=_("No change of the yokes helps; only other bends do."))
+    return Table(
+        columns=(
+            Column(heading=_("change"), left=True),
+            Column(heading=_("irregularity now"), unit="%"),
+            Column(heading=_("afterwards"), unit="%"),
+        ),
+        rows=rows,
+        title=_("Changes that help most"),
+    )
+
+
+def _changes(on: Subject) -> Iterator[list[Cell]]:
+    now = float(on.whole.irregularity)
+    best, pitched = on.best, on.phasing.spline_settings[:1]
+    if best is not None and now - best.irregularity > UTMOST:
+        yield _change(_set_to(best, best.label, on), now, best.irregularity)
+    for one in pitched:
+        if now - one.irregularity > UTMOST:
+            yield _change(_set_to(one, one.label, on), now, one.irregularity)
+    for k, one in on.alone[:2]:
+        if now - one.irregularity > UTMOST and len(on.phasing.free) > 1:
+            text = _("turn only the yokes of shaft {k}: to {angle}°").format(
+                k=k, angle=fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
+            )
+            yield _change(text, now, one.irregularity)
+    if on.joints > 1 and not on.phasing.feasible and not on.phasing.fixed:
+        text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew").format(
+            k=on.closing.longest,
+            bend=fixed(on.closing.bend_allowed / deg),
+            now=fixed(float(on.train.bend[on.closing.longest - 1]) / deg),
+        )
+        yield _change(text, now, 0.0)
+
+
+def _set_to(one: YokeSetting, label: str, on: Subject) -> str:
+    moved = [k for k, change in enumerate(one.change, start=2) if abs(float(change)) > 1e-6]
+    angles = ", ".join(f"{fixed(float(one.yoke_angle[k - 2]) / deg)}°" for k in moved[:6])
+    if len(moved) > 6:
+        return _("set the yokes of {count} shafts as in setting {label}").format(count=len(moved), label=label)
+    numbers = ", ".join(map(str, moved))
+    return plural(
+        "setting {label}: yokes of shaft {numbers} to {angles}",
+        "setting {label}: yokes of shafts {numbers} to {angles}",
+        len(moved),
+    ).format(label=label, numbers=numbers, angles=angles)
+
+
+def _change(text: str, before: float, after: float) -> list[Cell]:
+    tone: Tone = "good" if after < UTMOST else "plain"
+    return [
+        words(text),
+        number(percent(before).removesuffix(" %"), 100.0 * before),
+        number(percent(after).removesuffix(" %"), 100.0 * after, tone),
+    ]
+
+
+def signs() -> Sequence[str]:
+    """Return the signs of the tones, for the legend."""
+    return [SIGNS[tone] for tone in ("good", "warning", "failed")]

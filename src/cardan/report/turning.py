@@ -1,0 +1,117 @@
+"""Page 3: how every shaft turns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cardan.figures.book import book_figure
+from cardan.figures.equivalence import orders_figure
+from cardan.figures.motion import motion_figure
+from cardan.figures.wording import fixed, percent, significant
+from cardan.texts import _
+from cardan.units import deg
+
+from .block import Block, Cell, Column, Page, Picture, Table, number, of_shaft, words
+from .subject import Subject
+
+
+def turning(on: Subject) -> Page:
+    """Return the page of the motion."""
+    figure = motion_figure(on.found)
+    blocks: list[Block] = [Picture(figure=figure), _extremes(on)]
+    if not on.even:
+        blocks.append(Picture(figure=orders_figure(on.whole)))
+    blocks += [Picture(figure=book_figure(on.compared)), _compared(on)]
+    return Page(name="motion", title=_("Motion"), answer=_equivalent(on), blocks=blocks)
+
+
+def _extremes(on: Subject) -> Table:
+    each, speed = on.each, on.drive.duty.speed
+    scale = 1.0 if speed is None else speed**2
+    rows: list[list[Cell]] = []
+    for k in range(on.joints):
+        low, high = float(np.ravel(each.ratio_min)[k]), float(np.ravel(each.ratio_max)[k])
+        lead = float(np.ravel(each.max_lead)[k]) / deg
+        steep = float(np.ravel(each.max_acceleration)[k]) * scale
+        share = float(on.whole.shaft_irregularity[k])
+        even = share < 1e-13
+        rows.append(
+            [
+                of_shaft(k + 2, end=_("output") if k + 1 == on.joints else ""),
+                number(fixed(low, 4), low),
+                number(fixed(high, 4), high),
+                number(percent(share).removesuffix(" %"), 100.0 * share),
+                number("0" if even else significant(lead, 3), lead),
+                number("0" if even else significant(steep), steep),
+            ]
+        )
+    return Table(
+        title=_("Extremes over a turn at uniform input"),
+        columns=(
+            Column(heading=_("shaft"), left=True),
+            Column(heading=_("least ratio")),
+            Column(heading=_("greatest ratio")),
+            Column(heading=_("irregularity δ"), unit="%"),
+            Column(heading=_("ahead and back by"), unit="°"),
+            Column(heading=_("greatest acceleration"), unit="–" if speed is None else "rad/s²"),
+        ),
+        rows=rows,
+        note=_("Acceleration over ω₁², the square of the input speed in rad/s.") if speed is None else "",
+    )
+
+
+def _equivalent(on: Subject) -> str:
+    if on.even:
+        return _("What one joint does the others undo: the output turns as evenly as the input.")
+    return _(
+        "The drive moves exactly like one universal joint bent by {bend}°, its driving yoke {phase}° from the plane of "
+        "that joint at the start."
+    ).format(bend=fixed(float(on.whole.bend) / deg, 3), phase=fixed(float(on.whole.phase) / deg))
+
+
+def _compared(on: Subject) -> Table:
+    seen = on.compared
+    exact = float(seen.irregularity)
+    bend = float(seen.bend) / deg
+    rule = float(seen.rule_of_practice) / deg
+
+    def row(name: str, source: str, share: float) -> list[Cell]:
+        return [
+            words(name),
+            words(source),
+            number(percent(share, 4).removesuffix(" %"), 100.0 * share),
+            number(_off(share - exact, 100.0), 100.0 * (share - exact)),
+        ]
+
+    rows: Sequence[list[Cell]] = (
+        [
+            words(_("exact")),
+            words(_("matrix product")),
+            number(percent(exact, 4).removesuffix(" %"), 100.0 * exact),
+            words("–"),
+        ],
+        row(_("series, first order"), _("Book (80), exact phase angles"), float(seen.irregularity_80)),
+        row(_("series, mean phases"), _("first order, start position left out"), float(seen.irregularity_mean_phases)),
+        row(_("series without Θ"), _("as reckoned in Book (90)"), float(seen.irregularity_without_theta)),
+    )
+    return Table(
+        title=_("Irregularity by the classical approximations"),
+        columns=(
+            Column(heading=_("way"), left=True),
+            Column(heading=_("source"), left=True),
+            Column(heading="δ", unit="%"),
+            Column(heading=_("error"), unit="%"),
+        ),
+        rows=rows,
+        note=_("The rule of practice √|Σ ±α²| gives an equivalent angle of {rule}°, exact is {bend}°.").format(
+            rule=fixed(rule, 3), bend=fixed(0.0 if on.even else bend, 3)
+        ),
+    )
+
+
+def _off(difference: float, scale: float) -> str:
+    if abs(difference) < 1e-13:
+        return "0"
+    return ("+" if difference > 0.0 else "") + significant(scale * difference, 3)

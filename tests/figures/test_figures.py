@@ -1,0 +1,214 @@
+"""Every figure of every example, by both renderers."""
+
+import io
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from cardan import figures
+from cardan.analysis.articulation import articulation
+from cardan.analysis.book import book_comparison
+from cardan.analysis.equivalence import after_each_joint, equivalent_joint
+from cardan.analysis.motion import motion
+from cardan.drive.drive import Drive
+from cardan.figures import palette
+from cardan.figures.figure import Bars, Curve, axis, steps, written
+from cardan.figures.render_matplotlib import inline_svg, render
+from cardan.figures.render_plotly import described
+from cardan.io import example, example_names
+from cardan.synthesis.phases import phases
+from cardan.units import deg
+
+SIX = Drive.from_angles([0.1, 0.2, 0.3, 0.1, 0.2, 0.3], plane_twists=[1, 2, 3, -1, -2], yoke_angles=[1, 0, -1, 0.5, 0])
+SPECIAL = {
+    "straight": Drive.from_angles([0.0]),
+    "straight pair": Drive.from_angles([0.0, 0.0]),
+    "even": Drive.from_angles([0.3, 0.3]),
+    "infeasible": Drive.from_angles([0.1, 0.4]),
+    "steep": Drive.from_angles([88 * deg, 70 * deg]),
+    "six": SIX,
+    "twelve": Drive.from_angles([0.1] * 12, plane_twists=[0.4] * 11),
+}
+DRIVES = {**{name: example(name) for name in example_names()}, **SPECIAL}
+
+
+def every(drive: Drive) -> list[figures.Figure]:
+    asked = [drive, motion(drive), equivalent_joint(drive), book_comparison(drive), phases(drive)]
+    if drive.movements:
+        asked.append(articulation(drive))
+    return [figure for result in asked for figure in figures.for_result(result)]
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_both_renderers_draw_every_figure(name):
+    made = every(DRIVES[name])
+    assert len({figure.name for figure in made}) == len(made)
+    for figure in made:
+        assert figure.title
+        assert figure.source
+        assert figure.sentence.endswith(".")
+        assert figure.sentence.count(". ") == 0, "one sentence"
+        tree = ElementTree.fromstring(inline_svg(figure))
+        assert tree.get("role") == "img"
+        assert figure.title in tree.get("aria-label")
+        spec = described(figure)
+        assert len(spec["data"]) or spec["layout"]["annotations"]
+
+
+def test_plotly_accepts_what_is_described():
+    graphs = pytest.importorskip("plotly.graph_objects")
+    for figure in every(DRIVES["pto-hitch"]) + every(SIX):
+        graphs.Figure(described(figure))
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"), [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF"), (".html", b"<!doc")]
+)
+def test_save_writes_whole_files(tmp_path, suffix, start):
+    place = figures.save(figures.for_result(SIX), tmp_path / f"six{suffix}")
+    assert place.read_bytes().startswith(start)
+    assert [path.name for path in tmp_path.iterdir()] == [f"six{suffix}"]
+
+
+def test_pdf_has_a_page_for_each_figure(tmp_path):
+    text = figures.save(figures.for_result(SIX), tmp_path / "six.pdf").read_bytes()
+    assert len(re.findall(rb"/Type /Page\b", text)) == 3
+
+
+def test_unknown_suffix_and_unwritable_place_are_refused(tmp_path):
+    from cardan.errors import InputError
+
+    made = figures.for_result(motion(SIX))
+    with pytest.raises(InputError, match=r"\.svg"):
+        figures.save(made, tmp_path / "six.gif")
+    with pytest.raises(InputError, match="cannot be written"):
+        figures.save(made, tmp_path / "nowhere" / "six.svg")
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_interactive_page_asks_nothing_of_the_network(tmp_path):
+    text = figures.save(figures.for_result(motion(SIX)), tmp_path / "m.html").read_text()
+    assert not re.search(r"<(script|link|img)[^>]+(src|href)=", text.split("<script>")[0] + text.split("</script>")[-1])
+    assert "<script src" not in text
+
+
+def test_unknown_results_are_named():
+    with pytest.raises(TypeError, match="int"):
+        figures.for_result(1)
+
+
+def test_the_same_svg_every_time():
+    figure = figures.for_result(motion(SIX))[0]
+    assert inline_svg(figure) == inline_svg(figure)
+
+
+def test_ids_of_two_pictures_on_a_page_differ():
+    ids = [re.findall(r'id="([^"]+)"', inline_svg(figure)) for figure in every(SIX)]
+    flat = [name for some in ids for name in some]
+    assert flat
+    assert len(flat) == len(set(flat))
+
+
+def test_words_of_a_picture_keep_all_their_digits():
+    value = 0.0123456
+    figure = figures.for_result(equivalent_joint(Drive.from_angles([value])))[-1]
+    shown = [text for panel in figure.panels for item in panel.series if isinstance(item, Bars) for text in item.texts]
+    assert all(text in inline_svg(figure) for text in shown)
+
+
+def test_a_synchronous_output_is_a_flat_line_on_a_sensible_axis():
+    even = motion(Drive.from_angles([0.3, 0.3], yoke_angles=[np.pi]))
+    straight = motion(Drive.from_angles([0.0, 0.0]))
+    for found in (even, straight):
+        for panel in figures.for_result(found)[0].panels:
+            assert panel.y.high - panel.y.low > 1e-3
+
+
+def test_a_shaft_has_its_colour_in_every_figure():
+    for figure in every(SIX):
+        for panel in figure.panels:
+            for item in panel.series:
+                if isinstance(item, Curve) and item.label.startswith("shaft 3"):
+                    assert palette.colour(item.role) == palette.SHAFTS[2]
+
+
+def test_shafts_are_told_apart_and_none_is_red():
+    assert len({palette.colour(palette.shaft(k)) + palette.dash_of(k) for k in range(1, 33)}) == 32
+    assert palette.ROLES["failed"] not in palette.SHAFTS
+
+
+def test_motion_figure_shows_the_curves_themselves():
+    found = motion(SIX, speed=100.0)
+    panels = figures.for_result(found)[0].panels
+    curves = [[item for item in panel.series if isinstance(item, Curve)] for panel in panels]
+    for k in range(7):
+        np.testing.assert_array_equal(curves[0][k].y, found.shaft_ratio[k])
+        np.testing.assert_allclose(curves[1][k].y, np.degrees(found.lead[k]), rtol=1e-15, atol=1e-300)
+        np.testing.assert_array_equal(curves[2][k].y, found.shaft_acceleration[k])
+
+
+def test_each_phase_polygon_starts_in_the_middle_and_ends_at_its_irregularity():
+    found = phases(DRIVES["truck-printed-angles"])
+    figure = figures.for_result(found)[0]
+    for panel, one in zip(figure.panels, (found.as_built, *found.settings), strict=False):
+        sides = [item for item in panel.series if isinstance(item, Curve) and item.width > 1.0]
+        assert len(sides) == 4
+        assert np.hypot(sides[0].x[0], sides[0].y[0]) == 0.0
+        radius = np.hypot(sides[-1].x[-1], sides[-1].y[-1])
+        # The ring a corner lies on is its irregularity; rounding of the arc's construction is some 1e-16.
+        assert 4.0 * radius / (1.0 - radius**2) == pytest.approx(one.irregularity, abs=1e-14)
+
+
+def test_sides_of_the_polygon_are_hyperbolic_lines_of_the_joints_lengths():
+    from cardan.drive.chain import chain
+
+    found = phases(SIX)
+    bend = chain(SIX).bend
+    figure = figures.for_result(found)[0]
+    sides = [item for item in figure.panels[0].series if isinstance(item, Curve) and item.width > 1.0]
+    for side, alpha in zip(sides, bend, strict=True):
+        z = np.asarray(side.x) + 1j * np.asarray(side.y)
+        # Distances in the disk of curvature -1 are 2 artanh; the joints' lengths are -ln cos α = 2 artanh τ.
+        legs = 2.0 * np.arctanh(np.abs((z[1:] - z[:-1]) / (1.0 - np.conj(z[:-1]) * z[1:])))
+        whole = 2.0 * np.arctanh(abs((z[-1] - z[0]) / (1.0 - np.conj(z[0]) * z[-1])))
+        assert whole == pytest.approx(-np.log(np.cos(alpha)), rel=1e-9)
+        assert legs.sum() == pytest.approx(whole, rel=1e-9)
+
+
+def test_all_shafts_of_after_each_joint_find_their_figure():
+    assert figures.for_result(after_each_joint(SIX))[-1].name == "orders"
+
+
+def test_axes_never_magnify_noise():
+    made = axis("ratio", "", [1.0 + 1e-16 * np.arange(5)], mirrored=1.0, least=0.02)
+    assert (made.low, made.high) == (pytest.approx(0.99), pytest.approx(1.01))
+
+
+@pytest.mark.parametrize("span", [1e-9, 3e-4, 0.07, 1.0, 33.0, 1e7])
+def test_ticks_are_few_round_and_told_apart(span):
+    ticks = steps(-0.3 * span, 0.7 * span, 5)
+    assert 3 <= len(ticks) <= 12
+    assert len(set(written(ticks))) == len(ticks)
+
+
+def test_several_figures_of_a_png_stand_below_each_other():
+    one, all_of_them = io.BytesIO(), io.BytesIO()
+    made = figures.for_result(SIX)
+    render(made[0], one, "png", dpi=40)
+    render(made, all_of_them, "png", dpi=40)
+
+    def height(stream: io.BytesIO) -> int:
+        return int.from_bytes(stream.getvalue()[20:24], "big")
+
+    assert height(all_of_them) > 2 * height(one)
+
+
+def test_names_are_escaped():
+    named = replace(SIX.shafts[2], name='<b>&"')
+    drive = replace(SIX, shafts=(*SIX.shafts[:2], named, *SIX.shafts[3:]))
+    for figure in figures.for_result(drive):
+        ElementTree.fromstring(inline_svg(figure))
+        assert "<b>&" not in str(described(figure)).replace("<b>&lt;", "")

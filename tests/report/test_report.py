@@ -1,0 +1,160 @@
+"""The report of every example: complete, self-contained, and with the numbers of the analyses."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from cardan.analysis.equivalence import equivalent_joint
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.errors import InputError
+from cardan.figures.wording import percent
+from cardan.io import example, example_names, example_text
+from cardan.report.report import page, report
+from cardan.units import deg
+
+VOID = {"meta", "br", "link", "img", "hr", "input"}
+
+
+class Nesting(HTMLParser):
+    """Follows the tags of a page: each closed by its own, ids used once, links that lead somewhere."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.words: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        known = dict(attrs)
+        if "id" in known:
+            self.ids.append(known["id"])
+        if tag == "a":
+            self.links.append(known["href"])
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        known = dict(attrs)
+        if "id" in known:
+            self.ids.append(known["id"])
+
+    def handle_endtag(self, tag):
+        assert self.open, tag
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+
+def parsed(text: str) -> Nesting:
+    seen = Nesting()
+    seen.feed(text)
+    seen.close()
+    assert seen.open == []
+    return seen
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_the_report_of_every_example_is_whole(name):
+    drive, source = example(name), example_text(name)
+    text = page(drive, source_text=source)
+    seen = parsed(text)
+    words = "".join(seen.words)
+    assert len(seen.ids) == len(set(seen.ids))
+    assert {link.removeprefix("#") for link in seen.links} <= set(seen.ids)
+    assert percent(float(equivalent_joint(drive).irregularity)) in words
+    assert drive.name in words
+    assert source.strip().splitlines()[-1] in words
+    assert "nan" not in re.findall(r"[a-z]+", words.lower())
+    assert ("Articulation" in words) == bool(drive.movements)
+
+
+@pytest.mark.parametrize("name", ["pto-hitch", "six-joints"])
+def test_nothing_is_fetched(name):
+    text = page(example(name), source_text="")
+    addresses = set(re.findall(r"https?://[^\s\"'<>]+", text))
+    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
+    assert not re.search(r"(?:src|href)=\"(?!#)", text)
+    assert "<script" not in text
+    assert "@import" not in text
+
+
+def test_the_truck_says_what_is_wrong_and_what_helps():
+    words = "".join(parsed(page(example("truck-printed-angles"))).words)
+    assert "12.51" in words
+    assert "20.049" in words
+    assert "with its yokes set differently it turns exactly evenly" in words
+    for shaft in ("4.06", "3.21", "5.49"):
+        assert shaft in words
+    # Book (80) as in the worked example: 12.335 % with mean phases.
+    assert "12.34" in words
+
+
+def test_a_synchronous_drive_is_called_so():
+    words = "".join(parsed(page(Drive.from_angles([0.3, 0.3]))).words)
+    assert "synchronous as built" in words
+    assert "exactly even" in words
+
+
+def test_an_infeasible_drive_says_why_and_what_bend_would_do():
+    words = "".join(parsed(page(Drive.from_angles([10 * deg, 30 * deg, 20 * deg]))).words)
+    assert "cannot be made synchronous: joint 2" in words
+    # cos x = cos 10° cos 20°, by hand: x = 22.27°.
+    assert "22.27°" in words
+
+
+def test_bends_beyond_joints_and_beyond_digits_are_warned_of():
+    steep = "".join(parsed(page(Drive.from_angles([50 * deg]))).words)
+    assert "no real cross joint works above 45°" in steep
+    assert "too much" in steep
+    assert "rounding costs digits" in "".join(parsed(page(Drive.from_angles([85 * deg, 10 * deg]))).words)
+
+
+@pytest.mark.parametrize("bends", [[0.0], [0.2], [0.0, 0.2, 0.2], [0.1] * 12, [0.0, 0.0]])
+def test_any_number_of_joints_and_straight_ones_give_a_report(bends):
+    seen = parsed(page(Drive.from_angles(bends)))
+    assert "nan" not in re.findall(r"[a-z]+", "".join(seen.words).lower())
+
+
+def test_a_duty_may_be_given_beside_the_drive():
+    drive = Drive.from_angles([20 * deg])
+    words = "".join(parsed(page(drive, Duty(speed=100.0))).words)
+    # Largest acceleration of a 20° joint: 0.1249656 ω², Book Table 4.
+    assert "1\u202f250" in words
+    assert "rad/s²" in words
+
+
+def test_words_of_the_user_cannot_break_the_page():
+    drive = Drive.from_angles([0.2, 0.1], name="<script>alert(1)</script>")
+    text = page(drive, source_text="# <b>&amp; </pre>")
+    assert "<script>" not in text
+    parsed(text)
+
+
+def test_the_interactive_report_brings_its_program(tmp_path):
+    text = report(example("single-20deg"), None, tmp_path / "r.html", interactive=True).read_text()
+    assert "Plotly.newPlot" in text
+    assert not re.search(r"<script[^>]+src=", text)
+
+
+def test_the_file_is_written_whole_or_not_at_all(tmp_path):
+    drive = Drive.from_angles([0.2])
+    assert report(drive, None, tmp_path / "one.html").read_text().startswith("<!doctype html>")
+    for place in (tmp_path / "no" / "r.html", tmp_path / "r.txt"):
+        with pytest.raises(InputError):
+            report(drive, None, place)
+    assert [path.name for path in tmp_path.iterdir()] == ["one.html"]
+
+
+def test_progress_rises_to_one_and_may_stop_the_work():
+    told: list[float] = []
+    page(example("pto-hitch"), progress=told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+    words = "".join(parsed(page(example("pto-hitch"), progress=lambda share: "stop")).words)
+    assert "Stopped by the reader" in words
+    assert "Articulation" not in words
