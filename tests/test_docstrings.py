@@ -10,7 +10,7 @@ import cardan
 
 PUBLIC = {name: getattr(cardan, name) for name in cardan.__all__ if name != "__version__"}
 FUNCTIONS = {name: thing for name, thing in PUBLIC.items() if inspect.isfunction(thing)}
-RECORDS = {name: thing for name, thing in PUBLIC.items() if is_dataclass(thing)}
+RECORDS = {name: thing for name, thing in PUBLIC.items() if inspect.isclass(thing) and is_dataclass(thing)}
 
 
 def section(doc, title):
