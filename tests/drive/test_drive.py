@@ -109,6 +109,10 @@ BAD = {
         lambda: Drive(joints=(Hooke(bend=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=0)),)),
         ["shafts[1].spline.teeth"],
     ),
+    "half a tooth": (
+        lambda: Drive(joints=(Hooke(bend=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=16.5)),)),
+        ["shafts[1].spline.teeth"],
+    ),
     "a length that the points give": (
         lambda: replace(Drive.from_points(LINE), shafts=(Shaft(number=2, length=1.0),)),
         ["shafts[1].length"],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
@@ -26,33 +25,72 @@ COINCIDENT = 1e-9
 """Points nearer than this share of the largest distance are the same point."""
 
 
-def shown(value: float, key: Key) -> str:
-    """Return a value in SI as the user would write it.
+HUGE = 1e12
+"""Numbers beyond this, in SI, are slips of the pen; their squares would leave the range of floating point numbers."""
+
+TINY = 1e-100
+"""Points nearer than this [m] are the same point; the square of their distance would vanish."""
+
+
+def shown(value: float, key: Key, unit: str = "") -> str:
+    """Return a value in SI as the user would write it, in the preferred unit or a given one.
 
     Examples
     --------
-    >>> shown(0.02, Key("", "length"))
-    '20 mm'
+    >>> shown(0.02, Key("", "length")), shown(0.0254, Key("", "length"), "in")
+    ('20 mm', '1 in')
     """
     if key.dimension is None:
         return f"{value:.6g}"
-    unit = preferred(key.dimension)
+    unit = unit or preferred(key.dimension)
     text = label(unit)
     return f"{value / factor(key.dimension, unit):.6g}{'' if text == '°' else ' '}{text}"
 
 
-def allowed(key: Key) -> str:
-    """Return the allowed range of a key in words."""
+def allowed(key: Key, unit: str = "", *, mirrored: bool = False) -> str:
+    """Return the allowed range of a key in words.
+
+    Parameters
+    ----------
+    key : Key
+        The key.
+    unit : str
+        Unit of the words; the preferred one when empty.
+    mirrored : bool
+        The range of the key with the opposite sign.
+
+    Examples
+    --------
+    >>> allowed(Key("", "angle", low=0.0, below=1.0), "rad")
+    'at least 0 rad and less than 1 rad'
+    """
+    low, above, high, below = key.low, key.above, key.high, key.below
+    if mirrored:
+        low, above, high, below = -high, -below, -low, -above
     parts = []
-    if key.low > -math.inf:
-        parts.append(_("at least {value}").format(value=shown(key.low, key)))
-    if key.above > -math.inf:
-        parts.append(_("more than {value}").format(value=shown(key.above, key)))
-    if key.high < math.inf:
-        parts.append(_("at most {value}").format(value=shown(key.high, key)))
-    if key.below < math.inf:
-        parts.append(_("less than {value}").format(value=shown(key.below, key)))
+    if low > -math.inf:
+        parts.append(_("at least {value}").format(value=shown(low, key, unit)))
+    if above > -math.inf:
+        parts.append(_("more than {value}").format(value=shown(above, key, unit)))
+    if high < math.inf:
+        parts.append(_("at most {value}").format(value=shown(high, key, unit)))
+    if below < math.inf:
+        parts.append(_("less than {value}").format(value=shown(below, key, unit)))
     return _(" and ").join(parts) or _("a finite number")
+
+
+def in_range(key: Key, value: float) -> bool:
+    """Tell whether a value in SI is allowed for a key, and no slip of the pen."""
+    return key.allows(value) and abs(value) <= HUGE
+
+
+def out_of_range(given: str, key: Key, value: float, unit: str = "", *, mirrored: bool = False) -> str:
+    """Return what to say of a number that is not `in_range`, as it was given and as a value in SI."""
+    if key.allows(value):
+        return _("{value} is not allowed; no drive has such a number").format(value=given)
+    return _("{value} is not allowed; allowed is {allowed}").format(
+        value=given, allowed=allowed(key, unit, mirrored=mirrored)
+    )
 
 
 def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
@@ -74,11 +112,8 @@ def _number_problems(value: Any, key: Key, path: str) -> Iterator[Problem]:
     if isinstance(value, tuple):
         for index, item in enumerate(value):
             yield from _number_problems(item, key, f"{path}[{index}]")
-    elif isinstance(value, int | float) and not key.allows(value):
-        yield Problem(
-            path,
-            _("{value} is not allowed; allowed is {allowed}").format(value=shown(value, key), allowed=allowed(key)),
-        )
+    elif isinstance(value, int | float) and not in_range(key, value):
+        yield Problem(path, out_of_range(shown(value, key), key, value))
 
 
 def wrong_count(field: str, values: Sequence[Any], wanted: int, *, empty: bool = False) -> Iterator[Problem]:
@@ -95,33 +130,46 @@ def point_problems(points: Sequence[Sequence[float]]) -> Iterator[Problem]:
             _("{count} points given; a drive needs at least 3: input, one joint, output").format(count=len(points)),
         )
         return
-    bad = False
     for k, point in enumerate(points):
-        if len(point) != 3 or not all(math.isfinite(x) for x in point):
-            bad = True
+        if not _is_point(point):
             yield Problem(f"points[{k}]", _("{point} is not three finite numbers").format(point=tuple(point)))
-    if bad:
-        return
-    size = max(math.dist(a, b) for a, b in pairwise(points))
-    axes: list[list[float] | None] = []
-    for k, (a, b) in enumerate(pairwise(points), start=1):
-        distance = math.dist(a, b)
-        if distance <= COINCIDENT * size:
+    axes = _axes([point if _is_point(point) else None for point in points])
+    for k, axis in enumerate(axes, start=1):
+        if axis == ():
             yield Problem(f"points[{k}]", _("coincides with points[{k}]").format(k=k - 1))
+    for _joint, message in _folds(axes):
+        yield Problem("points", message)
+
+
+def _is_point(point: Sequence[float] | None) -> bool:
+    return point is not None and len(point) == 3 and all(math.isfinite(x) and abs(x) <= HUGE for x in point)
+
+
+def _axes(points: Sequence[Sequence[float] | None]) -> list[tuple[float, ...] | None]:
+    """Return the direction of every shaft: empty between points that coincide, None where a point is not known."""
+    pairs = [None if a is None or b is None else (a, b) for a, b in pairwise(points)]
+    apart = [None if pair is None else math.dist(*pair) for pair in pairs]
+    least = max(COINCIDENT * max((one for one in apart if one is not None), default=0.0), TINY)
+    axes: list[tuple[float, ...] | None] = []
+    for pair, distance in zip(pairs, apart, strict=True):
+        if pair is None or distance is None:
             axes.append(None)
         else:
-            axes.append([(y - x) / distance for x, y in zip(a, b, strict=True)])
+            near = distance <= least
+            axes.append(() if near else tuple((y - x) / distance for x, y in zip(*pair, strict=True)))
+    return axes
+
+
+def _folds(axes: Sequence[Sequence[float] | None]) -> Iterator[tuple[int, str]]:
+    """Yield the number of each joint whose shafts enclose 90° or more, and what to say of it."""
     for i, (one, two) in enumerate(pairwise(axes), start=1):
-        if one is None or two is None:
+        if not one or not two:
             continue
         cosine = sum(x * y for x, y in zip(one, two, strict=True))
         if cosine <= 1e-15:
-            yield Problem(
-                "points",
-                _("shafts {one} and {two} enclose {bend:.4g}°; a universal joint needs less than 90°").format(
-                    one=i, two=i + 1, bend=math.degrees(math.acos(max(-1.0, cosine)))
-                ),
-            )
+            message = _("shafts {one} and {two} enclose {bend:.4g}°; a universal joint needs less than 90°")
+            bend = math.degrees(math.acos(max(-1.0, cosine)))
+            yield i, message.format(one=i, two=i + 1, bend=bend)
 
 
 def all_shafts(drive: Drive) -> tuple[Shaft, ...]:
@@ -139,13 +187,16 @@ def problems(drive: Drive) -> Iterator[Problem]:
     if n > MAX_JOINTS:
         yield Problem("joints", _("{n} joints given; the limit is {limit}").format(n=n, limit=MAX_JOINTS))
         return
-    found = [*range_problems(drive), *shaft_problems(drive.shafts, n), *_form_problems(drive)]
+    found = [
+        *range_problems(drive),
+        *shaft_problems(drive.shafts, n),
+        *_form_problems(drive),
+        *_place_problems(drive),
+        *movement_problems(drive.movements, n),
+        *_unused(drive),
+    ]
     yield from found
-    if not found and drive.form == "points":
-        for problem in point_problems(axis_points(drive)):
-            message = re.sub(r"points\[\d+\]", lambda found: _drive_path(found[0], n), problem.message)
-            yield Problem(_drive_path(problem.field, n), message)
-    yield from movement_problems(drive.movements, n)
+    yield from _pose_problems(drive, whole=not found)
 
 
 def axis_points(drive: Drive) -> list[tuple[float, float, float]]:
@@ -153,11 +204,57 @@ def axis_points(drive: Drive) -> list[tuple[float, float, float]]:
     return [drive.input.point, *(joint.centre for joint in drive.joints), drive.output.point]  # type: ignore[list-item]
 
 
-def _drive_path(field: str, n: int) -> str:
-    if "[" not in field:
-        return "joints"
-    k = int(field[field.index("[") + 1 : -1])
-    return "input.point" if k == 0 else "output.point" if k == n + 1 else f"joints[{k - 1}].centre"
+def _place_problems(drive: Drive) -> Iterator[Problem]:
+    """Yield joints that coincide and joints that fold back, as far as the geometry is known."""
+    n = len(drive.joints)
+    if drive.form == "points":
+        names = ["input.point", *(f"joints[{i}].centre" for i in range(n)), "output.point"]
+        axes = _axes([point if _is_point(point) else None for point in axis_points(drive)])
+        for k, axis in enumerate(axes, start=1):
+            if axis == ():
+                yield Problem(names[k], _("coincides with {other}").format(other=names[k - 1]))
+        for i, message in _folds(axes):
+            yield Problem(names[i], message)
+    elif drive.form == "slopes":
+        given = {shaft.number: shaft for shaft in drive.shafts}
+        for i, message in _folds([_sloped_axis(given.get(k)) for k in range(1, n + 2)]):
+            yield Problem(f"shafts[{i}].side_slope", message)
+
+
+def _sloped_axis(shaft: Shaft | None) -> tuple[float, float, float] | None:
+    if shaft is None or (shaft.side_slope is None and shaft.plan_slope is None):
+        return None
+    side, plan = shaft.side_slope or 0.0, shaft.plan_slope or 0.0
+    if not abs(side) < math.pi / 2 or not abs(plan) < math.pi / 2:
+        return None
+    y, z = math.tan(plan), math.tan(side)
+    size = math.hypot(1.0, y, z)
+    return (1.0 / size, y / size, z / size)
+
+
+def _unused(drive: Drive) -> Iterator[Problem]:
+    """Yield what no question can use in this drive."""
+    if drive.limits.spline_overlap is not None and not any(shaft.spline for shaft in drive.shafts):
+        yield Problem("limits.spline_overlap", _("no shaft of this drive has a spline that it could limit"))
+
+
+def _pose_problems(drive: Drive, *, whole: bool) -> Iterator[Problem]:
+    """Yield what is wrong with the poses: their paths and values; if the drive is whole, what they make of it."""
+    if not drive.poses:
+        return
+    from .paths import pose_problems
+
+    names: set[str] = set()
+    for k, pose in enumerate(drive.poses):
+        if pose.name in names:
+            yield Problem(f"poses[{k}].name", _("{name} names two poses").format(name=repr(pose.name)))
+        names.add(pose.name)
+    total = sum(pose.share for pose in drive.poses if pose.share is not None)
+    if total > 1.0 + 1e-9:
+        last = max(k for k, pose in enumerate(drive.poses) if pose.share is not None)
+        message = _("the shares of all poses add up to {total:.6g} %; allowed is at most 100 %")
+        yield Problem(f"poses[{last}].share", message.format(total=100.0 * total))
+    yield from pose_problems(drive, whole=whole)
 
 
 def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
@@ -177,6 +274,9 @@ def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
             yield Problem(f"{path}.number", _("shaft {number} is described twice").format(number=shaft.number))
         seen.add(shaft.number)
         if 1 < shaft.number <= n:
+            teeth = shaft.spline.teeth if shaft.spline else None
+            if teeth is not None and math.isfinite(teeth) and teeth != int(teeth):
+                yield Problem(f"{path}.spline.teeth", _("{teeth} is not a whole number").format(teeth=teeth))
             continue
         for name, unused in (
             ("yoke_angle", shaft.yoke_angle != 0.0),
@@ -215,7 +315,8 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
     for k in range(1, len(drive.joints) + 2):
         shaft = numbers.get(k)
         sloped = shaft is not None and (shaft.side_slope is not None or shaft.plan_slope is not None)
-        given.append(("slopes", f"shafts[{k - 1}].side_slope", sloped))
+        name = "plan_slope" if sloped and shaft is not None and shaft.side_slope is None else "side_slope"
+        given.append(("slopes", f"shafts[{k - 1}].{name}", sloped))
         if form == "points" and shaft is not None and shaft.length is not None:
             yield Problem(f"shafts[{k - 1}].length", _("the joint centres already give the length of every shaft"))
     if not any(present for owner, _path, present in given if owner):
