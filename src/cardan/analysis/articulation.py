@@ -307,7 +307,7 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
             continue
         time, most, span = found_worst
         while refine and span[1] - span[0] > SHARP * (found.times[-1] - found.times[0]):
-            finer = _largest(ask.answer(np.linspace(*span, 17)), value)
+            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value)
             if finer is None or finer[1] < most:
                 break
             time, most, span = finer

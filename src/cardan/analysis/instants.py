@@ -92,8 +92,8 @@ class Question:
     acceleration: float
     start: float
 
-    def answer(self, times: Array) -> Instants:
-        """Return everything at the instants (t,) [s]."""
+    def answer(self, times: Array, *, yokes: bool = True) -> Instants:
+        """Return everything at the instants (t,) [s]; without ``yokes`` all but the speeds of these very instants."""
         jet = self.path(times)
         points = np.asarray(jet[0])
         if points.shape != (times.size, *self.place.points.shape):
@@ -114,12 +114,13 @@ class Question:
         )
         with np.errstate(invalid="ignore", divide="ignore"):
             shafts = moving_shafts(jet)
-            motion = None if self.speed is None else self._motion(times, gamma, self.speed)
+            motion = self._motion(times, gamma, self.speed) if yokes and self.speed is not None else None
             speeds, gains = None, None
-            if motion is not None:
-                omega = motion.spins.spin[:, 0]
-                speeds = speed_range(motion.axes, yoke_angle=gamma, speed=omega)
-                gains = acceleration_range(motion.axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration)
+            if self.speed is not None:
+                axes = (shafts.axis, shafts.axis_rate, shafts.axis_acceleration)
+                omega = self.speed + self.acceleration * (times - self.start)
+                speeds = speed_range(axes, yoke_angle=gamma, speed=omega)
+                gains = acceleration_range(axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration)
         steep = np.any(frozen.bend > WARN_BEND * deg, axis=-1)
         status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
 

@@ -12,6 +12,9 @@ import numpy as np
 from .arrays import Array, ArrayLike
 from .paths import Jet
 
+BLOCK = 64
+"""Cosines summed at once."""
+
 
 def variance(frequency: ArrayLike, density: ArrayLike) -> float:
     """Return ∫S dΩ of a spectrum, exactly.
@@ -86,17 +89,34 @@ def sample_path(frequency: ArrayLike, density: ArrayLike, times: ArrayLike, *, s
     below = _accumulated(omega, s)[inside] + s[inside] * step + 0.5 * slope[inside] * step**2
     amplitude = np.sqrt(2.0 * np.maximum(np.diff(below), 0.0))
     phase = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, components)
-    middle = 0.5 * (edges[1:] + edges[:-1])
     at = np.asarray(times, dtype=float)
-    value, rate, acceleration = np.zeros_like(at), np.zeros_like(at), np.zeros_like(at)
-    for part in range(0, components, 256):
-        w, size = middle[part : part + 256], amplitude[part : part + 256]
-        argument = at[..., None] * w + phase[part : part + 256]
-        cosine = np.cos(argument)
-        value += cosine @ size
-        rate -= np.sin(argument) @ (w * size)
-        acceleration -= cosine @ (w**2 * size)
+    width = edges[1] - edges[0]
+    waves = amplitude * np.exp(1j * phase)
+    slopes = 1j * (edges[:-1] + 0.5 * width)
+    parts = np.stack((waves, slopes * waves, slopes**2 * waves))
+    sums = [_cosines(parts, edges[0] + 0.5 * width, width, piece) for piece in _pieces(at.ravel())]
+    value, rate, acceleration = np.concatenate(sums, axis=-1).reshape(3, *at.shape)
     return value, rate, acceleration
+
+
+def _cosines(parts: Array, first: float, step: float, times: Array) -> Array:
+    """Return Re Σ_k c_k e^{i(first + k step)t} of several rows of coefficients c (m, K); array (m, t).
+
+    Equal steps let k = row · BLOCK + column split the sum into a matrix product, with far fewer sines than terms.
+    """
+    rows = -(-parts.shape[-1] // BLOCK)
+    table = np.zeros((parts.shape[0], rows * BLOCK), dtype=complex)
+    table[:, : parts.shape[-1]] = parts
+    inner = np.exp(1j * np.outer(times, first + step * np.arange(BLOCK)))
+    outer = np.exp(1j * np.outer(times, step * BLOCK * np.arange(rows)))
+    blocks = inner @ table.reshape(-1, BLOCK).T
+    result: Array = np.einsum("tmr,tr->mt", blocks.reshape(times.size, parts.shape[0], rows), outer).real
+    return result
+
+
+def _pieces(times: Array) -> list[Array]:
+    """Return the times in pieces that keep the tables of `_cosines` small."""
+    return np.array_split(times, max(1, -(-times.size // 2048)))
 
 
 def _polygon(frequency: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
