@@ -187,6 +187,8 @@ def transport(direction: Callable[[Array], tuple[Array, Array]], times: Array, s
     probes = np.unique(np.linspace(0, gaps.size - 1, 64).astype(int)) if gaps.size else np.arange(0)
     probes = np.union1d(probes, np.argsort(gaps)[-16:])
     panels, coarse = 1, swept(probes, 1)
+    if not np.any(coarse) and not np.any(direction(instants)[1]):
+        return np.zeros(np.shape(times))
     while panels < 65536:
         fine = swept(probes, 2 * panels)
         if gaps.size * np.max(np.abs(fine - coarse), initial=0.0) < ACCURATE:
