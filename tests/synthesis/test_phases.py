@@ -229,6 +229,12 @@ def test_wrong_shafts_are_all_named():
     assert [p.field for p in caught.value.problems] == ["fixed[1]", "fixed[5]", "fixed[3]"]
 
 
+def test_a_goal_with_the_wrong_number_of_weights_is_refused():
+    with pytest.raises(InputError) as caught:
+        phases(TRUCK, goal=LeastIntermediate(weights=(1.0, 2.0)))
+    assert caught.value.field == "goal.weights"
+
+
 def test_with_every_yoke_held_there_is_one_setting():
     found = phases(TRUCK, fixed={2: 0.1, 3: 0.2, 4: 0.3})
     assert found.free == ()

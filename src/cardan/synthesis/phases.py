@@ -11,6 +11,7 @@ import numpy as np
 from cardan.analysis.equivalence import SYNCHRONOUS as EVEN
 from cardan.drive.chain import Chain, chain
 from cardan.drive.drive import Drive
+from cardan.drive.validity import wrong_count
 from cardan.errors import InputError, Problem, check
 from cardan.maths import polygon
 from cardan.maths.arrays import Array
@@ -110,7 +111,8 @@ def phases(
     Raises
     ------
     InputError
-        ``fixed`` names a shaft that has no yokes to set, or a value that is not finite; a pose has another number of
+        ``fixed`` names a shaft that has no yokes to set, or a value that is not finite; the goal has too many or too
+        few weights; a pose has another number of
         joints.
 
     Notes
@@ -127,6 +129,8 @@ def phases(
     """
     whole = chain(drive)
     as_built = np.asarray(whole.yoke_angle)
+    if goal.weights is not None:
+        check(wrong_count("goal.weights", goal.weights, whole.joints - 1))
     held = _held(drive, fixed or {})
     start = as_built.copy()
     for number, angle in held.items():
