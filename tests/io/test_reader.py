@@ -27,7 +27,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
         ("format = true\n[[joints]]\nbend_deg = 10", "format", "not known"),
         (HEAD, "joints", "missing"),
         (HEAD + "joints = []", "joints", "at least one joint"),
-        (HEAD + "joints = 3", "joints", "must be tables, not 3"),
+        (HEAD + "joints = 3", "joints", "must be tables, each under [[joints]], not 3"),
         (TWO + "[duty]\nspeed = 3", "duty.speed", "needs a unit: write speed_rpm or speed_rad_s"),
         (TWO + "[duty]\nspeed_mm = 3", "duty.speed_mm", "mm is no unit of this field"),
         (TWO + '[duty]\nspeed_rpm = "fast"', "duty.speed_rpm", "must be a number, not 'fast'"),
@@ -72,7 +72,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
             "poses[0].set: joints[0].bend_dek",
             "nearest",
         ),
-        (TWO + '[[poses]]\nname = "a"\nset = { "joints[0].bend_deg" = 90 }', "poses[0].set: joints[0].bend", "90°"),
+        (TWO + '[[poses]]\nname = "a"\nset = { "joints[0].bend_deg" = 90 }', "poses[0].set: joints[0].bend_deg", "90°"),
     ],
 )
 def test_names_field_value_and_what_is_allowed(text: str, field: str, words: str) -> None:
@@ -104,6 +104,8 @@ number = 7
         "joints[0].centre",
         "joints[1].centre_mm",
         "joints[2].centre_mm[2]",
+        "input.point_mm",
+        "output.point_mm",
         "shafts[0].yoke_angle_deg",
         "shafts[6].number",
     }
@@ -117,8 +119,8 @@ def test_reports_nothing_that_only_follows_from_another_problem() -> None:
 def test_points_that_make_no_drive(points: str) -> None:
     text = HEAD + f"input.point_mm = [0, 0, 0]\noutput.point_mm = [50, 0, 0]\n[[joints]]\ncentre_mm = {points}"
     found = problems(text)
-    assert len(found) == 1
-    assert ("joints[0].centre_mm" in found) == (points == "[0, 0, 0]")
+    assert list(found) == ["joints[0].centre_mm"]
+    assert ("coincides" in found["joints[0].centre_mm"]) == (points == "[0, 0, 0]")
 
 
 def test_one_shaft_only() -> None:

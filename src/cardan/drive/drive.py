@@ -80,7 +80,9 @@ class Drive:
             return "points"
         if any(joint.bend is not None for joint in self.joints):
             return "angles"
-        return "slopes"
+        if any(shaft.side_slope is not None or shaft.plan_slope is not None for shaft in self.shafts):
+            return "slopes"
+        return "points" if self.input.point is not None or self.output.point is not None else "slopes"
 
     @classmethod
     def from_points(

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import MISSING, dataclass, fields
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from cardan.units import DIMENSIONS, KEY, Key, preferred
+
+from .drive import Drive
+from .joints import JOINTS, Joint
+from .movement import MOVEMENTS, Movement
+
+KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {Joint: (JOINTS, "hooke"), Movement: (MOVEMENTS, None)}
+"""Base class -> its kinds by the value of the key ``kind``, and the default kind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +59,13 @@ class Field:
         """The key we write."""
         return self.name if self.key.dimension is None else f"{self.name}_{preferred(self.key.dimension)}"
 
+    def unit(self, spelling: str) -> str:
+        """Return the unit at the end of one of the spellings, empty where there is none."""
+        if self.key.dimension is None:
+            return ""
+        word = self.name if spelling.startswith(f"{self.name}_") else self.key.mirror
+        return spelling.removeprefix(f"{word}_")
+
 
 def fields_of(cls: Any) -> dict[str, Field]:
     """Return the fields of a class of the drive model that may stand in a file, by their names in Python.
@@ -92,6 +107,52 @@ def _spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
         for field in fields_of(cls).values()
         for spelling, factor in field.spellings.items()
     }
+
+
+def spelled(path: str) -> str:
+    """Return the path of a field as we write it in a file, with the unit we prefer.
+
+    Examples
+    --------
+    >>> spelled("joints[1].centre[2]"), spelled("shafts[1].spline.teeth")
+    ('joints[1].centre_mm[2]', 'shafts[1].spline.teeth')
+    """
+    classes: list[Any] = [Drive]
+    steps = []
+    for step in path.split("."):
+        name = step.partition("[")[0]
+        fields_here = [fields_of(cls)[name] for cls in classes if name in fields_of(cls)]
+        if not fields_here:
+            return path
+        steps.append(fields_here[0].spelling + step[len(name) :])
+        classes = [inner for one in fields_here for inner in _classes(one.type)]
+    return ".".join(steps)
+
+
+def _classes(hint: Any) -> list[Any]:
+    """Return the classes of the tables that a type holds, every kind of them."""
+    parts = [part for part in (hint, *get_args(hint)) if is_dataclass(part)]
+    return [cls for part in parts for cls in (KINDS[part][0].values() if part in KINDS else [part])]
+
+
+def in_unit(value: float, factor: float) -> float:
+    """Return an SI value in a unit, as the shortest decimal that gives the value back, the nearest one if none does.
+
+    Examples
+    --------
+    >>> in_unit(0.3490658503988659, 0.017453292519943295), in_unit(0.3, 0.001)
+    (20.0, 300.0)
+    """
+    found = exact_in_unit(value, factor)
+    return value / factor if found is None else found
+
+
+def exact_in_unit(value: float, factor: float) -> float | None:
+    """Return the shortest decimal whose product with ``factor`` is ``value`` to the last bit, or None."""
+    near = value / factor
+    candidates = [float(f"{near:.{digits}g}") for digits in range(1, 18)]
+    candidates += [math.nextafter(near, math.inf), math.nextafter(near, -math.inf)]
+    return next((one for one in candidates if one * factor == value), None)
 
 
 def scaled(value: Any, factor: float) -> Any:

@@ -5,17 +5,20 @@ Indices count from 0; ``shafts[1]`` is shaft number 2. The same paths serve pose
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
+from copy import copy
 from dataclasses import dataclass, is_dataclass, replace
-from typing import Any, get_origin
+from typing import Any, get_args, get_origin
 
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
-from cardan.units import nearest
+from cardan.units import DIMENSIONS, nearest
 
 from .drive import Drive
-from .keys import Field, fields_of, numbers_in, scaled, spellings_of
+from .keys import Field, fields_of, in_unit, spelled, spellings_of
+from .validity import in_range, out_of_range
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 
@@ -34,12 +37,15 @@ class Place:
         From the path's unit to SI.
     inside : int
         How many of the last steps lead into the field's own numbers.
+    spelling : str
+        How the path spells the field.
     """
 
     steps: tuple[str | int, ...]
     field: Field
     factor: float
     inside: int
+    spelling: str
 
 
 def place(drive: Drive, path: str) -> Place:
@@ -66,14 +72,14 @@ def place(drive: Drive, path: str) -> Place:
         field_name, factor = known[name]
         field = fields_of(type(here))[field_name]
         steps.append(field_name)
-        here = getattr(here, field_name)
+        here = _held(here, field)
         for k in indices:
             if not isinstance(here, tuple) or k >= len(here):
-                raise _lost(path, _("there is no index {k}").format(k=k))
+                raise _lost(path, _no_index(here, k))
             steps.append(k)
             here = here[k]
-        if depth == len(words) - 1 and not is_dataclass(here) and not _tables(here):
-            return Place(tuple(steps), field, factor, len(indices))
+        if depth == len(words) - 1 and not _tables(here, field):
+            return Place(tuple(steps), field, factor, len(indices), name)
     raise _lost(path, _("it leads to a whole table, not to a value"))
 
 
@@ -89,8 +95,22 @@ def read(drive: Drive, path: str) -> Any:
     there = place(drive, path)
     here: Any = drive
     for step in there.steps:
-        here = here[step] if isinstance(step, int) else getattr(here, step)
-    return scaled(here, 1.0 / there.factor)
+        here = here[step] if isinstance(step, int) else _held(here, fields_of(type(here))[step])
+    return _in_unit(here, there.factor)
+
+
+def _in_unit(value: Any, factor: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_in_unit(item, factor) for item in value)
+    return in_unit(value, factor) if isinstance(value, float) else value
+
+
+def _held(owner: Any, field: Field) -> Any:
+    """Return what a field holds; a table that is not there yet is an empty one, where it can be."""
+    value = getattr(owner, field.name)
+    if value is None and is_dataclass(field.type) and not any(one.required for one in fields_of(field.type).values()):
+        return field.type()  # type: ignore[operator]
+    return value
 
 
 def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
@@ -119,6 +139,16 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
     >>> with_values(drive, {"shafts[1].yoke_angle_deg": 90}).shafts[1].yoke_angle
     1.5707963267948966
     """
+    tops = _with_tops(drive, values)
+    try:
+        return replace(drive, **tops)
+    except InputError as error:
+        given = {_steps(drive, path): path for path in values}
+        raise error.renamed(lambda field: _as_given(field, given)) from None
+
+
+def _with_tops(drive: Drive, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a drive with other values put in."""
     problems: list[Problem] = []
     tops = {name: getattr(drive, name) for name in fields_of(Drive)}
     for path, value in values.items():
@@ -130,7 +160,23 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
         except InputError as error:
             problems += error.problems
     check(problems)
-    return replace(drive, **tops)
+    return tops
+
+
+def _steps(drive: Drive, path: str) -> str:
+    """Return a path as Python writes it, without its unit."""
+    words = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in place(drive, path).steps)
+    return "".join(words).removeprefix(".")
+
+
+def _as_given(field: str, given: Mapping[str, str]) -> str:
+    """Return the path of a field as the caller spelled it, or as we would."""
+    for bare, path in given.items():
+        if field == bare:
+            return path
+        if field.startswith(f"{bare}["):
+            return path + field[len(bare) :]
+    return spelled(field)
 
 
 def pose_drives(drive: Drive) -> tuple[Drive, ...]:
@@ -141,31 +187,83 @@ def pose_drives(drive: Drive) -> tuple[Drive, ...]:
     InputError
         A pose changes what is not there, or makes no drive; the path names the pose.
     """
-    drives: list[Drive] = []
-    problems: list[Problem] = []
     bare = replace(drive, poses=())
+    return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)
+
+
+def pose_problems(drive: Drive, *, whole: bool) -> Iterator[Problem]:
+    """Yield what is wrong with the poses of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive; it need not be checked yet.
+    whole : bool
+        Whether it is free of other problems, so that its poses can be judged as drives too.
+    """
+    from .validity import all_shafts
+
+    bare = copy(drive)
+    object.__setattr__(bare, "poses", ())
+    object.__setattr__(bare, "shafts", all_shafts(drive))
     for k, pose in enumerate(drive.poses):
         try:
-            drives.append(with_values(bare, dict(pose.set)))
+            if whole:
+                with_values(bare, dict(pose.set))
+            else:
+                _with_tops(bare, dict(pose.set))
         except InputError as error:
-            problems += [Problem(f"poses[{k}].set: {one.field}", one.message) for one in error.problems]
-    check(problems)
-    return tuple(drives)
+            for problem in error.problems:
+                yield Problem(f"poses[{k}].set: {problem.field}", problem.message)
 
 
 def _fitting(there: Place, value: Any, path: str) -> Any:
-    """Return a value in SI if it has the shape of what stands there."""
-    wants_words = there.field.type in (str, bool)
-    if wants_words:
-        if not isinstance(value, there.field.type):
-            raise _lost(path, _("{value} is no {kind}").format(value=repr(value), kind=there.field.type.__name__))
-        return value
-    flat = list(numbers_in(value))
-    is_list = isinstance(value, Sequence) and not isinstance(value, str)
-    wants_list = get_origin(there.field.type) is tuple and not there.inside
-    if (not flat and value != []) or is_list != wants_list or (there.field.type is int and not isinstance(value, int)):
-        raise _lost(path, _("{value} does not fit this field").format(value=repr(value)))
-    return value if there.field.type is int else scaled(scaled(value, 1.0), there.factor)
+    """Return a value in SI if it has the shape of what stands there and lies in its range."""
+    kind = there.field.type
+    for _step in range(there.inside):
+        kind = get_args(kind)[0]
+    if there.steps[-1] == "file":
+        raise _lost(path, _("names a file that is read with the drive; change it in the drive file"))
+    return _shaped(kind, value, there, path)
+
+
+def _shaped(kind: Any, value: Any, there: Place, path: str) -> Any:
+    if get_origin(kind) is tuple:
+        parts = get_args(kind)
+        items = value.tolist() if hasattr(value, "tolist") else value
+        if not isinstance(items, list | tuple):
+            raise _misfit(value, path, _("a list"))
+        endless = parts[-1] is Ellipsis
+        if not endless and len(items) != len(parts):
+            message = _("{given} values given, {wanted} needed").format(given=len(items), wanted=len(parts))
+            raise _lost(path, message)
+        return tuple(_shaped(parts[0], item, there, f"{path}[{k}]") for k, item in enumerate(items))
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if kind is float:
+        if not number:
+            raise _misfit(value, path, _("a number"))
+        try:
+            result = float(value) * there.factor + 0.0
+        except OverflowError:
+            result = math.inf
+        key = there.field.key
+        if not in_range(key, result):
+            unit = there.field.unit(there.spelling)
+            raise _lost(path, out_of_range(repr(value), key, result, unit, mirrored=there.factor < 0))
+        return result
+    if kind is int and not (number and isinstance(value, int)):
+        raise _misfit(value, path, _("a whole number"))
+    if kind is bool and not isinstance(value, bool):
+        raise _misfit(value, path, _("true or false"))
+    if kind is str and not isinstance(value, str):
+        raise _misfit(value, path, _("a text"))
+    return value
+
+
+def _misfit(value: Any, path: str, wanted: str) -> InputError:
+    text = repr(value)
+    shown = text if len(text) <= 40 else text[:37] + "..."
+    return _lost(path, _("{value} does not fit this field, which holds {wanted}").format(value=shown, wanted=wanted))
 
 
 def _changed(here: Any, steps: tuple[str | int, ...], value: Any) -> Any:
@@ -174,11 +272,22 @@ def _changed(here: Any, steps: tuple[str | int, ...], value: Any) -> Any:
     step, rest = steps[0], steps[1:]
     if isinstance(step, int):
         return (*here[:step], _changed(here[step], rest, value), *here[step + 1 :])
-    return replace(here, **{step: _changed(getattr(here, step), rest, value)})
+    return replace(here, **{step: _changed(_held(here, fields_of(type(here))[step]), rest, value)})
 
 
-def _tables(value: Any) -> bool:
-    return isinstance(value, tuple) and bool(value) and is_dataclass(value[0])
+def _tables(value: Any, field: Field) -> bool:
+    """Tell whether a path has led to a table, or a list of them, and not to a value."""
+    if is_dataclass(value) or field.name == "set":
+        return True
+    return isinstance(value, tuple) and any(is_dataclass(part) for part in get_args(field.type))
+
+
+def _no_index(here: Any, k: int) -> str:
+    if not isinstance(here, tuple):
+        return _("there is no index {k}; this is no list").format(k=k)
+    if not here:
+        return _("there is no index {k}; the list is empty").format(k=k)
+    return _("there is no index {k}; the last one is {last}").format(k=k, last=len(here) - 1)
 
 
 def _lost(path: str, message: str) -> InputError:
@@ -186,6 +295,10 @@ def _lost(path: str, message: str) -> InputError:
 
 
 def _unknown(path: str, before: list[str], name: str, known: Mapping[str, Any]) -> InputError:
+    all_units = {unit for units in DIMENSIONS.values() for unit in units}
+    spellings = [spelling for spelling in known if spelling.removeprefix(f"{name}_") in all_units]
+    if spellings:
+        return _lost(path, _("needs a unit: write {choices}").format(choices=_(" or ").join(spellings)))
     close = nearest(name, known)
     stem = ".".join([*before, close]) if close else ""
     if close:

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import json
 import tomllib
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.movement import Table
-from cardan.drive.paths import pose_drives
-from cardan.errors import InputError, Problem, check, refuse
+from cardan.errors import Problem, check, refuse
 from cardan.texts import _
 
 from .atomic import write_text
 from .reader import drive_from_tree
-from .shifts import read_shifts
 from .writer import toml_text, tree_of
 
 MAX_BYTES = 20_000_000
@@ -89,11 +85,7 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
     0.3490658503988659
     """
-    tree = _parsed(text, form, name)
-    drive = drive_from_tree(tree)
-    drive = _with_tables(drive, Path(folder))
-    pose_drives(drive)
-    return drive
+    return drive_from_tree(_parsed(text, form, name), folder=Path(folder))
 
 
 def dumps(drive: Drive, *, form: str = "toml") -> str:
@@ -146,28 +138,28 @@ def save(thing: Any, path: str | Path) -> None:
 
 
 def _parsed(text: str, form: str, name: str) -> dict[str, Any]:
+    title = "JSON" if form == "json" else "TOML"
+    twice: list[str] = []
     try:
-        tree = json.loads(text) if form == "json" else tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise refuse(name, _("is not TOML: {why}").format(why=error)) from None
-    except (json.JSONDecodeError, RecursionError) as error:
-        raise refuse(name, _("is not JSON: {why}").format(why=error)) from None
+        if form == "json":
+            tree = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, twice))
+        else:
+            tree = tomllib.loads(text)
+    except RecursionError:
+        raise refuse(name, _("is not {format} that can be read: too deeply nested").format(format=title)) from None
+    except ValueError as error:  # that of the parser, or of Python for a number of thousands of digits
+        raise refuse(name, _("is not {format}: {why}").format(format=title, why=error)) from None
+    check(Problem(key, _("stands twice in one table")) for key in twice)
     if not isinstance(tree, dict):
         raise refuse(name, _("holds no table"))
     return tree
 
 
-def _with_tables(drive: Drive, folder: Path) -> Drive:
-    """Return the drive with the CSV files of its table movements read."""
-    problems: list[Problem] = []
-    movements = []
-    for k, movement in enumerate(drive.movements):
-        if isinstance(movement, Table):
-            try:
-                times, shifts = read_shifts(folder / movement.file)
-                movement = replace(movement, times=times, shifts=shifts)
-            except InputError as error:
-                problems += [Problem(f"movements[{k}].file", f"{p.field} {p.message}") for p in error.problems]
-        movements.append(movement)
-    check(problems)
-    return replace(drive, movements=tuple(movements)) if movements else drive
+def _once(pairs: list[tuple[str, Any]], twice: list[str]) -> dict[str, Any]:
+    """Return the table of a JSON object, noting keys that it has more than once."""
+    table: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in table:
+            twice.append(key)
+        table[key] = value
+    return table

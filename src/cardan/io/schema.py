@@ -7,10 +7,8 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import Field, fields_of
+from cardan.drive.keys import KINDS, Field, fields_of
 from cardan.units import label
-
-from .reader import KINDS
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
 from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.keys import Field, fields_of
+from cardan.drive.keys import Field, exact_in_unit, fields_of
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.units import DIMENSIONS
@@ -30,18 +29,10 @@ def written(value: float, dimension: str) -> tuple[str, float]:
     ('deg', 20.0)
     """
     for unit, factor in DIMENSIONS[dimension].items():
-        number = _shortest(value, factor)
+        number = exact_in_unit(value, factor)
         if number is not None:
             return unit, number
     raise ValueError(f"{dimension} has no SI unit")
-
-
-def _shortest(value: float, factor: float) -> float | None:
-    """Return the shortest decimal whose product with ``factor`` is ``value`` to the last bit, or None."""
-    near = value / factor
-    candidates = [float(f"{near:.{digits}g}") for digits in range(1, 18)]
-    candidates += [math.nextafter(near, math.inf), math.nextafter(near, -math.inf)]
-    return next((one for one in candidates if one * factor == value), None)
 
 
 def _table(thing: Any) -> dict[str, Any]:
@@ -87,7 +78,7 @@ def _mapped(value: Any, factor: float) -> Any:
     if isinstance(value, tuple):
         items = [_mapped(item, factor) for item in value]
         return None if any(item is None for item in items) else items
-    return _shortest(value, factor)
+    return exact_in_unit(value, factor)
 
 
 def _listed(value: Any) -> Any:

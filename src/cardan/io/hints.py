@@ -1,0 +1,163 @@
+"""What to say of a key that a table does not know: the key that was meant, or where it belongs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import is_dataclass
+from functools import cache
+from typing import Any, get_args
+
+from cardan.drive.drive import Drive
+from cardan.drive.keys import KINDS, fields_of, spellings_of
+from cardan.texts import _
+from cardan.units import DIMENSIONS, label, nearest
+
+OTHER_WORDS = {
+    "alpha": "bend",
+    "bend_angle": "bend",
+    "misalignment": "bend",
+    "deflection": "bend",
+    "beta": "plane_twist",
+    "twist": "plane_twist",
+    "gamma": "yoke_angle",
+    "phasing": "yoke_angle",
+    "clocking": "yoke_angle",
+    "psi": "start_phase",
+    "position": "centre",
+    "center": "centre",
+    "rpm": "speed",
+    "omega": "speed",
+    "joint": "joints",
+    "shaft": "shafts",
+}
+"""Words of other texts for our fields."""
+
+CLOSE = 0.8
+"""Two keys so alike are taken for the same before other tables are looked at."""
+
+
+def meant(cls: type, key: str) -> str:
+    """Return the name of the field that an unknown key most likely meant, or nothing.
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import Hooke
+    >>> meant(Hooke, "centre"), meant(Hooke, "bend_mm"), meant(Hooke, "colour")
+    ('centre', 'bend', '')
+    """
+    split = _split(cls, key)
+    if split:
+        return split[0]
+    other = _other_word(cls, key)
+    if other:
+        return spellings_of(cls)[other][0]
+    if _owners(cls, key):
+        return ""
+    near = _near(cls, key)
+    return spellings_of(cls)[near][0] if near else ""
+
+
+def unknown(cls: type, key: str) -> str:
+    """Return what to say of a key that the table of a class does not know.
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import Hooke
+    >>> unknown(Hooke, "plane_twist_dg")
+    'unknown key; the nearest known one is plane_twist_deg'
+    """
+    split = _split(cls, key)
+    if split:
+        name, word, unit = split
+        dimension = fields_of(cls)[name].key.dimension
+        if dimension is None:
+            return _("takes no unit: write {name}").format(name=word)
+        choices = _(" or ").join(f"{word}_{unit}" for unit in DIMENSIONS[dimension])
+        if not unit:
+            return _("needs a unit: write {choices}").format(choices=choices)
+        return _("{unit} is no unit of this field: write {choices}").format(unit=label(unit), choices=choices)
+    other = _other_word(cls, key)
+    near = other or _near(cls, key, cutoff=CLOSE)
+    owners = [] if other else _owners(cls, key)
+    if owners:
+        text = _("unknown here; it belongs to {owners}").format(owners=_(" or ").join(owners))
+        return text + (_("; the nearest known here is {near}").format(near=near) if near else "")
+    near = near or _near(cls, key)
+    if near:
+        return _("unknown key; the nearest known one is {near}").format(near=near)
+    listed = ", ".join(one.spelling for one in fields_of(cls).values())
+    return _("unknown key; known here: {known}").format(known=listed)
+
+
+def _split(cls: type, key: str) -> tuple[str, str, str] | None:
+    """Return field, word and unit if a key is a field of the class with a wrong unit or none."""
+    words = {word: name for name, one in fields_of(cls).items() for word in (name, one.key.mirror) if word}
+    if key in words:
+        return words[key], key, ""
+    for word in sorted(words, key=len, reverse=True):
+        unit = key.removeprefix(f"{word}_")
+        if unit != key and any(unit in units for units in DIMENSIONS.values()):
+            return words[word], word, unit
+    return None
+
+
+def _other_word(cls: type, key: str) -> str:
+    """Return our key for one that uses a word of other texts, in the same unit where it has one."""
+    for word, name in OTHER_WORDS.items():
+        if name in fields_of(cls) and (key == word or key.startswith(f"{word}_")):
+            same = name + key[len(word) :]
+            return same if same in spellings_of(cls) else fields_of(cls)[name].spelling
+    return ""
+
+
+def _near(cls: type, key: str, cutoff: float = 0.0) -> str:
+    """Return the known key most like an unknown one; letter case does not count."""
+    lower = {known.lower(): known for known in spellings_of(cls)}
+    near = nearest(key.lower(), lower)
+    if near is None or _alike(key.lower(), near) < cutoff:
+        return ""
+    return lower[near]
+
+
+def _alike(one: str, two: str) -> float:
+    from difflib import SequenceMatcher
+
+    return SequenceMatcher(None, one, two).ratio()
+
+
+def _owners(cls: type, key: str) -> list[str]:
+    """Return the tables that know a key, as a file names them: first those of the same sort."""
+    return [title for title, other in tables() if other is not cls and _knows(other, key)]
+
+
+def _knows(cls: type, key: str) -> bool:
+    return key in spellings_of(cls) or key in fields_of(cls)
+
+
+@cache
+def tables() -> tuple[tuple[str, type], ...]:
+    """Return every table of a drive file: how the file names it, and its class.
+
+    Examples
+    --------
+    >>> [title for title, cls in tables()][:4]
+    ['the head of the file', '[input]', '[output]', '[[joints]]']
+    """
+    return tuple(_tables(Drive, ""))
+
+
+def _tables(cls: Any, title: str) -> Iterator[tuple[str, Any]]:
+    yield title or _("the head of the file"), cls
+    for one in fields_of(cls).values():
+        inner = next((part for part in (one.type, *get_args(one.type)) if is_dataclass(part)), None)
+        if inner is None:
+            continue
+        many = bool(get_args(one.type))
+        name = f"{title} {one.name}" if title else f"[[{one.name}]]" if many else f"[{one.name}]"
+        if inner not in KINDS:
+            yield from _tables(inner, name)
+            continue
+        kinds, default = KINDS[inner]
+        for kind, variant in kinds.items():
+            alone = kind == default and len(kinds) == 1
+            yield from _tables(variant, name if alone else f"{name} kind = {kind!r}")
