@@ -86,6 +86,7 @@ def test_shapes(method):
     assert extremes(Drives.from_angles(np.zeros((2, 3, 3))), method=method).bend.shape == (2, 3)
     assert extremes(Drive.from_angles([0.3]), method=method).bend.shape == ()
     assert extremes(drives(5, 2), method=method).harmonics(3).shape == (5, 3)
+    assert extremes(drives(5, 2), method=method).harmonics(0).shape == (5, 0)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -141,6 +142,7 @@ def test_other_libraries_compute_it_themselves():
     other = Drives.from_angles(xp.asarray([[0.3, 0.2]]))
     found = extremes(other)
     assert found.tau.__array_namespace__() is xp
+    np.testing.assert_allclose(np.asarray(found.harmonics(2)), [[found.tau[0], found.tau[0] ** 2 / 2]], rtol=1e-15)
     np.testing.assert_allclose(
         np.asarray(found.irregularity), extremes(Drives.from_angles([[0.3, 0.2]])).irregularity, rtol=1e-14
     )

@@ -78,11 +78,16 @@ class Extremes:
     def harmonics(self, count: int) -> Array:
         """Return the amplitudes τ^k/k of orders 2, 4 … 2·count of the angle error, array (..., count) [rad]."""
         xp = namespace(self.tau)
-        powers = [self.tau]
-        for _k in range(1, count):
-            powers.append(powers[-1] * self.tau)
-        rows = xp.stack([power / k for k, power in enumerate(powers[:count], start=1)])
-        return xp.moveaxis(rows, 0, -1)
+        if xp is not np:
+            k = xp.arange(1, count + 1, dtype=xp.float64)
+            return self.tau[..., None] ** k / k
+        rows = np.empty((count, *self.tau.shape))  # each written in place: fresh memory costs more than the products
+        rows[:1] = self.tau
+        for k in range(1, count):
+            np.multiply(rows[k - 1], self.tau, out=rows[k])
+        for k in range(1, count):
+            rows[k] /= k + 1
+        return np.moveaxis(rows, 0, -1)
 
 
 def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, method: Method | None = None) -> Extremes:
