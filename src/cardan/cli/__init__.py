@@ -1,0 +1,1 @@
+"""The command line: parse, call the public function, print. Nothing is computed here."""

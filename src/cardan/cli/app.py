@@ -1,0 +1,109 @@
+"""The commands of ``cardan``. Nothing heavy is imported on this path: the help must come at once."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from cardan.texts import _
+
+from .lazy import Entry, Group
+
+QUESTIONS = _("Questions")
+FILES = _("Drive files")
+FORMULAS = _("Formulas")
+
+COMMANDS = {
+    "motion": Entry(
+        "motion",
+        QUESTIONS,
+        _("How every shaft turns: angle, speed ratio, acceleration."),
+        (
+            "cardan motion truck.toml --speed-rpm 3000",
+            "cardan motion truck.toml --csv > turn.csv",
+            "cardan motion truck.toml --plot motion.svg",
+        ),
+    ),
+    "phases": Entry(
+        "phases",
+        QUESTIONS,
+        _("Which yoke angles make the output even, or how even it can be."),
+        (
+            "cardan phases truck.toml --fix 2=90",
+            "cardan phases truck.toml --apply A -o better.toml",
+        ),
+    ),
+    "articulation": Entry(
+        "articulation",
+        QUESTIONS,
+        _("What happens while the drive moves: worst positions, spline strokes."),
+        ("cardan articulation tractor.toml", "cardan articulation tractor.toml --csv > history.csv"),
+    ),
+    "report": Entry(
+        "report",
+        QUESTIONS,
+        _("Everything on one page: a self-contained HTML file that prints well."),
+        ("cardan report truck.toml", "cardan report truck.toml -o truck.html --open"),
+    ),
+    "init": Entry("init", FILES, _("Write a commented drive file to start from."), ("cardan init my.toml",)),
+    "example": Entry(
+        "example",
+        FILES,
+        _("List the shipped examples, or copy one."),
+        ("cardan example", "cardan example single-20deg"),
+    ),
+    "convert": Entry(
+        "convert",
+        FILES,
+        _("Rewrite a drive file: points, angles or slopes; TOML or JSON."),
+        ("cardan convert truck.toml truck.json", "cardan convert truck.toml angles.toml --form angles"),
+    ),
+    "schema": Entry(
+        "schema",
+        FILES,
+        _("Print the JSON Schema of the drive file, for editors."),
+        ("cardan schema > drive.schema.json",),
+    ),
+    "calc": Entry(
+        "calc",
+        FORMULAS,
+        _("Reach any single formula by name, with unit keys."),
+        ("cardan calc --list", "cardan calc single_joint_extremes alpha_deg=20"),
+    ),
+}
+"""Name of a command -> what the help says of it; its code is the file of the same name."""
+
+
+class Commands(Group):
+    """All commands."""
+
+    entries = COMMANDS
+
+
+app = typer.Typer(
+    name="cardan",
+    cls=Commands,
+    help=_("Universal-joint drives: is it good, and what should I change?"),
+    epilog=_("New here? cardan init my.toml, then cardan report my.toml"),
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from cardan import __version__
+
+        typer.echo(f"cardan {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help=_("Print the version and exit."))
+    ] = False,
+) -> None:
+    """Hold what stands before the command."""

@@ -1,0 +1,87 @@
+"""Writes the yoke angles of a setting into a drive file, its comments kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cardan.errors import refuse
+from cardan.texts import _
+
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+    from cardan.synthesis.phases import YokeSetting
+
+    from .answer import Answer
+
+STEP = 1e-9
+"""Yokes turned by less than this [rad] stay as they are in the file."""
+
+
+def applied(answer: Answer, settings: Sequence[YokeSetting], drive: Drive, text: str, label: str, out: Path) -> Answer:
+    """Write a setting and return the answer with a word on it.
+
+    Parameters
+    ----------
+    answer : Answer
+        What `cardan phases` found.
+    settings : sequence of YokeSetting
+        All settings it found.
+    drive : Drive
+        The drive as it stands in the file.
+    text : str
+        The file.
+    label : str
+        Which setting to write.
+    out : path
+        Where to write it, TOML or JSON.
+    """
+    import numpy as np
+
+    from cardan.drive.paths import with_values
+    from cardan.io import dumps, edit
+
+    from .answer import Remark, percent
+    from .output import write_text
+
+    chosen = named(settings, label)
+    angles = np.rad2deg(chosen.yoke_angle)
+    values = {
+        f"shafts[{k + 1}].yoke_angle_deg": round(float(angle), 12)
+        for k, angle in enumerate(angles)
+        if abs(float(chosen.change[k])) > STEP
+    }
+    if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
+        form = "json" if out.suffix.lower() == ".json" else "toml"
+        written = dumps(with_values(drive, values), form=form)
+    else:
+        written = edit(text, values) if values else text
+    write_text(out, written, "--out")
+    done = _("{path}: setting {label} written, {share} irregular.").format(
+        path=out, label=chosen.label, share=percent(chosen.irregularity)
+    )
+    kept = [remark for remark in answer.remarks if remark.tone != "next"]
+    step = Remark(text=_("Look at the new drive:"), command=("cardan", "report", str(out)), tone="next")
+    said = {"applied": {"setting": chosen.label, "file": str(out), "values": values}}
+    return replace(
+        answer, remarks=(*kept, Remark(text=done, tone="good"), step), content=lambda: {**answer.content(), **said}
+    )
+
+
+def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
+    """Return the setting of a name, or of a part of one; the best comes first.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    wanted = label.casefold()
+    exact = [one for one in settings if one.label.casefold() == wanted]
+    near = exact or [one for one in settings if wanted in one.label.casefold()]
+    if not near:
+        labels = ", ".join(one.label for one in settings)
+        raise refuse("--apply", _("there is no setting {label}; there are {labels}").format(label=label, labels=labels))
+    return near[0]

@@ -1,0 +1,67 @@
+"""``cardan convert``: the same drive in another form or file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from cardan.texts import _
+
+from .options import AsJson, DriveFile
+
+SUFFIXES = (".toml", ".json")
+
+
+def convert(
+    file: DriveFile,
+    out: Annotated[
+        Path,
+        typer.Argument(metavar="OUT", help=_("File to write: .toml or .json; - prints TOML."), show_default=False),
+    ],
+    form: Annotated[
+        Literal["points", "angles", "slopes"] | None,
+        typer.Option(
+            "--form",
+            metavar="FORM",
+            help=_("points (joint centres), angles (bends and plane twists) or slopes; that of FILE by default."),
+            show_default=False,
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,
+    json: AsJson = False,
+) -> int:
+    """Rewrite a drive file in another form or format."""
+    from cardan.errors import refuse
+
+    from .answer import Answer
+    from .output import check_new
+    from .show import print_text, show
+    from .source import STDIN, read
+
+    if out != STDIN:
+        if out.suffix.lower() not in SUFFIXES:
+            known = ", ".join(SUFFIXES)
+            raise refuse("OUT", _("{path} should end in one of {known}").format(path=out, known=known))
+        check_new(out, force=force, field="OUT")
+    drive = read(file)
+
+    from cardan import io
+    from cardan.drive.forms import in_form
+
+    moved = drive if form is None else in_form(drive, form)
+    if out == STDIN:
+        print_text(io.dumps(moved))
+        return 0
+    io.save(moved, out)
+    return show(
+        Answer(
+            sentence=_("{out}: the drive of {file} written, given by {form}.").format(
+                out=out, file=file, form=moved.form
+            ),
+            tone="good",
+            content=lambda: {"question": "convert", "file": str(file), "out": str(out), "form": moved.form},
+        ),
+        json=json,
+    )

@@ -1,0 +1,148 @@
+"""What the command line says when something goes wrong: one message with every problem, on stderr, and a code.
+
+With ``--json`` the message is JSON too, ``{"error": {"message", "problems": [{"field", "message"}], "exit_code"}}``,
+still on stderr, so that stdout holds an answer or nothing.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from typing import Any
+
+from cardan.errors import CardanError, InputError, MissingExtraError, Problem
+from cardan.texts import _, plural
+
+DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130
+"""Exit codes."""
+
+SHOWN = 40
+"""More problems than this are counted, not listed; ``--json`` lists all."""
+
+
+class RefusedError(CardanError):
+    """An input error together with the file it is about."""
+
+    def __init__(self, subject: str, problems: tuple[Problem, ...]) -> None:
+        self.subject = subject
+        self.problems = problems
+        super().__init__(subject)
+
+
+@contextmanager
+def about(name: str) -> Iterator[None]:
+    """Name the file in whatever is wrong with its content."""
+    try:
+        yield
+    except InputError as error:
+        problems = (Problem("" if p.field == name else p.field, p.message) for p in error.problems)
+        raise RefusedError(name, tuple(problems)) from error
+    except OSError as error:
+        raise RefusedError(name, (Problem("", reason(error)),)) from error
+
+
+def reason(error: OSError) -> str:
+    """Return why the system refused a file, in its own words, without numbers."""
+    return (error.strerror or str(error)).lower()
+
+
+def answer(error: BaseException, arguments: Sequence[str]) -> int:
+    """Say what went wrong and return the exit code.
+
+    Parameters
+    ----------
+    error : BaseException
+        What a command raised.
+    arguments : sequence of str
+        The command line, for ``--json`` and for the hint on help.
+    """
+    if _reader_gone(error):
+        return _closed(DONE)
+    if isinstance(error, SystemExit):
+        return _closed(error.code if isinstance(error.code, int) else DONE)
+    if isinstance(error, KeyboardInterrupt) or type(error).__name__ == "Abort":
+        return interrupted(arguments)
+    if isinstance(error, RefusedError):
+        return _say(error.subject, error.problems, BAD_INPUT, arguments)
+    if isinstance(error, InputError):
+        return _say("", error.problems, BAD_INPUT, arguments)
+    if isinstance(error, MissingExtraError):
+        return _say("", (Problem("", str(error)),), BAD_INPUT, arguments)
+    if isinstance(error, OSError):
+        return _say("", (Problem(str(error.filename or _("standard output")), reason(error)),), BAD_INPUT, arguments)
+    if hasattr(error, "format_message"):  # a usage error of typer, whichever package it keeps its click in
+        return _say("", (Problem("", _usage(error)),), BAD_INPUT, arguments)
+    if isinstance(error, MemoryError):
+        text = _("not enough memory for this; ask for fewer positions or joints")
+        return _say("", (Problem("", text),), BAD_INPUT, arguments)
+    if os.environ.get("CARDAN_TRACEBACK"):
+        raise error
+    text = _("a fault of cardan itself, please report it: {kind}: {text}. CARDAN_TRACEBACK=1 shows where.")
+    return _say("", (Problem("", text.format(kind=type(error).__name__, text=error)),), FAULT, arguments)
+
+
+def interrupted(arguments: Sequence[str]) -> int:
+    """Say that the user stopped it; nothing was left half-written."""
+    return _say("", (Problem("", _("interrupted; nothing was written")),), INTERRUPTED, arguments)
+
+
+def _reader_gone(error: BaseException | None) -> bool:
+    """Tell whether standard output's reader left (``| head``), however far up that was turned into something else."""
+    while error is not None:
+        if isinstance(error, BrokenPipeError):
+            return True
+        error = error.__context__
+    return False
+
+
+def _usage(error: Any) -> str:
+    context = getattr(error, "ctx", None)
+    command = context.command_path if context is not None else "cardan"
+    text = " ".join(str(error.format_message()).split()).replace("Value error, ", "")
+    text = text[:1].lower() + text[1:].rstrip(".")
+    return _("{text}; see {command} --help").format(text=text, command=command)
+
+
+def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequence[str]) -> int:
+    with suppress(OSError, ValueError):
+        print(_json(subject, problems, code) if "--json" in arguments else _text(subject, problems), file=sys.stderr)
+    return _closed(code)
+
+
+def _json(subject: str, problems: Sequence[Problem], code: int) -> str:
+    import json
+
+    listed = [{"field": problem.field, "message": problem.message} for problem in problems]
+    error = {"message": _headline(subject, problems), "file": subject, "problems": listed, "exit_code": code}
+    return json.dumps({"error": error}, ensure_ascii=False)
+
+
+def _headline(subject: str, problems: Sequence[Problem]) -> str:
+    if len(problems) == 1:
+        return f"{subject}: {problems[0]}" if subject else str(problems[0])
+    count = plural("{count} problem", "{count} problems", len(problems)).format(count=len(problems))
+    return _("{file} has {count}").format(file=subject, count=count) if subject else count
+
+
+def _text(subject: str, problems: Sequence[Problem]) -> str:
+    word = _("error:")
+    if sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
+        word = f"\033[1;31m{word}\033[0m"
+    lines = [f"{word} {_headline(subject, problems)}"]
+    if len(problems) > 1:
+        lines += [f"  {problem}" for problem in problems[:SHOWN]]
+        if len(problems) > SHOWN:
+            lines.append(_("  … and {count} more; --json lists all").format(count=len(problems) - SHOWN))
+    return "\n".join(lines)
+
+
+def _closed(code: int) -> int:
+    """Leave no write for the interpreter to fail at: a reader that has gone (``| head``) is no error."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        with suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code

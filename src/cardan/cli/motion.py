@@ -1,0 +1,335 @@
+"""``cardan motion``: how does every shaft turn?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from cardan.texts import _, plural
+
+from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+
+if TYPE_CHECKING:
+    from cardan.analysis.equivalence import EquivalentJoint
+    from cardan.analysis.motion import Motion
+    from cardan.drive.drive import Drive
+
+    from .answer import Answer, Remark, Table
+
+STEP = 30.0
+"""Step of the printed table [deg]; JSON, CSV and figures have steps of one degree."""
+
+MOST_POSITIONS = 1_000_000
+"""More positions than this would not fit a table anyone reads."""
+
+
+def motion(
+    file: DriveFile,
+    angle: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--angle-deg",
+            "--angle",
+            metavar="DEG",
+            help=_("Input angle from the start position; may be repeated. Instead of a whole turn."),
+            show_default=False,
+        ),
+    ] = None,
+    step: Annotated[
+        float | None,
+        typer.Option(
+            "--angle-step-deg",
+            "--angle-step",
+            metavar="DEG",
+            help=_("Step of the input angle over one turn: 30 in the terminal, 1 otherwise."),
+            show_default=False,
+        ),
+    ] = None,
+    speed_rpm: SpeedRpm = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell how every shaft turns: angle, speed ratio, acceleration."""
+    from .output import check_speed
+    from .show import check_common, show
+
+    check_common(json=json, csv=csv, plot=plot)
+    check_positions(angle, step)
+    check_speed(speed_rpm)
+
+    from cardan.analysis.equivalence import after_each_joint
+    from cardan.analysis.motion import motion as question
+    from cardan.units import rpm
+
+    from .source import read
+
+    drive = read(file)
+    speed = drive.duty.speed if speed_rpm is None else speed_rpm * rpm
+    finely = question(drive, positions(angle, step or 1.0), speed=speed)
+    coarse = finely if json or csv else question(drive, positions(angle, step or STEP), speed=speed)
+    answer = _answer(drive, file, coarse, after_each_joint(drive), finely)
+    return show(answer, json=json, csv=csv, plot=plot)
+
+
+def check_positions(angle: list[float] | None, step: float | None) -> None:
+    """Refuse positions that are not numbers, that contradict each other, or that are too many."""
+    import math
+
+    from cardan.errors import Problem, check
+
+    problems = []
+    if angle and step is not None:
+        problems.append(Problem("--angle-step-deg", _("choose --angle-deg or --angle-step-deg, not both")))
+    problems += [
+        Problem("--angle-deg", _("{value} is not a finite number").format(value=value))
+        for value in angle or ()
+        if not math.isfinite(value)
+    ]
+    if step is not None and not 360.0 / MOST_POSITIONS <= step <= 360.0:
+        text = _("{value} is not allowed; allowed is {low:g} to 360")
+        problems.append(Problem("--angle-step-deg", text.format(value=step, low=360.0 / MOST_POSITIONS)))
+    check(problems)
+
+
+def positions(angle: list[float] | None, step: float) -> Any:
+    """Return the input angles asked for [rad]: those given, or one turn with both its ends."""
+    import numpy as np
+
+    from cardan.units import deg
+
+    return deg * (np.asarray(angle) if angle else step * np.arange(int(360.0 / step + 1e-9) + 1))
+
+
+def _answer(drive: Drive, file: Path, found: Motion, each: EquivalentJoint, drawn: Motion) -> Answer:
+    from .answer import Answer
+
+    return Answer(
+        sentence=sentence(drive, file, each),
+        tone="good" if _even(each) else "plain",
+        tables=lambda: (_joint_table(drive), _shaft_table(drive, found, each), _turn_table(found)),
+        remarks=tuple(_remarks(drive, file, found, each)),
+        content=lambda: _content(drive, file, found, each),
+        csv=lambda: _trace(found),
+        figure=lambda: _figures(drive, drawn),
+    )
+
+
+def _figures(drive: Drive, found: Motion) -> Any:
+    from cardan.analysis.equivalence import equivalent_joint
+    from cardan.figures import for_result
+
+    return (*for_result(found), *for_result(equivalent_joint(drive)))
+
+
+def _even(each: EquivalentJoint) -> bool:
+    from cardan.analysis.equivalence import SYNCHRONOUS
+
+    return bool(each.irregularity[-1] < SYNCHRONOUS)
+
+
+def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
+    """Return in one sentence how even a drive is; ``each`` as of `after_each_joint`."""
+    from cardan.units import deg
+
+    from .source import title
+
+    count = plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints))
+    if _even(each):
+        return _("{name}: {count}, the output turns exactly evenly.").format(name=title(drive, file), count=count)
+    text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share:.3f} % irregular.")
+    share = 100.0 * float(each.irregularity[-1])
+    return text.format(name=title(drive, file), count=count, bend=float(each.bend[-1]) / deg, share=share)
+
+
+def _joint_table(drive: Drive) -> Table:
+    import numpy as np
+
+    from cardan.analysis.motion import phase_angles
+    from cardan.drive.chain import chain
+
+    from .answer import Column, Table, named
+
+    whole = chain(drive)
+    bend, twist = np.rad2deg(whole.bend), np.rad2deg(whole.plane_twist)
+    phase = half_turn(np.rad2deg(phase_angles(drive)))
+    rows = [
+        (named(k + 1, joint.name), float(bend[k]), float(twist[k - 1]) if k else None, float(phase[k]))
+        for k, joint in enumerate(drive.joints)
+    ]
+    columns = (
+        Column(key="joint", heading=_("joint"), left=True),
+        Column(key="bend_deg", heading=_("bend"), unit="°", form=".2f"),
+        Column(key="plane_twist_deg", heading=_("plane twist"), unit="°", form=".2f"),
+        Column(key="phase_angle_deg", heading=_("phase angle"), unit="°", form=".2f"),
+    )
+    return Table(columns=columns, rows=rows)
+
+
+def _shaft_table(drive: Drive, found: Motion, each: EquivalentJoint) -> Table:
+    from cardan.units import deg
+
+    from .answer import Column, Table, named
+
+    steep = _accelerations(found, each)
+    rows = []
+    for k, shaft in enumerate(drive.shafts[1:]):
+        last = shaft.number == len(drive.shafts)
+        rows.append(
+            (
+                named(shaft.number, shaft.name or (_("output") if last else "")),
+                None if last else shaft.yoke_angle / deg,
+                float(each.irregularity[k]) * 100.0,
+                float(each.ratio_min[k]),
+                float(each.ratio_max[k]),
+                float(each.max_lead[k]) / deg,
+                steep[k],
+            )
+        )
+    columns = (
+        Column(key="shaft", heading=_("shaft"), left=True),
+        Column(key="yoke_angle_deg", heading=_("yoke angle"), unit="°", form=".2f"),
+        Column(key="irregularity_percent", heading=_("irregular"), unit="%", form=".3f"),
+        Column(key="ratio_min", heading=_("ratio"), unit=_("min"), form=".4f"),
+        Column(key="ratio_max", unit=_("max"), form=".4f"),
+        Column(key="max_lead_deg", heading=_("lead"), unit="± °", form=".3f"),
+        Column(key="max_acceleration", heading=_("acceleration"), unit=_unit(found)),
+    )
+    return Table(columns=columns, rows=rows)
+
+
+def _turn_table(found: Motion) -> Table:
+    from cardan.units import deg
+
+    from .answer import Column, Table
+
+    last = found.shaft_ratio.shape[-2]
+    steep, lead, ratio = _acceleration_rows(found), found.lead, found.shaft_ratio
+    columns = [
+        Column(key="angle_deg", heading=_("input"), unit="°", form=".7g"),
+        Column(key="lead_deg", heading=_("output lead"), unit="°", form=".3f"),
+        Column(key="ratio", heading=_("ratio"), form=".4f"),
+        Column(key="acceleration", heading=_("acceleration"), unit=_unit(found)),
+    ]
+    columns += [
+        Column(key=f"shaft_{k}_ratio", heading=_("ratio of"), unit=_("shaft {number}").format(number=k), form=".4f")
+        for k in range(2, last)
+    ]
+    rows = [
+        (
+            float(found.angle[p]) / deg,
+            float(lead[-1, p]) / deg,
+            float(ratio[-1, p]),
+            float(steep[-1, p]),
+            *(float(ratio[k, p]) for k in range(1, last - 1)),
+        )
+        for p in range(len(found.angle))
+    ]
+    return Table(columns=tuple(columns), rows=rows)
+
+
+def _trace(found: Motion) -> Table:
+    """Return angle, ratio and acceleration of every shaft at every position."""
+    import numpy as np
+
+    from .answer import Column, Table
+
+    unit = "acceleration_rad_s2" if found.speed is not None else "acceleration_per_speed_squared"
+    steep = _acceleration_rows(found)
+    columns = [Column(key="angle_deg")]
+    values = [np.rad2deg(found.angle)]
+    for k in range(1, found.shaft_ratio.shape[-2]):
+        for key, rows in (
+            ("angle_deg", np.rad2deg(found.shaft_angle)),
+            ("ratio", found.shaft_ratio),
+            (unit, steep),
+        ):
+            columns.append(Column(key=f"shaft_{k + 1}_{key}"))
+            values.append(rows[k])
+    return Table(columns=tuple(columns), rows=np.stack(values, axis=-1).tolist())
+
+
+def _acceleration_rows(found: Motion) -> Any:
+    return found.shaft_slope if found.speed is None else found.shaft_acceleration
+
+
+def _accelerations(found: Motion, each: EquivalentJoint) -> list[float]:
+    """Return the largest acceleration of shafts 2 … n+1 at uniform input [rad/s²], over ω² without a speed."""
+    scale = 1.0 if found.speed is None else float(found.speed) ** 2
+    return [scale * float(value) for value in each.max_acceleration]
+
+
+def _unit(found: Motion) -> str:
+    return "ω²" if found.speed is None else "rad/s²"
+
+
+def _remarks(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> Iterator[Remark]:
+    from cardan.units import deg, rpm
+
+    from .answer import Remark, significant
+
+    if not _even(each):
+        text = _("The output runs ahead and back by {lead:.3f}° twice a turn").format(
+            lead=float(each.max_lead[-1]) / deg
+        )
+        if found.speed is not None:
+            text += _("; at {speed} rpm its acceleration reaches {steep} rad/s².").format(
+                speed=significant(float(found.speed) / rpm), steep=significant(_accelerations(found, each)[-1])
+            )
+        else:
+            text += _("; --speed-rpm gives its acceleration in rad/s².")
+        yield Remark(text=text)
+    yield from steep_joints(drive)
+    if _even(each):
+        yield Remark(text=_("The whole drive on one page:"), command=("cardan", "report", str(file)), tone="next")
+    elif len(drive.joints) == 1:
+        yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
+    else:
+        text = _("Find the yoke angles that leave least:")
+        yield Remark(text=text, command=("cardan", "phases", str(file)), tone="next")
+
+
+def steep_joints(drive: Drive) -> Iterator[Remark]:
+    """Yield a warning for every joint that bends more than a cross joint can."""
+    from cardan.analysis.equivalence import WARN_BEND
+    from cardan.drive.chain import chain
+    from cardan.units import deg
+
+    from .answer import Remark
+
+    for number, bend in enumerate(chain(drive).bend, start=1):
+        if bend > WARN_BEND * deg:
+            text = _("Warning: joint {number} bends {bend:.1f}°; above {limit:g}° no real cross joint works.")
+            yield Remark(text=text.format(number=number, bend=float(bend) / deg, limit=WARN_BEND), tone="warning")
+
+
+def _content(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> dict[str, Any]:
+    from cardan.units import deg, rpm
+
+    from .show import records
+
+    trace = _trace(found)
+    return {
+        "question": "motion",
+        "drive": drive.name,
+        "file": str(file),
+        "speed_rpm": None if found.speed is None else found.speed / rpm,
+        "synchronous": _even(each),
+        "irregularity": each.irregularity[-1],
+        "equivalent_bend_deg": each.bend[-1] / deg,
+        "ratio_min": each.ratio_min[-1],
+        "ratio_max": each.ratio_max[-1],
+        "max_lead_deg": each.max_lead[-1] / deg,
+        "max_acceleration_per_speed_squared": each.max_acceleration[-1],
+        "joints": records(_joint_table(drive), [(k, joint.name) for k, joint in enumerate(drive.joints, 1)]),
+        "shafts": records(_shaft_table(drive, found, each), [(shaft.number, shaft.name) for shaft in drive.shafts[1:]]),
+        "motion": {column.key: [row[k] for row in trace.rows] for k, column in enumerate(trace.columns)},
+    }
+
+
+def half_turn(angle: Any) -> Any:
+    """Return angles [deg] in (-90, 90]: yokes and cross arms are lines, not arrows."""
+    return 90.0 - (90.0 - angle) % 180.0

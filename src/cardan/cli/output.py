@@ -1,0 +1,71 @@
+"""Files that a command writes: whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from math import isfinite
+from pathlib import Path
+
+from cardan.errors import refuse
+from cardan.texts import _
+
+FIGURE_SUFFIXES = (".svg", ".png", ".pdf", ".html")
+
+
+def check_figure_target(path: Path) -> None:
+    """Refuse a figure file of an unknown kind or in a place that cannot be written, before any work is done."""
+    if path.suffix.lower() not in FIGURE_SUFFIXES:
+        known = ", ".join(FIGURE_SUFFIXES)
+        raise refuse("--plot", _("{path} should end in one of {known}").format(path=path, known=known))
+    check_target(path, "--plot")
+
+
+def check_target(path: Path, option: str) -> None:
+    """Refuse a file that cannot be written, in words, before any work is done.
+
+    Parameters
+    ----------
+    path : path
+        File to be written.
+    option : str
+        What the user gave it as.
+    """
+    folder = path.parent
+    if path.is_dir():
+        raise refuse(option, _("{path} is a folder").format(path=path))
+    if not folder.exists():
+        raise refuse(
+            option, _("{path} cannot be written: there is no folder {folder}").format(path=path, folder=folder)
+        )
+    if not folder.is_dir():
+        raise refuse(option, _("{path} cannot be written: {folder} is not a folder").format(path=path, folder=folder))
+    if not os.access(path if path.exists() else folder, os.W_OK):
+        raise refuse(option, _("{path} cannot be written: permission denied").format(path=path))
+
+
+def check_new(path: Path, *, force: bool, field: str = "FILE") -> None:
+    """Refuse to overwrite a file unless told to."""
+    if path.exists() and not path.is_dir() and not force:
+        raise refuse(field, _("{path} exists; --force overwrites it").format(path=path))
+    check_target(path, field)
+
+
+def write_text(path: Path, text: str, option: str) -> None:
+    """Write a text file, whole or not at all."""
+    from cardan.io.atomic import write_text as write
+
+    check_target(path, option)
+    write(path, text)
+
+
+def check_page_target(path: Path) -> None:
+    """Refuse a report that is no HTML file or cannot be written, before any work is done."""
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise refuse("--out", _("{path} should end in .html").format(path=path))
+    check_target(path, "--out")
+
+
+def check_speed(speed_rpm: float | None) -> None:
+    """Refuse a speed that is not a finite number."""
+    if speed_rpm is not None and not isfinite(speed_rpm):
+        raise refuse("--speed-rpm", _("{value} is not a finite number").format(value=speed_rpm))

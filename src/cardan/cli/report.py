@@ -1,0 +1,90 @@
+"""``cardan report``: everything on one page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cardan.texts import _
+
+from .options import AsJson, DriveFile, SpeedRpm
+
+
+def report(
+    file: DriveFile,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help=_("File to write; FILE's name with .html by default."),
+            show_default=False,
+        ),
+    ] = None,
+    interactive: Annotated[
+        bool,
+        typer.Option(
+            "--interactive", help=_("Figures to point at, zoom and turn; some megabytes more."), show_default=False
+        ),
+    ] = False,
+    open_: Annotated[
+        bool, typer.Option("--open", help=_("Open the report in the browser."), show_default=False)
+    ] = False,
+    speed_rpm: SpeedRpm = None,
+    json: AsJson = False,
+) -> int:
+    """Put everything on one page."""
+    from .output import check_page_target, check_speed
+    from .source import STDIN, read_with_text
+
+    place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
+    check_page_target(place)
+    check_speed(speed_rpm)
+    drive, text = read_with_text(file)
+
+    from dataclasses import replace
+
+    from cardan.report.report import report as write
+    from cardan.units import rpm
+
+    from .progress import watching
+
+    if speed_rpm is not None:
+        drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
+    with watching(_("writing the report")) as progress:
+        write(drive, None, place, source_text=text, interactive=interactive, progress=progress)
+
+    from cardan.analysis.equivalence import after_each_joint
+
+    from .answer import Answer, Remark
+    from .motion import sentence
+    from .show import show
+
+    opened = open_ and _opened(place)
+    hint = _("It is open in the browser: {path}.") if opened else _("Open {path} in a browser, or print it.")
+    if open_ and not opened:
+        hint = _("No browser answered; open {path} yourself.")
+    return show(
+        Answer(
+            sentence=sentence(drive, file, after_each_joint(drive)),
+            remarks=(
+                Remark(text=_("Report written: {path}, {size} kB.").format(path=place, size=_kilobytes(place))),
+                Remark(text=hint.format(path=place), tone="next"),
+            ),
+            content=lambda: {"question": "report", "drive": drive.name, "file": str(file), "report": str(place)},
+        ),
+        json=json,
+    )
+
+
+def _kilobytes(path: Path) -> str:
+    return f"{path.stat().st_size / 1000:,.0f}".replace(",", "\u202f")
+
+
+def _opened(path: Path) -> bool:
+    import webbrowser
+
+    return webbrowser.open(path.resolve().as_uri())

@@ -1,0 +1,74 @@
+"""Where a command takes its drive from."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cardan.texts import _
+
+from .failure import about
+
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+
+STDIN = Path("-")
+
+
+def read(path: Path) -> Drive:
+    """Return the drive of a file, or of standard input when the path is ``-``.
+
+    Raises
+    ------
+    RefusedError
+        Everything that is wrong with the file, with its name.
+    """
+    if path == STDIN:
+        return read_with_text(path)[0]
+    from cardan.io import load
+
+    with about(str(path)):
+        return load(path)
+
+
+def read_with_text(path: Path) -> tuple[Drive, str]:
+    """Return the drive of a file and the file's text; see `read`."""
+    from cardan.io import loads
+
+    if path != STDIN:
+        drive = read(path)
+        with about(str(path)):
+            return drive, path.read_text("utf-8-sig")
+    name = _("standard input")
+    with about(name):
+        text = stdin_text()
+        return loads(text, form=form_of(path, text), name=name), text
+
+
+def form_of(path: Path, text: str) -> str:
+    """Return ``"json"`` or ``"toml"``: by the suffix, or by the first sign of standard input."""
+    if path == STDIN:
+        return "json" if text.lstrip().startswith("{") else "toml"
+    return "json" if path.suffix.lower() == ".json" else "toml"
+
+
+def stdin_text() -> str:
+    """Return what stands on standard input.
+
+    Raises
+    ------
+    InputError
+        It is no text.
+    """
+    from cardan.errors import refuse
+
+    try:
+        return sys.stdin.read()
+    except UnicodeDecodeError as error:
+        raise refuse("", _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from error
+
+
+def title(drive: Drive, path: Path) -> str:
+    """Return what to call a drive: its name, else that of its file."""
+    return drive.name or (_("the drive") if path == STDIN else path.stem)
