@@ -183,14 +183,30 @@ def _labels(drive: Drive, seen: Solids, view: View, print_size: float) -> Iterat
     radius = seen.radius / mm * print_size
     ways = np.diff(onto(view, stations)[:, :2], axis=0)
     close = len(drive.joints) > 6
+    taken: list[Array] = []
     for k, point in enumerate(stations[1:-1]):
         text = str(k + 1) if close else _("joint {number}").format(number=k + 1)
-        yield _beside(text, point, _square(ways[k] + ways[k + 1]), 1.15 * radius + 4.0, "ink")
+        at = onto(view, point)[:2] * print_size
+        shift = _free(taken, at, _square(ways[k] + ways[k + 1]), 1.15 * radius + 4.0, text)
+        yield _beside(text, point, shift, "ink")
     for k, point in enumerate(0.5 * (stations[1:] + stations[:-1]), start=1):
         text = str(k) if close else _("shaft {number}").format(number=k)
         room = float(np.hypot(*ways[k - 1])) * print_size - 2.8 * radius
         away = 0.45 * radius + 4.0 if room > 5.0 * len(text) else 1.15 * radius + 4.0
-        yield _beside(text, point, -_square(ways[k - 1]), away, role_of(k), bold=True)
+        at = onto(view, point)[:2] * print_size
+        yield _beside(text, point, _free(taken, at, -_square(ways[k - 1]), away, text), role_of(k), bold=True)
+
+
+def _free(taken: list[Array], at: Array, toward: Array, away: float, text: str) -> Array:
+    """Return the shift [points] that puts a word beside a point, farther out where another word stands already."""
+    size = np.asarray([5.0 * len(text), 9.0])
+    for step in range(6):
+        shift = (away + 10.0 * step) * toward
+        middle = at + shift + 0.5 * size * np.round(toward)
+        if not any(bool(np.all(np.abs(middle - other[:2]) < 0.5 * (size + other[2:]))) for other in taken):
+            break
+    taken.append(np.concatenate((middle, size)))
+    return np.asarray(shift)
 
 
 def _square(way: Array) -> Array:
@@ -200,16 +216,16 @@ def _square(way: Array) -> Array:
     return across if across[1] >= 0.0 else -across
 
 
-def _beside(text: str, point: Array, toward: Array, away: float, role: str, *, bold: bool = False) -> Note:
+def _beside(text: str, point: Array, shift: Array, role: str, *, bold: bool = False) -> Note:
     x, y, z = (float(value) for value in point)
-    right, up = (float(value) for value in toward)
+    right, up = (float(value) for value in shift / max(float(np.hypot(*shift)), 1e-9))
     return Note(
         text=text,
         x=x,
         y=y,
         z=z,
         role=role,
-        shift=(away * right, away * up),
+        shift=(float(shift[0]), float(shift[1])),
         side="left" if right > 0.35 else "right" if right < -0.35 else "centre",
         level="bottom" if up > 0.35 else "top" if up < -0.35 else "middle",
         bold=bold,

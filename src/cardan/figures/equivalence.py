@@ -108,7 +108,7 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         sentence=_("There are none: the output turns exactly evenly.")
         if even
         else _(
-            "Order 2, twice a turn, carries nearly all: order 4 is {times} times smaller, and odd orders do not occur."
+            "Order 2, twice a turn, is the largest: order 4 is {times} times smaller, and odd orders do not occur."
         ).format(times=significant(float(amplitude[0] / max(float(amplitude[1]), 1e-300)), 2)),
         source=_(
             "amplitude τᵏ/k at order 2k, τ = |b|/|a|; exact, a chain has no other harmonics than those of one joint"

@@ -37,7 +37,7 @@ def motion_figure(found: Motion) -> Figure:
     across = _across(angle)
     panels = (
         _panel(angle, np.asarray(found.shaft_ratio), across, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
-        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2, even_sided=False),
+        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
         _panel(
             angle,
             steep,
@@ -80,7 +80,6 @@ def _panel(
     least: float,
     *,
     named: bool = False,
-    even_sided: bool = True,
 ) -> Panel:
     swing = float(np.max(np.abs(rows - middle), initial=0.0))
     curves = [
@@ -96,12 +95,14 @@ def _panel(
         for k, row in enumerate(rows, start=1)
     ]
     flat = swing < NOISE
+    above, below = float(np.max(rows, initial=middle)) - middle, middle - float(np.min(rows, initial=middle))
+    lopsided = max(above, below) / max(min(above, below), 1e-300)
     upright = axis(
         label,
         unit,
         [rows],
         include=(middle,),
-        mirrored=middle if even_sided or flat else None,
+        mirrored=middle if flat or lopsided < 2.0 else None,
         least=least if flat else 0.0,
     )
     return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=across, y=upright)
