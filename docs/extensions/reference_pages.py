@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,7 @@ def drive_file() -> str:
 def examples() -> str:
     """Return one section for each shipped example: its picture, what the program says of it, its text."""
     from cardan import equivalent_joint
+    from cardan.analysis.equivalence import SYNCHRONOUS
     from cardan.io import example, example_names, example_text
 
     parts = []
@@ -53,8 +55,10 @@ def examples() -> str:
         drive, text = example(name), example_text(name)
         joint = equivalent_joint(drive)
         said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
+        uneven = float(joint.irregularity)
+        turns = "the output turns evenly" if uneven < SYNCHRONOUS else f"the output is {100 * uneven:.3g} % irregular"
         parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")
-        parts.append(f"{drive.name}: {said}, irregularity of the output {100 * float(joint.irregularity):.3g} %.\n")
+        parts.append(f"{drive.name}: {said}, {turns}.\n")
         parts.append(f"```toml\n{text.strip()}\n```\n")
     return "\n".join(parts) or "\n"
 
@@ -73,7 +77,7 @@ def _commands(group: Any, path: str) -> Iterator[str]:
 
     context = click.Context(group, info_name=path)
     for name in group.list_commands(context):
-        command = group.get_command(context, name)
+        _name, command, _rest = group.resolve_command(context, [name])
         if command.hidden:
             continue
         if hasattr(command, "list_commands"):
@@ -96,7 +100,7 @@ def _commands(group: Any, path: str) -> Iterator[str]:
 
 
 def _plain(text: str | None) -> str:
-    return (text or "").replace("\b", "").replace("|", "\\|").strip()
+    return re.sub(r"\[/?\w+\]", "", text or "").replace("\\]", "]").replace("\b", "").replace("|", "\\|").strip()
 
 
 def _spelling(parameter: Any) -> str:
@@ -131,11 +135,11 @@ def names() -> str:
         if not found:
             continue
         parts.append(f"## {title}\n\n```{{eval-rst}}")
-        for name, home in found:
+        for name, _home in found:
             thing = getattr(cardan, name)
             kind = "autoclass" if inspect.isclass(thing) else "autofunction" if callable(thing) else "autodata"
             if inspect.isclass(thing) and issubclass(thing, Exception):
                 kind = "autoexception"
-            parts.append(f".. {kind}:: cardan.{home}.{name}")
+            parts.append(f".. {kind}:: cardan.{name}")
         parts.append("```\n")
     return "\n".join(parts)

@@ -52,22 +52,22 @@ def overview() -> Figure:
         [[-0.9, 0, 0.05], [0, 0, 0], [1.35, 0.25, -0.5], [2.75, -0.1, -0.55], [3.6, -0.1, -0.2]],
         yoke_angles=[0.2, -0.4],
     )
-    figure, axes = page(11, 3.9)
+    figure, axes = page(12.6, 4.4)
     bare(axes)
     scene = Scene(swing=18, rise=24)
     place = solids(scene, drive, size=0.40, radius=0.05)
     scene.draw(axes, 230)
     up = np.array([0, 0, 1])
-    names = ("shaft 1\n(input)", "shaft 2", "shaft 3", "shaft 4\n(output)")
+    names = ("shaft 1", "shaft 2", "shaft 3", "shaft 4")
     for k, name in enumerate(names):
         middle = (place.points[k] + place.points[k + 1]) / 2
         lift = middle + 0.22 * up - (0.16 if k == 3 else 0.0) * place.axis[k]
         scene.arrow(axes, lift - 0.17 * place.axis[k], lift + 0.2 * place.axis[k], color=ACCENT, lw=1.8)
         scene.text(axes, lift + 0.11 * up, rf"$\mathbf{{a}}_{k + 1}$", color=ACCENT, size=15)
-        spot = middle - 0.25 * up if k < 3 else middle + np.array([0.72, 0, -0.02])
+        spot = middle - (0.25 if k else 0.14) * up if k < 3 else middle + np.array([0.72, 0, -0.02])
         scene.text(axes, spot, name, size=12)
     scene.line(axes, place.points[0], place.points[0], marker="o", ms=5)
-    scene.text(axes, place.points[0] + 0.17 * up, "$B_0$  input.point", size=11)
+    scene.text(axes, place.points[0] - 0.21 * up - np.array([0.12, 0, 0]), "$B_0$  input.point", size=11)
     scene.line(axes, place.points[4], place.points[4], marker="o", ms=5)
     scene.text(axes, place.points[4] + 0.10 * up + np.array([0.42, 0, 0]), "$B_4$  output.point", size=11)
     for k in (1, 2, 3):
@@ -152,7 +152,7 @@ def bend() -> Figure:
     scene.line(left, centre - 0.62 * u[0], centre + 0.62 * u[0], color=DRIVING, lw=2.2)
     scene.text(left, centre - 0.78 * u[0], r"$\mathbf{u}_1$", color=DRIVING, size=16)
     scene.line(left, centre - 0.55 * v[0], centre + 0.55 * v[0], color=DRIVEN, lw=2.2)
-    scene.text(left, centre - 0.70 * v[0], r"$\mathbf{v}_2$", color=DRIVEN, size=16)
+    scene.text(left, centre + 0.70 * v[0], r"$\mathbf{v}_2$", color=DRIVEN, size=16)
     scene.arrow(left, centre - 0.92 * before + [0, 0, 0.22], centre - 0.55 * before + [0, 0, 0.22], color=ACCENT, lw=2)
     scene.text(left, centre - 0.74 * before + [0, 0, 0.34], r"$\mathbf{a}_1$", color=ACCENT, size=16)
     scene.arrow(left, centre + 0.6 * after + [0, 0, 0.20], centre + 0.95 * after + [0, 0, 0.20], color=ACCENT, lw=2)
@@ -232,7 +232,7 @@ def plane_twist() -> Figure:
 
 def yoke_angle() -> Figure:
     """Draw an intermediate shaft with its two yokes, and the angle from the driving to the driven one."""
-    figure, axes = page(10.5, 7.0, 2, 3, height_ratios=[1.25, 1])
+    figure, axes = page(11.6, 8.4, 2, 3, height_ratios=[1.35, 1])
     grid = axes[0, 0].get_gridspec()
     for each in axes[0]:
         each.remove()
