@@ -182,6 +182,21 @@ def test_all_shafts_of_after_each_joint_find_their_figure():
     assert figures.for_result(after_each_joint(SIX))[-1].name == "orders"
 
 
+def test_a_layout_shows_bends_before_and_after():
+    from cardan.synthesis.layout import layout
+
+    boxed = replace(
+        DRIVES["truck-printed-coordinates"].joints[2], move_within=((0.7, 0.71), (-0.06, -0.05), (0.0, 0.05))
+    )
+    drive = DRIVES["truck-printed-coordinates"]
+    found = layout(replace(drive, joints=(*drive.joints[:2], boxed, drive.joints[3])))
+    bars = figures.for_result(found)[0].panels[0].series
+    np.testing.assert_allclose(bars[0].size, np.degrees(found.bend_before))
+    np.testing.assert_allclose(bars[1].size, np.degrees(found.bend))
+    for figure in figures.for_result(found):
+        ElementTree.fromstring(inline_svg(figure))
+
+
 def test_axes_never_magnify_noise():
     made = axis("ratio", "", [1.0 + 1e-16 * np.arange(5)], mirrored=1.0, least=0.02)
     assert (made.low, made.high) == (pytest.approx(0.99), pytest.approx(1.01))

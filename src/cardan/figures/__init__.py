@@ -15,6 +15,7 @@ _MAKERS = {
     "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
+    "cardan.synthesis.layout.Layout": "layout.layout_figures",
     "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",
 }
 """Result -> file and function of this folder that make its figures."""

@@ -77,9 +77,7 @@ def bends_figure(found: Articulation) -> Figure:
             time=significant(float(times[most]), 3),
             share=percent(float(share[most]) / 100.0),
         ),
-        source=_(
-            "Exact at every instant: section by section the moving joint centres give axes and spins; no small angles"
-        ),
+        source=_("Axes and spins follow from the moving joint centres at every instant, exactly; no small angles"),
         rows=(
             Row(
                 panels=(
@@ -148,7 +146,7 @@ def sliding_figure(found: Articulation) -> Figure:
         sentence=_("Shaft {number} slides {stroke} mm in all, at up to {rate} mm/s.").format(
             number=longest.shaft, stroke=significant(longest.stroke / mm, 3), rate=significant(longest.max_rate / mm, 3)
         ),
-        source=_("L = |B_i − B_{i−1}| and its exact derivatives along the movement").replace("{", "").replace("}", ""),
+        source=_("L = |B(i) − B(i−1)| and its exact derivatives along the movement"),
         rows=(
             Row(
                 panels=(

@@ -378,7 +378,8 @@ def axis(
         half = 0.5 * (least or abs(middle) or 1.0)
         low, high = middle - half, middle + half
     else:
-        low, high = low - margin * span, high + margin * span
+        below = margin if low < 0.0 or low > 0.0 else 0.02  # a range from nought begins there
+        low, high = low - min(below, margin) * span, high + margin * span
     ticks = steps(low, high, count)
     return Axis(label=label, unit=unit, low=low, high=high, ticks=ticks, texts=written(ticks))
 

@@ -160,7 +160,7 @@ class _Panel:
             "yaxis": hidden,
             "zaxis": hidden,
             "aspectmode": "manual",
-            "aspectratio": _proportions(self.panel, 2.0),
+            "aspectratio": _proportions(self.panel, self.box),
             "camera": {
                 "projection": {"type": "orthographic"},
                 "eye": dict(zip("xyz", (1.1 * v for v in toward), strict=True)),
@@ -187,7 +187,7 @@ class _Panel:
                     "flatshading": not item.smooth,
                     "text": item.text,
                     "hoverinfo": "text",
-                    "lighting": {"ambient": 0.65, "diffuse": 0.6, "specular": 0.05},
+                    "lighting": {"ambient": 0.75, "diffuse": 0.55, "specular": 0.05},
                     "scene": f"scene{self.tail}",
                 }
             )
@@ -199,6 +199,7 @@ class _Panel:
                     "y": item.y,
                     "z": item.z,
                     "showarrow": False,
+                    "xshift": item.shift[0] * 1.5,
                     "yshift": item.shift[1] * 1.5,
                     "font": {"color": palette.colour(item.role), "size": 12},
                     "bgcolor": "rgba(255,255,255,0.6)",
@@ -462,12 +463,19 @@ def _widened(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, 
     )
 
 
-def _proportions(panel: Panel, longest: float) -> Spec:
-    """Return the sides of the box around the solids, the longest as given: how large an orthographic scene appears."""
-    corners = [item.corners for item in panel.series if isinstance(item, Mesh)]
-    sides = np.ptp(np.concatenate(corners), axis=0) if corners else np.ones(3)
-    largest = float(np.max(sides)) or 1.0
-    return dict(zip("xyz", (max(float(side) / largest, 1e-3) * longest for side in sides), strict=True))
+SCENE = 0.58
+"""Share of a scene's height that a side of 1 of its box takes, seen without perspective."""
+
+
+def _proportions(panel: Panel, box: Box) -> Spec:
+    """Return the sides of the box around the solids, as large as fills the panel when seen from `View`."""
+    found = [item.corners for item in panel.series if isinstance(item, Mesh)]
+    if not found or panel.view is None:
+        return {"x": 1.0, "y": 1.0, "z": 1.0}
+    corners = np.concatenate(found)
+    sides, seen = np.ptp(corners, axis=0), np.ptp(onto(panel.view, corners), axis=0)
+    scale = min(0.9 * box.width / box.height / float(seen[0]), 0.72 / float(seen[1])) / SCENE
+    return dict(zip("xyz", (max(float(side) * scale, 1e-3) for side in sides), strict=True))
 
 
 def _list(values: Any) -> list[float | None]:
