@@ -119,7 +119,7 @@ def _given(parameter: Any) -> str:
 
 GROUPS = {
     "The drive": ("drive", "io"),
-    "Questions": ("analysis",),
+    "Questions": ("analysis", "maths"),
     "Choices": ("synthesis",),
     "Results on paper": ("figures", "report", "calc"),
     "Errors": ("errors",),

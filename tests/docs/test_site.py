@@ -124,3 +124,10 @@ def test_formulas_are_set(site: Path) -> None:
     text = (site / "theory" / "core-idea.html").read_text("utf-8")
     assert text.count('<svg class="formula"') > 30
     assert "\\frac" not in re.sub(r'aria-label="[^"]*"', "", text)
+
+
+def test_every_public_name_is_documented(read: dict[Path, Page], site: Path) -> None:
+    import cardan
+
+    there = read[site / "reference" / "python.html"].places
+    assert [name for name in cardan.__all__ if not name.startswith("_") and f"cardan.{name}" not in there] == []
