@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from cardan import Drive, InputError, equivalent_joint, motion
 from cardan.drive.forms import in_form
 from cardan.drive.geometry import geometry
+from cardan.drive.pose import Pose
 
 RNG = np.random.default_rng(7)
 
@@ -60,4 +63,50 @@ def test_what_stands_in_coordinates_is_not_carried_over() -> None:
 
     with pytest.raises(InputError) as caught:
         in_form(example("truck-rear-axle"), "angles")
-    assert {problem.field for problem in caught.value.problems} == {"movements", "poses"}
+    fields = {problem.field for problem in caught.value.problems}
+    assert fields == {"movements", "poses[0].set", "poses[1].set", "poses[2].set"}
+
+
+@pytest.mark.parametrize(
+    "bends", [[0.0], [0.0, 0.0], [0.0, 0.3, 0.5], [0.0, 0.0, 0.4], [0.4, 0.0, 0.0, 0.2], [0.3, 0.0]]
+)
+@pytest.mark.parametrize("form", ["points", "slopes"])
+@pytest.mark.parametrize("phase", [0.0, 0.4])
+def test_straight_joints_keep_the_motion(bends: list[float], form: str, phase: float) -> None:
+    between = len(bends) - 1
+    twists, yokes = [0.3 + 0.2 * i for i in range(between)], [0.1 - 0.4 * i for i in range(between)]
+    drive = Drive.from_angles(bends, plane_twists=twists, yoke_angles=yokes, start_phase=phase)
+    other = in_form(drive, form)  # type: ignore[arg-type]
+    # Some roundings of 1e-16 each, in angles of up to one turn.
+    np.testing.assert_allclose(motion(other).shaft_angle, motion(drive).shaft_angle, atol=1e-13)
+
+
+def test_movements_are_shifted_with_the_drive_and_refused_where_it_turns() -> None:
+    from cardan import articulation, example
+
+    drive = example("pto-hitch")
+    moved = replace(
+        drive,
+        input=replace(drive.input, point=(0.5, 0.2, 0.1)),
+        joints=tuple(
+            replace(j, centre=(j.centre[0] + 0.62, j.centre[1] + 0.2, j.centre[2] + 0.1))  # type: ignore[index]
+            for j in drive.joints
+        ),
+        output=replace(drive.output, point=(1.77, 0.2, 0.1)),
+        movements=(replace(drive.movements[0], pivot=(1.12, 0.2, -0.14)),),  # type: ignore[call-arg]
+    )
+    times = np.linspace(0.0, 10.0, 7)
+    wanted = articulation(moved, times=times)
+    for form in ("angles", "slopes"):
+        found = articulation(in_form(moved, form), times=times)  # type: ignore[arg-type]
+        np.testing.assert_allclose(found.bend, wanted.bend, atol=1e-12)  # roundings of the shifted coordinates
+        np.testing.assert_allclose(found.length[:, 1], wanted.length[:, 1], rtol=1e-13)
+    slanted = replace(moved, input=replace(moved.input, point=(0.5, 0.2, 0.2)))
+    with pytest.raises(InputError, match="movements"):
+        in_form(slanted, "angles")
+
+
+def test_poses_that_change_no_geometry_are_carried_over() -> None:
+    drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 0.1, 0)])
+    pose = Pose(name="slow", set=(("duty.speed_rpm", 100.0),))
+    assert in_form(replace(drive, poses=(pose,)), "angles").poses == (pose,)

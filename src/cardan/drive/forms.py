@@ -8,12 +8,24 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
 from cardan.maths.frames import angle_about
 from cardan.texts import _
 
 from .drive import Drive, Form
-from .geometry import Geometry, geometry
+from .geometry import STRAIGHT, Geometry, geometry
 from .joints.joint import Point
+from .movement import Movement
+from .paths import place
+
+UNTURNED = 1e-12
+"""A shaft whose direction differs by less runs along x."""
+
+STEEP = 1.57
+"""A shaft that rises or turns aside by more [rad] has no slope that a file could give."""
+
+GEOMETRY = ("centre", "bend", "plane_twist", "move_within", "point", "length", "side_slope", "plan_slope")
+"""Fields that belong to a form of the geometry."""
 
 
 def in_form(drive: Drive, form: Form) -> Drive:
@@ -25,12 +37,17 @@ def in_form(drive: Drive, form: Form) -> Drive:
         The drive.
     form : {"points", "angles", "slopes"}
         The form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole; slopes
-        put joint 1 at the origin. Boxes for layout synthesis and movements, which stand in coordinates, need points.
+        put joint 1 at the origin. Movements are carried along where the drive is shifted but not turned.
+
+    Returns
+    -------
+    Drive
+        Where joint 1 is straight, its plane is a matter of the form, and the start phase is measured from the new one.
 
     Raises
     ------
     InputError
-        A shaft does not run along +x and so has no slopes; poses, movements or boxes stand in coordinates.
+        A shaft does not run along +x and so has no slopes; boxes, poses or movements name what the other form has not.
 
     Examples
     --------
@@ -40,18 +57,40 @@ def in_form(drive: Drive, form: Form) -> Drive:
     """
     if form == drive.form:
         return drive
-    check(_bound_to_coordinates(drive, form))
-    place = geometry(drive)
+    here = geometry(drive)
+    turned = form == "angles" and bool(np.any(np.abs(here.axis[0] - np.asarray([1.0, 0.0, 0.0])) > UNTURNED))
+    check(_tied_to_form(drive, form, turned=turned))
     if form == "points":
-        return _to_points(drive, place)
-    return _to_angles(drive, place) if form == "angles" else _to_slopes(drive, place)
+        return _phased(_to_points(drive, here), here)
+    other = _to_angles(drive, here) if form == "angles" else _phased(_to_slopes(drive, here), here)
+    return replace(other, movements=tuple(_shifted(one, here.points[1]) for one in drive.movements))
 
 
-def _bound_to_coordinates(drive: Drive, form: Form) -> list[Problem]:
+def _tied_to_form(drive: Drive, form: Form, *, turned: bool) -> list[Problem]:
+    """Return what the other form cannot express."""
     tied = [(f"joints[{i}].move_within", joint.move_within is not None) for i, joint in enumerate(drive.joints)]
-    tied += [("movements", bool(drive.movements)), ("poses", bool(drive.poses))]
+    tied += [("movements", turned and bool(drive.movements))]
+    bare = replace(drive, poses=())
+    for k, pose in enumerate(drive.poses):
+        tied += [(f"poses[{k}].set", any(place(bare, path).field.name in GEOMETRY for path, _item in pose.set))]
     message = _("stands in the coordinates of the present form and would lose its meaning by {form}")
     return [Problem(path, message.format(form=form)) for path, there in tied if there]
+
+
+def _shifted(movement: Movement, origin: Array) -> Movement:
+    """Return a movement in coordinates whose origin is a point of the present ones."""
+    pivot = getattr(movement, "pivot", None)
+    if pivot is None:
+        return movement
+    return replace(movement, pivot=tuple(float(x - x0) for x, x0 in zip(pivot, origin, strict=True)))  # type: ignore[call-arg]
+
+
+def _phased(other: Drive, old: Geometry) -> Drive:
+    """Return the drive with its start phase from the new plane of a straight first joint."""
+    if old.bend[0] > STRAIGHT:
+        return other
+    shift = float(angle_about(old.axis[0], geometry(other).normal[0], old.normal[0]))
+    return replace(other, input=replace(other.input, start_phase=other.input.start_phase + shift))
 
 
 def _to_points(drive: Drive, place: Geometry) -> Drive:
@@ -102,7 +141,7 @@ def _to_slopes(drive: Drive, place: Geometry) -> Drive:
             _("shaft {number} does not run along +x, so it has no side and plan slope").format(number=k + 1),
         )
         for k, axis in enumerate(place.axis)
-        if axis[0] <= 1e-9
+        if max(abs(math.atan2(axis[1], axis[0])), abs(math.atan2(axis[2], axis[0]))) >= STEEP
     )
     return replace(
         drive,

@@ -16,7 +16,7 @@ from .reader import drive_from_tree
 from .writer import toml_text, tree_of
 
 MAX_BYTES = 20_000_000
-"""Larger files are refused unread: no drive needs them."""
+"""Larger files are refused; no more of them is read."""
 
 
 def load(path: str | Path) -> Drive:
@@ -46,9 +46,11 @@ def load(path: str | Path) -> Drive:
     """
     where = Path(path)
     try:
-        if where.stat().st_size > MAX_BYTES:
+        with where.open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+        if len(content) > MAX_BYTES:
             raise refuse(str(where), _("is larger than {limit} MB; no drive file is").format(limit=MAX_BYTES // 10**6))
-        text = where.read_bytes().decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except OSError as error:
         raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
     except UnicodeDecodeError as error:

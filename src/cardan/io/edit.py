@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from cardan.drive.paths import place, with_values
+from cardan.drive.paths import place, read, with_values
 
 from .drive_file import loads
 
 
-def edit(text: str, values: Mapping[str, Any]) -> str:
+def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> str:
     """Return a TOML drive file with other values; comments and layout stay.
 
     Parameters
@@ -20,6 +22,8 @@ def edit(text: str, values: Mapping[str, Any]) -> str:
     values : mapping of str to value
         Path with unit -> value in that unit, as in `cardan.drive.paths`. A field given in another unit, or by its
         opposite (``yoke_lead``), is replaced.
+    folder : str or Path
+        Where files that the drive file names are looked for.
 
     Returns
     -------
@@ -41,42 +45,41 @@ def edit(text: str, values: Mapping[str, Any]) -> str:
     """
     import tomlkit
 
-    drive = loads(text)
-    with_values(drive, values)
+    drive = loads(text, folder=folder)
+    wanted = with_values(drive, values)
     document = tomlkit.parse(text)
-    for path, value in values.items():
+    for path in values:
         there = place(drive, path)
-        table: Any = document
-        steps = list(there.steps)
-        inner = steps[len(steps) - there.inside :]
-        owner: Any = drive
-        for k, step in enumerate(steps[: len(steps) - there.inside - 1]):
-            if steps[k - 1 : k] == ["shafts"] and isinstance(step, int):
-                table = _shaft(table, step + 1)
-            else:
-                table = _inside(table, step)
-            owner = owner[step] if isinstance(step, int) else getattr(owner, step)
-        one = there.field
-        key = path.rsplit(".", 1)[-1].partition("[")[0]
-        if inner:
-            value = _with_items(getattr(owner, one.name), inner, value, there.factor)
-        present = [spelling for spelling in one.spellings if spelling in table]
-        if present and present != [key]:
-            for spelling in present:
-                del table[spelling]
-        table[key] = value
+        table = _table(document, there.steps[: len(there.steps) - there.inside - 1])
+        inner = there.steps[len(there.steps) - there.inside :]
+        others = [spelling for spelling in there.field.spellings if spelling in table and spelling != there.spelling]
+        comment = "".join(_removed(table, spelling) for spelling in others)
+        if inner and there.spelling in table:
+            _put(table[there.spelling], inner, values[path])
+        else:
+            whole = re.sub(r"(\[\d+\])+$", "", path) if inner else path
+            table[there.spelling] = _plain(read(wanted, whole))
+        if comment:
+            table[there.spelling].comment(comment)
     changed = tomlkit.dumps(document)
-    loads(changed)
+    loads(changed, folder=folder)
     return changed
+
+
+def _table(document: Any, steps: Sequence[str | int]) -> Any:
+    """Return the table that steps lead to, made where the file does not have it yet."""
+    table = document
+    for before, step in zip((None, *steps), steps, strict=False):
+        table = _shaft(table, step + 1) if before == "shafts" and isinstance(step, int) else _inside(table, step)
+    return table
 
 
 def _inside(table: Any, step: str | int) -> Any:
     import tomlkit
 
-    if isinstance(step, int):
-        return table[step]
-    if step not in table:
-        table[step] = tomlkit.aot() if step == "shafts" else tomlkit.table()
+    if isinstance(step, str) and step not in table:
+        inline = isinstance(table, tomlkit.items.InlineTable)
+        table[step] = tomlkit.aot() if step == "shafts" else tomlkit.inline_table() if inline else tomlkit.table()
     return table[step]
 
 
@@ -87,17 +90,28 @@ def _shaft(tables: Any, number: int) -> Any:
     for table in tables:
         if table.get("number") == number:
             return table
-    new = tomlkit.table()
+    new: Any = tomlkit.inline_table() if isinstance(tables, tomlkit.items.Array) else tomlkit.table()
     new["number"] = number
     tables.append(new)
     return tables[-1]
 
 
-def _with_items(held: Any, inner: list[Any], value: Any, factor: float) -> Any:
-    """Return the whole list in the path's unit with one of its numbers changed."""
-    items = [list(item) if isinstance(item, tuple) else item / factor if factor != 1.0 else item for item in held]
-    here: Any = items
-    for step in inner[:-1]:
-        here = here[step]
-    here[inner[-1]] = value
-    return items
+def _removed(table: Any, key: str) -> str:
+    """Take a key out of a table and return its comment."""
+    comment = str(table[key].trivia.comment).lstrip("# ")
+    del table[key]
+    return comment
+
+
+def _put(items: Any, steps: Sequence[str | int], value: Any) -> None:
+    """Change one number of a list where it stands."""
+    for step in steps[:-1]:
+        items = items[step]
+    items[steps[-1]] = value
+
+
+def _plain(value: Any) -> Any:
+    """Return tuples as lists, and whole numbers without a point."""
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value

@@ -11,6 +11,9 @@ from cardan.errors import Problem, check, refuse
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
+MAX_BYTES = 100_000_000
+"""Larger files are refused; no more of them is read."""
+
 MIN_ROWS = 4
 """A twice differentiable spline needs so many rows."""
 
@@ -24,7 +27,14 @@ def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
         The file cannot be read, a column is missing, a row is not four finite numbers, times do not rise.
     """
     try:
-        rows = list(csv.reader(path.read_text("utf-8-sig").splitlines()))
+        with path.open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+        if len(content) > MAX_BYTES:
+            limit = MAX_BYTES // 10**6
+            raise refuse(str(path.name), _("is larger than {limit} MB; take fewer rows").format(limit=limit))
+        rows = list(csv.reader(content.decode("utf-8-sig").splitlines()))
+    except csv.Error as error:
+        raise refuse(str(path.name), _("is no CSV: {why}").format(why=error)) from None
     except OSError as error:
         raise refuse(str(path.name), _("cannot be read: {why}").format(why=error.strerror or error)) from None
     except UnicodeDecodeError:

@@ -9,7 +9,7 @@ from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.keys import Field, exact_in_unit, fields_of
+from cardan.drive.keys import Field, exact_in_unit, fields_of, in_unit
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.units import DIMENSIONS
@@ -32,7 +32,8 @@ def written(value: float, dimension: str) -> tuple[str, float]:
         number = exact_in_unit(value, factor)
         if number is not None:
             return unit, number
-    raise ValueError(f"{dimension} has no SI unit")
+    unit, factor = next(iter(DIMENSIONS[dimension].items()))  # a share has no SI unit: one rounding is left
+    return unit, in_unit(value, factor)
 
 
 def _table(thing: Any) -> dict[str, Any]:
@@ -71,7 +72,8 @@ def _in_units(one: Field, value: Any) -> tuple[str, Any]:
         numbers = _mapped(value, factor)
         if numbers is not None:
             return f"{one.name}_{unit}", numbers
-    raise ValueError(f"{one.name} has no unit in which {value} is exact")
+    unit, number = written(value, one.key.dimension)
+    return f"{one.name}_{unit}", number
 
 
 def _mapped(value: Any, factor: float) -> Any:
