@@ -73,9 +73,9 @@ def commands() -> str:
 
 
 def _commands(group: Any, path: str) -> Iterator[str]:
-    import click
+    import typer
 
-    context = click.Context(group, info_name=path)
+    context = typer.Context(group, info_name=path)
     for name in group.list_commands(context):
         _name, command, _rest = group.resolve_command(context, [name])
         if command.hidden:
@@ -84,7 +84,7 @@ def _commands(group: Any, path: str) -> Iterator[str]:
             yield from _commands(command, f"{path} {name}")
             continue
         yield f"## `{path} {name}`\n\n{_plain(command.help)}\n"
-        inner = click.Context(command, info_name=f"{path} {name}")
+        inner = typer.Context(command, info_name=f"{path} {name}")
         usage = " ".join(command.collect_usage_pieces(inner))
         yield f"```text\n{path} {name} {usage}\n```\n"
         rows = ["| argument or option | meaning | default |", "|---|---|---|"]
