@@ -32,6 +32,7 @@ COMMANDS = {
         (
             "cardan phases truck.toml --fix 2=90",
             "cardan phases truck.toml --apply A -o better.toml",
+            "cardan phases boxed.toml --layout -o better.toml",
         ),
     ),
     "articulation": Entry(

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cardan.errors import refuse
 from cardan.texts import _
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.phases import YokeSetting
+    from cardan.synthesis.phases import Phasing, YokeSetting
 
     from .answer import Answer
 
@@ -20,23 +20,34 @@ STEP = 1e-9
 """Yokes turned by less than this [rad] stay as they are in the file."""
 
 
-def applied(answer: Answer, settings: Sequence[YokeSetting], drive: Drive, text: str, label: str, out: Path) -> Answer:
+def applied(
+    answer: Answer,
+    found: Phasing,
+    drive: Drive,
+    text: str,
+    *,
+    label: str | None,
+    out: Path,
+    also: Mapping[str, Any],
+) -> Answer:
     """Write a setting and return the answer with a word on it.
 
     Parameters
     ----------
     answer : Answer
         What `cardan phases` found.
-    settings : sequence of YokeSetting
-        All settings it found.
+    found : Phasing
+        What it found.
     drive : Drive
         The drive as it stands in the file.
     text : str
         The file.
-    label : str
-        Which setting to write.
+    label : str or None
+        Which setting to write; the first suggested one by default.
     out : path
         Where to write it, TOML or JSON.
+    also : mapping of str to value
+        What else changes in the file, by paths with units.
     """
     import numpy as np
 
@@ -45,13 +56,16 @@ def applied(answer: Answer, settings: Sequence[YokeSetting], drive: Drive, text:
 
     from .answer import Remark, percent
     from .output import write_text
+    from .phasing import every_setting
 
-    chosen = named(settings, label)
+    best = (*found.pose_settings, *found.settings, found.as_built)[0]
+    chosen = best if label is None else named(every_setting(found), label)
+    present = [shaft.yoke_angle for shaft in drive.shafts[1:-1]]
     angles = np.rad2deg(chosen.yoke_angle)
-    values = {
+    values = dict(also) | {
         f"shafts[{k + 1}].yoke_angle_deg": round(float(angle), 12)
         for k, angle in enumerate(angles)
-        if abs(float(chosen.change[k])) > STEP
+        if abs(np.sin(chosen.yoke_angle[k] - present[k])) > STEP
     }
     if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
         form = "json" if out.suffix.lower() == ".json" else "toml"

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 STEP = 30.0
 """Step of the printed table [deg]; JSON, CSV and figures have steps of one degree."""
 
+ORDERS = 3
+"""So many orders of the input speed are listed: 2, 4, 6."""
+
 MOST_POSITIONS = 1_000_000
 """More positions than this would not fit a table anyone reads."""
 
@@ -135,13 +138,14 @@ def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
     """Return in one sentence how even a drive is; ``each`` as of `after_each_joint`."""
     from cardan.units import deg
 
+    from .answer import percent
     from .source import title
 
     count = plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints))
     if _even(each):
         return _("{name}: {count}, the output turns exactly evenly.").format(name=title(drive, file), count=count)
-    text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share:.3f} % irregular.")
-    share = 100.0 * float(each.irregularity[-1])
+    text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share} irregular.")
+    share = percent(float(each.irregularity[-1]))
     return text.format(name=title(drive, file), count=count, bend=float(each.bend[-1]) / deg, share=share)
 
 
@@ -282,6 +286,11 @@ def _remarks(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> 
         else:
             text += _("; --speed-rpm gives its acceleration in rad/s².")
         yield Remark(text=text)
+    if not _even(each):
+        waves = [float(wave) / deg for wave in each.harmonics(ORDERS)[-1]]
+        text = _("Its orders: {orders}.")
+        shown = (_("{order} with {size}°").format(order=2 * k, size=significant(w, 3)) for k, w in enumerate(waves, 1))
+        yield Remark(text=text.format(orders=", ".join(shown)))
     yield from steep_joints(drive)
     if _even(each):
         yield Remark(text=_("The whole drive on one page:"), command=("cardan", "report", str(file)), tone="next")
@@ -324,6 +333,10 @@ def _content(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> 
         "ratio_max": each.ratio_max[-1],
         "max_lead_deg": each.max_lead[-1] / deg,
         "max_acceleration_per_speed_squared": each.max_acceleration[-1],
+        "orders": [
+            {"order": 2 * k, "lead_deg": float(wave) / deg, "ratio": 2.0 * k * float(wave)}
+            for k, wave in enumerate(each.harmonics(ORDERS)[-1], start=1)
+        ],
         "joints": records(_joint_table(drive), [(k, joint.name) for k, joint in enumerate(drive.joints, 1)]),
         "shafts": records(_shaft_table(drive, found, each), [(shaft.number, shaft.name) for shaft in drive.shafts[1:]]),
         "motion": {column.key: [row[k] for row in trace.rows] for k, column in enumerate(trace.columns)},
