@@ -107,6 +107,18 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     assert "22.27°" in words
 
 
+def test_changes_come_with_the_most_helpful_first():
+    from cardan.report.subject import asked
+    from cardan.report.summary import changes
+
+    for name in ("three-joints-unequal", "truck-printed-angles"):
+        rows = changes(asked(example(name), None, None)).rows
+        left = [float(row[2].full) for row in rows]
+        assert 1 < len(left) <= 3
+        assert left == sorted(left)
+        assert left[0] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_bends_beyond_joints_and_beyond_digits_are_warned_of():
     steep = "".join(parsed(page(Drive.from_angles([50 * deg]))).words)
     assert "no real cross joint works above 45°" in steep

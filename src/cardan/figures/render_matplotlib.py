@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import io
-import re
 from collections.abc import Sequence
-from html import escape
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import palette
 from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import Box, Entry, Page, laid_out
 from .projection import facets, onto
+from .svg import element, tidied
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,9 +30,6 @@ STYLE = {
     "lines.solid_capstyle": "round",
     "lines.solid_joinstyle": "round",
 }
-FONTS = "'Inter', 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif"
-"""Fonts of an SVG: that of the page it stands in, the widest one last, for which room is left."""
-
 _LINES: dict[str, Any] = {
     "solid": "-",
     "dashed": (0, (5, 2)),
@@ -92,23 +88,8 @@ def _halos(canvas: Canvas) -> None:
             text.set_path_effects([withStroke(linewidth=2.4, foreground="white")])
 
 
-def _svg(canvas: Canvas) -> str:
-    stream = io.BytesIO()
-    canvas.savefig(stream, format="svg", metadata={"Date": None, "Creator": "cardan"}, facecolor="white")
-    text = stream.getvalue().decode("utf-8")
-    rim = 'style="paint-order: stroke; stroke: #fff; stroke-width: 2.4px; stroke-linejoin: round"'
-    text = re.sub(r' id="halo\d+"', f" {rim}", text)
-    text = re.sub(r"<[^>]*>", _short, text).replace("'DejaVu Sans'", FONTS)
-    return re.sub(r">\s+<", "><", text)
-
-
-def _short(tag: re.Match[str]) -> str:
-    """Return a tag with two decimals in its numbers, a hundredth of a point; words between tags stay as they are."""
-    return re.sub(r"(\d+\.\d{2})\d+", r"\1", tag[0])
-
-
 def inline_svg(figure: Figure) -> str:
-    """Return a figure as an SVG element for a page: without title, as wide as its place, with words for the blind.
+    """Return a figure as an SVG element for a page, without its title and sentence.
 
     Parameters
     ----------
@@ -117,27 +98,13 @@ def inline_svg(figure: Figure) -> str:
     """
     stream = io.BytesIO()
     render(figure, stream, "svg", words=False)
-    text = stream.getvalue().decode("utf-8")
-    text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, count=1, flags=re.DOTALL)
-    text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
-    text = re.sub(r"<path d=\"[^\"]*\"\s*style=\"fill: #ffffff\"\s*/>", "", text, count=1)
-    text = _own_names(text, figure.name)
-    size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', text)
-    box = f"0 0 {size[1]} {size[2]}" if size else "0 0 1 1"
-    body = text[text.index(">") + 1 :]
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{box}" '
-        f'role="img" aria-label="{escape(f"{figure.title}. {figure.sentence}")}">{body}'
-    )
+    return element(stream.getvalue().decode("utf-8"), figure)
 
 
-def _own_names(text: str, name: str) -> str:
-    """Keep only the ids that are referred to, with the figure's name before them: a page has many figures."""
-    used = set(re.findall(r"url\(#([^)]+)\)", text)) | set(re.findall(r'href="#([^"]+)"', text))
-    text = re.sub(r' id="([^"]+)"', lambda m: f' id="{name}-{m[1]}"' if m[1] in used else "", text)
-    text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
-    return re.sub(r'href="#([^"]+)"', rf'href="#{name}-\1"', text)
+def _svg(canvas: Canvas) -> str:
+    stream = io.BytesIO()
+    canvas.savefig(stream, format="svg", metadata={"Date": None, "Creator": "cardan"}, facecolor="white")
+    return tidied(stream.getvalue().decode("utf-8"))
 
 
 def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) -> None:

@@ -82,7 +82,7 @@ def _proof(on: Subject) -> str:
     return _(
         "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The longest "
         "side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles can close the "
-        "path. It could be closed if that joint bent no more than {bend}°."
+        "path. It could be closed if that joint bent {bend}°."
     ).format(**compare, bend=fixed(closing.bend_allowed / deg))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, rpm
 
-from .block import SIGNS, Cell, Column, Table, Tone, Words, number, words
+from .block import Cell, Column, Table, Tone, Words, number, words
 from .subject import Subject
 
 ILL = 80.0
@@ -210,7 +210,9 @@ def changes(on: Subject) -> Table | Words:
                 text=_("The yokes stand right; what is left comes from bends that differ while the drive moves.")
             )
         return Words(text=_("Nothing needs to be changed for an even output."))
-    rows = list(_changes(on))[:3]
+    now = float(on.whole.irregularity)
+    found = sorted((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now))
+    rows = [_change(text, now, after) for after, text in found[:3]]
     if not rows:
         if on.joints == 1:
             return Words(
@@ -228,27 +230,22 @@ def changes(on: Subject) -> Table | Words:
     )
 
 
-def _changes(on: Subject) -> Iterator[list[Cell]]:
-    now = float(on.whole.irregularity)
-    best, pitched = on.best, on.phasing.spline_settings[:1]
-    if best is not None and now - best.irregularity > UTMOST:
-        yield _change(_set_to(best, best.label, on), now, best.irregularity)
-    for one in pitched:
-        if now - one.irregularity > UTMOST:
-            yield _change(_set_to(one, one.label, on), now, one.irregularity)
+def _changes(on: Subject) -> Iterator[tuple[str, float]]:
+    """Yield changes and the irregularity each would leave."""
+    if on.best is not None:
+        yield _set_to(on.best, on.best.label, on), on.best.irregularity
+    for one in on.phasing.spline_settings[:1]:
+        yield _set_to(one, one.label, on), one.irregularity
     for k, one in on.alone[:2]:
-        if now - one.irregularity > UTMOST and len(on.phasing.free) > 1:
-            text = _("turn only the yokes of shaft {k}: to {angle}°").format(
-                k=k, angle=fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
-            )
-            yield _change(text, now, one.irregularity)
+        angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
+        yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
     if on.joints > 1 and not on.phasing.feasible and not on.phasing.fixed:
         text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew").format(
             k=on.closing.longest,
             bend=fixed(on.closing.bend_allowed / deg),
             now=fixed(float(on.train.bend[on.closing.longest - 1]) / deg),
         )
-        yield _change(text, now, 0.0)
+        yield text, 0.0
 
 
 def _set_to(one: YokeSetting, label: str, on: Subject) -> str:
@@ -271,8 +268,3 @@ def _change(text: str, before: float, after: float) -> list[Cell]:
         number(percent(before).removesuffix(" %"), 100.0 * before),
         number(percent(after).removesuffix(" %"), 100.0 * after, tone),
     ]
-
-
-def signs() -> Sequence[str]:
-    """Return the signs of the tones, for the legend."""
-    return [SIGNS[tone] for tone in ("good", "warning", "failed")]

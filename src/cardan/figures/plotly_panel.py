@@ -1,0 +1,422 @@
+"""One panel of a figure as plotly's traces, shapes and annotations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from . import palette
+from .figure import Axis, Band, Bars, Curve, Mesh, Note, Panel, Rule, Series, Shape
+from .page import Box, Page
+from .projection import facets, onto
+
+Spec: TypeAlias = dict[str, Any]
+
+_DASHES = {"solid": "solid", "dashed": "dash", "dotted": "dot", "dashdot": "dashdot"}
+_SIDES = {"left": "left", "centre": "center", "right": "right"}
+
+
+class PanelWriter:
+    """Puts one panel into the spec.
+
+    Parameters
+    ----------
+    spec : dict
+        Data and layout of the whole figure, added to.
+    page : Page
+        The laid-out figure.
+    panel : Panel
+        What to draw.
+    box : Box
+        Where.
+    number : int
+        Number of the panel, from 1.
+    shown : set of str
+        Labels that stand in the legend already, added to.
+    """
+
+    def __init__(self, spec: Spec, page: Page, panel: Panel, box: Box, number: int, shown: set[str]) -> None:
+        self.data: list[Spec] = spec["data"]
+        self.layout: Spec = spec["layout"]
+        self.panel = panel
+        self.box = box
+        self.tail = "" if number == 1 else str(number)
+        self.shown = shown
+        self.across = [box.left / page.width, (box.left + box.width) / page.width]
+        self.upright = [1.0 - (box.top + box.height) / page.height, 1.0 - box.top / page.height]
+        self.space = panel.view is not None and panel.view.turnable
+
+    def draw(self) -> None:
+        """Draw frame, heading and series."""
+        if self.space:
+            self._scene()
+        else:
+            self._axes()
+        if self.panel.heading:
+            self.layout["annotations"].append(
+                {
+                    "text": f"<b>{escape(self.panel.heading)}</b>",
+                    "x": self.across[0],
+                    "y": self.upright[1],
+                    "xref": "paper",
+                    "yref": "paper",
+                    "xanchor": "left",
+                    "yanchor": "bottom",
+                    "showarrow": False,
+                    "font": {"size": 12.5},
+                }
+            )
+        meshes = [item for item in self.panel.series if isinstance(item, Mesh)]
+        if meshes and not self.space:
+            self._faces(meshes)
+        for item in self.panel.series:
+            if self.space:
+                self._spatial(item)
+            else:
+                self._flat(item)
+
+    def _axes(self) -> None:
+        panel = self.panel
+        x, y = _widened(panel, self.box)
+        self.layout[f"xaxis{self.tail}"] = _axis(panel.x, x, panel.bare, self.across, f"y{self.tail}", panel.x.title)
+        self.layout[f"yaxis{self.tail}"] = _axis(panel.y, y, panel.bare, self.upright, f"x{self.tail}", "")
+
+    def _scene(self) -> None:
+        view = self.panel.view
+        assert view is not None
+        hidden = {"visible": False}
+        toward = view.toward
+        self.layout[f"scene{self.tail}"] = {
+            "domain": {"x": self.across, "y": self.upright},
+            "xaxis": hidden,
+            "yaxis": hidden,
+            "zaxis": hidden,
+            "aspectmode": "manual",
+            "aspectratio": _proportions(self.panel, self.box),
+            "camera": {
+                "projection": {"type": "orthographic"},
+                "eye": dict(zip("xyz", (1.1 * v for v in toward), strict=True)),
+                "up": {"x": 0.0, "y": 0.0, "z": 1.0},
+            },
+            "annotations": [],
+        }
+
+    def _spatial(self, item: Series) -> None:
+        if isinstance(item, Mesh):
+            i, j, k = np.asarray(item.triangles).T
+            x, y, z = item.corners.T
+            tint = palette.mixed(palette.colour(item.role), "#ffffff", item.shade)
+            self.data.append(
+                {
+                    "type": "mesh3d",
+                    "x": _list(x),
+                    "y": _list(y),
+                    "z": _list(z),
+                    "i": i.tolist(),
+                    "j": j.tolist(),
+                    "k": k.tolist(),
+                    "color": tint,
+                    "flatshading": not item.smooth,
+                    "text": item.text,
+                    "hoverinfo": "text",
+                    "lighting": {"ambient": 0.75, "diffuse": 0.55, "specular": 0.05},
+                    "scene": f"scene{self.tail}",
+                }
+            )
+        elif isinstance(item, Note) and item.z is not None:
+            self.layout[f"scene{self.tail}"]["annotations"].append(
+                {
+                    "text": escape(item.text),
+                    "x": item.x,
+                    "y": item.y,
+                    "z": item.z,
+                    "showarrow": False,
+                    "xshift": item.shift[0] * 1.5,
+                    "yshift": item.shift[1] * 1.5,
+                    "font": {"color": palette.colour(item.role), "size": 12},
+                    "bgcolor": "rgba(255,255,255,0.6)",
+                }
+            )
+        elif isinstance(item, Curve) and item.z is not None:
+            x, y, z = np.broadcast_arrays(item.x, item.y, item.z)
+            self.data.append(
+                {
+                    "type": "scatter3d",
+                    "mode": "lines",
+                    "x": _list(x),
+                    "y": _list(y),
+                    "z": _list(z),
+                    "line": {"color": palette.colour(item.role), "width": 2.0 * item.width},
+                    "hoverinfo": "skip",
+                    "showlegend": False,
+                    "scene": f"scene{self.tail}",
+                }
+            )
+
+    def _flat(self, item: Series) -> None:
+        if isinstance(item, Curve):
+            self._curve(item)
+        elif isinstance(item, Bars):
+            self._bars(item)
+        elif isinstance(item, Shape):
+            self._add(
+                type="scatter",
+                mode="lines",
+                x=_list([*item.x, item.x[0]]),
+                y=_list([*item.y, item.y[0]]),
+                fill="toself",
+                fillcolor=_faded(palette.colour(item.role), item.opacity),
+                line={"width": item.outline, "color": palette.colour(item.role)},
+                hoverinfo="skip",
+                **self._named(item.label),
+            )
+        elif isinstance(item, Note):
+            self._note(item)
+        elif isinstance(item, Rule):
+            self._shape(
+                item.value,
+                item.value,
+                item.upright,
+                item.text,
+                item.role,
+                line={"color": palette.colour(item.role), "width": item.width * 1.3, "dash": _DASHES[item.dash]},
+                type="line",
+            )
+        elif isinstance(item, Band):
+            self._shape(
+                item.low,
+                item.high,
+                item.upright,
+                item.text,
+                item.role,
+                type="rect",
+                fillcolor=palette.colour(item.role),
+                opacity=item.opacity,
+                line={"width": 0},
+            )
+
+    def _curve(self, item: Curve) -> None:
+        x, y = item.x, item.y
+        if item.z is not None and self.panel.view is not None:
+            seen = onto(self.panel.view, np.stack(np.broadcast_arrays(item.x, item.y, item.z), axis=-1))
+            x, y = seen[..., 0], seen[..., 1]
+        tint = palette.colour(item.role)
+        mode = "lines+markers" if item.width and item.marker else "markers" if item.marker else "lines"
+        empty = not len(x)
+        self._add(
+            type="scatter",
+            mode=mode,
+            x=[None] if empty else _list(x),
+            y=[None] if empty else _list(y),
+            line={"color": tint, "width": item.width * 1.4, "dash": _DASHES[item.dash]},
+            marker={"color": tint, "size": item.marker * 1.5},
+            **({"hoverinfo": "skip"} if self.panel.bare else {"hovertemplate": "%{y:.8g} @ %{x:.6g}"}),
+            **self._named(item.label),
+        )
+        if item.arrow and len(x) > 1:
+            self.layout["annotations"].append(
+                {
+                    "x": float(x[-1]),
+                    "y": float(y[-1]),
+                    "ax": float(x[-2]),
+                    "ay": float(y[-2]),
+                    "xref": f"x{self.tail}",
+                    "yref": f"y{self.tail}",
+                    "axref": f"x{self.tail}",
+                    "ayref": f"y{self.tail}",
+                    "text": "",
+                    "showarrow": True,
+                    "arrowhead": 2,
+                    "arrowsize": 1.2,
+                    "arrowwidth": max(1.0, item.width),
+                    "arrowcolor": tint,
+                }
+            )
+
+    def _bars(self, item: Bars) -> None:
+        lengths = [float(size) - (0.0 if self._log(item) else item.base) for size in item.size]
+        at = _list(item.at)
+        self._add(
+            type="bar",
+            orientation="h" if item.lying else "v",
+            x=lengths if item.lying else at,
+            y=at if item.lying else lengths,
+            **({} if self._log(item) else {"base": item.base}),
+            width=item.thick,
+            text=[escape(text) for text in item.texts] or None,
+            textposition="outside",
+            cliponaxis=False,
+            marker={"color": [palette.colour(item.roles[k % len(item.roles)]) for k in range(len(at))]},
+            hovertemplate="%{x:.8g}" if item.lying else "%{y:.8g}",
+            **self._named(item.label),
+        )
+
+    def _log(self, item: Bars) -> bool:
+        return self.panel.x.log if item.lying else self.panel.y.log
+
+    def _note(self, item: Note) -> None:
+        x, y = item.x, item.y
+        if item.z is not None and self.panel.view is not None:
+            seen = onto(self.panel.view, np.asarray([item.x, item.y, item.z]))
+            x, y = float(seen[0]), float(seen[1])
+        self.layout["annotations"].append(
+            {
+                "text": f"<b>{escape(item.text)}</b>" if item.bold else escape(item.text),
+                "x": float(np.log10(x)) if self.panel.x.log else x,
+                "y": float(np.log10(y)) if self.panel.y.log else y,
+                "xref": f"x{self.tail}",
+                "yref": f"y{self.tail}",
+                "xanchor": _SIDES[item.side],
+                "yanchor": item.level,
+                "xshift": 1.5 * item.shift[0],
+                "yshift": 1.5 * item.shift[1],
+                "showarrow": False,
+                "font": {"size": 1.45 * item.size, "color": palette.colour(item.role)},
+            }
+        )
+
+    def _shape(self, low: float, high: float, upright: bool, text: str, role: str, **how: Any) -> None:
+        here = {"xref": f"x{self.tail}", "yref": f"y{self.tail}"}
+        if upright:
+            self.layout["shapes"].append(
+                {
+                    "x0": low,
+                    "x1": high,
+                    "y0": 0,
+                    "y1": 1,
+                    **here,
+                    "yref": f"y{self.tail} domain",
+                    "layer": "below",
+                    **how,
+                }
+            )
+        else:
+            self.layout["shapes"].append(
+                {
+                    "x0": 0,
+                    "x1": 1,
+                    "y0": low,
+                    "y1": high,
+                    **here,
+                    "xref": f"x{self.tail} domain",
+                    "layer": "below",
+                    **how,
+                }
+            )
+        if text:
+            log = self.panel.x.log if upright else self.panel.y.log
+            at = float(np.log10(high)) if log else high
+            place = {
+                "x": at,
+                "y": 1.0,
+                "yref": f"y{self.tail} domain",
+                "xref": f"x{self.tail}",
+                "xanchor": "left",
+                "yanchor": "top",
+            }
+            if not upright:
+                place = {
+                    "x": 1.0,
+                    "y": at,
+                    "xref": f"x{self.tail} domain",
+                    "yref": f"y{self.tail}",
+                    "xanchor": "right",
+                    "yanchor": "bottom",
+                }
+            self.layout["annotations"].append(
+                {"text": escape(text), "showarrow": False, "font": {"size": 11, "color": palette.colour(role)}, **place}
+            )
+
+    def _faces(self, meshes: Sequence[Mesh]) -> None:
+        assert self.panel.view is not None
+        for facet in facets(self.panel.view, meshes):
+            path = "L".join(f"{x:.5g},{y:.5g}" for x, y in facet.corners)
+            self.layout["shapes"].append(
+                {
+                    "type": "path",
+                    "path": f"M{path}Z",
+                    "fillcolor": facet.fill,
+                    "line": {"color": facet.edge, "width": 0.6},
+                    "xref": f"x{self.tail}",
+                    "yref": f"y{self.tail}",
+                }
+            )
+        # Shapes alone leave the axes empty; an unseen point keeps them.
+        self._add(
+            type="scatter",
+            x=[self.panel.x.low],
+            y=[self.panel.y.low],
+            mode="markers",
+            marker={"opacity": 0},
+            hoverinfo="skip",
+            showlegend=False,
+        )
+
+    def _named(self, label: str) -> Spec:
+        if not label:
+            return {"showlegend": False}
+        first = label not in self.shown
+        self.shown.add(label)
+        return {"name": escape(label), "legendgroup": label, "showlegend": first}
+
+    def _add(self, **trace: Any) -> None:
+        self.data.append({**trace, "xaxis": f"x{self.tail}", "yaxis": f"y{self.tail}"})
+
+
+def _axis(one: Axis, span: tuple[float, float], bare: bool, domain: list[float], anchor: str, title: str) -> Spec:
+    log = bool(one.log)
+    made: Spec = {
+        "range": [float(np.log10(v)) if log else float(v) for v in span],
+        "type": "log" if log else "linear",
+        "domain": domain,
+        "anchor": anchor,
+        "visible": not bare,
+        "zeroline": False,
+        "showgrid": one.grid,
+        "gridcolor": palette.colour("grid"),
+        "tickvals": [float(v) for v in one.ticks],
+        "ticktext": list(one.texts) or [""] * len(one.ticks),
+        "tickfont": {"size": 11, "color": palette.colour("muted")},
+    }
+    if title and not bare:
+        made["title"] = {"text": escape(title), "font": {"size": 12, "color": palette.colour("muted")}, "standoff": 6}
+    return made
+
+
+def _widened(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ranges of the axes, widened about their middles where both have the same scale."""
+    x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
+    if not panel.equal:
+        return x, y
+    scale = min(box.width / (x[1] - x[0]), box.height / (y[1] - y[0]))
+    return tuple(  # type: ignore[return-value]
+        (0.5 * (low + high) - 0.5 * size / scale, 0.5 * (low + high) + 0.5 * size / scale)
+        for (low, high), size in ((x, box.width), (y, box.height))
+    )
+
+
+SCENE = 0.58
+"""Share of a scene's height that a side of 1 of its box takes, seen without perspective."""
+
+
+def _proportions(panel: Panel, box: Box) -> Spec:
+    """Return the sides of the box around the solids, as large as fills the panel when seen from `View`."""
+    found = [item.corners for item in panel.series if isinstance(item, Mesh)]
+    if not found or panel.view is None:
+        return {"x": 1.0, "y": 1.0, "z": 1.0}
+    corners = np.concatenate(found)
+    sides, seen = np.ptp(corners, axis=0), np.ptp(onto(panel.view, corners), axis=0)
+    scale = min(0.9 * box.width / box.height / float(seen[0]), 0.72 / float(seen[1])) / SCENE
+    return dict(zip("xyz", (max(float(side) * scale, 1e-3) for side in sides), strict=True))
+
+
+def _list(values: Any) -> list[float | None]:
+    return [float(value) if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
+
+
+def _faded(hexadecimal: str, opacity: float) -> str:
+    red, green, blue = (int(hexadecimal[k : k + 2], 16) for k in (1, 3, 5))
+    return f"rgba({red},{green},{blue},{opacity:g})"
