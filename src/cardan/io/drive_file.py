@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
+from cardan.files import write_text
 from cardan.errors import Problem, check, refuse
 from cardan.texts import _
 
-from .atomic import write_text
 from .reader import drive_from_tree
+from .shifts import keep_shifts
 from .writer import toml_text, tree_of
 
 MAX_BYTES = 20_000_000
@@ -87,7 +88,7 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
     0.3490658503988659
     """
-    return drive_from_tree(_parsed(text, form, name), folder=Path(folder))
+    return drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
 
 
 def dumps(drive: Drive, *, form: str = "toml") -> str:
@@ -110,14 +111,15 @@ def save(thing: Any, path: str | Path) -> None:
     Parameters
     ----------
     thing : Drive or result
-        A drive is written as ``.toml`` or ``.json``, a result in one of the formats of `cardan.io.formats`.
+        A drive is written as ``.toml`` or ``.json``, with the CSV files of its table movements beside it where there
+        are none yet; a result in one of the formats of `cardan.io.formats`.
     path : str or Path
         Replaced as a whole or not at all.
 
     Raises
     ------
     InputError
-        The suffix is not known or the file cannot be written.
+        The suffix is not known, the file cannot be written, or a CSV file there holds other rows than the drive.
 
     Examples
     --------
@@ -136,7 +138,9 @@ def save(thing: Any, path: str | Path) -> None:
     form = where.suffix.lower().lstrip(".")
     if form not in ("toml", "json"):
         raise refuse(str(where), _("a drive is saved as .toml or .json"))
-    write_text(where, dumps(thing, form=form))
+    text = dumps(thing, form=form)
+    keep_shifts(thing.movements, where.parent)
+    write_text(where, text)
 
 
 def _parsed(text: str, form: str, name: str) -> dict[str, Any]:

@@ -326,5 +326,7 @@ def _shown(value: Any) -> str:
         return _("a table")
     if isinstance(value, list):
         return _("a list")
+    if value is None:
+        return "null"
     text = repr(value) if isinstance(value, str | int | float) else str(value)
     return text if len(text) <= 40 else text[:37] + "..."

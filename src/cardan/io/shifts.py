@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Iterable
 from pathlib import Path
 
 from cardan.drive.joints.joint import Point
-from cardan.errors import Problem, check, refuse
+from cardan.drive.movement import Movement, Table
+from cardan.errors import InputError, Problem, check, refuse
 from cardan.texts import _
 from cardan.units import DIMENSIONS
+
+from cardan.files import write_text
 
 MAX_BYTES = 100_000_000
 """Larger files are refused; no more of them is read."""
@@ -66,6 +70,36 @@ def read_shifts(path: Path) -> tuple[tuple[float, ...], tuple[Point, ...]]:
             path.name, _("has {given} rows; at least {wanted} are needed").format(given=len(times), wanted=MIN_ROWS)
         )
     return tuple(times), tuple(shifts)
+
+
+def keep_shifts(movements: Iterable[Movement], folder: Path) -> None:
+    """Write the rows of table movements to the files they name, unless these hold them already.
+
+    Raises
+    ------
+    InputError
+        A file there holds other rows, or cannot be written; nothing has been written then.
+    """
+    missing: dict[Path, str] = {}
+    problems: list[Problem] = []
+    for k, movement in enumerate(movements):
+        if not isinstance(movement, Table) or not movement.times:
+            continue
+        path = folder / movement.file
+        if not path.exists():
+            rows = ((t, *shift) for t, shift in zip(movement.times, movement.shifts, strict=True))
+            missing[path] = "time_s,x_m,y_m,z_m\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows)
+            continue
+        try:
+            same = read_shifts(path) == (movement.times, movement.shifts)
+        except InputError:
+            same = False
+        if not same:
+            message = _("{path} stands there already and holds something else").format(path=path)
+            problems.append(Problem(f"movements[{k}].file", message))
+    check(problems)
+    for path, text in missing.items():
+        write_text(path, text)
 
 
 def _columns(header: list[str], name: str) -> list[tuple[int, float]]:

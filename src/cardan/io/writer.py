@@ -98,6 +98,8 @@ def _emit(table: Mapping[str, Any], path: str, lines: list[str]) -> None:
     for key, value in table.items():
         if isinstance(value, Mapping) and not path and key in ("input", "output"):
             lines += [f"{key}.{inner} = {_toml(item)}" for inner, item in value.items()]
+        elif not path and isinstance(value, str) and "\n" in value:
+            lines.append(f"{_key(key)} = {_paragraphs(value)}")
         elif (isinstance(value, Mapping) and path) or (not isinstance(value, Mapping) and not _is_tables(value)):
             lines.append(f"{_key(key)} = {_toml(value)}")
     if path:
@@ -126,6 +128,12 @@ def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(key)} = {_toml(item)}" for key, item in value.items()) + " }"
     return repr(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else repr(value)
+
+
+def _paragraphs(text: str) -> str:
+    """Return a text of several lines as one that a reader of the file sees as such."""
+    body = "\n".join(_toml(line)[1:-1] for line in text.split("\n"))
+    return f'"""\n{body}"""'
 
 
 def _key(key: str) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from cardan.errors import refuse
-from cardan.io.atomic import write_text
+from cardan.files import write_text
 from cardan.texts import _
 
 from . import csv, json

@@ -1,15 +1,20 @@
-"""Results as JSON: every field under its name, SI, full precision."""
+"""Results as JSON: every field and property under its name, SI, full precision; drives as in a drive file."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any
 
 import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.io.writer import tree_of
 
 suffix = ".json"
 
@@ -22,13 +27,15 @@ def text(result: Any) -> str:
 def plain(value: Any) -> Any:
     """Return a result as dicts, lists, numbers and words: arrays as lists, complex as [re, im], not finite as null.
 
+    Properties that need what the result does not have, such as a speed, are left out.
+
     Examples
     --------
     >>> plain({"a": np.asarray([1.0, np.nan]), "b": 1 + 2j})
     {'a': [1.0, None], 'b': [1.0, 2.0]}
     """
     if is_dataclass(value) and not isinstance(value, type):
-        return {one.name: plain(getattr(value, one.name)) for one in fields(value)}
+        return tree_of(value) if isinstance(value, Drive) else dict(_named(value))
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, Enum):
@@ -38,6 +45,17 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return _number(value)
+
+
+def _named(thing: Any) -> Iterator[tuple[str, Any]]:
+    """Yield fields and public properties of a dataclass."""
+    for one in fields(thing):
+        yield one.name, plain(getattr(thing, one.name))
+    for cls in reversed(type(thing).__mro__):
+        for name, member in vars(cls).items():
+            if isinstance(member, property) and not name.startswith("_"):
+                with suppress(InputError):
+                    yield name, plain(getattr(thing, name))
 
 
 def _number(value: Any) -> Any:
