@@ -66,7 +66,7 @@ def allowed(key: Key, unit: str = "", *, mirrored: bool = False) -> str:
     """
     low, above, high, below = key.low, key.above, key.high, key.below
     if mirrored:
-        low, above, high, below = -high, -below, -low, -above
+        low, above, high, below = (0.0 - bound for bound in (high, below, low, above))
     parts = []
     if low > -math.inf:
         parts.append(_("at least {value}").format(value=shown(low, key, unit)))

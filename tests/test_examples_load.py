@@ -1,0 +1,131 @@
+"""Every shipped example loads, moves and shows what its comment says."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from cardan import articulation, equivalent_joint, example, motion, phases
+from cardan.drive.geometry import geometry
+from cardan.drive.paths import pose_drives
+from cardan.io import example_names, example_text, loads, starter
+
+NAMES = example_names()
+
+
+def test_all_of_them_are_there() -> None:
+    assert set(NAMES) >= {
+        "pto-hitch",
+        "rolling-mill-spindles",
+        "single-20deg",
+        "six-joints",
+        "three-joints-unequal",
+        "truck-exact-yokes",
+        "truck-printed-angles",
+        "truck-printed-coordinates",
+        "truck-rear-axle",
+        "truck-wrong-yokes",
+        "two-piece-rear-drive",
+        "w-arrangement",
+        "z-arrangement",
+    }
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_moves_and_says_what_it_is(name: str) -> None:
+    drive = example(name)
+    found = motion(drive)
+    assert drive.name
+    assert drive.duty.speed
+    assert np.all(np.isfinite(found.shaft_acceleration))
+    # A turn of the input is a turn of the output; sums of some 1e-16 over a handful of joints.
+    assert found.output_angle[-1] == pytest.approx(2 * math.pi, abs=1e-13)
+    assert np.all(geometry(drive).bend < math.radians(45))
+    assert len(pose_drives(drive)) == len(drive.poses)
+    if drive.movements:
+        assert np.all(np.isfinite(articulation(drive).bend))
+
+
+def irregularity(name: str) -> float:
+    return float(equivalent_joint(example(name)).irregularity)
+
+
+def test_single_joint_is_that_of_table_4() -> None:
+    found = equivalent_joint(example("single-20deg"))
+    assert found.irregularity == pytest.approx(math.sin(math.radians(20)) * math.tan(math.radians(20)), rel=1e-13)
+    assert math.degrees(found.max_lead) == pytest.approx(1 + 46.9 / 60, abs=0.05 / 60)  # printed to 0.1'
+
+
+def test_truck_power_unit_is_the_one_of_the_book() -> None:
+    bends = np.degrees(geometry(example("truck-printed-coordinates")).bend)
+    printed = [10 + 13.9 / 60, 15 + 27.2 / 60, 15 + 50.0 / 60, 14 + 11.0 / 60]
+    np.testing.assert_allclose(bends, printed, atol=0.06 / 60)  # worked out to 0.1'
+    assert irregularity("truck-printed-coordinates") == pytest.approx(0.09471, abs=5e-6)
+    assert irregularity("truck-printed-angles") == pytest.approx(0.12512, abs=5e-6)
+    assert irregularity("truck-wrong-yokes") == pytest.approx(0.1140, abs=5e-5)
+    for name in ("truck-printed-angles", "truck-wrong-yokes", "truck-exact-yokes"):
+        drive = example(name)
+        np.testing.assert_allclose(np.degrees([j.bend for j in drive.joints]), [11.5, 15 + 1 / 3, 15.0, 16.5])
+
+
+def test_exact_yokes_leave_rounding_only() -> None:
+    # Yoke angles with all digits: 16 roundings of 1e-16 at most in a product of four matrices.
+    assert irregularity("truck-exact-yokes") < 1e-15
+    assert example("truck-exact-yokes").shafts[2].yoke_angle == pytest.approx(math.radians(-1.69992), abs=1e-7)
+    assert example("truck-exact-yokes").shafts[3].yoke_angle == pytest.approx(math.radians(82.84475), abs=1e-7)
+
+
+def test_splines_of_the_truck_leave_half_a_percent() -> None:
+    found = phases(example("truck-printed-angles"), fixed={2: math.pi / 2})
+    assert found.spline_settings[0].irregularity == pytest.approx(0.005227, abs=5e-7)
+    assert {round(math.degrees(a)) for a in found.spline_settings[0].yoke_angle} == {90, 45, 0}
+
+
+@pytest.mark.parametrize("name", ["z-arrangement", "w-arrangement", "pto-hitch", "rolling-mill-spindles"])
+def test_equal_bends_with_yokes_in_line_are_even(name: str) -> None:
+    assert irregularity(name) < 1e-14  # bends from coordinates agree to rounding
+    for posed in pose_drives(example(name)):
+        assert equivalent_joint(posed).irregularity < 1e-14
+
+
+def test_arrangements_are_what_they_are_called() -> None:
+    assert abs(geometry(example("z-arrangement")).plane_twist[0]) == pytest.approx(math.pi, abs=1e-12)
+    assert geometry(example("w-arrangement")).plane_twist[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_bend_too_steep_cannot_be_made_even() -> None:
+    found = phases(example("three-joints-unequal"))
+    least = math.cos(math.radians(10)) ** 2 / math.cos(math.radians(25))
+    assert not found.feasible
+    assert found.irregularity_min == pytest.approx(least - 1 / least, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["two-piece-rear-drive", "truck-printed-coordinates", "six-joints"])
+def test_the_others_can_be_made_even(name: str) -> None:
+    found = phases(example(name))
+    assert found.feasible
+    assert found.settings[0].irregularity < 1e-14
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_comes_with_a_header_that_explains(name: str) -> None:
+    lines = example_text(name).splitlines()
+    header = [line for line in lines[: lines.index("")] if line.startswith("#")]
+    assert len(" ".join(header)) > 100
+    assert all(len(line) <= 120 for line in lines)
+
+
+def test_every_form_of_the_starter_loads() -> None:
+    head, *blocks = re.split(r"(?m)^# --- (?=.)", starter())
+    points, extras, bends, slopes, moving = blocks
+
+    def open_up(block: str) -> str:
+        return re.sub(r"(?m)^# ?", "", block.split("\n", 1)[1])
+
+    assert loads(head + open_up(points) + extras.split("\n", 1)[1]).form == "points"
+    assert loads(starter() + open_up(moving)).movements
+    assert loads(head + open_up(bends)).form == "angles"
+    assert loads(head + open_up(slopes)).form == "slopes"
