@@ -52,7 +52,7 @@ def check_new(path: Path, *, force: bool, field: str = "FILE") -> None:
 
 def write_text(path: Path, text: str, option: str) -> None:
     """Write a text file, whole or not at all."""
-    from cardan.io.atomic import write_text as write
+    from cardan.files import write_text as write
 
     check_target(path, option)
     write(path, text)

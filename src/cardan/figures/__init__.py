@@ -75,9 +75,8 @@ def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
         The suffix is none of these, or the file cannot be written.
     """
     from cardan.errors import refuse
+    from cardan.files import write_bytes
     from cardan.texts import _
-
-    from .writing import whole
 
     place = Path(path)
     suffix = place.suffix.lower()
@@ -88,11 +87,13 @@ def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
     if suffix == ".html":
         from .render_plotly import render as page
 
-        return whole(place, page(several).encode("utf-8"))
+        write_bytes(place, page(several).encode("utf-8"))
+        return place
     import io
 
     from .render_matplotlib import render
 
     stream = io.BytesIO()
     render(several, stream, suffix[1:])  # type: ignore[arg-type]
-    return whole(place, stream.getvalue())
+    write_bytes(place, stream.getvalue())
+    return place

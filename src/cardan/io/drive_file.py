@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.files import write_text
 from cardan.errors import Problem, check, refuse
+from cardan.files import write_text
 from cardan.texts import _
 
 from .reader import drive_from_tree

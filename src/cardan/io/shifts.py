@@ -10,10 +10,9 @@ from pathlib import Path
 from cardan.drive.joints.joint import Point
 from cardan.drive.movement import Movement, Table
 from cardan.errors import InputError, Problem, check, refuse
+from cardan.files import write_text
 from cardan.texts import _
 from cardan.units import DIMENSIONS
-
-from cardan.files import write_text
 
 MAX_BYTES = 100_000_000
 """Larger files are refused; no more of them is read."""

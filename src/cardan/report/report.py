@@ -13,7 +13,7 @@ from cardan.drive.duty import Duty
 from cardan.errors import refuse
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
-from cardan.figures.writing import whole
+from cardan.files import write_text
 from cardan.texts import _
 
 from .block import Listing, Page, Picture, Points, Table, Words
@@ -75,7 +75,8 @@ def report(
     if place.suffix.lower() not in SUFFIXES:
         raise refuse("path", _("{path} should end in .html").format(path=place))
     text = page(drive, duty, source_text=source_text, interactive=interactive, progress=progress)
-    return whole(place, text.encode("utf-8"))
+    write_text(place, text)
+    return place
 
 
 def page(
