@@ -1,0 +1,129 @@
+"""What the writer writes the reader reads, field by field, for whatever the model holds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import is_dataclass, replace
+from typing import Any, get_args, get_origin
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cardan import Drive
+from cardan.drive.duty import Duty, Limits
+from cardan.drive.keys import Field, fields_of, in_unit, spelled
+from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
+from cardan.drive.shaft import Shaft, Spline
+from cardan.io import dumps, loads
+from cardan.units import DIMENSIONS
+
+DRIVE = Drive.from_angles([0.2, 0.3, 0.1], yoke_angles=[0.4, -0.3])
+
+words = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
+
+
+def inside(one: Field) -> st.SearchStrategy[float]:
+    """Return numbers in the range of a field."""
+    key = one.key
+    low, high = max(key.low, key.above, -1e6), min(key.high, key.below, 1e6)
+    return st.floats(
+        low,
+        high,
+        exclude_min=key.above == low,
+        exclude_max=key.below == high,
+        allow_subnormal=False,
+    ).filter(key.allows)
+
+
+def holding(kind: Any, one: Field) -> st.SearchStrategy[Any]:
+    """Return values of the type of a field."""
+    if get_origin(kind) is tuple:
+        parts = get_args(kind)
+        if parts[-1] is Ellipsis:
+            return st.lists(holding(parts[0], one), min_size=2, max_size=4).map(tuple)
+        return st.tuples(*(holding(part, one) for part in parts))
+    if is_dataclass(kind):
+        return things(kind)  # type: ignore[arg-type]
+    if kind is float:
+        return inside(one)
+    if kind is int:
+        return st.integers(int(max(one.key.low, 0)), 1000)
+    return st.booleans() if kind is bool else words
+
+
+def things(cls: type, **known: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    """Return instances of a class of the model with any of its fields given."""
+    given_fields = {
+        name: known.get(name, holding(one.type, one) if one.required else st.just(one.default) | holding(one.type, one))
+        for name, one in fields_of(cls).items()
+    }
+    return st.builds(cls, **given_fields)
+
+
+def spectra() -> st.SearchStrategy[Spectrum]:
+    rising = st.lists(st.floats(0.0, 1e3, allow_subnormal=False), min_size=2, max_size=4, unique=True).map(sorted)
+    return rising.map(lambda f: Spectrum(frequency=tuple(f), density=tuple(1.0 + k for k in range(len(f)))))
+
+
+@pytest.mark.parametrize("kind", [cls for cls in MOVEMENTS.values() if cls is not Table])
+@given(data=st.data())
+@settings(max_examples=30, deadline=None)
+def test_movements(kind: type, data: st.DataObject) -> None:
+    known = {"moves": st.just(("joints[1]", "output"))}
+    if "axis" in fields_of(kind):
+        known["axis"] = st.just((0.0, 0.6, 0.8))
+    if kind is Random:
+        known["spectrum"] = spectra()
+    drive = replace(DRIVE, movements=(data.draw(things(kind, **known)),))
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+@given(
+    things(Duty),
+    things(Shaft, number=st.just(2), side_slope=st.none(), plan_slope=st.none()),
+    things(Limits),
+    words,
+    words,
+)
+@settings(max_examples=100, deadline=None)
+def test_all_other_tables(duty: Duty, shaft: Shaft, limits: Limits, name: str, note: str) -> None:
+    if shaft.spline is None:
+        limits = Limits()
+    drive = replace(DRIVE, duty=duty, shafts=(shaft,), limits=limits, name=name, note=note)
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+def test_a_note_of_several_lines_stands_in_several_lines() -> None:
+    drive = replace(DRIVE, note='first\n  "second" \\ \n\nlast')
+    assert '"""\nfirst\n' in dumps(drive)
+    assert loads(dumps(drive)) == drive
+
+
+def test_an_empty_spline_is_kept() -> None:
+    drive = replace(DRIVE, shafts=(Shaft(number=3, spline=Spline()),))
+    assert loads(dumps(drive)) == drive
+
+
+@given(st.floats(-1e9, 1e9, allow_subnormal=False), st.sampled_from(sorted(DIMENSIONS)))
+def test_the_nearest_decimal_is_one_rounding_away_at_most(value: float, dimension: str) -> None:
+    for factor in DIMENSIONS[dimension].values():
+        assert abs(in_unit(value, factor) * factor - value) <= math.ulp(value)
+
+
+@pytest.mark.parametrize(
+    ("path", "file"),
+    [
+        ("input.point", "input.point_mm"),
+        ("joints[3].centre[2]", "joints[3].centre_mm[2]"),
+        ("shafts[1].spline.engaged", "shafts[1].spline.engaged_mm"),
+        ("movements[0].spectrum.frequency[1]", "movements[0].spectrum.frequency_Hz[1]"),
+        ("poses[0].share", "poses[0].share_percent"),
+        ("joints", "joints"),
+        ("points[2]", "points[2]"),
+    ],
+)
+def test_paths_are_spelled_as_in_a_file(path: str, file: str) -> None:
+    assert spelled(path) == file
