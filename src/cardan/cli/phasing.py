@@ -134,7 +134,10 @@ def spread(found: Phasing) -> Iterator[Remark]:
         best = found.settings[0]
         numbers = sorted((*found.free, *found.fixed))
         each = [100.0 * abs(float(best.sensitivity[k - 2])) * radians(1.0) for k in numbers]
-        if found.feasible:
+        if found.feasible and len(numbers) > WIDEST:
+            text = _("A yoke 1° off costs at most {cost:.2f} %, on shaft {shaft}.")
+            yield Remark(text=text.format(cost=max(each), shaft=numbers[each.index(max(each))]))
+        elif found.feasible:
             yield Remark(
                 text=_("A yoke 1° off costs {costs} % on shaft {shafts}.").format(
                     costs=" / ".join(f"{cost:.2f}" for cost in each),

@@ -63,8 +63,9 @@ def stdin_text() -> str:
     """
     from cardan.errors import refuse
 
+    stream = getattr(sys.stdin, "buffer", None)
     try:
-        return sys.stdin.read()
+        return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()
     except UnicodeDecodeError as error:
         raise refuse("", _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from error
 
