@@ -240,3 +240,33 @@ def test_sliding_says_which_limit_it_passes():
     assert found["slip_path_m"] == pytest.approx(2 * found["stroke_m"], rel=1e-4)
     assert found["engaged_min_m"] == pytest.approx(0.05 - (math.sqrt(1.09) - math.sqrt(1.04)), abs=1e-6)
     assert len(found["flags"]) == 1
+
+
+@pytest.mark.parametrize("one", [CALCULATIONS[name] for name in OWN], ids=OWN)
+@pytest.mark.parametrize("value", [10**400, 1e308, -1e308])
+def test_a_number_that_no_drive_has_is_refused_under_its_key(one, value):
+    for item in one.takes:
+        if item.kind in {"word", "table"}:
+            continue
+        deep = value
+        for _axis in range(item.axes[-1]):
+            deep = [deep] * (item.width or 1)
+        assert any(field.startswith(item.key) for field in problems(one.name, FIRST[one.name] | {item.key: deep}))
+
+
+@pytest.mark.parametrize(
+    ("capability", "inputs", "field"),
+    [
+        ("chain", {"alpha_deg": [10, 20], "beta_deg": [[1]], "phi1_deg": 0}, "beta_deg"),
+        ("chain", {"alpha_deg": [[10, 20]] * 2, "gamma_deg": [[1], [2], [3]], "phi1_deg": 0}, "gamma_deg"),
+        ("collinear_joints", {"alpha_deg": [10, 20], "sign": [1]}, "sign"),
+        ("collinear_joints", {"alpha_deg": [10, 20], "sign": [1, 0]}, "sign"),
+        ("collinear_joints", {"alpha_deg": [], "sign": []}, "alpha_deg"),
+        ("book_series", {"alpha_deg": [10], "phi1_deg": 0, "order": 2, "phases": "mean"}, "phases"),
+        ("length_compensation", FIRST["length_compensation"] | {"t_s": [0.0, 0.2, 0.1]}, "t_s"),
+        ("synthesis_spline", {"alpha_deg": [10] * 6, "spline_teeth": [10_007] * 5}, "spline_teeth"),
+        ("errors", {"call": ["chain"]}, "call"),
+    ],
+)
+def test_inputs_that_do_not_go_together_are_refused_under_their_key(capability, inputs, field):
+    assert field in problems(capability, inputs)

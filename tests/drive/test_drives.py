@@ -90,3 +90,13 @@ def test_wrong_counts_are_named(given, field):
     with pytest.raises(InputError) as caught:
         Drives.from_angles(given.pop("bend"), **given)
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("plane_twist", np.zeros((3, 1))), ("yoke_angle", np.zeros((1, 2, 1))), ("start_phase", [0.0] * 3)],
+)
+def test_arrays_that_do_not_fit_the_batch_are_named(field, value):
+    with pytest.raises(InputError, match="does not fit the bends") as caught:
+        Drives.from_angles(np.full((2, 2), 0.1), **{field: value})
+    assert caught.value.field == field

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from cardan.analysis.book import book_comparison, book_series, collinear_bend, rule_of_practice
 from cardan.analysis.book_forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
+from cardan.errors import Problem
 from cardan.texts import _
 
 from .calculation import Calculation, Values, given, gives
@@ -97,6 +98,23 @@ def _collinear(values: Values) -> Values:
     return {"alpha_eq_deg": collinear_bend(values["alpha"], values["sign"])}
 
 
+def _collinear_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    alpha, sign = values.get("alpha"), values.get("sign")
+    if alpha is not None and not alpha.shape[-1]:
+        yield Problem(key("alpha"), _("an empty list has no joint"))
+    if sign is not None and not np.all(np.abs(sign) == 1):
+        yield Problem(key("sign"), _("only 1 and -1 are signs"))
+    if alpha is not None and sign is not None and sign.shape not in (alpha.shape, alpha.shape[-1:]):
+        text = _("shape {shape} does not fit the bends; {wanted} is needed")
+        yield Problem(key("sign"), text.format(shape=sign.shape, wanted=alpha.shape))
+
+
+def _series_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    yield from between(values, key)
+    if values.get("order") == 2 and values.get("phases", "exact") != "exact":
+        yield Problem(key("phases"), _("the second order takes exact phases"))
+
+
 CALCULATIONS = (
     Calculation(
         name="blokh",
@@ -142,7 +160,7 @@ CALCULATIONS = (
             gives("delta_80", _("irregularity by (80)")),
         ),
         answer=_series,
-        check=between,
+        check=_series_check,
     ),
     Calculation(
         name="book_comparison",
@@ -203,5 +221,6 @@ CALCULATIONS = (
         ),
         returns=(gives("alpha_eq_deg", _("equivalent angle"), "angle"),),
         answer=_collinear,
+        check=_collinear_check,
     ),
 )

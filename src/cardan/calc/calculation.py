@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from cardan.drive.validity import allowed, shown
+from cardan.drive.validity import in_range, out_of_range, shown
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 from cardan.units import DIMENSIONS, Key, factor, nearest
@@ -23,6 +23,8 @@ PYTHON = {
     "yoke_angle": ("gamma", "gamma2"),
     "angle": ("phi1",),
     "deviation": ("alpha_std",),
+    "times": ("t",),
+    "shafts": ("spline_teeth",),
 }
 """What the functions call an input -> its names here, where they differ."""
 
@@ -300,17 +302,22 @@ def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
 def _number(item: Given, entry: Any, field: str, key: str) -> Iterator[Problem]:
     if isinstance(entry, bool) or not isinstance(entry, int | float):
         yield Problem(field, _("{value} is no number").format(value=repr(entry)))
-    elif not math.isfinite(entry):
-        yield Problem(field, _("{value} is not finite").format(value=entry))
+        return
+    value = _scaled(entry, _factor(item, key))
+    if not math.isfinite(value):
+        yield Problem(field, _("{value} is not finite").format(value=_short(entry)))
     elif item.kind == "whole" and entry != int(entry):
         yield Problem(field, _("{value} is not a whole number").format(value=entry))
-    elif not item.meaning.allows(entry * _factor(item, key)):
-        yield Problem(
-            field,
-            _("{value} is not allowed; allowed is {allowed}").format(
-                value=shown(entry * _factor(item, key), item.meaning), allowed=allowed(item.meaning)
-            ),
-        )
+    elif not in_range(item.meaning, value):
+        yield Problem(field, out_of_range(shown(value, item.meaning), item.meaning, value))
+
+
+def _scaled(entry: float, scale: float) -> float:
+    """Return a number in SI, infinite where it is a whole number that no float can hold."""
+    try:
+        return float(entry) * scale
+    except OverflowError:
+        return math.inf
 
 
 def _depth(value: Any) -> int | None:

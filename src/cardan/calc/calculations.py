@@ -21,7 +21,7 @@ class Call(Calculation):
     def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
         """Return the answer of the named calculation."""
         rest = {key: value for key, value in inputs.items() if key != "call"}
-        return find(inputs.get("call", ""), field="call")(rest)
+        return find(str(inputs.get("call", "")), field="call")(rest)
 
 
 ERRORS = Call(

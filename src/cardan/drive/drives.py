@@ -85,13 +85,18 @@ class Drives:
                     name,
                     _("{given} values given, {wanted} needed").format(given=given.shape[-1], wanted=between[-1]),
                 )
+            if not _fits(given.shape, between):
+                raise refuse(name, _misfit(given.shape, between))
             return xp.broadcast_to(given, between)
 
+        start = real(start_phase, xp)
+        if not _fits(start.shape, alpha.shape[:-1]):
+            raise refuse("start_phase", _misfit(start.shape, alpha.shape[:-1]))
         whole = Chain(
             bend=alpha,
             plane_twist=rest("plane_twist", plane_twist),
             yoke_angle=rest("yoke_angle", yoke_angle),
-            start_phase=xp.broadcast_to(real(start_phase, xp), alpha.shape[:-1]),
+            start_phase=xp.broadcast_to(start, alpha.shape[:-1]),
         )
         return cls(chain=whole, joints=xp.full(alpha.shape[:-1], alpha.shape[-1]))
 
@@ -121,6 +126,18 @@ class Drives:
         return cls.from_angles(
             place.bend, plane_twist=place.plane_twist, yoke_angle=yoke_angle, start_phase=start_phase
         )
+
+
+def _fits(shape: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
+    """Tell whether an array of one shape can be spread over another."""
+    last = zip(reversed(shape), reversed(wanted), strict=False)
+    return len(shape) <= len(wanted) and all(one in (1, many) for one, many in last)
+
+
+def _misfit(shape: tuple[int, ...], wanted: tuple[int, ...]) -> str:
+    return _("shape {shape} does not fit the bends; {wanted} is needed").format(
+        shape=tuple(shape), wanted=tuple(wanted)
+    )
 
 
 def _sound(points: Array) -> Array:
