@@ -146,3 +146,8 @@ def test_other_libraries_compute_it_themselves():
     np.testing.assert_allclose(
         np.asarray(found.irregularity), extremes(Drives.from_angles([[0.3, 0.2]])).irregularity, rtol=1e-14
     )
+
+
+def test_a_single_drive_has_harmonics():
+    single = Drive.from_angles([0.3])
+    np.testing.assert_allclose(extremes(single).harmonics(3), equivalent_joint(single).harmonics(3), rtol=1e-14)

@@ -84,7 +84,7 @@ class Extremes:
         rows = np.empty((count, *self.tau.shape))  # each written in place: fresh memory costs more than the products
         rows[:1] = self.tau
         for k in range(1, count):
-            np.multiply(rows[k - 1], self.tau, out=rows[k])
+            np.multiply(rows[k - 1], self.tau, out=rows[k, ...])
         for k in range(1, count):
             rows[k] /= k + 1
         return np.moveaxis(rows, 0, -1)
