@@ -86,7 +86,9 @@ app = typer.Typer(
     name="cardan",
     cls=Commands,
     help=_("Universal-joint drives: is it good, and what should I change?"),
-    epilog=_("New here? cardan init my.toml, then cardan report my.toml"),
+    epilog=_("New here? cardan init my.toml, then cardan report my.toml")
+    + "\n\n"
+    + _("Exit codes: 0 done, 1 a check failed, 2 bad input, 130 interrupted."),
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},

@@ -32,12 +32,12 @@ def _names(incomplete: str) -> list[tuple[str, str]]:
 def calc(
     capability: Annotated[
         str | None,
-        typer.Argument(help=_("Name of the formula."), show_default=False, autocompletion=_names),
+        typer.Argument(metavar="NAME", help=_("Name of the formula."), show_default=False, autocompletion=_names),
     ] = None,
     values: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[KEY=VALUE]...",
+            metavar="KEY=VALUE",
             help=_("Inputs: alpha_deg=20, beta_deg=[1.9,-23]; lists and tables as JSON."),
             show_default=False,
         ),

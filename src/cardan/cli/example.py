@@ -29,7 +29,7 @@ def example(
     out: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[OUT]", help=_("File to write; NAME.toml here by default, - prints it."), show_default=False
+            metavar="OUT", help=_("File to write; NAME.toml here by default, - prints it."), show_default=False
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,

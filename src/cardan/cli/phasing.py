@@ -128,19 +128,19 @@ def spread(found: Phasing) -> Iterator[Remark]:
     """Yield what an error of the yokes costs, or what the free yokes reach."""
     from math import radians
 
-    from .answer import Remark, percent
+    from .answer import Remark, percent, significant
 
     if found.settings and found.free:
         best = found.settings[0]
         numbers = sorted((*found.free, *found.fixed))
         each = [100.0 * abs(float(best.sensitivity[k - 2])) * radians(1.0) for k in numbers]
         if found.feasible and len(numbers) > WIDEST:
-            text = _("A yoke 1° off costs at most {cost:.2f} %, on shaft {shaft}.")
-            yield Remark(text=text.format(cost=max(each), shaft=numbers[each.index(max(each))]))
+            text = _("A yoke 1° off costs at most {cost} %, on shaft {shaft}.")
+            yield Remark(text=text.format(cost=significant(max(each), 2), shaft=numbers[each.index(max(each))]))
         elif found.feasible:
             yield Remark(
                 text=_("A yoke 1° off costs {costs} % on shaft {shafts}.").format(
-                    costs=" / ".join(f"{cost:.2f}" for cost in each),
+                    costs=" / ".join(significant(cost, 2) for cost in each),
                     shafts=" / ".join(str(k) for k in numbers),
                 )
             )
