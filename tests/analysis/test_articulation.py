@@ -9,7 +9,7 @@ from cardan.analysis.instants import Position
 from cardan.analysis.moving_points import moving_path
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Limits
-from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Table
+from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import BendLimitError, InputError
 from cardan.units import deg
@@ -282,3 +282,23 @@ def test_plane_twist_of_parallel_planes_does_not_flicker():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, -0.3], [2.0, 0, -0.3]])
     found = articulation(drive, Harmonic(moves=REAR, amplitude=(0.1, 1e-17, 0.1), frequency=1.0))
     assert np.max(np.abs(np.diff(found.plane_twist[:, 0]))) < 1e-6
+
+
+FLAT = Spectrum(frequency=(1.0, 2.0), density=(1.0, 1.0))
+ROUGH = Random(moves=REAR, axis=(0.0, 0.0, 1.0), deviation=0.01, spectrum=FLAT, duration=1.0)
+
+
+@pytest.mark.parametrize(
+    ("movement", "field"),
+    [
+        (dataclasses.replace(ROUGH, moves=("joints[9]",)), "movements[0].moves"),
+        (dataclasses.replace(ROUGH, axis=(0.0, 0.0, 0.0)), "movements[0].axis"),
+        (dataclasses.replace(ROUGH, spectrum=Spectrum(frequency=(1.0,), density=(1.0,))), "movements[0].spectrum"),
+        (Harmonic(moves=REAR, amplitude=(0.0, 0.0, 0.1), frequency=0.0), "movements[0].frequency"),
+        (Table(moves=REAR, file="road.csv"), "movements"),
+    ],
+)
+def test_a_movement_given_beside_the_drive_is_checked_as_one_of_its_own(movement, field):
+    with pytest.raises(InputError) as caught:
+        articulation(hitched(0.4, 0.4), movement)
+    assert caught.value.field.startswith(field)

@@ -10,8 +10,8 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
 from cardan.drive.movement import Movement
-from cardan.drive.validity import shown
-from cardan.errors import BendLimitError, Problem, refuse
+from cardan.drive.validity import movement_problems, range_problems, shown
+from cardan.errors import BendLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.paths import Path
 from cardan.texts import _
@@ -162,7 +162,7 @@ def articulation(
     Raises
     ------
     InputError
-        No movement, or instants outside a table.
+        No movement, one that does not fit the drive, or instants outside a table.
     BendLimitError
         A joint bends 90 degrees or more at every instant.
 
@@ -233,8 +233,17 @@ def _plan(
     moves = drive.movements if movement is None else (movement,) if isinstance(movement, Movement) else tuple(movement)
     if not moves:
         raise refuse("movements", _("nothing moves: add a [[movements]] table to the drive file"))
+    if movement is not None:
+        check(_foreign_problems(moves, len(drive.joints)))
     at = default_times(moves) if times is None else _instants(times)
     return moving_path(geometry(drive).points, moves), at, start_time(moves), times is None
+
+
+def _foreign_problems(moves: Sequence[Movement], joints: int) -> Iterator[Problem]:
+    """Yield what is wrong with movements that came beside the drive and so were never checked with it."""
+    for k, movement in enumerate(moves):
+        yield from range_problems(movement, f"movements[{k}]")
+    yield from movement_problems(moves, joints)
 
 
 def _instants(times: ArrayLike) -> Array:

@@ -163,7 +163,7 @@ def _shifted(points: Jet, shift: Jet) -> Jet:
 
 def _table_problems(movement: kinds.Table, times: Array) -> list[Problem]:
     if not movement.times:
-        return [Problem("movements", _("the table {file} has not been read").format(file=repr(movement.file)))]
+        return _unread(movement)
     first, last = movement.times[0], movement.times[-1]
     outside = (times < first - 1e-9 * (last - first)) | (times > last + 1e-9 * (last - first))
     if not outside.any():
@@ -171,6 +171,10 @@ def _table_problems(movement: kinds.Table, times: Array) -> list[Problem]:
     message = _("{time:.6g} s lies outside the table {file}, which runs from {first:.6g} s to {last:.6g} s")
     worst = times[outside][0]
     return [Problem("times", message.format(time=worst, file=repr(movement.file), first=first, last=last))]
+
+
+def _unread(movement: kinds.Table) -> list[Problem]:
+    return [Problem("movements", _("the table {file} has not been read").format(file=repr(movement.file)))]
 
 
 def start_time(movements: Sequence[Movement]) -> float:
@@ -202,6 +206,7 @@ def default_times(movements: Sequence[Movement]) -> Array:
     tables = [m for m in movements if isinstance(m, kinds.Table)]
     first, last = 0.0, 0.0
     if tables:
+        check(problem for table in tables if not table.times for problem in _unread(table))
         first, last = _table_span(movements)
     elif randoms:
         last = max(m.duration for m in randoms)
