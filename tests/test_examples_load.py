@@ -14,12 +14,13 @@ from cardan.drive.paths import pose_drives
 from cardan.io import example_names, example_text, loads, starter
 
 NAMES = example_names()
+SPINDLES = ("rolling-mill-lower-spindle", "rolling-mill-upper-spindle")
 
 
 def test_all_of_them_are_there() -> None:
     assert set(NAMES) >= {
         "pto-hitch",
-        "rolling-mill-spindles",
+        *SPINDLES,
         "single-20deg",
         "six-joints",
         "three-joints-unequal",
@@ -84,7 +85,7 @@ def test_splines_of_the_truck_leave_half_a_percent() -> None:
     assert {round(math.degrees(a)) for a in found.spline_settings[0].yoke_angle} == {90, 45, 0}
 
 
-@pytest.mark.parametrize("name", ["z-arrangement", "w-arrangement", "pto-hitch", "rolling-mill-spindles"])
+@pytest.mark.parametrize("name", ["z-arrangement", "w-arrangement", "pto-hitch", *SPINDLES])
 def test_equal_bends_with_yokes_in_line_are_even(name: str) -> None:
     assert irregularity(name) < 1e-14  # bends from coordinates agree to rounding
     for posed in pose_drives(example(name)):

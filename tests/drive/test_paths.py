@@ -94,7 +94,7 @@ def test_all_bad_paths_at_once() -> None:
 
 
 def test_poses() -> None:
-    drives = pose_drives(example("rolling-mill-spindles"))
+    drives = pose_drives(example("rolling-mill-upper-spindle"))
     assert [round(1e3 * drive.joints[1].centre[2]) for drive in drives] == [420, 370, 760]  # type: ignore[index]
     assert all(not drive.poses for drive in drives)
     assert pose_drives(Drive.from_angles([0.1])) == ()
