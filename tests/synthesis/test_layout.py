@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import fsolve
 
 from cardan import Drive, InputError
 from cardan.synthesis.layout import Status, layout
@@ -98,6 +99,38 @@ def test_held_yokes_stay_and_the_layout_suits_them():
     assert found.drive.shafts[1].yoke_angle == 0.0
     assert in_vectors(found) < 1e-9
     assert found.bend.max() >= layout(boxed(POINTS, {2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)})).bend.max() - 1e-6
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.4, 0.5 * np.pi])
+def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gamma):
+    free = boxed([(-1, 0, 0), (0, 0, 0), (1, 0.1, 0.1), (2, 0, 0.4)], {2: (0.5, 0.3, 0.3)}, held=(2,))
+    shafts = (free.shafts[0], replace(free.shafts[1], yoke_angle=gamma), free.shafts[2])
+    found = layout(replace(free, shafts=shafts))
+    assert found.status is Status.CONVERGED
+    assert in_vectors(found) < 1e-9
+    # Synchronous exactly when both bends are equal and β + γ = 0 modulo 180°: a curve, here walked along by its x.
+    start, here, _moved, end = found.points
+
+    def misfit(side, x):
+        line = np.stack((start, here, (x, *side), end))
+        (one, two), axes = bends(line), np.diff(line, axis=0)
+        normals = np.cross(axes[:-1], axes[1:])
+        across = axes[1] @ np.cross(normals[0], normals[1]) / np.linalg.norm(axes[1])
+        return one - two, np.sin(np.arctan2(across, normals[0] @ normals[1]) + gamma)
+
+    for x in found.points[2, 0] + np.linspace(-0.02, 0.02, 9):
+        side, _info, solved, _text = fsolve(misfit, found.points[2, 1:], (x,), full_output=True, xtol=1e-12)
+        inside = abs(x - 1.0) <= 0.5 and abs(side[0] - 0.1) <= 0.3 and abs(side[1] - 0.1) <= 0.3
+        if solved == 1 and inside:
+            line = np.stack((start, here, (x, *side), end))
+            assert bends(line).max() >= found.bend.max() - 1e-7
+
+
+def test_boxes_that_hold_no_drive_are_refused():
+    behind = boxed([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0, 0.4)], {2: (0.1, 0.1, 0.1)})
+    away = replace(behind.joints[1], move_within=((3.0, 3.1), (0.0, 0.1), (0.0, 0.1)))
+    with pytest.raises(InputError, match="nowhere within the boxes"):
+        layout(replace(behind, joints=(behind.joints[0], away)))
 
 
 def test_boxes_too_small_give_the_most_even_layout():

@@ -11,7 +11,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import geometry
 from cardan.drive.validity import axis_points
-from cardan.errors import Problem, check
+from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -99,7 +99,8 @@ def layout(
     Raises
     ------
     InputError
-        The drive is not given by points, no joint has a box, or ``weights`` has the wrong length.
+        The drive is not given by points, no joint has a box, ``weights`` has the wrong length, or no drive
+        fits the boxes.
 
     Notes
     -----
@@ -132,6 +133,9 @@ def layout(
         weights=None if weights is None else np.asarray(weights, dtype=float),
     )
     points, complete = best_points(search, progress)
+    if complete and not search.possible(points):
+        text = _("nowhere within the boxes does every joint bend less than 90° and every shaft have its least length")
+        raise refuse("joints", text)
     joints = tuple(
         replace(joint, centre=tuple(float(x) for x in centre))  # type: ignore[arg-type]
         for joint, centre in zip(drive.joints, points[1:-1], strict=True)

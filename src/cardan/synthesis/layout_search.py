@@ -92,10 +92,14 @@ class Search:
 
     def _merged(self, points: Array, single: Array, versine: Array) -> Array:
         """Return the lengths of the polygon's sides where held yokes tie joints together."""
-        n = single.shape[-1]
         steep = np.any(versine > STEEP, axis=-1)
-        safe = np.where(steep[..., None, None], self.points, points)
-        place = geometry_from_points(safe)
+        sides = self._sides(np.where(steep[..., None, None], self.points, points))
+        merged = np.stack([mobius.length(side) for side in sides], axis=-1)
+        return np.where(steep[..., None], np.sum(single, axis=-1)[..., None], merged)
+
+    def _sides(self, points: Array) -> list[mobius.Pair]:
+        """Return the sides of the polygon: joints with held yokes between them are one."""
+        place = geometry_from_points(points)
         turn = Chain(
             bend=place.bend,
             plane_twist=place.plane_twist,
@@ -103,14 +107,30 @@ class Search:
             start_phase=np.asarray(0.0),
         ).turn_before
         sides: list[mobius.Pair] = []
-        for i in range(n):
+        for i in range(place.bend.shape[-1]):
             joint = mobius.hooke(place.bend[..., i])
             if i == 0 or i - 1 in self.free:
                 sides.append(joint)
             else:
                 sides[-1] = mobius.compose(mobius.compose(joint, mobius.turn(turn[..., i])), sides[-1])
-        merged = np.stack([mobius.length(side) for side in sides], axis=-1)
-        return np.where(steep[..., None], np.sum(single, axis=-1)[..., None], merged)
+        return sides
+
+    @property
+    def tied(self) -> bool:
+        """Whether all yokes are held, so that the polygon has a single side."""
+        return len(self.low) > 1 and not self.free
+
+    def end(self, x: Array) -> Array:
+        """Return where the polygon ends when all yokes are held, array (..., 2); smooth where `gap` has a corner."""
+        points = self.placed(x)
+        versine, lengths, _length = self.measured(x)
+        steep = np.any(versine > STEEP, axis=-1)[..., None]
+        _a, b = self._sides(np.where(steep[..., None], self.points, points))[0]
+        return np.where(steep, lengths, np.stack((b.real, b.imag), axis=-1))
+
+    def possible(self, points: Array) -> bool:
+        """Tell whether points within the boxes make a drive whose shafts are long enough."""
+        return bool(np.isfinite(_rank(self, self.share(points))[0]))
 
     def gap(self, x: Array) -> Array:
         """Return by how much the longest side exceeds the sum of the others, negative when it does not."""
@@ -203,7 +223,7 @@ def _minimised(search: Search, start: Array, objective: _Objective, *, closed: b
         return v / size, np.concatenate((gaps, (length / search.shortest) ** 2 - 1.0), axis=-1)
 
     sides_count = len(sides)
-    pair = closed and sides_count == 2
+    pair, held = closed and sides_count == 2, closed and search.tied
 
     def goal(z: Array) -> float:
         if not closed:
@@ -215,7 +235,7 @@ def _minimised(search: Search, start: Array, objective: _Objective, *, closed: b
         cap = objective.cap / size
         if closed:
             above = bound - v if objective.peak else cap - v
-            return np.concatenate((above, rest[..., sides_count:] if pair else rest), axis=-1)
+            return np.concatenate((above, rest[..., sides_count:] if pair or held else rest), axis=-1)
         gaps, short = rest[..., :sides_count], rest[..., sides_count:]
         return np.concatenate((bound + gaps, cap - v, short), axis=-1)
 
@@ -240,15 +260,19 @@ def _minimised(search: Search, start: Array, objective: _Objective, *, closed: b
         up, down = np.split(np.sum(objective.weights * values(z[:-1] + both)[0], axis=-1), 2)
         return np.append((up - down) / (2.0 * STEP), objective.peak)
 
+    def vanishing(x: Array) -> Array:
+        return search.end(x) / total if held else values(x)[1][..., :1]
+
     def difference(z: Array) -> Array:
-        return values(z[:-1])[1][:1]
+        return vanishing(z[:-1])
 
     def difference_slope(z: Array) -> Array:
-        up, down = np.split(values(z[:-1] + both)[1][:, 0], 2)
-        return np.append((up - down) / (2.0 * STEP), 0.0)
+        up, down = np.split(vanishing(z[:-1] + both), 2)
+        slopes = (up - down).T / (2.0 * STEP)
+        return np.column_stack((slopes, np.zeros(len(slopes))))
 
     kept: Any = [{"type": "ineq", "fun": room, "jac": room_slope}]
-    if pair:
+    if pair or held:
         kept.append({"type": "eq", "fun": difference, "jac": difference_slope})
     first = 1.0 if closed else float(search.gap(start)) / total
     found = minimize(
@@ -267,6 +291,8 @@ def _shut(search: Search, x: Array) -> Array:
     """Return a layout whose polygon closes to rounding, next to one that closes nearly (Newton's method)."""
     if not 0.0 < float(search.gap(x)) <= SHUT:
         return x
+    if search.tied:
+        return _ended(search, x)
     best, least = x, float(search.gap(x))
     both = STEP * np.concatenate((np.eye(len(x)), -np.eye(len(x))))
     for _ in range(12):
@@ -284,4 +310,19 @@ def _shut(search: Search, x: Array) -> Array:
         best, least = moved, now
         if least <= 0.0:
             break
+    return best
+
+
+def _ended(search: Search, x: Array) -> Array:
+    """Return the same where all yokes are held: two equations, for the gap has a corner where it vanishes."""
+    best, least = x, float(search.gap(x))
+    both = STEP * np.concatenate((np.eye(len(x)), -np.eye(len(x))))
+    for _ in range(12):
+        up, down = np.split(search.end(best + both), 2)
+        step = np.linalg.lstsq((up - down).T / (2.0 * STEP), -search.end(best), rcond=1e-9)[0]
+        moved = np.clip(best + step, 0.0, 1.0)
+        now = float(search.gap(moved))
+        if now >= least:
+            break
+        best, least = moved, now
     return best
