@@ -137,6 +137,26 @@ def test_sampled_speeds_stay_in_their_range():
     assert np.max((found.shaft_speed - found.speed_low)[:, -1] / (found.speed_high - found.speed_low)[:, -1]) > 0.99
 
 
+def test_a_long_span_tells_the_same_as_a_short_one_and_sparse_instants_are_warned_of():
+    move = Harmonic(moves=REAR, amplitude=(0.02, 0.0, 0.05), frequency=2.0 * np.pi * 1.6)
+    drive = Drive.from_points([[-0.3, 0, 0], [0, 0, 0], [1.2, 0, -0.1], [1.8, 0, -0.1]])
+    short = articulation(drive, move)
+    long = articulation(drive, move, until=600.0)  # 960 swings
+    assert short.warnings == long.warnings
+    # Between instants a sixth of a period apart the quintic errs by (2π/12)⁶/720, 3e-5 of the swing.
+    assert long.splines[0].stroke == pytest.approx(short.splines[0].stroke, rel=1e-4)
+    sparse = articulation(drive, move, np.linspace(0.0, 600.0, 401))
+    assert any("1.5 s apart" in text and "0.625 s" in text for text in sparse.warnings)
+
+
+@pytest.mark.parametrize(("times", "until"), [(None, 0.0), (None, np.nan), ([0.0, 1.0], 1.0)])
+def test_refuses_a_span_that_is_none(times, until):
+    move = Harmonic(moves=REAR, amplitude=(0.0, 0.0, 0.05), frequency=10.0)
+    with pytest.raises(InputError) as caught:
+        articulation(hitched(0.4, 0.4), move, times, until=until)
+    assert caught.value.field == "until"
+
+
 def test_slow_movement_approaches_the_frozen_irregularity():
     drive = Drive.from_points([[-1, 0, 0], [0, 0.1, 0], [1.0, 0, -0.1], [2.0, 0.2, -0.1]])
     move = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.1), frequency=1e-4)

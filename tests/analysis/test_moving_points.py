@@ -3,7 +3,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from cardan.analysis.moving_points import CARRY, common_period, default_times, moving_points
+from cardan.analysis.moving_points import CARRY, common_period, default_times, moving_points, shortest_period
 from cardan.drive.drive import Drive
 from cardan.drive.movement import MOVEMENTS, Arm, Body, Harmonic, Hitch, Movement, Parallel, Random, Spectrum, Table
 from cardan.errors import InputError
@@ -180,3 +180,15 @@ def test_default_times_cover_what_moves():
     assert default_times([swing, random])[-1] == 20.0
     assert default_times([swing, table, random])[-1] == 3.0
     assert np.diff(default_times([swing, table]))[0] <= 2.0 * np.pi / 5.0 / 119.0
+
+
+def test_a_long_time_is_followed_as_finely_as_a_short_one_or_refused():
+    swing = KINDS[3]
+    period = 2.0 * np.pi / swing.frequency
+    assert shortest_period([swing, KINDS[5]]) == pytest.approx(period)
+    times = default_times([swing], 10_000.0 * period)
+    assert times[0] == 0.0
+    assert times[-1] == pytest.approx(10_000.0 * period)
+    assert np.diff(times)[0] <= period / 6.0
+    with pytest.raises(InputError, match="look at a shorter time"):
+        default_times([swing], 100_000.0 * period)

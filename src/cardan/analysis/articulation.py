@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -20,7 +21,10 @@ from cardan.units import Key, deg
 from .equivalence import WARN_BEND
 from .instants import Instants, Position, Question
 from .length import LengthCompensation, length_compensation
-from .moving_points import default_times, moving_path, start_time
+from .moving_points import default_times, moving_path, shortest_period, start_time
+
+SPARSE = 0.25
+"""Instants further apart than this share of the shortest period are warned of."""
 
 SHARP = 1e-7
 """Worst instants are found to this share of the time span; their values are flat there."""
@@ -138,6 +142,7 @@ def articulation(
     movement: Movement | Sequence[Movement] | Path | None = None,
     times: ArrayLike | None = None,
     *,
+    until: float | None = None,
     speed: float | None = None,
 ) -> Articulation:
     """Return how a drive turns and slides while its joint centres move, exactly.
@@ -152,6 +157,8 @@ def articulation(
     times : array (t,) [s], optional
         Instants. By default the common period of the swings, the span of the tables, or the duration of the random
         movements, in steps fine enough to follow them.
+    until : float, optional [s]
+        End of the time span from zero, in such steps too; instead of ``times``.
     speed : float [rad/s], optional
         Spin of the input shaft; that of the drive's duty by default.
 
@@ -185,7 +192,7 @@ def articulation(
     >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
     (20.0, True)
     """
-    path, at, start, chosen = _plan(drive, movement, times)
+    path, at, start, chosen, moves = _plan(drive, movement, times, until)
     place = geometry(drive)
     omega = drive.duty.speed if speed is None else speed
     ask = Question(drive, place, path, omega, drive.duty.acceleration, start)
@@ -217,26 +224,31 @@ def articulation(
         status=found.status,
         splines=splines,
         worst=tuple(_worst(ask, found, splines, refine=chosen)),
-        warnings=tuple(_warnings(drive, place, found, splines)),
+        warnings=(*_sparse(moves, at), *_warnings(drive, place, found, splines)),
         assumed=place.assumed,
     )
 
 
 def _plan(
-    drive: Drive, movement: Movement | Sequence[Movement] | Path | None, times: ArrayLike | None
-) -> tuple[Path, Array, float, bool]:
-    """Return the path of the points, the instants, the start, and whether the instants were chosen here."""
+    drive: Drive,
+    movement: Movement | Sequence[Movement] | Path | None,
+    times: ArrayLike | None,
+    until: float | None,
+) -> tuple[Path, Array, float, bool, tuple[Movement, ...]]:
+    """Return the path of the points, the instants, the start, whether the instants were chosen here, and what moves."""
+    if until is not None and not (times is None and math.isfinite(until) and until > 0.0):
+        raise refuse("until", _("must be a finite time above 0, without times beside it"))
     if callable(movement):
         if times is None:
             raise refuse("times", _("missing; a movement given as a function does not say how long it lasts"))
-        return movement, _instants(times), 0.0, False
+        return movement, _instants(times), 0.0, False, ()
     moves = drive.movements if movement is None else (movement,) if isinstance(movement, Movement) else tuple(movement)
     if not moves:
         raise refuse("movements", _("nothing moves: add a [[movements]] table to the drive file"))
     if movement is not None:
         check(_foreign_problems(moves, len(drive.joints)))
-    at = default_times(moves) if times is None else _instants(times)
-    return moving_path(geometry(drive).points, moves), at, start_time(moves), times is None
+    at = default_times(moves, until) if times is None else _instants(times)
+    return moving_path(geometry(drive).points, moves), at, start_time(moves), times is None, moves
 
 
 def _foreign_problems(moves: Sequence[Movement], joints: int) -> Iterator[Problem]:
@@ -273,6 +285,16 @@ def _splines(drive: Drive, place: Geometry, found: Instants) -> tuple[LengthComp
         if one.slides or drive.shafts[k].spline:
             splines.append(one)
     return tuple(splines)
+
+
+def _sparse(moves: Sequence[Movement], times: Array) -> Iterator[str]:
+    """Warn of instants that lie too far apart to see what the movement does between them."""
+    period, step = shortest_period(moves), float(np.max(np.diff(times), initial=0.0))
+    if step > SPARSE * period:
+        yield _(
+            "the instants lie up to {step:.4g} s apart, the shortest period is {period:.4g} s: extremes between them "
+            "are missed, and the splines' travel is not to be trusted"
+        ).format(step=step, period=period)
 
 
 def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[LengthCompensation]) -> Iterator[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from cardan.drive import movement as kinds
 from cardan.drive.movement import Movement
-from cardan.errors import Problem, check
+from cardan.errors import Problem, check, refuse
 from cardan.maths import paths, spectra
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.paths import Jet, Path
@@ -23,7 +23,13 @@ STEPS = 120
 """Instants in the shortest period of a movement, when no times are given."""
 
 FEWEST, MOST = 361, 20_001
-"""Bounds of the number of instants, when no times are given."""
+"""Bounds of the number of instants, when no times are given; more than `MOST` only where `LEAST` asks for it."""
+
+LEAST = 6
+"""Instants that the shortest period needs; with fewer the extremes between them are lost."""
+
+LIMIT = 200_001
+"""More instants than this are refused."""
 
 SPAN = 20
 """Periods of the slowest movement that are followed when several have no common period."""
@@ -183,15 +189,27 @@ def start_time(movements: Sequence[Movement]) -> float:
     return min(max(0.0, first), last)
 
 
-def default_times(movements: Sequence[Movement]) -> Array:
+def default_times(movements: Sequence[Movement], until: float | None = None) -> Array:
     """Return the instants at which a movement is looked at when none are given, array (t,) [s].
+
+    Parameters
+    ----------
+    movements : sequence of Movement
+        What moves.
+    until : float, optional [s]
+        End of a time span from zero, instead of the one that suits the movements.
+
+    Raises
+    ------
+    InputError
+        The span holds so many periods that following them takes more than `LIMIT` instants.
 
     Notes
     -----
     The span that the tables share; else the longest duration of the random movements; else the common period of the
     swings. Swings without a common period within 1000 of their periods are followed over `SPAN` periods of the slowest.
     `STEPS` instants in the shortest swing, 20 in the shortest period of a random movement, 4 to a row of a table; at
-    least `FEWEST`, at most `MOST` in all.
+    least `FEWEST`, at most `MOST` in all unless that leaves the shortest period less than `LEAST`.
 
     Examples
     --------
@@ -201,9 +219,9 @@ def default_times(movements: Sequence[Movement]) -> Array:
     >>> times.size, float(times[-1])
     (361, 3.1415926)
     """
-    swings = [2.0 * math.pi / m.frequency for m in movements if isinstance(m, kinds.Oscillation)]
     randoms = [m for m in movements if isinstance(m, kinds.Random)]
     tables = [m for m in movements if isinstance(m, kinds.Table)]
+    swings = _swings(movements)
     first, last = 0.0, 0.0
     if tables:
         check(problem for table in tables if not table.times for problem in _unread(table))
@@ -212,9 +230,26 @@ def default_times(movements: Sequence[Movement]) -> Array:
         last = max(m.duration for m in randoms)
     elif swings:
         last = common_period(swings)
+    if until is not None:
+        first, last = 0.0, until
     finest = [period / STEPS for period in swings] + [0.1 * math.pi / m.spectrum.frequency[-1] for m in randoms]
     steps = [FEWEST - 1, *((last - first) / step for step in finest), *(4 * len(t.times) for t in tables)]
-    return np.linspace(first, last, min(math.ceil(max(steps) - 1e-6) + 1, MOST))
+    needed = LEAST * (last - first) / shortest_period(movements)
+    if needed > LIMIT:
+        text = _("following {span:.6g} s takes {count:.3g} instants; the limit is {limit}: look at a shorter time")
+        raise refuse("movements", text.format(span=last - first, count=needed, limit=LIMIT))
+    count = min(max(steps), max(MOST - 1.0, needed))
+    return np.linspace(first, last, math.ceil(count - 1e-6) + 1)
+
+
+def shortest_period(movements: Sequence[Movement]) -> float:
+    """Return the shortest period of the swings and random movements [s]; infinite when there are only tables."""
+    shortest = [2.0 * math.pi / m.spectrum.frequency[-1] for m in movements if isinstance(m, kinds.Random)]
+    return min(_swings(movements) + shortest, default=math.inf)
+
+
+def _swings(movements: Sequence[Movement]) -> list[float]:
+    return [2.0 * math.pi / m.frequency for m in movements if isinstance(m, kinds.Oscillation)]
 
 
 def common_period(periods: Sequence[float]) -> float:

@@ -37,7 +37,11 @@ def articulation(
     step: Annotated[
         float | None,
         typer.Option(
-            "--step-s", "--step", metavar="S", help=_("Step of --until-s; a 400th by default."), show_default=False
+            "--step-s",
+            "--step",
+            metavar="S",
+            help=_("Step of --until-s; fine enough to follow the movement by default."),
+            show_default=False,
         ),
     ] = None,
     speed_rpm: SpeedRpm = None,
@@ -60,7 +64,8 @@ def articulation(
 
     drive = read(file)
     speed = None if speed_rpm is None else speed_rpm * rpm
-    found = question(drive, times=instants(until, step), speed=speed)
+    times = instants(until, step)
+    found = question(drive, times=times, until=until if times is None else None, speed=speed)
     return show(_answer(drive, file, found), json=json, csv=csv, plot=plot)
 
 
@@ -85,11 +90,11 @@ def check_times(until: float | None, step: float | None) -> None:
 
 def instants(until: float | None, step: float | None) -> Any:
     """Return the instants asked for [s], or None for those that fit the movement."""
-    if until is None:
+    if until is None or step is None:
         return None
     import numpy as np
 
-    return np.linspace(0.0, until, 401) if step is None else step * np.arange(int(until / step + 1e-9) + 1)
+    return step * np.arange(int(until / step + 1e-9) + 1)
 
 
 def _answer(drive: Drive, file: Path, found: Articulation) -> Answer:
