@@ -1,11 +1,13 @@
 import array_api_strict as strict
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from cardan import Drive, Drives, equivalent_joint, motion, stack
-from cardan.analysis.equivalence import SYNCHRONOUS
+from cardan.analysis.equivalence import SYNCHRONOUS, angle_of_largest_acceleration, largest_acceleration
+from cardan.analysis.extremes import extremes
 from cardan.drive.chain import chain
 from cardan.maths.frames import rotate
 from cardan.units import deg
@@ -145,3 +147,17 @@ def test_near_a_right_angle_digits_are_lost_slowly(bend):
     # 1/cos α is itself known to ε α tan α only: 6e3 roundings at 89.99°.
     assert joint.ratio_max == pytest.approx(1 / np.cos(bend * deg), rel=4e-16 * np.tan(bend * deg) + 1e-15)
     assert joint.bend == pytest.approx(bend * deg, abs=1e-12)
+
+
+@pytest.mark.parametrize("short", [1e-2, 1e-5, 1e-8, 1e-12])
+def test_the_largest_acceleration_keeps_its_digits_near_a_right_angle(short):
+    bend = 0.5 * np.pi - short
+    with mp.workdps(60):
+        c, s = mp.cos(mp.mpf(bend)), mp.sin(mp.mpf(bend))
+        k = s * s / (2 - s * s)
+        x = 4 * k / (1 + mp.sqrt(1 + 8 * k * k))
+        largest = float(4 * c * s * s * mp.sqrt(1 - x * x) / ((2 - s * s) ** 2 * (1 - k * x) ** 2))
+        angle = float(mp.acos(x) / 2)
+    assert largest_acceleration(bend) == pytest.approx(largest, rel=1e-14)
+    assert angle_of_largest_acceleration(bend) == pytest.approx(angle, rel=1e-14)
+    assert extremes(Drive.from_angles([bend])).max_acceleration == pytest.approx(largest, rel=1e-13)

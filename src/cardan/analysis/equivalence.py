@@ -130,20 +130,21 @@ def largest_acceleration(bend: Array) -> Array:
 
     Notes
     -----
-    4 c s² √(1-x²)/((2-s²)² (1-k x)²), k = s²/(2-s²), x = 4k/(1+√(1+8k²)); Book Table 4, recomputed.
+    4 c s² √(1-x²)/((1+c²)² (1-k x)²), k = s²/(1+c²), x = 4k/(1+√(1+8k²)); Book Table 4, recomputed. Evaluated with
+    1-k = 2c²/(1+c²) and 1-x = 2(1-k)/(1+2k+√(1+8k²)), which keep all digits near 90°.
     """
     xp = namespace(bend)
-    square = xp.sin(bend) ** 2
-    k = square / (2.0 - square)
-    x = _extreme(k)
-    return 4.0 * xp.cos(bend) * square * xp.sqrt(1.0 - x * x) / ((2.0 - square) ** 2 * (1.0 - k * x) ** 2)
+    c, square = xp.cos(bend), xp.sin(bend) ** 2
+    k, x, short = _extreme(bend)
+    below = (1.0 + c * c) * (2.0 * c * c / (1.0 + c * c) + k * short)
+    return 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / below**2
 
 
 def angle_of_largest_acceleration(bend: Array) -> Array:
-    """Return the first joint angle θ at which ε_2 has its (negative) extreme, array (...) [rad]."""
+    """Return the first joint angle θ at which ε_2 has its (negative) extreme, array (...) [rad]; cos 2θ = x."""
     xp = namespace(bend)
-    square = xp.sin(bend) ** 2
-    return 0.5 * xp.acos(_extreme(square / (2.0 - square)))
+    _k, x, short = _extreme(bend)
+    return xp.atan2(xp.sqrt(short), xp.sqrt(1.0 + x))
 
 
 def angle_of_largest_lead(bend: Array) -> Array:
@@ -152,9 +153,13 @@ def angle_of_largest_lead(bend: Array) -> Array:
     return xp.atan(xp.sqrt(xp.cos(bend)))
 
 
-def _extreme(k: Array) -> Array:
-    xp = namespace(k)
-    return 4.0 * k / (1.0 + xp.sqrt(1.0 + 8.0 * k * k))
+def _extreme(bend: Array) -> tuple[Array, Array, Array]:
+    """Return k, x and 1-x of `largest_acceleration`."""
+    xp = namespace(bend)
+    c = xp.cos(bend) ** 2
+    k = xp.sin(bend) ** 2 / (1.0 + c)
+    root = xp.sqrt(1.0 + 8.0 * k * k)
+    return k, 4.0 * k / (1.0 + root), 4.0 * c / ((1.0 + c) * (1.0 + 2.0 * k + root))
 
 
 def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:

@@ -28,10 +28,12 @@ def reached(ar: Any, ai: Any, br: Any, bi: Any) -> tuple[Any, Any, Any, Any, Any
     phase = xp.where(phase < 0.0, phase + np.pi, phase)
     c = 1.0 / ratio_max
     square = irregularity * c
-    k = square / (2.0 - square)
-    x = 4.0 * k / (1.0 + xp.sqrt(1.0 + 8.0 * k * k))
-    below = (2.0 - square) * (1.0 - k * x)
-    steepest = 4.0 * c * square * xp.sqrt(1.0 - x * x) / (below * below)
+    size = 1.0 + c * c
+    k = square / size
+    root = xp.sqrt(1.0 + 8.0 * k * k)
+    x, short = 4.0 * k / (1.0 + root), 4.0 * c * c / (size * (1.0 + 2.0 * k + root))
+    below = 2.0 * c * c + size * k * short
+    steepest = 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / (below * below)
     return irregularity, tau, 2.0 * arctangent_unit(xp.sqrt(tau)), phase, ratio_max, steepest
 
 

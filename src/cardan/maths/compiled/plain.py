@@ -48,7 +48,8 @@ def extremes(pair: mobius.Pair) -> tuple[Array, Array, Array, Array, Array, Arra
     Notes
     -----
     δ = 4 \\|a\\|\\|b\\|, τ = \\|b\\|/\\|a\\|, α_eq = 2 atan √τ, i_max = (\\|a\\| + \\|b\\|)² = 1/c. The acceleration is
-    that of Book Table 4 with sin² α_eq = δ c, which loses nothing for small bends.
+    that of Book Table 4 with sin² α_eq = δ c, which loses nothing for small bends, nor, by 1-x and 1-k x without
+    differences, for steep ones.
     """
     a, b = pair
     xp = namespace(a)
@@ -59,9 +60,11 @@ def extremes(pair: mobius.Pair) -> tuple[Array, Array, Array, Array, Array, Arra
     phase = mobius.phase(pair)
     c = 1.0 / ratio_max
     square = irregularity * c
-    k = square / (2.0 - square)
-    x = 4.0 * k / (1.0 + xp.sqrt(1.0 + 8.0 * k * k))
-    steepest = 4.0 * c * square * xp.sqrt(1.0 - x * x) / ((2.0 - square) * (1.0 - k * x)) ** 2
+    size = 1.0 + c * c
+    k = square / size
+    root = xp.sqrt(1.0 + 8.0 * k * k)
+    x, short = 4.0 * k / (1.0 + root), 4.0 * c * c / (size * (1.0 + 2.0 * k + root))
+    steepest = 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / (2.0 * c * c + size * k * short) ** 2
     return (
         irregularity,
         tau,
