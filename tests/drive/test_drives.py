@@ -100,3 +100,20 @@ def test_arrays_that_do_not_fit_the_batch_are_named(field, value):
     with pytest.raises(InputError, match="does not fit the bends") as caught:
         Drives.from_angles(np.full((2, 2), 0.1), **{field: value})
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize("field", ["plane_twist", "yoke_angle", "start_phase"])
+@pytest.mark.parametrize("library", [np, strict])
+def test_values_that_are_not_finite_are_masked(field, library):
+    value = library.asarray([0.0, np.nan]) if field == "start_phase" else library.asarray([[0.0], [np.inf]])
+    with pytest.raises(InputError, match="finite") as caught:
+        Drives.from_angles(library.asarray([[0.1, 0.2], [0.1, 0.2]]), **{field: value})
+    assert caught.value.field == field
+    assert np.asarray(caught.value.where).ravel().tolist() == [False, True]
+
+
+def test_coordinates_that_no_drive_has_are_refused_as_for_a_single_drive():
+    far = [[0, 0, 0], [1e200, 0, 0], [2e200, 1e200, 0]]
+    for make in (Drives.from_points, Drive.from_points):
+        with pytest.raises(InputError, match="finite"):
+            make(far)

@@ -16,7 +16,7 @@ from cardan.texts import _
 from .chain import Chain, chain
 from .drive import Drive
 from .geometry import geometry_from_points
-from .validity import COINCIDENT
+from .validity import COINCIDENT, HUGE
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,6 +63,8 @@ class Drives:
         ------
         BendLimitError
             A bend outside [0, π/2) or not finite; ``where`` is the mask (..., n).
+        InputError
+            An array that does not fit the bends, or a value that is not finite.
 
         Examples
         --------
@@ -87,11 +89,13 @@ class Drives:
                 )
             if not _fits(given.shape, between):
                 raise refuse(name, _misfit(given.shape, between))
+            _refuse_unreal(name, given)
             return xp.broadcast_to(given, between)
 
         start = real(start_phase, xp)
         if not _fits(start.shape, alpha.shape[:-1]):
             raise refuse("start_phase", _misfit(start.shape, alpha.shape[:-1]))
+        _refuse_unreal("start_phase", start)
         whole = Chain(
             bend=alpha,
             plane_twist=rest("plane_twist", plane_twist),
@@ -134,6 +138,13 @@ def _fits(shape: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
     return len(shape) <= len(wanted) and all(one in (1, many) for one, many in last)
 
 
+def _refuse_unreal(name: str, value: Array) -> None:
+    xp = namespace(value)
+    real_ones = xp.isfinite(value)
+    if not bool(xp.all(real_ones)):
+        raise InputError([Problem(name, _("not every value is finite"))], where=~real_ones)
+
+
 def _misfit(shape: tuple[int, ...], wanted: tuple[int, ...]) -> str:
     return _("shape {shape} does not fit the bends; {wanted} is needed").format(
         shape=tuple(shape), wanted=tuple(wanted)
@@ -145,9 +156,11 @@ def _sound(points: Array) -> Array:
     xp = namespace(points)
     if points.ndim < 2 or points.shape[-1] != 3 or points.shape[-2] < 3:
         raise refuse("points", _("shape {shape} is not (..., n+2, 3)").format(shape=tuple(points.shape)))
-    lost = xp.any(~xp.isfinite(points), axis=(-2, -1))
+    lost = xp.any(~(xp.abs(points) <= HUGE), axis=(-2, -1))
     if bool(xp.any(lost)):
-        raise InputError([Problem("points", _("not every coordinate is finite"))], where=lost)
+        raise InputError(
+            [Problem("points", _("not every coordinate is finite and below {most:g} m").format(most=HUGE))], where=lost
+        )
     length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
     double = xp.any(length <= COINCIDENT * xp.max(length, axis=-1, keepdims=True), axis=-1)
     if bool(xp.any(double)):
