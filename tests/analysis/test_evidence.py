@@ -23,6 +23,7 @@ DRIVES = [
     )
     for n in (1, 2, 3, 5, 9)
 ] + [Drive.from_angles([0.0]), Drive.from_angles([0.3, 0.0, 0.3]), Drive.from_angles([80 * deg, 85 * deg])]
+DRIVES.append(Drive.from_angles([89.9999999 * deg, 0.3]))
 
 
 @pytest.mark.parametrize("drive", DRIVES)

@@ -17,6 +17,8 @@ FILES = {
     "not TOML": ("format = \n", ["is not TOML", "line 1"]),
     "other format": ("format = 7\n[[joints]]\nbend_deg = 5\n", ["format", "7"]),
     "unknown key": ("format = 1\n[[joints]]\nbend_degg = 5\n", ["joints[0].bend_degg", "bend_deg"]),
+    "key to be obeyed": ('format = 1\n"\\u001b[31mred" = 1\n[[joints]]\nbend_deg = 5\n', ["\\x1b[31mred: unknown key"]),
+    "name to be obeyed": ('format = 1\nname = "\\u001b[2J"\n[[joints]]\nbend_deg = 5\n', ["name: holds", "\\x1b"]),
     "missing unit": ("format = 1\n[[joints]]\nbend = 5\n", ["joints[0].bend", "bend_deg"]),
     "wrong dimension": ("format = 1\n[[joints]]\nbend_mm = 5\n", ["joints[0].bend_mm"]),
     "not a number": ("format = 1\n[[joints]]\nbend_deg = nan\n", ["joints[0].bend", "nan"]),

@@ -115,7 +115,19 @@ def test_a_full_output_is_told(process):
     assert done.stderr == "error: standard output: no space left on device\n"
 
 
-def test_closed_streams_do_no_harm(process):
+@pytest.mark.parametrize(("number", "name"), [(1, "out"), (2, "err")])
+def test_streams_that_the_caller_closed_do_no_harm(process, number, name):
+    def closed(*arguments):
+        kept = {"stderr" if name == "out" else "stdout": subprocess.PIPE}
+        return process(*arguments, text=True, preexec_fn=lambda: os.close(number), **kept)
+
+    done, wrong = closed("motion", TRUCK), closed("motion", "nowhere.toml")
+    assert (done.returncode, wrong.returncode) == (0, 2)
+    assert not done.stderr
+    assert not wrong.stdout
+
+
+def test_streams_without_a_reader_do_no_harm(process):
     done = process("motion", TRUCK, "--csv", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     assert done.returncode == 0
 

@@ -125,3 +125,13 @@ def test_poses_are_judged_with_the_drive() -> None:
 def test_a_bad_field_does_not_hide_the_others() -> None:
     parts = by_points((0, 0, 0), (1, 0, 0), (1, 0, 0), (2, 0, 0), duty=Duty(speed=math.nan))
     assert fields(**parts) == ["duty.speed", "joints[1].centre"]
+
+
+def test_texts_that_terminals_would_obey_are_refused() -> None:
+    joint = Hooke(bend=0.1, name="two\nlines")
+    assert fields(name="red\x1b[31m", joints=(joint,), poses=(Pose(name="\x9b0m", set=()),)) == [
+        "name",
+        "joints[0].name",
+        "poses[0].name",
+    ]
+    Drive(name="Müller 轴 🚜", note="two\n\tlines", joints=(Hooke(bend=0.1),))

@@ -20,7 +20,9 @@ from cardan.units import DIMENSIONS
 
 DRIVE = Drive.from_angles([0.2, 0.3, 0.1], yoke_angles=[0.4, -0.3])
 
-words = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
+printable = st.characters(exclude_categories=["Cs", "Cc"])
+words = st.text(printable, max_size=12)
+notes = st.text(printable | st.sampled_from("\n\t"), max_size=12)
 
 
 def inside(one: Field) -> st.SearchStrategy[float]:

@@ -84,7 +84,7 @@ def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
     steep = max(float(np.max(found.shaft_ratio)), float(joint.ratio_max), 1.0)
     allowed = ROUNDING * whole.joints * steep**4
     straight = ratio_by_vectors(geometry(drive), whole, angle)
-    steps = 1.0 - (np.sin(whole.bend)[:, None] * np.cos(found.joint_angle)) ** 2
+    steps = np.sin(found.joint_angle) ** 2 + (np.cos(whole.bend)[:, None] * np.cos(found.joint_angle)) ** 2
     chained = np.cumprod(np.cos(whole.bend)[:, None] / steps, axis=0)
     closed = blokh(whole, angle)
     return (

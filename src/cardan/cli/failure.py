@@ -130,12 +130,17 @@ def _text(subject: str, problems: Sequence[Problem]) -> str:
     word = _("error:")
     if sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
         word = f"\033[1;31m{word}\033[0m"
-    lines = [f"{word} {_headline(subject, problems)}"]
+    lines = [f"{word} {_visible(_headline(subject, problems))}"]
     if len(problems) > 1:
-        lines += [f"  {problem}" for problem in problems[:SHOWN]]
+        lines += [f"  {_visible(str(problem))}" for problem in problems[:SHOWN]]
         if len(problems) > SHOWN:
             lines.append(_("  … and {count} more; --json lists all").format(count=len(problems) - SHOWN))
     return "\n".join(lines)
+
+
+def _visible(text: str) -> str:
+    """Return a text in which characters that a terminal would obey are spelled out."""
+    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
 
 
 def _closed(code: int) -> int:

@@ -6,8 +6,10 @@ cardan itself; 130 interrupted.
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
+from typing import TextIO
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -20,6 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
+        sys.stdout, sys.stderr = sys.stdout or _nowhere(), sys.stderr or _nowhere()
         from .app import app
 
         for stream in (sys.stdout, sys.stderr):
@@ -36,3 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return interrupted(given)
     return code if isinstance(code, int) else 0
+
+
+def _nowhere() -> TextIO:
+    """Return where a stream writes that the caller closed (``>&-``)."""
+    return open(os.devnull, "w", encoding="utf-8")

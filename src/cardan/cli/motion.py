@@ -144,7 +144,10 @@ def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
     count = plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints))
     if _even(each):
         return _("{name}: {count}, the output turns exactly evenly.").format(name=title(drive, file), count=count)
-    text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share} irregular.")
+    if len(drive.joints) == 1:
+        text = _("{name}: one joint bent {bend:.2f}°, {share} irregular.")
+    else:
+        text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share} irregular.")
     share = percent(float(each.irregularity[-1]))
     return text.format(name=title(drive, file), count=count, bend=float(each.bend[-1]) / deg, share=share)
 

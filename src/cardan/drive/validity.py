@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
+from unicodedata import category
 
 from cardan.errors import Problem
 from cardan.texts import _
@@ -94,7 +95,7 @@ def out_of_range(given: str, key: Key, value: float, unit: str = "", *, mirrored
 
 
 def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
-    """Yield every number of a dataclass tree that is out of its key's range or not finite."""
+    """Yield every number of a dataclass tree that is out of range or not finite, and every unprintable text."""
     for field in fields(thing):
         value = getattr(thing, field.name)
         here = f"{path}.{field.name}" if path else field.name
@@ -104,8 +105,17 @@ def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
                 yield from range_problems(item, f"{here}[{place}]")
         elif is_dataclass(value):
             yield from range_problems(value, here)
-        elif KEY in field.metadata and not isinstance(value, str | bool):
+        elif isinstance(value, str):
+            yield from _text_problems(value, here, lines=field.name == "note")
+        elif KEY in field.metadata and not isinstance(value, bool):
             yield from _number_problems(value, field.metadata[KEY], here)
+
+
+def _text_problems(text: str, path: str, *, lines: bool) -> Iterator[Problem]:
+    """Yield a problem if a text holds a character that terminals obey instead of printing."""
+    found = next((sign for sign in text if category(sign) == "Cc" and not (lines and sign in "\n\r\t")), None)
+    if found is not None:
+        yield Problem(path, _("holds the control character {sign}; write plain text").format(sign=ascii(found)))
 
 
 def _number_problems(value: Any, key: Key, path: str) -> Iterator[Problem]:
