@@ -87,7 +87,7 @@ def test_movements(kind: type, data: st.DataObject) -> None:
     things(Shaft, number=st.just(2), side_slope=st.none(), plan_slope=st.none()),
     things(Limits),
     words,
-    words,
+    notes,
 )
 @settings(max_examples=100, deadline=None)
 def test_all_other_tables(duty: Duty, shaft: Shaft, limits: Limits, name: str, note: str) -> None:
