@@ -1,5 +1,6 @@
 """The report of every example: complete, self-contained, and with the numbers of the analyses."""
 
+import dataclasses
 import re
 from html.parser import HTMLParser
 
@@ -105,6 +106,19 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     assert "cannot be made synchronous: joint 2" in words
     # cos x = cos 10° cos 20°, by hand: x = 22.27°.
     assert "22.27°" in words
+
+
+def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
+    drive = example("pto-hitch")
+    held = "".join(parsed(page(drive)).words)
+    judged = held[held.index("shortest engaged length of the spline of shaft 2") :].split()
+    assert judged[9:14] == ["189.0", "mm", "150", "0.79", "✓passed"]
+    tight = dataclasses.replace(drive.shafts[1].spline, gap=0.003)
+    shafts = (drive.shafts[0], dataclasses.replace(drive.shafts[1], spline=tight), *drive.shafts[2:])
+    failed = "".join(parsed(page(dataclasses.replace(drive, shafts=shafts))).words)
+    assert failed.count("the spline of shaft 2 bottoms") == 1
+    assert "A spline does not follow the movement." in failed
+    assert "too little" in failed
 
 
 def test_changes_come_with_the_most_helpful_first():

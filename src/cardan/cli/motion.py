@@ -143,7 +143,10 @@ def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
 
     count = plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints))
     if _even(each):
-        return _("{name}: {count}, the output turns exactly evenly.").format(name=title(drive, file), count=count)
+        text = _("{name}: {count}, the output turns exactly evenly.")
+        if drive.movements:
+            text = _("{name}: {count}, the output turns exactly evenly as drawn, standing still.")
+        return text.format(name=title(drive, file), count=count)
     if len(drive.joints) == 1:
         text = _("{name}: one joint bent {bend:.2f}°, {share} irregular.")
     else:

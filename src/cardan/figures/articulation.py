@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cardan.analysis.articulation import Articulation
-from cardan.analysis.equivalence import WARN_BEND
+from cardan.analysis.equivalence import SYNCHRONOUS, WARN_BEND
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, mm
@@ -66,16 +66,20 @@ def bends_figure(found: Articulation) -> Figure:
                 label=_("the same, the movement counted"),
             )
         )
-    most = int(np.nanargmax(share))
-    widest = int(np.nanargmax(np.nanmax(bend, axis=0)))
+    widest = max((one for one in found.worst if one.what == "bend"), key=lambda one: one.value)
+    uneasy = next(one for one in found.worst if one.what == "irregularity")
+    if uneasy.value < SYNCHRONOUS:
+        sentence = _("Joint {joint} bends most, up to {bend}°; the output stays even throughout.")
+    else:
+        sentence = _("Joint {joint} bends most, up to {bend}°; the output is most uneven at {time} s: {share}.")
     return Figure(
         name="bends",
         title=_("Bends and irregularity while the drive moves"),
-        sentence=_("Joint {joint} bends most, up to {bend}°; the output is most uneven at {time} s: {share}.").format(
-            joint=widest + 1,
-            bend=fixed(float(np.nanmax(bend)), 2),
-            time=significant(float(times[most]), 3),
-            share=percent(float(share[most]) / 100.0),
+        sentence=sentence.format(
+            joint=widest.number,
+            bend=fixed(widest.value / deg, 2),
+            time=significant(uneasy.time, 3),
+            share=percent(uneasy.value),
         ),
         source=_("Axes and spins follow from the moving joint centres at every instant, exactly; no small angles"),
         rows=(
@@ -143,7 +147,7 @@ def sliding_figure(found: Articulation) -> Figure:
     return Figure(
         name="sliding",
         title=_("Length compensation"),
-        sentence=_("Shaft {number} slides {stroke} mm in all, at up to {rate} mm/s.").format(
+        sentence=_("Shaft {number} slides over a stroke of {stroke} mm, at up to {rate} mm/s.").format(
             number=longest.shaft, stroke=significant(longest.stroke / mm, 3), rate=significant(longest.max_rate / mm, 3)
         ),
         source=_("L = |B(i) − B(i−1)| and its exact derivatives along the movement"),

@@ -160,7 +160,7 @@ def settings_figure(found: Phasing) -> Figure:
     low, high = 100.0 * found.irregularity_min, 100.0 * found.irregularity_max
     # The widest reach is beside the point when it dwarfs what is compared.
     top = max(float(np.max(share)), min(high, 2.0 * float(np.max(share))), 1e-3)
-    ticks = steps(0.0, top, 5)
+    ticks = steps(0.0, 1.16 * top, 5)
     across = Axis(
         low=0.0,
         high=1.16 * top,
@@ -171,12 +171,15 @@ def settings_figure(found: Phasing) -> Figure:
     roles = tuple("muted" if one is found.as_built else "accent" for one in shown)
     bars = Bars(at=at, size=share, texts=tuple(percent(s / 100.0) for s in share), roles=roles, thick=0.62, lying=True)
     band = Band(low=low, high=min(high, 1.16 * top), upright=True, role="accent", opacity=0.07)
+    sentence = _("The free yokes can reach every value in the shaded range, from {low} to {high}.")
+    if high > across.high:
+        sentence = _(
+            "The free yokes can reach every value from {low} to {high}; the shaded range goes on to the right."
+        )
     return Figure(
         name="settings",
         title=_("What each setting of the yokes leaves"),
-        sentence=_("The free yokes can reach every value in the shaded range, from {low} to {high}.").format(
-            low=percent(found.irregularity_min), high=percent(found.irregularity_max)
-        ),
+        sentence=sentence.format(low=percent(found.irregularity_min), high=percent(found.irregularity_max)),
         source=_("bounds: δ = 2 sinh L, L from max(0, 2L_max − ΣL) to ΣL, L = −ln cos α; exact, in place of Book (86)"),
         rows=(
             Row(

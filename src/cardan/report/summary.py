@@ -10,7 +10,7 @@ from cardan.analysis.equivalence import WARN_BEND
 from cardan.figures.wording import fixed, half_turn, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
-from cardan.units import deg, rpm
+from cardan.units import deg, mm, rpm
 
 from .block import Cell, Column, Table, Tone, Words, number, words
 from .subject import Subject
@@ -63,6 +63,9 @@ def judgement(on: Subject) -> Words:
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
         text += " " + _("While it moves, the output is up to {share} irregular.").format(share=percent(swings))
+    if on.moving is not None and any(one.flags for one in on.moving.splines):
+        text += " " + _("A spline does not follow the movement.")
+        tone = "failed"
     if steep:
         tone = "failed"
     return Words(text=text, tone=tone)
@@ -102,8 +105,8 @@ def warnings(on: Subject) -> Iterator[Words]:
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
     if on.moving is not None:
-        yield from (Words(text=text, tone="warning") for text in on.moving.warnings)
-        yield from (Words(text=flag.message, tone="failed") for one in on.moving.splines for flag in one.flags)
+        failed = {flag.message for one in on.moving.splines for flag in one.flags}
+        yield from (Words(text=text, tone="failed" if text in failed else "warning") for text in on.moving.warnings)
     if not on.complete:
         yield Words(text=_("Stopped by the reader: what was not reckoned by then is left out."), tone="warning")
     if not all(check.passed for check in on.checks):
@@ -200,6 +203,29 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
                 "moving_irregularity": _("largest irregularity while moving, movement counted, at {time} s"),
             }[one.what].format(time=significant(one.time, 3))
             yield _figure(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
+    overlap = on.drive.limits.spline_overlap
+    for spline in on.moving.splines:
+        failed = {flag.field.rpartition(".")[2] for flag in spline.flags}
+        if spline.engaged_min is not None:
+            name = _("shortest engaged length of the spline of shaft {k}").format(k=spline.shaft)
+            yield _travel(name, spline.engaged_min, overlap, failed="engaged" in failed)
+        if spline.gap_min is not None:
+            name = _("least way left to bottoming of shaft {k}").format(k=spline.shaft)
+            yield _travel(name, spline.gap_min, None, failed="gap" in failed)
+
+
+def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> list[Cell]:
+    use = limit / value if limit is not None and value > 0.0 else None
+    tone: Tone = "failed" if failed else "warning" if use is not None and use >= 0.9 else "good"
+    verdict = {"failed": _("too little"), "warning": _("near the limit"), "good": _("passed")}[tone]
+    return [
+        words(name),
+        number(fixed(value / mm, 1), value / mm),
+        words("mm"),
+        words("–") if limit is None else number(f"{limit / mm:g}"),
+        words("–") if use is None else number(fixed(use, 2), use),
+        words(verdict, tone),
+    ]
 
 
 def changes(on: Subject) -> Table | Words:

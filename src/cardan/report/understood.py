@@ -45,7 +45,7 @@ def understood(on: Subject) -> Page:
     )
     assumed = list(_assumed(on))
     if assumed:
-        blocks.append(Points(title=_("Assumed, because the file does not say"), items=assumed))
+        blocks.append(Points(title=_("Assumed where the file does not say otherwise"), items=assumed))
     return Page(
         name="drive",
         title=_("The drive as understood"),
