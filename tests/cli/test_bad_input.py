@@ -149,6 +149,8 @@ def test_a_full_disk_leaves_nothing_behind(cardan, tmp_path, monkeypatch, comman
         (("motion", TRUCK, "--colour"), ["--colour"]),
         (("motion", TRUCK, "--speed-rpm", "fast"), ["--speed-rpm"]),
         (("motion", TRUCK, "--speed-rpm", "nan"), ["--speed-rpm", "nan"]),
+        (("motion", TRUCK, "--speed-rpm", "-1e300"), ["--speed-rpm", "no drive has"]),
+        (("phases", TRUCK, "--apply", "E", "-o", "new.toml"), ["--apply", "no setting E", "16-tooth splines"]),
         (("motion", TRUCK, "--angle", "inf"), ["--angle-deg", "inf"]),
         (("motion", TRUCK, "--angle-step", "0"), ["--angle-step-deg"]),
         (("motion", TRUCK, "--angle-step", "1e-9"), ["--angle-step-deg"]),

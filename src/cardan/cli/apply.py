@@ -85,7 +85,9 @@ def applied(
 
 
 def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
-    """Return the setting of a name, or of a part of one; the best comes first.
+    """Return the setting of a name, or of a word or more of one; the best comes first.
+
+    A letter names a setting and is no part of a name: whoever asks for a setting E does not mean "16-tooth splines".
 
     Raises
     ------
@@ -94,7 +96,7 @@ def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
     """
     wanted = label.casefold()
     exact = [one for one in settings if one.label.casefold() == wanted]
-    near = exact or [one for one in settings if wanted in one.label.casefold()]
+    near = exact or [one for one in settings if len(wanted) > 2 and wanted in one.label.casefold()]
     if not near:
         labels = ", ".join(one.label for one in settings)
         raise refuse("--apply", _("there is no setting {label}; there are {labels}").format(label=label, labels=labels))

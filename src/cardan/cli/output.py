@@ -66,6 +66,14 @@ def check_page_target(path: Path) -> None:
 
 
 def check_speed(speed_rpm: float | None) -> None:
-    """Refuse a speed that is not a finite number."""
-    if speed_rpm is not None and not isfinite(speed_rpm):
+    """Refuse a speed that is not a finite number, or one that no drive has."""
+    if speed_rpm is None:
+        return
+    if not isfinite(speed_rpm):
         raise refuse("--speed-rpm", _("{value} is not a finite number").format(value=speed_rpm))
+
+    from cardan.drive.validity import HUGE
+    from cardan.units import rpm
+
+    if abs(speed_rpm) * rpm > HUGE:
+        raise refuse("--speed-rpm", _("{value} is not allowed; no drive has such a number").format(value=speed_rpm))

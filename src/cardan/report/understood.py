@@ -135,11 +135,13 @@ def _length(value: float, assumed: bool) -> Cell:
 
 
 def _assumed(on: Subject) -> Iterator[str]:
-    lengths = [path for path in on.place.assumed if path.endswith(".length")]
-    if lengths:
-        yield _(
-            "Lengths of {count} shafts, for the drawing only: motion does not depend on them (in brackets)."
-        ).format(count=len(lengths))
+    between = {f"shafts[{k}].length" for k in range(1, on.joints)} & set(on.place.assumed)
+    if between:
+        yield plural(
+            "Length of {count} shaft, for the drawing only: motion does not depend on it (in brackets).",
+            "Lengths of {count} shafts, for the drawing only: motion does not depend on them (in brackets).",
+            len(between),
+        ).format(count=len(between))
     still = [k for k, shaft in enumerate(on.drive.shafts[1:-1], start=2) if shaft.yoke_angle == 0.0]
     if still:
         yield plural(
@@ -156,4 +158,7 @@ def _assumed(on: Subject) -> Iterator[str]:
         yield _("No input speed: accelerations are given over its square.")
     elif on.drive.duty.acceleration == 0.0:
         yield _("The input turns at a constant {speed} rpm.").format(speed=significant(speed / rpm))
-    yield _("Sizes of yokes, crosses and tubes in the drawings.")
+    if on.drive.input.point is None:
+        yield _("Sizes of yokes, crosses and tubes, and lengths of the end shafts, in the drawings.")
+    else:
+        yield _("Sizes of yokes, crosses and tubes in the drawings.")
