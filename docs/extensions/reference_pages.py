@@ -57,6 +57,7 @@ def examples() -> str:
         said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
         uneven = float(joint.irregularity)
         turns = "the output turns evenly" if uneven < SYNCHRONOUS else f"the output is {100 * uneven:.3g} % irregular"
+        turns += " as drawn" if drive.movements else ""
         parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")
         parts.append(f"{drive.name}: {said}, {turns}.\n")
         parts.append(f"```toml\n{text.strip()}\n```\n")
