@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
+from cardan.drive.accuracy import Cost, Error, Tolerance
+from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Duty, Harmonic, Limits
 from cardan.drive.joints import JOINTS
-from cardan.drive.joints.accuracy import Cost, Error, Tolerance
-from cardan.drive.joints.cross import Cross
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum

@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
+from cardan.drive.accuracy import Error, Tolerance
+from cardan.drive.cross import Cross
 from cardan.units import plain, quantity
-
-from .accuracy import Error, Tolerance
-from .cross import Cross
 
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
