@@ -26,6 +26,8 @@ PYTHON = {
 }
 """What the functions call an input -> its names here, where they differ."""
 
+Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows"]
+
 REQUIRED: Any = object()
 """Default of an input that must be given."""
 
@@ -40,22 +42,26 @@ class Given:
         As in the reference cases, unit included; any other unit of its dimension is read as well.
     meaning : Key
         Sentence, dimension and allowed range in SI.
-    kind : "numbers", "whole", "table" or "word"
-        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices.
+    kind : "numbers", "whole", "table", "word", "flag" or "rows"
+        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices;
+        true or false; a list of tables with the keys of ``columns``.
     axes : tuple of int
         How deep the lists may be nested; 0 is a bare number.
     width : int or None
         Length of the innermost lists, where it is fixed.
     default : object
         Value in SI where the input is not given; `REQUIRED` where it must be.
+    columns : tuple of Given
+        Keys of each table of rows.
     """
 
     key: str
     meaning: Key
-    kind: Literal["numbers", "whole", "table", "word"] = "numbers"
+    kind: Kind = "numbers"
     axes: tuple[int, ...] = (0,)
     width: int | None = None
     default: Any = REQUIRED
+    columns: tuple[Given, ...] = ()
 
     @property
     def name(self) -> str:
@@ -77,6 +83,10 @@ class Given:
         """What form the value has, in words."""
         if self.kind == "table":
             return _("table from shaft number to value")
+        if self.kind == "flag":
+            return _("true or false")
+        if self.kind == "rows":
+            return _("list of tables with {keys}").format(keys=", ".join(column.key for column in self.columns))
         if self.kind == "word" and not self.meaning.choices:
             return _("name")
         if self.kind == "word":
@@ -122,7 +132,7 @@ def given(
     doc: str,
     dimension: str | None = None,
     *,
-    kind: Literal["numbers", "whole", "table", "word"] = "numbers",
+    kind: Kind = "numbers",
     axes: tuple[int, ...] = (0,),
     width: int | None = None,
     default: Any = REQUIRED,
@@ -130,6 +140,11 @@ def given(
 ) -> Given:
     """Declare an input; ``limits`` are those of `cardan.units.Key`, in SI."""
     return Given(key=key, meaning=Key(doc, dimension, **limits), kind=kind, axes=axes, width=width, default=default)
+
+
+def rows(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Given:
+    """Declare an input that is a list of tables, each with the keys of ``columns``."""
+    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default)
 
 
 def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
@@ -202,39 +217,68 @@ class Calculation:
 
     def read(self, inputs: Mapping[str, Any]) -> tuple[Values, dict[str, str]]:
         """Return the values in SI by name, and under which key each was given."""
-        found, keys, problems = self._sort(inputs)
-        values: Values = {}
-        for item in self.takes:
-            if item.name not in found:
-                if item.required:
-                    problems.append(Problem(item.key, _("missing: {doc}").format(doc=item.doc)))
-                else:
-                    values[item.name] = item.default
-                continue
-            wrong = list(_problems(item, found[item.name], keys[item.name]))
-            problems += wrong
-            if not wrong:
-                values[item.name] = _si(item, found[item.name], keys[item.name])
+        values, keys, problems = _read(self.takes, inputs)
         problems += self.check(values, lambda name: keys[name])
         check(problems)
         return values, keys
 
-    def _sort(self, inputs: Mapping[str, Any]) -> tuple[Values, dict[str, str], list[Problem]]:
-        """Find the input each given key belongs to."""
-        own = {item.key: item for item in self.takes}
-        keys = {item.name: item.key for item in self.takes}
-        found: Values = {}
-        problems: list[Problem] = []
-        for key, value in inputs.items():
-            item = own.get(key) or _in_other_unit(key, self.takes)
-            if item is None:
-                problems.append(Problem(key, _unknown(key, own)))
-            elif item.name in found:
-                problems.append(Problem(key, _("given twice, also as {other}").format(other=keys[item.name])))
-            elif value is not None or item.required:
-                found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-                keys[item.name] = key
-        return found, keys, problems
+
+def _read(
+    takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = ""
+) -> tuple[Values, dict[str, str], list[Problem]]:
+    """Return the values in SI by name, under which key each was given, and what is wrong with them one by one."""
+    found, keys, problems = _sort(takes, inputs, before)
+    values: Values = {}
+    for item in takes:
+        if item.name not in found:
+            if item.required:
+                problems.append(Problem(before + item.key, _("missing: {doc}").format(doc=item.doc)))
+            else:
+                values[item.name] = item.default
+            continue
+        key = keys[item.name]
+        if item.kind == "rows":
+            wrong, value = _rows(item, found[item.name], before + key)
+        else:
+            wrong, value = list(_problems(item, found[item.name], key)), None
+            wrong = [Problem(before + problem.field, problem.message) for problem in wrong]
+        problems += wrong
+        if not wrong:
+            values[item.name] = value if item.kind == "rows" else _si(item, found[item.name], key)
+    return values, keys, problems
+
+
+def _sort(
+    takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str
+) -> tuple[Values, dict[str, str], list[Problem]]:
+    """Find the input each given key belongs to."""
+    own = {item.key: item for item in takes}
+    keys = {item.name: item.key for item in takes}
+    found: Values = {}
+    problems: list[Problem] = []
+    for key, value in inputs.items():
+        item = own.get(key) or _in_other_unit(key, takes)
+        if item is None:
+            problems.append(Problem(before + key, _unknown(key, own)))
+        elif item.name in found:
+            problems.append(Problem(before + key, _("given twice, also as {other}").format(other=keys[item.name])))
+        elif value is not None or item.required:
+            found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            keys[item.name] = key
+    return found, keys, problems
+
+
+def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values]]:
+    """Return what is wrong with a list of tables, and the tables in SI by name."""
+    if not isinstance(value, list | tuple) or not all(isinstance(row, Mapping) for row in value):
+        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], []
+    problems: list[Problem] = []
+    tables: list[Values] = []
+    for k, row in enumerate(value):
+        values, _keys, wrong = _read(item.columns, row, f"{key}[{k}].")
+        problems += wrong
+        tables.append(values)
+    return problems, tables
 
 
 def _unknown(key: str, known: Iterable[str]) -> str:
@@ -259,7 +303,10 @@ def _factor(item: Given, key: str) -> float:
 
 def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
     """Yield what is wrong with one input by itself."""
-    if item.kind == "word":
+    if item.kind == "flag":
+        if not isinstance(value, bool):
+            yield Problem(key, _("{value} is neither true nor false").format(value=_short(value)))
+    elif item.kind == "word":
         if value not in item.meaning.choices:
             near = nearest(str(value), item.meaning.choices)
             hint = _("; did you mean {near}?").format(near=near) if near else ""
@@ -341,7 +388,7 @@ def _short(value: Any) -> str:
 
 
 def _si(item: Given, value: Any, key: str) -> Any:
-    if item.kind == "word":
+    if item.kind in ("word", "flag"):
         return value
     scale = _factor(item, key)
     if item.kind == "table":
