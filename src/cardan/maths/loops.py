@@ -2,9 +2,9 @@
 
 Four axes z_1 … z_4 follow each other around the loop. Between neighbours lies the common perpendicular x_{i+1} with
 the length a_i and the angle α_i; φ_i and s_i are turn and way from x_i to x_{i+1} along z_i. Given φ_1 and s_1, six
-unknowns close the loop. A universal joint is such a loop: z_1 the driving shaft, z_2 and z_3 the arms of the cross, z_4 the
-driven shaft; three right angles and no lengths make it perfect. Lists of four run over i = 1 … 4; lists of the
-*seats* of an error run over (s_1 or φ_1, a_1 or α_1, … a_4 or α_4).
+unknowns close the loop. A universal joint is such a loop: z_1 the driving shaft, z_2 and z_3 the arms of the cross,
+z_4 the driven shaft; three right angles and no lengths make it perfect. Lists of four run over i = 1 … 4; lists of
+five over the *seats* of an error: s_1 or φ_1, a_1 or α_1, … a_4 or α_4.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Status(IntEnum):
     OPEN = 2
     """No assembly at this input angle; angles and slides are nan."""
     FREE = 3
-    """An angle is left free, because axes are parallel; angles and slides are nan."""
+    """z_3 is parallel to z_2 or z_4, or φ_4 is left free at this input angle; angles and slides are nan."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -170,7 +170,8 @@ def rccc(
     x1, x2, x4 = vector(full, zero, zero), vector(cp, sp, zero), vector(cosine, -c4 * sine, s4 * sine)
     across = cross(z2, z3)
     size = norm(across) * xp.where(s2 < 0.0, -full, full)
-    free = (radius < NO_SIDE) | (xp.abs(s2) < NO_SIDE)
+    parallel = (xp.abs(s2) < NO_SIDE) | (xp.abs(s3) < NO_SIDE)
+    free = parallel | (radius < NO_SIDE)
     x3 = across / xp.where(free, full, size)[..., None]
 
     def about(axis: Array, start: Array, end: Array) -> Array:
@@ -183,7 +184,7 @@ def rccc(
     table = _solved((z2, z3, z4), (z1, x2, x3, x4, x1), xp.where(dead, full, volume))
     opened = excess > NO_SIDE * xp.where(radius < NO_SIDE, full, zero)
     status = xp.zeros(zero.shape, dtype=xp.int64)
-    for mask, cause in ((dead, Status.DEAD), (free, Status.FREE), (opened, Status.OPEN)):
+    for mask, cause in ((dead, Status.DEAD), (free, Status.FREE), (opened & ~parallel, Status.OPEN)):
         status = xp.where(mask, int(cause), status)
     lost = xp.full_like(zero, xp.nan)
     table = xp.where((status > 0)[..., None, None], lost[..., None, None], table)
