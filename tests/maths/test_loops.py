@@ -237,6 +237,25 @@ def test_negative_angles_between_axes_are_mirror_images():
             assert left.max() < 1e-12
 
 
+@given(st.floats(0.0, 70.0), st.floats(-400.0, 400.0), st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4))
+def test_the_short_way_to_the_driven_shaft_is_that_of_the_loop(bend, angle, errors):
+    alpha = joint_loops(bend * deg, np.asarray(errors) * deg)
+    loop = loops.rccc(alpha, angle * deg)
+    along, across, carried = loops.driven(np.cos(alpha), np.sin(alpha), np.cos(angle * deg), np.sin(angle * deg))
+    assert along == pytest.approx(np.sin(loop.angle[2]), abs=1e-14)
+    assert across == pytest.approx(np.cos(loop.angle[2]), abs=1e-14)
+    assert np.stack(carried) == pytest.approx(-loop.coefficient[2], rel=1e-12, abs=1e-13)
+
+
+def test_the_short_way_is_lost_where_the_loop_does_not_close():
+    alpha = joint_loops(80 * deg, np.asarray([0, 20, 0, 0]) * deg)
+    phi = np.linspace(0, 2 * np.pi, 37)
+    along = loops.driven(np.cos(alpha), np.sin(alpha), np.cos(phi), np.sin(phi))[0]
+    status = loops.rccc(alpha, phi).status
+    assert np.array_equal(np.isnan(along), status == Status.OPEN)
+    assert 0 < np.isnan(along).sum() < 37
+
+
 def test_loops_run_on_the_standard_alone():
     xp = pytest.importorskip("array_api_strict")
     alpha, phi, length, slide = random_loops(50)

@@ -209,7 +209,7 @@ def fourth_angle(
     s4: Array,
     cosine: Array,
     sine: Array,
-    branch: Array,
+    branch: ArrayLike,
 ) -> tuple[Array, Array, Array, Array]:
     """Return sin φ_4, cos φ_4, r and by how much the loop misses closing, from cosines and sines of α_i and φ_1."""
     xp = namespace(c1, s1, cosine)
@@ -221,6 +221,58 @@ def fourth_angle(
     root = branch * xp.sqrt(xp.maximum((r - c) * (r + c), 0.0 * c))
     safe = xp.where(square > 0.0, square, 1.0 + 0.0 * square)
     return (a * c + b * root) / safe, (b * c - a * root) / safe, r, xp.abs(c) - r * (1.0 + NEAR)
+
+
+def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Array, Array, Array]:
+    """Return how loops near universal joints carry an angle and a shift from the driving to the driven shaft.
+
+    Parameters
+    ----------
+    cosine, sine : array (..., 4)
+        Of α_1 … α_4.
+    along, across : array (...)
+        cos θ and sin θ, θ = φ_1 the angle of the driving yoke.
+
+    Returns
+    -------
+    along, across : arrays (...)
+        cos θ' and sin θ' of the driven yoke, θ' = π/2 - φ_4; nan where the loop does not close.
+    carried : tuple of five arrays (...)
+        Derivatives of θ' by (θ, α_1 … α_4); times the errors (s_1, a_1 … a_4) exactly the shift -s_4.
+
+    Notes
+    -----
+    `rccc` without a single inverse function: with w = z_2×z_3, the row of s_4 is
+    (w·z_1, w·x_2, sin α_2, w·x_4, w·x_1)/(w·z_4).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bends = np.radians([90, 90, 90, 30])
+    >>> c, s, carried = driven(np.cos(bends), np.sin(bends), np.asarray(1.0), np.asarray(0.0))
+    >>> bool(abs(s) < 1e-15), float(carried[0])
+    (True, 1.15470054)
+    """
+    xp = namespace(cosine, along)
+    c1, c2, c3, c4 = (cosine[..., k] for k in range(4))
+    s1, s2, s3, s4 = (sine[..., k] for k in range(4))
+    s, c, _radius, excess = fourth_angle(c1, c2, c3, c4, s1, s3, s4, along, across, IDEAL)
+    x2, y2 = s1 * across, -s1 * along
+    x3, y3, z3 = s3 * s, s3 * c4 * c + c3 * s4, c3 * c4 - s3 * s4 * c
+    x, y, z = y2 * z3 - c1 * y3, c1 * x3 - x2 * z3, x2 * y3 - y2 * x3
+    share = 1.0 / (y * s4 + z * c4)
+    lost = xp.where(excess > 0.0, xp.nan * excess, 0.0 * excess)
+    return (
+        s + lost,
+        c + lost,
+        (
+            z * share,
+            (along * x + across * y) * share,
+            s2 * share,
+            (c * x + s * (s4 * z - c4 * y)) * share,
+            x * share,
+        ),
+    )
 
 
 def _solved(axes: tuple[Array, Array, Array], seats: tuple[Array, ...], volume: Array) -> Array:
