@@ -10,7 +10,7 @@ from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import book, kinematics, moving, synthesis
+from . import book, kinematics, losses, moving, synthesis
 from .calculation import Calculation, given
 
 
@@ -34,7 +34,7 @@ ERRORS = Call(
 )
 
 CALCULATIONS: dict[str, Calculation] = {
-    calculation.name: calculation for part in (kinematics, synthesis, moving, book) for calculation in part.CALCULATIONS
+    calculation.name: calculation for part in (kinematics, synthesis, moving, losses, book) for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""
 
