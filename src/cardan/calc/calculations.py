@@ -34,7 +34,9 @@ ERRORS = Call(
 )
 
 CALCULATIONS: dict[str, Calculation] = {
-    calculation.name: calculation for part in (kinematics, synthesis, moving, losses, book) for calculation in part.CALCULATIONS
+    calculation.name: calculation
+    for part in (kinematics, synthesis, moving, losses, book)
+    for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""
 
