@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan.maths import loops
@@ -207,18 +207,20 @@ def test_a_straight_link_leaves_the_range_without_bounds_or_empty(alpha, closes)
     assert np.all((loops.rccc(np.asarray(alpha) * deg, np.linspace(0.1, 6, 7)).status == Status.OPEN) != closes)
 
 
-@given(st.lists(st.floats(20.0, 160.0), min_size=4, max_size=4), st.sampled_from([-1.0, 1.0]))
-def test_angles_are_continuous_over_a_turn_on_one_branch(alpha, branch):
-    angles = np.asarray(alpha) * deg
-    bounds = loops.turning_range(angles)
-    assume(bounds.lowest < -1.05 and bounds.highest > 1.05)
+@pytest.mark.parametrize("branch", [-1.0, 1.0])
+def test_angles_are_continuous_over_a_turn_on_one_branch(branch):
+    alpha = random_loops(400, seed=4)[0]
+    bounds = loops.turning_range(alpha)
+    alpha = alpha[(bounds.lowest < -1.05) & (bounds.highest > 1.05)]
+    assert len(alpha) > 30
     phi = np.linspace(0.0, 2 * np.pi, 2001)
-    turned = loops.unwrapped(loops.rccc(angles, phi, branch=branch).angle.T, 2 * np.pi)
-    slope = loops.rccc(angles, phi, branch=branch).coefficient[:, :, 0].T
-    assert np.max(np.abs(np.diff(turned))) < 1.1 * np.max(np.abs(slope)) * phi[1] + 1e-3
-    assert np.round((turned[:, -1] - turned[:, 0]) / (2 * np.pi), 9) == pytest.approx(
-        np.round((turned[:, -1] - turned[:, 0]) / (2 * np.pi)), abs=1e-9
-    )
+    found = loops.rccc(alpha[:, None, :], phi, branch=branch)
+    turned = loops.unwrapped(np.moveaxis(found.angle, -1, 1), 2 * np.pi)
+    steepest = np.max(np.abs(found.coefficient[..., 0]), axis=1)
+    # A step is at most the steepest slope times the step of the input, and a bit for the curvature between.
+    assert np.all(np.max(np.abs(np.diff(turned)), axis=-1) < 1.05 * steepest * phi[1])
+    turns = (turned[..., -1] - turned[..., 0]) / (2 * np.pi)
+    assert turns == pytest.approx(np.round(turns), abs=1e-12)
 
 
 def test_negative_angles_between_axes_are_mirror_images():
@@ -252,7 +254,7 @@ def test_the_short_way_is_lost_where_the_loop_does_not_close():
     phi = np.linspace(0, 2 * np.pi, 37)
     along = loops.driven(np.cos(alpha), np.sin(alpha), np.cos(phi), np.sin(phi))[0]
     status = loops.rccc(alpha, phi).status
-    assert np.array_equal(np.isnan(along), status == Status.OPEN)
+    assert np.array_equal(np.isnan(along), status != Status.CLOSED)
     assert 0 < np.isnan(along).sum() < 37
 
 

@@ -236,7 +236,7 @@ def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Arr
     Returns
     -------
     along, across : arrays (...)
-        cos θ' and sin θ' of the driven yoke, θ' = π/2 - φ_4; nan where the loop does not close.
+        cos θ' and sin θ' of the driven yoke, θ' = π/2 - φ_4; nan where the loop does not close or is dead.
     carried : tuple of five arrays (...)
         Derivatives of θ' by (θ, α_1 … α_4); times the errors (s_1, a_1 … a_4) exactly the shift -s_4.
 
@@ -260,8 +260,9 @@ def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Arr
     x2, y2 = s1 * across, -s1 * along
     x3, y3, z3 = s3 * s, s3 * c4 * c + c3 * s4, c3 * c4 - s3 * s4 * c
     x, y, z = y2 * z3 - c1 * y3, c1 * x3 - x2 * z3, x2 * y3 - y2 * x3
-    share = 1.0 / (y * s4 + z * c4)
-    lost = xp.where(excess > 0.0, xp.nan * excess, 0.0 * excess)
+    volume = y * s4 + z * c4
+    lost = xp.where((excess > 0.0) | (xp.abs(volume) < DEAD), xp.nan + 0.0 * volume, 0.0 * volume)
+    share = 1.0 / (volume + xp.where(volume == 0.0, 1.0 + lost, 0.0 * volume))
     return (
         s + lost,
         c + lost,
