@@ -254,26 +254,27 @@ def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Arr
     (True, 1.15470054)
     """
     xp = namespace(cosine, along)
-    c1, c2, c3, c4 = (cosine[..., k] for k in range(4))
+    c1, c3, c4 = (cosine[..., k] for k in (0, 2, 3))
     s1, s2, s3, s4 = (sine[..., k] for k in range(4))
-    s, c, _radius, excess = fourth_angle(c1, c2, c3, c4, s1, s3, s4, along, across, IDEAL)
+    s, c = followed(cosine, sine, along, across)
     x2, y2 = s1 * across, -s1 * along
     x3, y3, z3 = s3 * s, s3 * c4 * c + c3 * s4, c3 * c4 - s3 * s4 * c
     x, y, z = y2 * z3 - c1 * y3, c1 * x3 - x2 * z3, x2 * y3 - y2 * x3
     volume = y * s4 + z * c4
-    lost = xp.where((excess > 0.0) | (xp.abs(volume) < DEAD), xp.nan + 0.0 * volume, 0.0 * volume)
-    share = 1.0 / (volume + xp.where(volume == 0.0, 1.0 + lost, 0.0 * volume))
-    return (
-        s + lost,
-        c + lost,
-        (
-            z * share,
-            (along * x + across * y) * share,
-            s2 * share,
-            (c * x + s * (s4 * z - c4 * y)) * share,
-            x * share,
-        ),
-    )
+    share = 1.0 / xp.where(xp.abs(volume) < DEAD, xp.nan + 0.0 * volume, volume)
+    lost = 0.0 * share
+    side, reach = s4 * z - c4 * y, along * x + across * y
+    return s + lost, c + lost, (z * share, reach * share, s2 * share, (c * x + s * side) * share, x * share)
+
+
+def followed(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Array, Array]:
+    """Return cos θ' and sin θ' alone, as `driven` does; nan where the loop does not close."""
+    xp = namespace(cosine, along)
+    c1, c2, c3, c4 = (cosine[..., k] for k in range(4))
+    s1, _s2, s3, s4 = (sine[..., k] for k in range(4))
+    s, c, _radius, excess = fourth_angle(c1, c2, c3, c4, s1, s3, s4, along, across, IDEAL)
+    lost = xp.where(excess > 0.0, xp.nan + 0.0 * excess, 0.0 * excess)
+    return s + lost, c + lost
 
 
 def _solved(axes: tuple[Array, Array, Array], seats: tuple[Array, ...], volume: Array) -> Array:
