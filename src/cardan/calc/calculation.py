@@ -43,8 +43,8 @@ class Given:
     meaning : Key
         Sentence, dimension and allowed range in SI.
     kind : "numbers", "whole", "table", "word", "flag" or "rows"
-        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices;
-        true or false; a list of tables with the keys of ``columns``.
+        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
+        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``.
     axes : tuple of int
         How deep the lists may be nested; 0 is a bare number.
     width : int or None
@@ -90,7 +90,8 @@ class Given:
         if self.kind == "word" and not self.meaning.choices:
             return _("name")
         if self.kind == "word":
-            return _("one of {choices}").format(choices=", ".join(self.meaning.choices))
+            text = _("one of {choices}") if self.axes == (0,) else _("list of some of {choices}")
+            return text.format(choices=", ".join(self.meaning.choices))
         wide = "" if self.width is None else f" × {self.width}"
         names = {
             0: _("number") if self.kind == "numbers" else _("whole number"),
@@ -306,15 +307,14 @@ def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
     if item.kind == "flag":
         if not isinstance(value, bool):
             yield Problem(key, _("{value} is neither true nor false").format(value=_short(value)))
+    elif item.kind == "word" and item.axes == (0,):
+        yield from _word(item, value, key)
     elif item.kind == "word":
-        if value not in item.meaning.choices:
-            near = nearest(str(value), item.meaning.choices)
-            hint = _("; did you mean {near}?").format(near=near) if near else ""
-            yield Problem(
-                key,
-                _("{value} is none of {choices}").format(value=repr(value), choices=", ".join(item.meaning.choices))
-                + hint,
-            )
+        if not isinstance(value, list | tuple):
+            yield Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))
+            return
+        for k, word in enumerate(value):
+            yield from _word(item, word, f"{key}[{k}]")
     elif item.kind == "table":
         if not isinstance(value, Mapping):
             yield Problem(key, _("{value} is no table from shaft number to value").format(value=repr(value)))
@@ -325,6 +325,17 @@ def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
             yield from _number(item, entry, f"{key}.{name}", key)
     else:
         yield from _array(item, value, key)
+
+
+def _word(item: Given, value: Any, key: str) -> Iterator[Problem]:
+    if not item.meaning.choices:
+        if not isinstance(value, str):
+            yield Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))
+    elif value not in item.meaning.choices:
+        near = nearest(str(value), item.meaning.choices)
+        hint = _("; did you mean {near}?").format(near=near) if near else ""
+        text = _("{value} is none of {choices}")
+        yield Problem(key, text.format(value=_short(value), choices=", ".join(item.meaning.choices)) + hint)
 
 
 def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
