@@ -16,9 +16,12 @@ _HOMES = {
     "CardanError": "errors",
     "InputError": "errors",
     "calc": "calc.calculations",
+    "Tolerance": "drive.accuracy",
     "Drive": "drive.drive",
     "Drives": "drive.drives",
     "stack": "drive.drives",
+    "TransmissionError": "analysis.accuracy",
+    "transmission_error": "analysis.accuracy",
     "Articulation": "analysis.articulation",
     "articulation": "analysis.articulation",
     "Motion": "analysis.motion",
@@ -29,6 +32,11 @@ _HOMES = {
     "equivalent_joint": "analysis.equivalence",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
+    "MonteCarlo": "analysis.sampling",
+    "Linear": "analysis.tolerance",
+    "ToleranceBand": "analysis.tolerance",
+    "WorstCase": "analysis.tolerance",
+    "tolerance": "analysis.tolerance",
     "Traces": "analysis.traces",
     "traces": "analysis.traces",
     "Compiled": "maths.compiled.method",
@@ -53,6 +61,8 @@ _HOMES = {
 __all__ = sorted([*_HOMES, "__version__"])
 
 if TYPE_CHECKING:
+    from .analysis.accuracy import TransmissionError as TransmissionError
+    from .analysis.accuracy import transmission_error as transmission_error
     from .analysis.articulation import Articulation as Articulation
     from .analysis.articulation import articulation as articulation
     from .analysis.book import BookComparison as BookComparison
@@ -63,9 +73,15 @@ if TYPE_CHECKING:
     from .analysis.extremes import extremes as extremes
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
+    from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.tolerance import Linear as Linear
+    from .analysis.tolerance import ToleranceBand as ToleranceBand
+    from .analysis.tolerance import WorstCase as WorstCase
+    from .analysis.tolerance import tolerance as tolerance
     from .analysis.traces import Traces as Traces
     from .analysis.traces import traces as traces
     from .calc.calculations import calc as calc
+    from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
     from .drive.drives import stack as stack

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -27,6 +27,8 @@ WAYS = ("s1", "a1", "a2", "a3", "a4")
 
 POSITIONS = 360
 """Positions of one turn over which errors are judged."""
+
+T = TypeVar("T")
 
 Errors: TypeAlias = Error | Sequence[Error | None] | None
 """Errors of every joint, of each, or those that the drive file gives."""
@@ -324,7 +326,7 @@ def error_arrays(errors: Sequence[object | None]) -> tuple[Array, Array]:
     return turns, ways
 
 
-def per_joint(name: str, given: object, joints: int) -> list[object | None]:
+def per_joint(name: str, given: T | Sequence[T | None], joints: int) -> list[T | None]:
     """Return one value for each joint, given one for all or as many as there are joints."""
     if not isinstance(given, Sequence):
         return [given] * joints
@@ -355,7 +357,7 @@ def _given(
     if errors is None:
         rows = [joint.error for joint in drive.joints] if isinstance(drive, Drive) else [None] * joints
     else:
-        rows = per_joint("errors", errors, joints)  # type: ignore[assignment]
+        rows = per_joint("errors", errors, joints)
     turned, shifted = error_arrays(rows)
     return real(turned, xp), real(shifted, xp)
 
