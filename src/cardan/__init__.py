@@ -24,12 +24,18 @@ _HOMES = {
     "transmission_error": "analysis.accuracy",
     "Articulation": "analysis.articulation",
     "articulation": "analysis.articulation",
+    "LossMap": "analysis.losses",
+    "Losses": "analysis.losses",
+    "loss_map": "analysis.losses",
+    "losses": "analysis.losses",
     "Motion": "analysis.motion",
     "motion": "analysis.motion",
     "BookComparison": "analysis.book",
     "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
+    "Forces": "analysis.forces",
+    "forces": "analysis.forces",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
     "MonteCarlo": "analysis.sampling",
@@ -71,6 +77,12 @@ if TYPE_CHECKING:
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
+    from .analysis.losses import Losses as Losses
+    from .analysis.losses import LossMap as LossMap
+    from .analysis.losses import loss_map as loss_map
+    from .analysis.losses import losses as losses
+    from .analysis.forces import Forces as Forces
+    from .analysis.forces import forces as forces
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
     from .analysis.sampling import MonteCarlo as MonteCarlo
