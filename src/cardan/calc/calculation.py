@@ -157,17 +157,22 @@ def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
 
 
 def without_unit(key: str, dimension: str | None) -> str:
-    """Return a key without the unit it ends in.
+    """Return a key without its unit: the one it ends in, else one amid it.
 
     Examples
     --------
-    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None)
-    ('alpha', 'delta_min')
+    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None), without_unit("tol_mm_a1", "length")
+    ('alpha', 'delta_min', 'tol_a1')
     """
-    for unit in sorted(DIMENSIONS[dimension], key=len, reverse=True) if dimension else ():
-        if key.endswith(f"_{unit}"):
-            return key.removesuffix(f"_{unit}")
-    return key
+    unit = _unit_of(key, dimension)
+    return f"{key}_".replace(f"_{unit}_", "_").removesuffix("_") if unit else key
+
+
+def _unit_of(key: str, dimension: str | None) -> str:
+    """Return the unit in a key, the longest it ends in, else the longest amid it; empty where there is none."""
+    units = sorted(DIMENSIONS[dimension], key=len, reverse=True) if dimension else []
+    last = [unit for unit in units if key.endswith(f"_{unit}")]
+    return next(iter(last + [unit for unit in units if f"_{unit}_" in key]), "")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -292,14 +297,14 @@ def _unknown(key: str, known: Iterable[str]) -> str:
 def _in_other_unit(key: str, takes: tuple[Given, ...]) -> Given | None:
     for item in takes:
         dimension = item.meaning.dimension
-        if dimension and any(key == f"{item.name}_{unit}" for unit in DIMENSIONS[dimension]):
+        if dimension and _unit_of(key, dimension) and without_unit(key, dimension) == item.name:
             return item
     return None
 
 
 def _factor(item: Given, key: str) -> float:
     dimension = item.meaning.dimension
-    return factor(dimension, key.removeprefix(f"{item.name}_")) if dimension else 1.0
+    return factor(dimension, _unit_of(key, dimension)) if dimension else 1.0
 
 
 def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
