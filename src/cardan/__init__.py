@@ -24,6 +24,8 @@ _HOMES = {
     "transmission_error": "analysis.accuracy",
     "Articulation": "analysis.articulation",
     "articulation": "analysis.articulation",
+    "AssemblyForces": "analysis.assembly",
+    "assembly": "analysis.assembly",
     "LossMap": "analysis.losses",
     "Losses": "analysis.losses",
     "loss_map": "analysis.losses",
@@ -71,18 +73,20 @@ if TYPE_CHECKING:
     from .analysis.accuracy import transmission_error as transmission_error
     from .analysis.articulation import Articulation as Articulation
     from .analysis.articulation import articulation as articulation
+    from .analysis.assembly import AssemblyForces as AssemblyForces
+    from .analysis.assembly import assembly as assembly
     from .analysis.book import BookComparison as BookComparison
     from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
+    from .analysis.forces import Forces as Forces
+    from .analysis.forces import forces as forces
     from .analysis.losses import Losses as Losses
     from .analysis.losses import LossMap as LossMap
     from .analysis.losses import loss_map as loss_map
     from .analysis.losses import losses as losses
-    from .analysis.forces import Forces as Forces
-    from .analysis.forces import forces as forces
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
     from .analysis.sampling import MonteCarlo as MonteCarlo
