@@ -134,8 +134,8 @@ def largest_middle_couple(
     --------
     >>> from cardan.units import deg
     >>> most, at = largest_middle_couple(55 * deg, 55 * deg, torque=50.0)
-    >>> round(most * np.cos(55 * deg), 9)
-    50.0
+    >>> print(f"{most * np.cos(55 * deg):.9f}")
+    50.000000000
     """
 
     def squares(angle: Array) -> Array:

@@ -56,7 +56,7 @@ def swing_couple(
     >>> x, y, z = np.eye(3)
     >>> found = swing_couple((x, 0.9 * y, 12.0 * y), 120.0, 0.02, 0.4)
     >>> found.gyroscopic, found.transverse
-    (array([-0.  , -2.16, -0.  ]), array([-0. , -0. , -4.8]))
+    (array([ 0.  , -2.16,  0.  ]), array([ 0. ,  0. , -4.8]))
     """
     e, rate, curve = axis
     xp = namespace(e)
