@@ -16,7 +16,7 @@ RESTS = 1e-12
 """Share of the mean magnitude by which a mean may still change when it rests; twice the points square its error."""
 
 
-def mean_between(function: Callable[[Array], Array], kinks: Array, *, period: float) -> Array:
+def mean_between(function: Callable[[Array], Array], kinks: Array, *, period: float, rests: float = RESTS) -> Array:
     """Return the mean over one period of a function with kinks, each stretch by Gauss's rule.
 
     Parameters
@@ -27,6 +27,8 @@ def mean_between(function: Callable[[Array], Array], kinks: Array, *, period: fl
         Where its derivative may jump, modulo the period, in any order; at least one.
     period : float
         Period of the function.
+    rests : float
+        Share of the mean magnitude by which a mean may still change.
 
     Returns
     -------
@@ -55,7 +57,7 @@ def mean_between(function: Callable[[Array], Array], kinks: Array, *, period: fl
         share = xp.reshape(width[..., None] * weight, shape) / period
         parts = function(place) * share[..., None, :]
         before, found = found, xp.sum(parts, axis=-1)
-        if before is not None and not bool(xp.any(xp.abs(found - before) > RESTS * xp.sum(xp.abs(parts), axis=-1))):
+        if before is not None and not bool(xp.any(xp.abs(found - before) > rests * xp.sum(xp.abs(parts), axis=-1))):
             break
     return found
 
