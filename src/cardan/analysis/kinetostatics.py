@@ -189,32 +189,29 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     for i in reversed(range(n)):
         u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
         normal = frames.cross(u, v)
-        one, two = stand.turning(i), stand.turning(i + 1)
         lean = frames.dot(u, e[..., i + 1, :])
         into = frames.dot(normal, e[..., i + 1, :])
-        top = tau
-        rate = None
-        if crossed is not None:
-            rate = _cross_rate(stand, crossed[..., None, i, :], i, u, v, normal)
-            top = top + frames.dot(rate, u) * lean
-        rubs = None
+        swing = None if crossed is None else _cross_swing(stand, crossed[..., None, i, :], i, (u, v, normal))
+        top = tau if swing is None else tau + swing.rate[0] * lean
         if train.drag is not None:
-            p, q = frames.dot(two - one, u), frames.dot(one - two, v)
+            p, q = _journal_rates(stand, i, u, v, lean)
             kappa = train.drag[..., None, i]
             t = top / (into - kappa * xp.sign(top) * xp.sign(p) * lean)
             rubs = kappa * xp.abs(t)
             lost = rubs * (xp.abs(p) + xp.abs(q))
-            out = t[..., None] * normal - (rubs * xp.sign(p))[..., None] * u + (rubs * xp.sign(q))[..., None] * v
+            along_u, along_v = -rubs * xp.sign(p), rubs * xp.sign(q)
+            out = t[..., None] * normal + along_u[..., None] * u + along_v[..., None] * v
         else:
             t = top / into
             lost = zero
             out = t[..., None] * normal
         back, given = t, out
-        if rate is not None:
-            out = out - frames.dot(rate, u)[..., None] * u
-            given = out + rate
-            back = t + frames.dot(rate, normal)
-            work = work + frames.dot(rate, one + frames.dot(two - one, u)[..., None] * u)
+        if swing is not None:
+            hu, hv, hn = swing.rate
+            back = t + hn
+            given = out + hn[..., None] * normal + hv[..., None] * v
+            out = out - hu[..., None] * u
+            work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
         tau = frames.dot(given, e[..., i, :]) + own(i)
         work = work + own(i) * w[..., i] + lost
         flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
@@ -240,25 +237,44 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     )
 
 
-def _cross_rate(stand: Stand, inertia: Array, i: int, u: Array, v: Array, normal: Array) -> Array:
-    """Return Ḣ of cross i, array (..., p, 3) [N·m]: the rate of its angular momentum about its centre.
+@dataclass(frozen=True, eq=False)
+class _CrossSwing:
+    """Angular velocity of a cross and the rate of its angular momentum, along u, v and n, each (..., p)."""
+
+    turning: tuple[Array, Array, Array]
+    rate: tuple[Array, Array, Array]
+
+
+def _cross_swing(stand: Stand, inertia: Array, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing:
+    """Return how cross i turns and what that takes.
 
     Notes
     -----
-    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u.
+    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn with
+    the cross, so Euler's equations give Ḣ.
     """
+    u, v, normal = arms
     one, two = stand.turning(i), stand.turning(i + 1)
-    swept = frames.cross(one, u)
-    p = frames.dot(two - one, u)
-    gain = frames.dot(stand.turning_rate(i + 1) - stand.turning_rate(i), u) + frames.dot(two - one, swept)
-    spin = one + p[..., None] * u
-    rate = stand.turning_rate(i) + gain[..., None] * u + p[..., None] * swept
+    gain_one = stand.turning_rate(i)
+    a, b, c = (frames.dot(one, arm) for arm in arms)
+    # Ω_i×u = c' v - b' n in the frame of the cross, with b' and c' the parts of Ω_i along v and n.
+    p = frames.dot(two, u) - a
+    gain = frames.dot(stand.turning_rate(i + 1), u) + c * frames.dot(two - one, v) - b * frames.dot(two - one, normal)
+    turning = a + p, b, c
+    rates = gain, frames.dot(gain_one, v) + p * c, frames.dot(gain_one, normal) - p * b
+    rate = []
+    for k in range(3):
+        j, m = (k + 1) % 3, (k + 2) % 3
+        rate.append(inertia[..., k] * rates[k] + (inertia[..., m] - inertia[..., j]) * turning[j] * turning[m])
+    return _CrossSwing(turning, (rate[0], rate[1], rate[2]))
 
-    def momentum(turn: Array) -> Array:
-        parts = ((frames.dot(turn, arm), arm, inertia[..., k]) for k, arm in enumerate((u, v, normal)))
-        return sum((size * part)[..., None] * arm for part, arm, size in parts)
 
-    return momentum(rate) + frames.cross(spin, momentum(spin))
+def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[Array, Array]:
+    """Return the rates of cross i against its driving yoke about u and against the driven one about v [rad/s]."""
+    if stand.axis_rate is None:
+        return stand.speed[..., i + 1] * lean, stand.speed[..., i] * frames.dot(stand.axis[..., i, :], v)
+    one, two = stand.turning(i), stand.turning(i + 1)
+    return frames.dot(two - one, u), frames.dot(one - two, v)
 
 
 def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
