@@ -34,7 +34,7 @@ ROUNDS = 12
 SETTLED = 1e-13
 """Relative change of the friction in the supports at which the rounds end."""
 
-HELD = 1e-7
+HELD = 1e-5
 """As `RESTS` where supports rub: forces on them come near zero within a turn, and their heat is a small part."""
 
 
