@@ -5,11 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cardan import Drive, InputError
+from cardan import Drive, InputError, forces
 from cardan.analysis.assembly import assembly
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
+from cardan.drive.duty import Duty
 from cardan.drive.material import Material
+from cardan.drive.settings import Settings
 from cardan.drive.shaft import Spline
 from cardan.drive.support import Support
 from cardan.units import mm
@@ -52,6 +54,10 @@ def drive(count, supports, *, elastic=(), slides=None, splines=(), errors=None):
         for shaft in built.shafts
     ]
     return replace(built, joints=tuple(joints), shafts=tuple(shafts), supports=tuple(supports))
+
+
+def weightless(one):
+    return replace(one, settings=Settings(gravity=(0.0, 0.0, 0.0)))
 
 
 def frame(one):
@@ -143,6 +149,28 @@ def test_agrees_with_an_elastic_frame(one):
         np.testing.assert_allclose(found.couple[:, p], couple, atol=1e-8 * largest)
         assert found.energy[p] == pytest.approx(energy, rel=1e-7)
     assert found.degree > 0
+
+
+@pytest.mark.parametrize("one", CASES.values(), ids=CASES)
+def test_under_torque_the_frame_agrees_too(one):
+    found, other = forces(weightless(one), Duty(torque=500.0), ANGLES), frame(one)
+    errors = [[e.s1, e.a1, e.a2, e.a3, e.a4] if e else [0.0] * 5 for e in (joint.error for joint in one.joints)]
+    assert int(found.status) == 2
+    for p, angle in enumerate(ANGLES):
+        joint, force, couple, _energy = other.solve(angle, errors, 500.0)
+        largest = np.max(np.abs(force))
+        np.testing.assert_allclose(found.joint_force[:, p], joint, atol=1e-8 * largest)
+        np.testing.assert_allclose(found.reaction[:, p], force, atol=1e-8 * largest)
+        np.testing.assert_allclose(found.support_couple[:, p], couple, atol=1e-8 * largest)
+    assert np.max(found.force_left) < 1e-10  # thousands of newtons cancel
+    assert np.max(found.moment_left) < 1e-10
+
+
+def test_torque_without_stiffness_names_what_is_missing():
+    bare = [replace(s, stiffness=None) for s in (*FIRST, support(1, -0.2), support(2, 0.3))]
+    with pytest.raises(InputError, match=r"supports\[2\].stiffness") as caught:
+        forces(drive(1, bare), Duty(torque=1.0))
+    assert caught.value.field == "supports"
 
 
 @pytest.mark.parametrize("one", CASES.values(), ids=CASES)

@@ -65,7 +65,19 @@ class Frame:
         x1 = unit(np.cross(z[3], z[0]))
         return error @ np.asarray([one, x2, x3, x4, x1])
 
-    def solve(self, angle, errors):
+    def couples(self, angle, torque):
+        """Return (shaft, x, couple): what bends the shafts at their ends under a torque that resists the output."""
+        driving, driven = self.arms(angle)
+        found = []
+        for i in reversed(range(len(self.points) - 2)):
+            normal = np.cross(driving[i], driven[i])
+            whole = torque / (normal @ self.axes[i + 1]) * normal
+            found.append((i + 1, 0.0, whole))
+            found.append((i, self.lengths[i], -whole))
+            torque = whole @ self.axes[i]
+        return [(s, x, couple - (couple @ self.axes[s]) * self.axes[s]) for s, x, couple in found]
+
+    def solve(self, angle, errors, torque=0.0):
         """Return joint forces on the later shaft, bearing forces and couples on their shafts, and the energy."""
         nodes = []
         for s, length in enumerate(self.lengths):
@@ -118,6 +130,8 @@ class Frame:
             push[place] += spring @ np.asarray(b.offset)
             turn = at(b.shaft, b.x, 1)
             stiff[turn, turn] += b.tilt * across
+        for s, x, couple in self.couples(angle, torque) if torque else ():
+            push[at(s, x, 1)] += couple
         joint_ties = []
         for i in range(len(self.points) - 2):
             u, v = (arm[i] for arm in self.arms(angle))

@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.drive.accuracy import Error
-from cardan.drive.chain import chain
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.material import Material
-from cardan.drive.parts import known_lengths
-from cardan.drive.shaft import Shaft
-from cardan.drive.solids import arms
-from cardan.drive.support import Support
+from cardan.drive.train import Train, lengths_off, train
 from cardan.drive.validity import wrong_count
-from cardan.errors import Problem, check, refuse
+from cardan.errors import check, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.peaks import peaks
 from cardan.texts import _
 
-from .held import HOLDS, Actions, Hold, Layout, actions, shaft_flexibility
-from .misfit import Crosses, Misfit, conditions, crosses, joint_gap, misfit
+from .elastic import compliance, gaps, housing_gap, refuse_soft
+from .held import Hold
+from .kinetostatics import standing
+from .misfit import Misfit, crosses, misfit
 from .motion import positions
+from .reactions import Frame, forces_of, frame
 from .redundancy import Redundancy, redundancy
-
-STIFFNESS: dict[Hold, str] = {"radial": "stiffness", "axial": "axial_stiffness", "tilt": "tilt_stiffness"}
-"""Key of a support that says how stiff it holds."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -167,12 +161,9 @@ def assembly(
     """
     question = _question(drive, errors)
     phi = positions(angle, np)
-    answer, gap = question.answer(phi)
-    layout = question.layout
-    reaction, couple = question.reactions(answer)
-    joint_force = question.joint_forces(answer)
+    answer, gap, joint_force, reaction, couple = question.forces(phi)
     highest, place = _peaks(question, phi)
-    n, k = layout.joints, len(layout.bearings)
+    n, k = len(drive.joints), len(drive.supports)
     found = [Peak(value=float(value), angle=float(at)) for value, at in zip(highest, place, strict=True)]
     return AssemblyForces(
         angle=phi,
@@ -180,7 +171,7 @@ def assembly(
         reaction=reaction,
         couple=couple,
         axis=question.bearing_axes,
-        gap=np.moveaxis(gap, 0, 1),
+        gap=gap,
         energy=answer.energy,
         torque=answer.torque,
         joint_peak=tuple(found[:n]),
@@ -192,7 +183,7 @@ def assembly(
         degree=question.redundancy.degree,
         strained=_keys(question.redundancy.strained),
         spare=_keys(question.redundancy.spare),
-        rigid=question.rigid,
+        rigid=tuple(shaft.number for shaft in drive.shafts if shaft.outer is None),
         residual=question.residual(joint_force, reaction, couple),
     )
 
@@ -201,53 +192,39 @@ def assembly(
 class _Question:
     """A drive as the arrays its assembly forces follow from, to be asked for any angles."""
 
-    drive: Drive
+    whole: Train
     place: Geometry
-    layout: Layout
-    acting: Actions
-    position: Array
-    error: Array
-    compliance: Array
-    housing: Array
     redundancy: Redundancy
     strained: bool
-    rigid: tuple[int, ...]
 
     @property
     def bearing_axes(self) -> Array:
         """Direction of the shaft at each support, array (k, 3)."""
-        return self.place.axis[[shaft for shaft, _holds in self.layout.bearings]]
+        return self.place.axis[[shaft for shaft, _holds in self.whole.bearings]]
 
-    def answer(self, angle: Array) -> tuple[Misfit, Array]:
-        """Return forces and gaps at the angles (p,)."""
-        stand = _stand(self.drive, self.place, angle)
-        gap = joint_gap(self.place.axis, self.place.normal, stand, self.error)
+    def answer(self, angle: Array) -> tuple[Misfit, Array, Frame]:
+        """Return forces and gaps at the angles (p,), and the frame they belong to."""
+        stand = standing(self.whole.chain, self.place.axis, self.place.normal, angle, speed=1.0)
+        held = frame(self.whole, stand, self.whole.points[None])
+        arms = crosses(stand.axis, stand.driving_arm, stand.driven_arm)
+        gap = gaps(self.whole, held, arms)
         if not self.strained:
             none = np.zeros(angle.shape)
-            return Misfit(unknowns=np.zeros((angle.size, self.housing.size)), energy=none, torque=none), gap[0]
-        return misfit(self.acting, self.layout, stand, self.compliance, gap, self.housing), gap[0]
+            zero = np.zeros((angle.size, held.matrix.shape[-1]))
+            return Misfit(unknowns=zero, energy=none, torque=none), gap[0], held
+        soft, housing = compliance(self.whole, held), housing_gap(self.whole, held)
+        return misfit(held.acting, held.layout, arms, soft, gap, housing), gap[0], held
 
-    def joint_forces(self, answer: Misfit) -> Array:
-        """Return the joint forces, array (n, p, 3)."""
-        forces = answer.unknowns[:, : 3 * self.layout.joints]
-        return np.moveaxis(forces.reshape(len(forces), -1, 3), 0, 1)
-
-    def reactions(self, answer: Misfit) -> tuple[Array, Array]:
-        """Return forces and couples of the supports on their shafts, arrays (k, p, 3)."""
-        count = len(self.layout.bearings)
-        force = np.zeros((count, len(answer.unknowns), 3))
-        couple = np.zeros_like(force)
-        for k, (shaft, holds) in enumerate(self.layout.bearings):
-            for hold in holds:
-                columns = self.layout.columns(k, hold)
-                table = self.acting.couple if hold == "tilt" else self.acting.force
-                amount = answer.unknowns[:, columns] @ table[shaft, columns]
-                (couple if hold == "tilt" else force)[k] += amount
-        return force, couple
+    def forces(self, angle: Array) -> tuple[Misfit, Array, Array, Array, Array]:
+        """Return energy and torque, gaps, joint forces, reactions and couples, parts before positions."""
+        answer, gap, held = self.answer(angle)
+        tables = (gap, *forces_of(held, answer.unknowns))
+        gap, joint, reaction, couple = (np.moveaxis(table, 0, 1) for table in tables)
+        return answer, gap, joint, reaction, couple
 
     def residual(self, joint_force: Array, reaction: Array, couple: Array) -> float:
         """Return what is left of the balance, by plain sums about the first point of the drive."""
-        points, shafts = self.place.points, self.layout.joints + 1
+        points, shafts = self.place.points, self.whole.joints + 1
         largest = max(float(np.max(np.abs(joint_force))), float(np.max(np.abs(reaction))))
         if largest == 0.0:
             return 0.0
@@ -259,9 +236,9 @@ class _Question:
             for s, sign in ((i, -1.0), (i + 1, 1.0)):
                 force[s] += sign * pull
                 moment[s] += sign * turn
-        for k, (s, _holds) in enumerate(self.layout.bearings):
+        for k, (s, _holds) in enumerate(self.whole.bearings):
             force[s] += reaction[k]
-            at = arm[s] + self.position[k] * self.place.axis[s]
+            at = arm[s] + np.asarray(self.whole.position)[k] * self.place.axis[s]
             moment[s] += couple[k] + np.cross(at, reaction[k])
         reach = float(np.max(np.abs(arm)))
         rests = [force, moment / reach, force.sum(axis=0), moment.sum(axis=0) / reach]
@@ -272,111 +249,40 @@ def _keys(holds: tuple[tuple[int, Hold], ...]) -> tuple[str, ...]:
     return tuple(f"supports[{k}].{hold}" for k, hold in holds)
 
 
-def _stand(drive: Drive, place: Geometry, angle: Array) -> Crosses:
-    stand = arms(place, chain(drive), angle)
-    return crosses(place.axis, np.moveaxis(stand.driving, 0, 1), np.moveaxis(stand.driven, 0, 1))
-
-
 def _question(drive: Drive, errors: Sequence[Error | None] | None) -> _Question:
     if not drive.supports:
         raise refuse("supports", _("missing; assembly forces come from how the shafts are held"))
     given = [joint.error for joint in drive.joints] if errors is None else list(errors)
     check(wrong_count("errors", given, len(drive.joints)))
-    known = known_lengths(drive)
-    check(
-        Problem(f"shafts[{number - 1}].length", _("missing; the balance of moments needs it"))
-        for number in range(2, len(drive.joints) + 1)
-        if number not in known
-    )
+    whole = replace(train(drive), error=lengths_off(given))
     place = geometry(drive)
-    layout = Layout(
-        joints=len(drive.joints),
-        bearings=tuple((s.shaft - 1, tuple(h for h in HOLDS if getattr(s, h))) for s in drive.supports),
-        slides=tuple(_slides(joint.cross.slides if joint.cross else False) for joint in drive.joints),
-        splines=tuple(shaft.number - 1 for shaft in drive.shafts if shaft.spline),
+    slides = any(map(any, whole.slides))
+    stand = standing(
+        whole.chain, place.axis, place.normal, positions(None, np)[::8] if slides else np.zeros(1), speed=1.0
     )
-    position = np.asarray([s.position + (place.length[0] if s.shaft == 1 else 0.0) for s in drive.supports])
-    cuts = [_cut(shaft, float(place.length[shaft.number - 1])) for shaft in drive.shafts if shaft.spline]
-    acting = actions(place.axis, place.length, layout, position, np.asarray(cuts))
-    error = np.asarray([[e.s1, e.a1, e.a2, e.a3, e.a4] if e else [0.0] * 5 for e in given])
-    stand = _stand(drive, place, positions(None, np)[::8] if any(map(any, layout.slides)) else np.zeros(1))
-    found = redundancy(conditions(acting, layout, stand), layout)
-    off = bool(np.any(error)) or any(any(s.offset) for s in drive.supports)
+    held = frame(whole, stand, whole.points[None])
+    found = redundancy(held.matrix, held.layout)
+    off = bool(np.any(whole.error)) or bool(np.any(whole.offset))
     if off:
-        check(_soft(drive.supports, found))
-    bends, pulls = np.asarray([_body(shaft) for shaft in drive.shafts]).T
-    return _Question(
-        drive=drive,
-        place=place,
-        layout=layout,
-        acting=acting,
-        position=position,
-        error=error,
-        compliance=_bearing_compliance(drive.supports, layout) + shaft_flexibility(acting, bends, pulls),
-        housing=_housing(drive.supports, layout, acting),
-        redundancy=found,
-        strained=off and found.degree > 0,
-        rigid=tuple(shaft.number for shaft in drive.shafts if shaft.outer is None),
-    )
-
-
-def _slides(along: bool | str) -> tuple[bool, bool]:
-    return along is True or along == "driving", along is True or along == "driven"
-
-
-def _cut(shaft: Shaft, length: float) -> float:
-    given = shaft.spline.position if shaft.spline else None
-    return 0.5 * length if given is None else given
-
-
-def _soft(supports: Sequence[Support], found: Redundancy) -> list[Problem]:
-    """Return which stiffness is missing of what takes part in the forces."""
-    text = _("missing; the drive is held by {degree} more than statics can tell, so forces follow from stiffness")
-    return [
-        Problem(f"supports[{k}].{STIFFNESS[hold]}", text.format(degree=found.degree))
-        for k, hold in found.strained
-        if getattr(supports[k], STIFFNESS[hold]) is None
-    ]
-
-
-def _bearing_compliance(supports: Sequence[Support], layout: Layout) -> Array:
-    size = np.zeros(len(layout.unknowns))
-    for k, (_shaft, holds) in enumerate(layout.bearings):
-        for hold in holds:
-            size[layout.columns(k, hold)] = 1.0 / (getattr(supports[k], STIFFNESS[hold]) or math.inf)
-    return np.diag(size)
-
-
-def _housing(supports: Sequence[Support], layout: Layout, acting: Actions) -> Array:
-    """Return the offsets of the housings in the directions of the unknowns, array (u,) [m]."""
-    off = np.zeros(len(layout.unknowns))
-    for k, (shaft, holds) in enumerate(layout.bearings):
-        for hold in holds:
-            columns = layout.columns(k, hold)
-            off[columns] = acting.force[shaft, columns] @ np.asarray(supports[k].offset)
-    return off
-
-
-def _body(shaft: Shaft) -> tuple[float, float]:
-    """Return 1/EI and 1/EA of a shaft, zero where its body is not given."""
-    if shaft.outer is None:
-        return 0.0, 0.0
-    inner = shaft.inner if shaft.inner is not None else shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
-    youngs = (shaft.material or Material()).youngs
-    area = 0.25 * math.pi * (shaft.outer**2 - inner**2)
-    return 64.0 / (math.pi * youngs * (shaft.outer**4 - inner**4)), 1.0 / (youngs * area)
+        refuse_soft(whole, found)
+    return _Question(whole=whole, place=place, redundancy=found, strained=off and found.degree > 0)
 
 
 def _peaks(question: _Question, angle: Array) -> tuple[Array, Array]:
     """Return the largest of every curve over the angles and where: joints, radial, axial, couples, energy, torque."""
 
     def curves(phi: Array) -> Array:
-        answer, _gap = question.answer(phi)
-        force, couple = question.reactions(answer)
+        answer, _gap, joint_force, force, couple = question.forces(phi)
         along = frames.dot(force, question.bearing_axes[:, None, :])
         across = frames.norm(force - along[..., None] * question.bearing_axes[:, None, :])
-        joints = frames.norm(question.joint_forces(answer))
-        rows = (joints, across, np.abs(along), frames.norm(couple), answer.energy[None], np.abs(answer.torque)[None])
+        rows = (
+            frames.norm(joint_force),
+            across,
+            np.abs(along),
+            frames.norm(couple),
+            answer.energy[None],
+            np.abs(answer.torque)[None],
+        )
         return np.concatenate(rows)
 
     place, value = peaks(curves, angle, curves(angle))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from cardan.maths.paths import Path
 from cardan.texts import _
 
 from .cross_loads import JournalLoads, journal_loads
+from .elastic import elastic, refuse_soft
 from .kinetostatics import Couples, Stand, couples, standing, swinging
 from .motion import positions
 from .moving_chain import moving_centres
@@ -71,7 +72,7 @@ class Forces:
     force_left, moment_left : arrays (..., p) or None
         What the external forces and moments on the whole drive leave, over the largest of them.
     status : array of int (...)
-        `Held`: whether the supports hold the drive just enough.
+        `Held`: whether the supports hold the drive just enough; what is held too much shares by stiffness.
     equations, unknowns : int
         Of the balance of all shafts.
     reverse : Forces or None
@@ -169,7 +170,8 @@ def forces(
     Raises
     ------
     InputError
-        No torque, a shaft that is not held, more supports than statics can tell, or something that would need a speed.
+        No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, or something
+        that would need a speed.
 
     Notes
     -----
@@ -388,7 +390,9 @@ def _answer(
         equations, unknowns = held.equations, held.unknowns
         loads = weights(whole, held, stand, acceleration)
         known = right_side(held, found.secondary, loads, push)
-        amounts, status = _amounts(held, known, field)
+        amounts, status = _amounts(
+            whole, held, known, field, lambda: elastic(whole, held, stand, found, loads, push, known)
+        )
         joint_force, reaction, turn = forces_of(held, amounts)
         force_left, moment_left = whole_balance(whole, held, stand, found, loads, (reaction, turn), output)
         carried_by = [joint_force - _cross_pull(whole, loads, joint_force), joint_force]
@@ -440,28 +444,24 @@ def _cross_pull(whole: Train, loads: list[Load], like: Array) -> Array:
     return xp.stack(rows, axis=-2)
 
 
-def _amounts(held: Frame, known: Array, field: str) -> tuple[Array, Array]:
-    """Return the unknowns, and whether each drive is held just enough; a single drive that is not is refused."""
+def _amounts(whole: Train, held: Frame, known: Array, field: str, share: Callable[[], Array]) -> tuple[Array, Array]:
+    """Return the unknowns, and whether each drive is held just enough; what is held too much shares by stiffness.
+
+    A single drive that is loose, or whose forces follow from a stiffness not given, is refused.
+    """
     xp = namespace(known)
-    square = held.matrix.shape[-1] == held.matrix.shape[-2]
-    if square:
+    rows, columns = held.matrix.shape[-2:]
+    fits = xp.zeros(known.shape[:-2], dtype=xp.bool)
+    amounts = xp.full((*known.shape[:-1], columns), xp.nan)
+    if rows == columns:
         amounts, regular = solved(held, known)
         fits = xp.all(regular, axis=-1)
         if bool(xp.all(fits)):
             return amounts, xp.where(fits, 0, 1)
-    else:
-        amounts = xp.full((*known.shape[:-1], held.matrix.shape[-1]), xp.nan)
-        fits = xp.zeros(known.shape[:-2], dtype=xp.bool)
     if known.ndim == 2:
         many = redundancy(np.asarray(held.matrix), held.layout, field=field)
-        if many.degree:
-            raise refuse(field, _too_many(many.degree))
-    loose = held.matrix.shape[-1] <= held.matrix.shape[-2]
-    return amounts, xp.where(fits, int(Held.DETERMINATE), int(Held.LOOSE if loose else Held.INDETERMINATE))
-
-
-def _too_many(degree: int) -> str:
-    return _(
-        "the shafts are held by {degree} forces or couples more than statics can tell; take supports away, let them "
-        "slide or tilt, or ask for the forces of assembly with their stiffness"
-    ).format(degree=degree)
+        refuse_soft(whole, many, field)
+        return share() if many.degree else amounts, xp.where(fits, int(Held.DETERMINATE), int(Held.INDETERMINATE))
+    if columns > rows and whole.stiffness is not None:
+        amounts = share()
+    return amounts, xp.where(fits, int(Held.DETERMINATE), int(Held.LOOSE if columns <= rows else Held.INDETERMINATE))

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
-from cardan.analysis.held import Hold, Layout, actions, balance, shaft_flexibility
+from cardan.analysis.forces import kinetostatics
+from cardan.analysis.held import Hold, Layout, actions, shaft_flexibility
 from cardan.analysis.misfit import Crosses, crosses, joint_gap, misfit
-from cardan.analysis.redundancy import redundancy
-from cardan.drive.drives import Drives
-from cardan.drive.geometry import geometry_from_points
-from cardan.errors import Problem, check
+from cardan.drive.train import train_of_points
+from cardan.errors import Problem
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.maths.peaks import peaks
-from cardan.maths.redundant import least_energy
 from cardan.texts import _
 from cardan.units import mm
 
@@ -33,8 +32,8 @@ BEARINGS = rows(
     given("x_from_shaft_start_m", _("place along the power flow from the point before"), "length"),
     given("radial", _("whether it holds across"), kind="flag", default=True),
     given("axial", _("whether it holds along the shaft"), kind="flag", default=False),
-    given("k_radial_N_m", _("radial stiffness in N/m"), above=0.0, default=None),
-    given("k_axial_N_m", _("axial stiffness in N/m"), above=0.0, default=None),
+    given("k_radial_N_m", _("radial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
+    given("k_axial_N_m", _("axial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
     given("housing_offset_m", _("displacement of its housing"), "length", axes=(1,), width=3, default=None),
 )
 
@@ -99,6 +98,8 @@ def _bearings(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     if "points" not in values or "bearings" not in values:
         return
     shafts = len(values["points"]) - 1
+    if not values["bearings"]:
+        yield Problem(key("bearings"), _("an empty list holds no shaft"))
     for k, bearing in enumerate(values["bearings"]):
         if bearing.get("shaft", 0) > shafts:
             text = _("there is no shaft {number}; the shafts are 1 to {last}")
@@ -110,63 +111,33 @@ def _bearings(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 def _elastic(values: Values) -> Values:
     """Return the reactions of bearings that give way, in the housings where they are."""
     bearings = values["bearings"]
-    place = geometry_from_points(values["points"])
-    axis, normal = place.axis, place.normal
-    ends: list[tuple[int, tuple[Hold, ...]]] = []
-    for bearing in bearings:
-        holds: tuple[Hold, ...] = ("radial", "axial") if bearing["axial"] else ("radial",)
-        ends.append((bearing["shaft"] - 1, holds if bearing["radial"] else ("axial",)))
-    layout = Layout(joints=len(normal), bearings=tuple(ends))
-    where = np.asarray([bearing["x_from_shaft_start"] for bearing in bearings], dtype=float)
-    acting = actions(axis, place.length, layout, where)
-    matrix = balance(acting)
-    found = redundancy(matrix, layout, field="bearings")
-    soft, off = np.zeros(len(layout.unknowns)), np.zeros(len(layout.unknowns))
-    missing: list[str] = []
-    for k, (shaft, kinds) in enumerate(layout.bearings):
-        for hold in kinds:
-            columns = layout.columns(k, hold)
-            stiffness = bearings[k][f"k_{hold}_N_m"]
-            if stiffness is None and (k, hold) in found.strained:
-                missing.append(f"bearings[{k}].k_{hold}_N_m")
-            soft[columns] = 1.0 / stiffness if stiffness else 0.0
-            if bearings[k]["housing_offset"] is not None:
-                off[columns] = acting.force[shaft, columns] @ bearings[k]["housing_offset"]
-    if missing:
-        text = _("held by {degree} more than statics can tell: reactions follow from stiffness; give {keys}")
-        check([Problem("bearings", text.format(degree=found.degree, keys=", ".join(missing)))])
-    couple = _secondary(values, axis, normal)
-    load = np.zeros(matrix.shape[0])
-    size = float(np.mean(place.length))
-    for s in range(len(axis)):
-        load[5 * s + 3 : 5 * s + 5] = -acting.across[s] @ couple[s] / size
-    amount, _give = least_energy(matrix, load, np.diag(soft), off)
-    reaction = [
-        sum(amount[layout.columns(k, h)] @ acting.force[s, layout.columns(k, h)] for h in kinds)
-        for k, (s, kinds) in enumerate(layout.bearings)
+    kinds = [(bearing["shaft"] - 1, _holds(bearing)) for bearing in bearings]
+    stiffness = [
+        [math.nan if one is None else one for one in (bearing["k_radial_N_m"], bearing["k_axial_N_m"], None)]
+        for bearing in bearings
     ]
-    return {"degree_of_indeterminacy": found.degree, "bearing_reaction_N": np.asarray(reaction)}
+    offset = [
+        (0.0, 0.0, 0.0) if bearing["housing_offset"] is None else bearing["housing_offset"] for bearing in bearings
+    ]
+    whole = train_of_points(
+        values["points"],
+        yoke_angle=values["gamma"],
+        start_phase=values["psi1"],
+        bearings=tuple(kinds),
+        position=np.asarray([bearing["x_from_shaft_start"] for bearing in bearings], dtype=float),
+        stiffness=np.asarray(stiffness),
+        offset=np.asarray(offset, dtype=float),
+    )
+    found = kinetostatics(whole, np.atleast_1d(values["phi1"]), torque=values["M_out"], field="bearings")
+    return {
+        "degree_of_indeterminacy": found.unknowns - found.equations,
+        "bearing_reaction_N": np.asarray(found.reaction)[:, 0],
+    }
 
 
-def _secondary(values: Values, axis: Array, normal: Array) -> Array:
-    """Return the couples of the joints on each shaft, array (n+1, 3) [N·m]."""
-    first = frames.cross(normal[0], axis[0])
-    chain = Drives.from_points(values["points"], yoke_angle=values["gamma"], start_phase=values["psi1"]).chain
-    driving = frames.rotate(first, axis[0], np.asarray(values["phi1"] + values["psi1"]))
-    crossing: list[Array] = []
-    for i in range(len(normal)):
-        driven = frames.unit(frames.cross(axis[i + 1], driving))
-        crossing.append(frames.cross(driving, driven))
-        if i + 1 < len(normal):
-            driving = frames.rotate(driven, axis[i + 1], -chain.yoke_angle[i])
-    torque = values["M_out"]
-    couple = np.zeros_like(axis)
-    for i in reversed(range(len(normal))):
-        whole = torque / (crossing[i] @ axis[i + 1]) * crossing[i]
-        couple[i + 1] += whole
-        couple[i] -= whole
-        torque = whole @ axis[i]
-    return couple - frames.dot(couple, axis)[..., None] * axis
+def _holds(bearing: Values) -> tuple[Hold, ...]:
+    held: dict[Hold, bool] = {"radial": bearing["radial"], "axial": bearing["axial"]}
+    return tuple(hold for hold, there in held.items() if there)
 
 
 CALCULATIONS = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -13,6 +13,7 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
+from .accuracy import Error
 from .chain import Chain, chain
 from .drive import Drive
 from .geometry import geometry, geometry_from_points
@@ -20,6 +21,7 @@ from .joints import Joint
 from .material import Material
 from .parts import known_lengths
 from .shaft import Shaft
+from .support import Support
 
 Hold: TypeAlias = Literal["radial", "axial", "tilt"]
 
@@ -78,6 +80,16 @@ class Train:
         Thrust over torque, 2 μ/d.
     sliding : array (..., number of splines)
         +1 where friction pushes the parts apart, as when the shaft grows shorter, -1 where it pulls them together.
+    stiffness : array (..., k, 3) [N/m, N/m, N·m/rad]
+        Of each support: radial, axial, against tilting; nan where it is not given.
+    offset : array (..., k, 3) [m]
+        How far the housing of each support is off.
+    bending : array (..., n+1) [1/(N m²)]
+        1/EI of each shaft; zero where it counts as rigid.
+    stretching : array (..., n+1) [1/N]
+        1/EA of each shaft; zero where it counts as rigid.
+    error : array (..., n, 5) [m]
+        Errors of length of each joint: s_1, a_1, a_2, a_3, a_4.
     assumed : tuple of str
         Paths of what the drive does not say and the answers assume.
     """
@@ -101,6 +113,11 @@ class Train:
     cut: Array | None = None
     grip: Array | None = None
     sliding: Array | None = None
+    stiffness: Array | None = None
+    offset: Array | None = None
+    bending: Array | None = None
+    stretching: Array | None = None
+    error: Array | None = None
     assumed: tuple[str, ...] = ()
 
     @property
@@ -201,8 +218,46 @@ def train(drive: Drive) -> Train:
         cut=np.asarray([_cut(shaft, length[shaft.number - 1]) for shaft in splined]),
         grip=np.asarray([_grip(shaft) for shaft in splined]),
         sliding=np.asarray([SLIDING[shaft.spline.sliding] for shaft in splined if shaft.spline is not None]),
+        stiffness=np.asarray([_stiffness(support) for support in drive.supports]),
+        offset=np.asarray([support.offset for support in drive.supports]),
+        bending=np.asarray([soft[0] for soft in map(_softness, drive.shafts)]),
+        stretching=np.asarray([soft[1] for soft in map(_softness, drive.shafts)]),
+        error=lengths_off([joint.error for joint in drive.joints]),
         assumed=tuple(assumed),
     )
+
+
+def lengths_off(errors: Sequence[Error | None]) -> Array:
+    """Return the errors of length of each joint, array (n, 5) [m].
+
+    Examples
+    --------
+    >>> lengths_off([Error(s1=1e-5), None])[:, 0]
+    array([1.e-05, 0.e+00])
+    """
+    given = [one or Error() for one in errors]
+    return np.asarray([[one.s1, one.a1, one.a2, one.a3, one.a4] for one in given])
+
+
+def _stiffness(support: Support) -> list[float]:
+    given = support.stiffness, support.axial_stiffness, support.tilt_stiffness
+    return [math.nan if one is None else one for one in given]
+
+
+def _inner(shaft: Shaft) -> float:
+    """Return the inner diameter of a body [m]."""
+    if shaft.outer is None or shaft.inner is not None:
+        return shaft.inner or 0.0
+    return shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
+
+
+def _softness(shaft: Shaft) -> tuple[float, float]:
+    """Return 1/EI and 1/EA of a shaft, zero where its body is not given."""
+    if shaft.outer is None:
+        return 0.0, 0.0
+    youngs, inner = (shaft.material or Material()).youngs, _inner(shaft)
+    area = 0.25 * math.pi * (shaft.outer**2 - inner**2)
+    return 64.0 / (math.pi * youngs * (shaft.outer**4 - inner**4)), 1.0 / (youngs * area)
 
 
 def _numbers(values: list[float | None]) -> Array:
@@ -259,7 +314,7 @@ def _body(shaft: Shaft, length: float | None) -> tuple[float | None, float | Non
     """Return mass, inertia about the axis, inertia across and centre of mass; None where neither given nor derived."""
     mass = inertia = across = centre = None
     if shaft.outer is not None and length is not None:
-        inner = shaft.inner if shaft.inner is not None else shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
+        inner = _inner(shaft)
         density = (shaft.material or Material()).density
         mass = 0.25 * math.pi * density * (shaft.outer**2 - inner**2) * length
         square = shaft.outer**2 + inner**2

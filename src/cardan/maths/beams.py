@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .arrays import Array, namespace
+from .frames import cross
 
 
 def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array) -> Array:
@@ -40,29 +41,45 @@ def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array) 
     >>> round(float(x @ f @ x) * 48, 12)
     8.0
     """
-    xp = namespace(axis, place, force, couple)
+    loads = place, force, couple
+    return bending_between(axis, loads, loads, end)
+
+
+def bending_between(
+    axis: Array, one: tuple[Array, Array, Array], other: tuple[Array, Array, Array], end: Array
+) -> Array:
+    """Return the bending flexibilities between two sets of loads, array (..., u, w); see `bending`.
+
+    Parameters
+    ----------
+    axis : array (..., 3)
+        Unit vector along the beam.
+    one, other : (array (..., u) [m], array (..., u, 3), array (..., u, 3))
+        Places, forces and couples of each set.
+    end : array (...) [m]
+        Any place behind all loads.
+    """
+    xp = namespace(axis, *one, *other)
     e = axis[..., None, :]
-    t = force - xp.sum(force * e, axis=-1)[..., None] * e
-    m = couple - xp.sum(couple * e, axis=-1)[..., None] * e
-    turned = xp.stack(
-        (
-            e[..., 1] * t[..., 2] - e[..., 2] * t[..., 1],
-            e[..., 2] * t[..., 0] - e[..., 0] * t[..., 2],
-            e[..., 0] * t[..., 1] - e[..., 1] * t[..., 0],
-        ),
-        axis=-1,
-    )
-    first, second = place[..., :, None], place[..., None, :]
+
+    def parts(force: Array, couple: Array) -> tuple[Array, Array, Array]:
+        t = force - xp.sum(force * e, axis=-1)[..., None] * e
+        m = couple - xp.sum(couple * e, axis=-1)[..., None] * e
+        return t, m, cross(e + 0.0 * t, t)
+
+    t1, m1, turned1 = parts(one[1], one[2])
+    t2, m2, turned2 = parts(other[1], other[2])
+    first, second = one[0][..., :, None], other[0][..., None, :]
     start = xp.maximum(first, second)
     h = end[..., None, None] - start
-    apart = xp.abs(first - second)
 
-    def products(one: Array, other: Array) -> Array:
-        return xp.matmul(one, xp.matrix_transpose(other))
+    def products(a: Array, b: Array) -> Array:
+        return xp.matmul(a, xp.matrix_transpose(b))
 
-    forces = products(t, t) * (h**3 / 3.0 + apart * h**2 / 2.0)
-    mixed = products(m, turned) * (h**2 / 2.0 + (start - second) * h)
-    return forces - mixed - xp.matrix_transpose(mixed) + products(m, m) * h
+    forces = products(t1, t2) * (h**3 / 3.0 + xp.abs(first - second) * h**2 / 2.0)
+    mixed = products(m1, turned2) * (h**2 / 2.0 + (start - second) * h)
+    mixed = mixed + products(turned1, m2) * (h**2 / 2.0 + (start - first) * h)
+    return forces - mixed + products(m1, m2) * h
 
 
 def stretching(axis: Array, place: Array, force: Array, end: Array, cut: Array | None = None) -> Array:
@@ -94,15 +111,35 @@ def stretching(axis: Array, place: Array, force: Array, end: Array, cut: Array |
     >>> float(np.ones(2) @ f @ np.ones(2))
     1.5
     """
-    xp = namespace(axis, place, force)
-    along = xp.sum(force * axis[..., None, :], axis=-1)
-    start = xp.maximum(place[..., :, None], place[..., None, :])
+    loads = place, force
+    return stretching_between(axis, loads, loads, end, cut)
+
+
+def stretching_between(
+    axis: Array, one: tuple[Array, Array], other: tuple[Array, Array], end: Array, cut: Array | None = None
+) -> Array:
+    """Return the axial flexibilities between two sets of loads, array (..., u, w); see `stretching`.
+
+    Parameters
+    ----------
+    axis : array (..., 3)
+        Unit vector along the beam.
+    one, other : (array (..., u) [m], array (..., u, 3))
+        Places and forces of each set.
+    end : array (...) [m]
+        Any place behind all loads.
+    cut : array (...) [m], optional
+        Place of a joint that slides freely.
+    """
+    xp = namespace(axis, *one, *other)
+    along = [xp.sum(force * axis[..., None, :], axis=-1) for _place, force in (one, other)]
+    start = xp.maximum(one[0][..., :, None], other[0][..., None, :])
     last = end[..., None, None]
     if cut is None:
         length = last - start
     else:
         divide = cut[..., None, None]
-        before = place < cut[..., None]
-        same = before[..., :, None] == before[..., None, :]
-        length = xp.where(same, xp.where(before[..., :, None], divide, last) - start, 0.0)
-    return along[..., :, None] * along[..., None, :] * length
+        before = [place < cut[..., None] for place, _force in (one, other)]
+        same = before[0][..., :, None] == before[1][..., None, :]
+        length = xp.where(same, xp.where(before[0][..., :, None], divide, last) - start, 0.0)
+    return along[0][..., :, None] * along[1][..., None, :] * length
