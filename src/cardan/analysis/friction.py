@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
+from cardan.drive.train import FIT
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.elliptic import complete
@@ -43,10 +44,9 @@ def reduced_friction(material: ArrayLike, *, fit: str = "new") -> Array:
     >>> print(reduced_friction(0.1), reduced_friction(0.1, fit="run_in"))
     0.15707963 0.12732395
     """
-    xp = namespace(material)
-    if fit not in ("new", "run_in"):
-        raise refuse("fit", _("{value} is none of {choices}").format(value=repr(fit), choices="new, run_in"))
-    return real(material, xp) * (0.5 * xp.pi if fit == "new" else 4.0 / xp.pi)
+    if fit not in FIT:
+        raise refuse("fit", _("{value} is none of {choices}").format(value=repr(fit), choices=", ".join(FIT)))
+    return FIT[fit] * real(material, namespace(material))
 
 
 def swings(sine: Array, cosine: Array, bend: Array) -> tuple[Array, Array]:
