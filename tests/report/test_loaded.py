@@ -1,0 +1,76 @@
+"""Parts of the report under load: present where the file says enough, with the numbers of the analyses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan.analysis.forces import forces
+from cardan.figures.wording import significant
+from cardan.io import example, example_names
+from cardan.maths import frames
+from cardan.report.report import page
+from cardan.report.subject import asked
+
+from .test_report import parsed
+
+WITH = {
+    "truck-supports": {"forces"},
+    "pto-spline-thrust": {"forces"},
+    "instrument-joint": {"forces"},
+    "overconstrained-pump": {"forces"},
+}
+"""Examples with parts of their own."""
+
+PARTS = {"forces"}
+
+
+def words(drive):
+    return "".join(parsed(page(drive)).words)
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_each_part_stands_only_where_the_file_asks_for_it(name):
+    assert PARTS & set(parsed(page(example(name))).ids) == WITH.get(name, set())
+
+
+@pytest.mark.parametrize("name", WITH)
+def test_every_check_passes(name):
+    from cardan.report.loaded import loaded
+
+    tables = [
+        item
+        for part in loaded(asked(example(name), None, None))
+        for item in part.blocks
+        if getattr(item, "title", "") == "Checks"
+    ]
+    assert len(tables) == len(WITH[name])
+    assert {row[-1].tone for table in tables for row in table.rows} == {"good"}
+
+
+def test_stopped_by_the_reader_no_part_is_added():
+    text = page(example("truck-supports"), progress=lambda share: "stop")
+    assert not PARTS & set(parsed(text).ids)
+
+
+def test_forces_says_what_the_worst_support_takes():
+    drive = example("truck-supports")
+    found = forces(drive)
+    top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
+    text = words(drive)
+    assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
+    assert significant(float(np.max(found.journals.size[1]))) in text
+
+
+def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
+    drive = example("overconstrained-pump")
+    rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
+    text = words(replace(drive, supports=rigid))
+    assert "more than statics can tell" in text
+    assert "Torque and secondary couple of every shaft" in text
+    assert "What the supports take" not in text
+
+
+def test_a_loose_shaft_is_named():
+    drive = example("truck-supports")
+    assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
