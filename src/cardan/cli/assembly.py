@@ -153,7 +153,7 @@ def _remarks(drive: Drive, file: Path, found: AssemblyForces) -> Iterator[Remark
     if found.degree:
         strained = found.energy_peak.value > 0.0
         if strained:
-            text = _("These forces come on top of those of the torque. The strain stores up to {energy} J")
+            text = _("These forces are there without any torque. The strain stores up to {energy} J")
             text = text.format(energy=significant(found.energy_peak.value, 3))
             if found.torque_peak.value > 1e-9 * found.energy_peak.value:
                 text += _("; turning against it takes up to {torque} N·m, at {angle:.1f}°").format(

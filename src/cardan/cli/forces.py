@@ -278,7 +278,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
         held = plural("{n} force", "{n} forces", surplus).format(n=surplus)
-        text = _("Warning: the bearings hold {held} too many, shared here by stiffness as if all parts fitted.")
+        text = _("Warning: the bearings hold {held} too many, shared here by stiffness, misfit included.")
         yield Remark(text=text.format(held=held), tone="warning")
     if found.reaction is not None:
         yield Remark(text=_("Axial force is positive along the power flow; all forces act on the shaft."))
@@ -297,7 +297,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     yield Remark(text=text.format(power=float(found.power_left.max()), **rest) + ".")
     if surplus:
         yield Remark(
-            text=_("What misfit of the parts adds, and what to let go:"),
+            text=_("What misfit does alone, and what to let go:"),
             command=("cardan", "assembly", str(file)),
             tone="next",
         )
