@@ -51,6 +51,12 @@ COMMANDS = {
             "cardan forces truck.toml --plot forces.svg",
         ),
     ),
+    "losses": Entry(
+        "losses",
+        QUESTIONS,
+        _("How much of the power turns to heat, and where."),
+        ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
+    ),
     "assembly": Entry(
         "assembly",
         QUESTIONS,
