@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cardan.analysis.assembly import assembly
 from cardan.analysis.forces import forces
 from cardan.figures.wording import significant
 from cardan.io import example, example_names
@@ -18,11 +19,11 @@ WITH = {
     "truck-supports": {"forces"},
     "pto-spline-thrust": {"forces"},
     "instrument-joint": {"forces"},
-    "overconstrained-pump": {"forces"},
+    "overconstrained-pump": {"forces", "assembly"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces"}
+PARTS = {"forces", "assembly"}
 
 
 def words(drive):
@@ -44,7 +45,7 @@ def test_every_check_passes(name):
         for item in part.blocks
         if getattr(item, "title", "") == "Checks"
     ]
-    assert len(tables) == len(WITH[name])
+    assert len(tables) == len(WITH[name])  # each part has one
     assert {row[-1].tone for table in tables for row in table.rows} == {"good"}
 
 
@@ -74,3 +75,35 @@ def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
 def test_a_loose_shaft_is_named():
     drive = example("truck-supports")
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
+
+
+def test_shared_forces_are_called_so():
+    assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
+    assert "share the forces" not in words(example("truck-supports"))
+
+
+def test_assembly_says_how_much_and_what_to_let_go():
+    drive = example("overconstrained-pump")
+    found = assembly(drive)
+    text = words(drive)
+    assert f"joint 1 carries up to {significant(found.joint_peak[0].value)} N" in text
+    assert "held by 3 more than statics needs" in text
+    assert "4 (pump, far) lengthwise, 2 (motor, near) sideways" in text
+
+
+def test_parts_that_fit_strain_nothing():
+    drive = example("overconstrained-pump")
+    fits = replace(
+        drive,
+        joints=(replace(drive.joints[0], error=None),),
+        supports=tuple(replace(one, offset=(0.0, 0.0, 0.0)) for one in drive.supports),
+    )
+    text = words(fits)
+    assert "all parts fit" in text
+    assert "What misfit presses" not in text
+
+
+def test_stiffness_left_out_is_asked_for_by_name():
+    drive = example("overconstrained-pump")
+    rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
+    assert "supports[0].stiffness: missing" in words(replace(drive, supports=rigid))

@@ -59,6 +59,8 @@ class AssemblyForces:
         Couple of each support on its shaft; zero where it does not hold the slope.
     axis : array (k, 3)
         Direction of the shaft at each support.
+    support_shaft : tuple of int
+        Number of the shaft of every support.
     gap : array (n, p, 3) [m]
         How far the end of shaft i lies from that of shaft i+1 in each joint, by the errors of the joint alone.
     energy : array (p,) [J]
@@ -84,6 +86,7 @@ class AssemblyForces:
     reaction: Array
     couple: Array
     axis: Array
+    support_shaft: tuple[int, ...]
     gap: Array
     energy: Array
     torque: Array
@@ -171,6 +174,7 @@ def assembly(
         reaction=reaction,
         couple=couple,
         axis=question.bearing_axes,
+        support_shaft=tuple(support.shaft for support in drive.supports),
         gap=gap,
         energy=answer.energy,
         torque=answer.torque,

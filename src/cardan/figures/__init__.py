@@ -14,6 +14,7 @@ _MAKERS = {
     "cardan.analysis.motion.Motion": "motion.motion_figures",
     "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
     "cardan.analysis.forces.Forces": "forces.forces_figures",
+    "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.analysis.forces import Forces, forces
+from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.forces import reactions_figure, torques_figure
@@ -44,7 +45,11 @@ def carrying(on: Subject) -> Page | None:
         blocks: list[Block] = [*remark, Picture(figure=turned), _shafts(on.drive, found), _checks(found)]
         return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks)
     held = reactions_figure(found, on.drive)
+    if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
+        text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
+        remark = [Words(text=text, tone="warning")]
     blocks = [
+        *remark,
         Picture(figure=turned),
         _shafts(on.drive, found),
         Picture(figure=held),

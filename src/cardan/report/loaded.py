@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .assembly import straining
 from .block import Page
 from .forces import carrying
 from .subject import Subject
 
-PAGES = (carrying,)
+PAGES = (carrying, straining)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
