@@ -28,7 +28,13 @@ from .reactions import Frame, Held, Load, forces_of, frame, right_side, solved, 
 from .redundancy import redundancy
 
 CONVERGED = 1e-14
-"""The torque at the input is met to this share of itself."""
+"""The torque at the input is met to this share of the torques in the drive."""
+
+NUDGE = 1e-3
+"""Step from which the slope of the input torque by the load is taken: it changes only where friction turns about."""
+
+ROUNDS = 12
+"""Steps of Newton's method at most; without friction one is enough."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -311,14 +317,14 @@ def _carried(whole: Train, stand: Stand, given: Array, torque_at: str) -> tuple[
     xp = namespace(given)
     load = given * stand.speed[..., 0] / stand.speed[..., -1]
     found = couples(whole, stand, load)
-    for _round in range(8):
+    for _round in range(ROUNDS):
         gap = given - found.shaft_torque[..., 0]
-        if not bool(xp.any(xp.abs(gap) > CONVERGED * xp.abs(given))):
+        size = xp.abs(given) + xp.max(xp.abs(found.shaft_torque), axis=-1)
+        if not bool(xp.any(xp.abs(gap) > CONVERGED * size)):
             break
-        nudge = xp.where(gap == 0.0, 1.0, gap)
+        nudge = xp.where(gap < 0.0, -NUDGE, NUDGE) * xp.where(size > 0.0, size, 1.0)
         other = couples(whole, stand, load + nudge)
-        slope = (other.shaft_torque[..., 0] - found.shaft_torque[..., 0]) / nudge
-        load = load + gap / slope
+        load = load + gap * nudge / (other.shaft_torque[..., 0] - found.shaft_torque[..., 0])
         found = couples(whole, stand, load)
     return found, load
 
@@ -457,11 +463,16 @@ def _amounts(whole: Train, held: Frame, known: Array, field: str, share: Callabl
         amounts, regular = solved(held, known)
         fits = xp.all(regular, axis=-1)
         if bool(xp.all(fits)):
-            return amounts, xp.where(fits, 0, 1)
+            return amounts, xp.zeros(fits.shape, dtype=xp.int64)
     if known.ndim == 2:
         many = redundancy(np.asarray(held.matrix), held.layout, field=field)
         refuse_soft(whole, many, field)
-        return share() if many.degree else amounts, xp.where(fits, int(Held.DETERMINATE), int(Held.INDETERMINATE))
+        return share() if many.degree else amounts, _status(fits, Held.INDETERMINATE)
     if columns > rows and whole.stiffness is not None:
         amounts = share()
-    return amounts, xp.where(fits, int(Held.DETERMINATE), int(Held.LOOSE if columns <= rows else Held.INDETERMINATE))
+    return amounts, _status(fits, Held.LOOSE if columns <= rows else Held.INDETERMINATE)
+
+
+def _status(fits: Array, otherwise: Held) -> Array:
+    xp = namespace(fits)
+    return xp.astype(~fits, xp.int64) * int(otherwise)
