@@ -353,22 +353,12 @@ def _moving(
         normal=place.normal[0],
     )
     stand = swinging(found.axes, found.spins)
-    length = np.asarray(found.shafts.length)
-    first = length[:, :1] - place.length[0]
-    shift = np.asarray([s == 0 for s, _holds in whole.bearings], dtype=float)
-    assert whole.position is not None
-    assert whole.centre_of_mass is not None
-    used = replace(
-        whole,
-        position=whole.position + first * shift,
-        centre_of_mass=whole.centre_of_mass + first * np.eye(1, length.shape[-1])[0],
-    )
-    if whole.splines:
-        rate = np.asarray(found.shafts.length_rate)[:, list(whole.splines)]
-        used = replace(used, sliding=-np.sign(rate))
+    points = np.asarray(found.points[0]).copy()
+    points[:, 0] = points[:, 1] - place.length[0] * found.shafts.axis[:, 0]
+    sense = -np.sign(np.asarray(found.shafts.length_rate)[:, list(whole.splines)])
     torque = np.zeros(angle.shape) + (duty.torque or 0.0)
-    carried = _carried(used, stand, torque, duty.torque_at)
-    return _answer(used, stand, found.points[0], found.points[2], angle, carried, still=False, field="supports")
+    carried = _carried(whole, stand, torque, duty.torque_at)
+    return _answer(whole, stand, points, found.points[2], angle, carried, still=False, field="supports", sense=sense)
 
 
 def _answer(
@@ -381,12 +371,13 @@ def _answer(
     *,
     still: bool,
     field: str,
+    sense: Array | None = None,
 ) -> Forces:
     xp = namespace(points, angle)
     found, output = carried
     n = whole.joints
     shape = found.shaft_torque.shape[:-1]
-    push = thrusts(whole, found)
+    push = thrusts(whole, found, sense)
     joint_force = reaction = turn = force_left = moment_left = None
     status = xp.zeros(shape[:-1], dtype=xp.int64)
     equations = unknowns = 0

@@ -105,7 +105,9 @@ def frame(train: Train, stand: Stand, points: Array) -> Frame:
     layout = layout_of(train)
     length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
     position = xp.zeros(0, dtype=xp.float64) if train.position is None else train.position
-    acting = actions(stand.axis, length, layout, position[..., None, :], _cut(train))
+    lead = tuple(stand.axis.shape[:-2])
+    place = xp.broadcast_to(position[..., None, :], (*lead, position.shape[-1]))
+    acting = actions(stand.axis, length, layout, place, _cut(train))
     rows = balance(acting)
     free = (
         sliding(layout, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
