@@ -49,6 +49,8 @@ _HOMES = {
     "traces": "analysis.traces",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "Allocation": "synthesis.allocation",
+    "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
     "synchronous_yokes": "synthesis.batch",
     "LeastIntermediate": "synthesis.goal",
@@ -109,6 +111,8 @@ if TYPE_CHECKING:
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
     from .report.report import report as report
+    from .synthesis.allocation import Allocation as Allocation
+    from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
     from .synthesis.goal import NEAREST as NEAREST
