@@ -144,16 +144,16 @@ def _movements(matrix: Array, layout: Layout, field: str) -> Iterator[Problem]:
         if max(along, across) <= TAKES_PART:
             continue
         if across <= TAKES_PART:
-            text = _("shaft {number} along its axis")
+            text = _("shaft {number} from moving along its axis")
         elif along <= TAKES_PART:
-            text = _("shaft {number} sideways")
+            text = _("shaft {number} from moving sideways")
         else:
-            text = _("shaft {number} sideways and along its axis")
+            text = _("shaft {number} from moving sideways and along its axis")
         ways.append(text.format(number=s + 1))
     count = matrix.shape[-2] - rank
     text = plural(
-        "not held, {count} hold too few: nothing keeps {ways} from moving",
-        "not held, {count} holds too few: nothing keeps {ways} from moving",
+        "not held, {count} hold too few: nothing keeps {ways}",
+        "not held, {count} holds too few: nothing keeps {ways}",
         count,
     )
-    yield Problem(field, text.format(count=count, ways=_(" and ").join(ways)))
+    yield Problem(field, text.format(count=count, ways=", ".join(ways)))
