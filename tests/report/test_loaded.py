@@ -7,7 +7,9 @@ import pytest
 
 from cardan.analysis.assembly import assembly
 from cardan.analysis.forces import forces
-from cardan.figures.wording import significant
+from cardan.analysis.losses import losses
+from cardan.figures.losses import watts
+from cardan.figures.wording import percent, significant
 from cardan.io import example, example_names
 from cardan.maths import frames
 from cardan.report.report import page
@@ -16,14 +18,14 @@ from cardan.report.subject import asked
 from .test_report import parsed
 
 WITH = {
-    "truck-supports": {"forces"},
-    "pto-spline-thrust": {"forces"},
+    "truck-supports": {"forces", "losses"},
+    "pto-spline-thrust": {"forces", "losses"},
     "instrument-joint": {"forces"},
     "overconstrained-pump": {"forces", "assembly"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "assembly"}
+PARTS = {"forces", "losses", "assembly"}
 
 
 def words(drive):
@@ -107,3 +109,24 @@ def test_stiffness_left_out_is_asked_for_by_name():
     drive = example("overconstrained-pump")
     rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
     assert "supports[0].stiffness: missing" in words(replace(drive, supports=rigid))
+
+
+def test_losses_tell_heat_efficiency_and_what_is_left_out():
+    drive = example("truck-supports")
+    found = losses(drive)
+    text = words(drive)
+    assert f"{watts(found.heat, 3)} of {watts(found.input_power, 4)} turn to heat" in text
+    assert f"efficiency {percent(found.efficiency, 4)}" in text
+    assert "the splines slide only while the drive moves" in text
+
+
+def test_a_drive_that_locks_is_called_so():
+    drive = example("truck-supports")
+    joint = replace(drive.joints[2], friction=40.0)
+    text = words(replace(drive, joints=(*drive.joints[:2], joint)))
+    assert "Friction holds joint 3" in text
+
+
+def test_without_speed_nothing_is_said_of_losses():
+    drive = example("truck-supports")
+    assert "turn to heat" not in words(replace(drive, duty=replace(drive.duty, speed=None)))

@@ -15,6 +15,8 @@ _MAKERS = {
     "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
     "cardan.analysis.forces.Forces": "forces.forces_figures",
     "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
+    "cardan.analysis.losses.Losses": "losses.losses_figures",
+    "cardan.analysis.losses.LossMap": "losses.map_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from .assembly import straining
 from .block import Page
 from .forces import carrying
+from .losses import rubbing
 from .subject import Subject
 
-PAGES = (carrying, straining)
+PAGES = (carrying, rubbing, straining)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
