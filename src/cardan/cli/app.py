@@ -57,6 +57,15 @@ COMMANDS = {
         _("How much of the power turns to heat, and where."),
         ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
     ),
+    "tolerance": Entry(
+        "tolerance",
+        QUESTIONS,
+        _("What machining tolerances do to the output, and the cheapest ones for a target."),
+        (
+            "cardan tolerance instrument.toml --method worst",
+            "cardan tolerance instrument.toml --allocate 2arcmin -o better.toml",
+        ),
+    ),
     "assembly": Entry(
         "assembly",
         QUESTIONS,
