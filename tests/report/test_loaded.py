@@ -8,24 +8,28 @@ import pytest
 from cardan.analysis.assembly import assembly
 from cardan.analysis.forces import forces
 from cardan.analysis.losses import losses
+from cardan.analysis.tolerance import Linear, WorstCase, tolerance
+from cardan.drive.accuracy import Error
+from cardan.drive.drive import Drive
 from cardan.figures.losses import watts
 from cardan.figures.wording import percent, significant
 from cardan.io import example, example_names
 from cardan.maths import frames
 from cardan.report.report import page
 from cardan.report.subject import asked
+from cardan.units import arcmin
 
 from .test_report import parsed
 
 WITH = {
     "truck-supports": {"forces", "losses"},
     "pto-spline-thrust": {"forces", "losses"},
-    "instrument-joint": {"forces"},
+    "instrument-joint": {"forces", "accuracy"},
     "overconstrained-pump": {"forces", "assembly"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "assembly"}
+PARTS = {"forces", "losses", "accuracy", "assembly"}
 
 
 def words(drive):
@@ -130,3 +134,38 @@ def test_a_drive_that_locks_is_called_so():
 def test_without_speed_nothing_is_said_of_losses():
     drive = example("truck-supports")
     assert "turn to heat" not in words(replace(drive, duty=replace(drive.duty, speed=None)))
+
+
+def test_accuracy_tells_both_bounds_and_what_matters():
+    drive = example("instrument-joint")
+    most, worst = (tolerance(drive, method=way).output.largest / arcmin for way in (Linear(), WorstCase()))
+    text = words(drive)
+    assert f"within {significant(most, 3)}′, at worst {significant(worst, 3)}′" in text
+    assert "yoke phase of joint 1 matters most" in text
+    assert "Shift of the output shaft" in text
+
+
+def test_a_held_output_does_not_shift():
+    drive = example("instrument-joint")
+    held = tuple(replace(one, axial=True) if k == 3 else one for k, one in enumerate(drive.supports))
+    text = words(replace(drive, supports=held))
+    assert "Shift of the output shaft" not in text
+    assert "output shift" not in text
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [(Error(alpha2=0.5 * arcmin), "known errors put the output"), (Error(a2=1e-5), "Shift of the output shaft")],
+)
+def test_known_errors_alone_have_a_part(error, says):
+    single = Drive.from_angles([0.4])
+    drive = replace(single, joints=(replace(single.joints[0], error=error),))
+    seen = parsed(page(drive))
+    assert "accuracy" in seen.ids
+    assert says in "".join(seen.words)
+
+
+def test_errors_that_cannot_be_assembled_are_called_so():
+    single = Drive.from_angles([0.4])
+    drive = replace(single, joints=(replace(single.joints[0], error=Error(alpha2=1.3)),))
+    assert "cannot be assembled" in words(drive)

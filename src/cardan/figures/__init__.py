@@ -17,6 +17,8 @@ _MAKERS = {
     "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
     "cardan.analysis.losses.Losses": "losses.losses_figures",
     "cardan.analysis.losses.LossMap": "losses.map_figures",
+    "cardan.analysis.tolerance.ToleranceBand": "tolerance.tolerance_figures",
+    "cardan.analysis.accuracy.TransmissionError": "tolerance.error_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .accuracy import erring
 from .assembly import straining
 from .block import Page
 from .forces import carrying
 from .losses import rubbing
 from .subject import Subject
 
-PAGES = (carrying, rubbing, straining)
+PAGES = (carrying, rubbing, erring, straining)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
