@@ -91,3 +91,8 @@ def test_missing_stiffness_names_its_keys(cardan, drive_file):
     fields = [problem["field"] for problem in done.complaint["problems"]]
     assert "supports[0].stiffness_N_per_um" in fields
     assert "supports[3].axial_stiffness_N_per_um" in fields
+
+
+def test_a_figure_is_drawn(cardan, tmp_path):
+    assert cardan("assembly", PUMP, "--plot", "strain.svg").code == 0
+    assert (tmp_path / "strain.svg").stat().st_size > 1000

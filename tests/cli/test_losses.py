@@ -100,3 +100,9 @@ def test_a_span_is_asked_for_with_its_unit(cardan, drive_file):
     done = cardan("losses", drive_file(text), "--json")
     fields = [problem["field"] for problem in done.complaint["problems"]]
     assert {"duty.speed_rpm", "joints[0].cross.span_mm"} <= set(fields)
+
+
+@pytest.mark.parametrize("options", [(), ("--map",)], ids=["parts", "map"])
+def test_a_figure_is_drawn(cardan, tmp_path, options):
+    assert cardan("losses", TRUCK, *options, "--plot", "heat.svg").code == 0
+    assert (tmp_path / "heat.svg").stat().st_size > 1000

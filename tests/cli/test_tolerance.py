@@ -159,3 +159,9 @@ def test_missing_tolerances_are_named(cardan):
     assert (done.code, done.out) == (2, "")
     assert "joints[0].tolerance: missing" in done.err
     assert "alpha1_deg" in done.err
+
+
+@pytest.mark.parametrize("options", [(), ("--allocate", "2arcmin")], ids=["band", "allotted"])
+def test_a_figure_is_drawn(cardan, tmp_path, options):
+    assert cardan("tolerance", INSTRUMENT, *options, "--plot", "band.svg").code == 0
+    assert (tmp_path / "band.svg").stat().st_size > 1000

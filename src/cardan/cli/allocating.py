@@ -62,7 +62,7 @@ def answer(
     out: Path | None,
 ) -> Answer:
     """Find the cheapest tolerances, write them where asked to, and say so."""
-    from cardan.analysis.tolerance import Linear, WorstCase
+    from cardan.analysis.tolerance import Linear, WorstCase, tolerance
     from cardan.errors import InputError
     from cardan.synthesis.allocation import allocate
 
@@ -83,7 +83,7 @@ def answer(
         remarks=tuple(_remarks(file, found, out)),
         content=lambda: _content(drive, file, found, values, out),
         csv=lambda: _table(found),
-        figure=lambda: figures(found),
+        figure=lambda: figures(tolerance(drive, found.spread, method=found.method)),
     )
 
 
