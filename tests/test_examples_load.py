@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from cardan import articulation, equivalent_joint, example, motion, phases
+from cardan import articulation, assembly, equivalent_joint, example, motion, phases
 from cardan.drive.geometry import geometry
 from cardan.drive.paths import pose_drives
 from cardan.io import example_names, example_text, loads, starter
@@ -19,7 +19,10 @@ SPINDLES = ("rolling-mill-lower-spindle", "rolling-mill-upper-spindle")
 
 def test_all_of_them_are_there() -> None:
     assert set(NAMES) >= {
+        "instrument-joint",
+        "overconstrained-pump",
         "pto-hitch",
+        "pto-spline-thrust",
         *SPINDLES,
         "single-20deg",
         "six-joints",
@@ -28,6 +31,7 @@ def test_all_of_them_are_there() -> None:
         "truck-printed-angles",
         "truck-printed-coordinates",
         "truck-rear-axle",
+        "truck-supports",
         "truck-wrong-yokes",
         "two-piece-rear-drive",
         "w-arrangement",
@@ -109,6 +113,19 @@ def test_the_others_can_be_made_even(name: str) -> None:
     found = phases(example(name))
     assert found.feasible
     assert found.settings[0].irregularity < 1e-14
+
+
+@pytest.mark.parametrize("name", ["truck-supports", "pto-spline-thrust", "instrument-joint"])
+def test_what_is_held_just_enough_is_not_strained(name: str) -> None:
+    assert assembly(example(name)).degree == 0
+
+
+def test_the_pump_in_four_bearings_binds() -> None:
+    found = assembly(example("overconstrained-pump"))
+    assert found.degree == 3
+    assert found.spare == ("supports[3].axial", "supports[1].radial")
+    assert found.joint_peak[0].value > 2000.0
+    assert found.residual < 1e-12  # sums of a handful of forces
 
 
 @pytest.mark.parametrize("name", NAMES)

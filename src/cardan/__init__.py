@@ -16,23 +16,41 @@ _HOMES = {
     "CardanError": "errors",
     "InputError": "errors",
     "calc": "calc.calculations",
+    "Tolerance": "drive.accuracy",
     "Drive": "drive.drive",
     "Drives": "drive.drives",
     "stack": "drive.drives",
+    "TransmissionError": "analysis.accuracy",
+    "transmission_error": "analysis.accuracy",
     "Articulation": "analysis.articulation",
     "articulation": "analysis.articulation",
+    "AssemblyForces": "analysis.assembly",
+    "assembly": "analysis.assembly",
+    "LossMap": "analysis.losses",
+    "Losses": "analysis.losses",
+    "loss_map": "analysis.losses",
+    "losses": "analysis.losses",
     "Motion": "analysis.motion",
     "motion": "analysis.motion",
     "BookComparison": "analysis.book",
     "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
+    "Forces": "analysis.forces",
+    "forces": "analysis.forces",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
+    "MonteCarlo": "analysis.sampling",
+    "Linear": "analysis.tolerance",
+    "ToleranceBand": "analysis.tolerance",
+    "WorstCase": "analysis.tolerance",
+    "tolerance": "analysis.tolerance",
     "Traces": "analysis.traces",
     "traces": "analysis.traces",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "Allocation": "synthesis.allocation",
+    "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
     "synchronous_yokes": "synthesis.batch",
     "LeastIntermediate": "synthesis.goal",
@@ -53,19 +71,35 @@ _HOMES = {
 __all__ = sorted([*_HOMES, "__version__"])
 
 if TYPE_CHECKING:
+    from .analysis.accuracy import TransmissionError as TransmissionError
+    from .analysis.accuracy import transmission_error as transmission_error
     from .analysis.articulation import Articulation as Articulation
     from .analysis.articulation import articulation as articulation
+    from .analysis.assembly import AssemblyForces as AssemblyForces
+    from .analysis.assembly import assembly as assembly
     from .analysis.book import BookComparison as BookComparison
     from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
+    from .analysis.forces import Forces as Forces
+    from .analysis.forces import forces as forces
+    from .analysis.losses import Losses as Losses
+    from .analysis.losses import LossMap as LossMap
+    from .analysis.losses import loss_map as loss_map
+    from .analysis.losses import losses as losses
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
+    from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.tolerance import Linear as Linear
+    from .analysis.tolerance import ToleranceBand as ToleranceBand
+    from .analysis.tolerance import WorstCase as WorstCase
+    from .analysis.tolerance import tolerance as tolerance
     from .analysis.traces import Traces as Traces
     from .analysis.traces import traces as traces
     from .calc.calculations import calc as calc
+    from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
     from .drive.drives import stack as stack
@@ -77,6 +111,8 @@ if TYPE_CHECKING:
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
     from .report.report import report as report
+    from .synthesis.allocation import Allocation as Allocation
+    from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
     from .synthesis.goal import NEAREST as NEAREST

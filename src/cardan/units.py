@@ -17,6 +17,8 @@ mm = 1e-3
 inch = 0.0254
 rpm = math.pi / 30
 percent = 1e-2
+pound = 0.45359237
+lbf = pound * 9.80665
 
 DIMENSIONS: dict[str, dict[str, float]] = {
     "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch},
@@ -28,6 +30,16 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "ms": 1e-3, "min": 60.0},
     "frequency": {"Hz": 2 * math.pi, "rad_s": 1.0, "per_min": 2 * math.pi / 60},
     "share": {"percent": percent},
+    "torque": {"Nm": 1.0, "kNm": 1e3, "Nmm": mm, "lbft": 12 * inch * lbf, "lbin": inch * lbf},
+    "force": {"N": 1.0, "kN": 1e3, "lbf": lbf},
+    "mass": {"kg": 1.0, "g": 1e-3, "lb": pound},
+    "inertia": {"kg_m2": 1.0, "kg_mm2": mm * mm, "g_mm2": 1e-3 * mm * mm, "kg_cm2": 1e-4},
+    "density": {"kg_m3": 1.0, "g_cm3": 1e3},
+    "stress": {"MPa": 1e6, "Pa": 1.0, "GPa": 1e9, "psi": lbf / inch**2},
+    "stiffness": {"N_per_m": 1.0, "N_per_mm": 1e3, "kN_per_mm": 1e6, "N_per_um": 1e6},
+    "turning_stiffness": {"Nm_per_rad": 1.0, "kNm_per_rad": 1e3, "Nm_per_deg": 1 / deg},
+    "power": {"W": 1.0, "kW": 1e3},
+    "work": {"J": 1.0, "kJ": 1e3},
 }
 """Dimension -> unit suffix -> factor to SI. A frequency is an angular one in Python [rad/s]."""
 
@@ -44,6 +56,24 @@ LABELS = {
     "percent": "%",
     "per_min": "1/min",
     "arcmin": "′",
+    "Nm": "N·m",
+    "kNm": "kN·m",
+    "Nmm": "N·mm",
+    "lbft": "lbf·ft",
+    "lbin": "lbf·in",
+    "kg_m2": "kg·m²",
+    "kg_mm2": "kg·mm²",
+    "kg_cm2": "kg·cm²",
+    "g_mm2": "g·mm²",
+    "kg_m3": "kg/m³",
+    "g_cm3": "g/cm³",
+    "N_per_m": "N/m",
+    "N_per_mm": "N/mm",
+    "kN_per_mm": "kN/mm",
+    "N_per_um": "N/µm",
+    "Nm_per_rad": "N·m/rad",
+    "kNm_per_rad": "kN·m/rad",
+    "Nm_per_deg": "N·m/°",
 }
 """How a unit suffix is printed, where it is not printed as it stands."""
 

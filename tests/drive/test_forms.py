@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError, equivalent_joint, motion
+from cardan import Drive, InputError, equivalent_joint, forces, motion
+from cardan.drive.duty import Duty
 from cardan.drive.forms import in_form
 from cardan.drive.geometry import geometry
 from cardan.drive.pose import Pose
+from cardan.drive.shaft import Shaft
+from cardan.drive.support import Support
 
 RNG = np.random.default_rng(7)
 
@@ -110,3 +114,21 @@ def test_poses_that_change_no_geometry_are_carried_over() -> None:
     drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 0.1, 0)])
     pose = Pose(name="slow", set=(("duty.speed_rpm", 100.0),))
     assert in_form(replace(drive, poses=(pose,)), "angles").poses == (pose,)
+
+
+def test_weight_and_misalignment_turn_with_the_drive() -> None:
+    bare = Drive.from_points([(0, 0, -0.3), (0, 0, 0), (0.3, 0.1, 0.8), (0.3, 0.2, 1.3)], yoke_angles=[0.3])
+    held = tuple(Support(shaft=s, position=x, axial=x == -0.2) for s, x in ((1, -0.2), (1, -0.1), (3, 0.1), (3, 0.4)))
+    heavy = (Shaft(number=2, mass=9.0, yoke_angle=0.3),)
+    here = replace(bare, supports=held, shafts=heavy, duty=Duty(torque=50.0))
+    there = in_form(here, "angles")
+    assert there.settings != here.settings
+    one, two = forces(here, angle=[0.0, 1.0]), forces(there, angle=[0.0, 1.0])
+    np.testing.assert_allclose(two.radial, one.radial, rtol=1e-12)
+    np.testing.assert_allclose(two.axial, one.axial, rtol=1e-12, atol=1e-9)
+    off = replace(here, supports=(replace(held[0], offset=(1e-4, 0.0, 2e-4)), *held[1:]))
+    turned = in_form(off, "angles").supports[0].offset
+    assert math.hypot(*turned) == pytest.approx(math.hypot(1e-4, 2e-4))
+    assert turned[0] == pytest.approx(2e-4)
+    light = in_form(replace(bare, supports=held), "angles")
+    assert light.settings == bare.settings

@@ -118,8 +118,8 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
             POINTS + '[[poses]]\nname = "x"\nset.duty.speed_rpm = 3\n', ["poses[0].set"], id="path without quotes"
         ),
         pytest.param(
-            BENDS + "[[shafts]]\nnumber = 2\nmaterial = 'C22'\n[duty]\ntorque_Nm = 3\n",
-            ["shafts[1].material", "duty.torque_Nm"],
+            BENDS + "[[shafts]]\nnumber = 2\nmaterial = 'C22'\n[duty]\nlife = 3\n",
+            ["shafts[1].material", "duty.life"],
             id="keys of later questions",
         ),
     ],

@@ -11,10 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import Drive
+from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Limits
-from cardan.drive.keys import Field, fields_of, in_unit, spelled
+from cardan.drive.joints import Hooke
+from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
+from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
+from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.support import Support
 from cardan.io import dumps, loads
 from cardan.units import DIMENSIONS
 
@@ -51,6 +56,10 @@ def holding(kind: Any, one: Field) -> st.SearchStrategy[Any]:
         return inside(one)
     if kind is int:
         return st.integers(int(max(one.key.low, 0)), 1000)
+    if kind == WORD_OR_FLAG:
+        return st.booleans() | st.sampled_from(one.key.choices)
+    if one.key.choices:
+        return st.sampled_from(one.key.choices)
     return st.booleans() if kind is bool else words
 
 
@@ -82,18 +91,67 @@ def test_movements(kind: type, data: st.DataObject) -> None:
         assert loads(dumps(drive, form=form), form=form) == drive
 
 
-@given(
-    things(Duty),
-    things(Shaft, number=st.just(2), side_slope=st.none(), plan_slope=st.none()),
-    things(Limits),
-    words,
-    notes,
-)
+bodies = st.sampled_from([{}, {"outer": 0.07}, {"outer": 0.07, "wall": 0.002}, {"outer": 1 / 3, "inner": 0.1}])
+splines = things(Spline, mean_diameter=st.just(0.04), friction=st.floats(0.0, 0.3), position=st.just(0.25))
+duties = things(Duty, torque=st.floats(-1e5, 1e5, allow_subnormal=False))
+
+
+@st.composite
+def shafts(draw: st.DrawFn) -> Shaft:
+    none = dict.fromkeys(("outer", "wall", "inner", "material", "centre_of_mass", "side_slope", "plan_slope"))
+    shaft = draw(
+        things(
+            Shaft,
+            number=st.just(2),
+            spline=st.none() | splines,
+            **{name: st.none() for name in none},
+        )
+    )
+    body = draw(bodies)
+    material = draw(st.none() | things(Material)) if body else None
+    return replace(shaft, **body, material=material)
+
+
+@given(duties, shafts(), things(Limits), things(Settings), words, notes)
 @settings(max_examples=100, deadline=None)
-def test_all_other_tables(duty: Duty, shaft: Shaft, limits: Limits, name: str, note: str) -> None:
+def test_all_other_tables(
+    duty: Duty, shaft: Shaft, limits: Limits, surroundings: Settings, name: str, note: str
+) -> None:
     if shaft.spline is None:
         limits = Limits()
-    drive = replace(DRIVE, duty=duty, shafts=(shaft,), limits=limits, name=name, note=note)
+    if shaft.length is not None and shaft.spline is not None:
+        shaft = replace(shaft, spline=replace(shaft.spline, position=0.5 * shaft.length))
+    drive = replace(DRIVE, duty=duty, shafts=(shaft,), limits=limits, settings=surroundings, name=name, note=note)
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+crosses = things(Cross, span=st.just(0.08), journal=st.just(0.018))
+hookes = things(
+    Hooke,
+    bend=st.just(0.2),
+    plane_twist=st.none(),
+    centre=st.none(),
+    move_within=st.none(),
+    material_friction=st.none(),
+    fit=st.just("new"),
+    cross=st.none() | crosses,
+)
+places = things(Support, shaft=st.just(2), position=st.just(0.5), bore=st.just(0.06), radial=st.just(True))
+
+
+@given(hookes, st.lists(places, max_size=3))
+@settings(max_examples=100, deadline=None)
+def test_joints_and_supports(joint: Hooke, supports: list[Support]) -> None:
+    held = tuple(
+        replace(
+            one,
+            axial_stiffness=one.axial_stiffness if one.axial else None,
+            tilt_stiffness=one.tilt_stiffness if one.tilt else None,
+        )
+        for one in supports
+    )
+    drive = replace(DRIVE, joints=(joint, *DRIVE.joints[1:]), supports=held)
     for form in ("toml", "json"):
         assert loads(dumps(drive, form=form), form=form) == drive
 

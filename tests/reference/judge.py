@@ -52,6 +52,12 @@ def _compare(key: str, expected: Any, computed: Any, rtol: float, atol: float, w
     place = f"{key}{where}"
     if computed is MISSING:
         yield f"{place} is missing"
+    elif isinstance(expected, dict):
+        if not isinstance(computed, dict):
+            yield f"{place} is {computed!r}, not a table"
+            return
+        for name, one in expected.items():
+            yield from _compare(name, one, computed.get(name, MISSING), rtol, atol, f" of {place}")
     elif isinstance(expected, list):
         if not isinstance(computed, list) or len(computed) != len(expected):
             yield f"{place} is {computed!r}, not {len(expected)} values"

@@ -28,6 +28,8 @@ PYTHON = {
 }
 """What the functions call an input -> its names here, where they differ."""
 
+Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows"]
+
 REQUIRED: Any = object()
 """Default of an input that must be given."""
 
@@ -42,22 +44,26 @@ class Given:
         As in the reference cases, unit included; any other unit of its dimension is read as well.
     meaning : Key
         Sentence, dimension and allowed range in SI.
-    kind : "numbers", "whole", "table" or "word"
-        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices.
+    kind : "numbers", "whole", "table", "word", "flag" or "rows"
+        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
+        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``.
     axes : tuple of int
         How deep the lists may be nested; 0 is a bare number.
     width : int or None
         Length of the innermost lists, where it is fixed.
     default : object
         Value in SI where the input is not given; `REQUIRED` where it must be.
+    columns : tuple of Given
+        Keys of each table of rows.
     """
 
     key: str
     meaning: Key
-    kind: Literal["numbers", "whole", "table", "word"] = "numbers"
+    kind: Kind = "numbers"
     axes: tuple[int, ...] = (0,)
     width: int | None = None
     default: Any = REQUIRED
+    columns: tuple[Given, ...] = ()
 
     @property
     def name(self) -> str:
@@ -79,10 +85,15 @@ class Given:
         """What form the value has, in words."""
         if self.kind == "table":
             return _("table from shaft number to value")
+        if self.kind == "flag":
+            return _("true or false")
+        if self.kind == "rows":
+            return _("list of tables with {keys}").format(keys=", ".join(column.key for column in self.columns))
         if self.kind == "word" and not self.meaning.choices:
             return _("name")
         if self.kind == "word":
-            return _("one of {choices}").format(choices=", ".join(self.meaning.choices))
+            text = _("one of {choices}") if self.axes == (0,) else _("list of some of {choices}")
+            return text.format(choices=", ".join(self.meaning.choices))
         wide = "" if self.width is None else f" × {self.width}"
         names = {
             0: _("number") if self.kind == "numbers" else _("whole number"),
@@ -124,7 +135,7 @@ def given(
     doc: str,
     dimension: str | None = None,
     *,
-    kind: Literal["numbers", "whole", "table", "word"] = "numbers",
+    kind: Kind = "numbers",
     axes: tuple[int, ...] = (0,),
     width: int | None = None,
     default: Any = REQUIRED,
@@ -132,6 +143,11 @@ def given(
 ) -> Given:
     """Declare an input; ``limits`` are those of `cardan.units.Key`, in SI."""
     return Given(key=key, meaning=Key(doc, dimension, **limits), kind=kind, axes=axes, width=width, default=default)
+
+
+def rows(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Given:
+    """Declare an input that is a list of tables, each with the keys of ``columns``."""
+    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default)
 
 
 def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
@@ -143,17 +159,22 @@ def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
 
 
 def without_unit(key: str, dimension: str | None) -> str:
-    """Return a key without the unit it ends in.
+    """Return a key without its unit: the one it ends in, else one amid it.
 
     Examples
     --------
-    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None)
-    ('alpha', 'delta_min')
+    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None), without_unit("tol_mm_a1", "length")
+    ('alpha', 'delta_min', 'tol_a1')
     """
-    for unit in sorted(DIMENSIONS[dimension], key=len, reverse=True) if dimension else ():
-        if key.endswith(f"_{unit}"):
-            return key.removesuffix(f"_{unit}")
-    return key
+    unit = _unit_of(key, dimension)
+    return f"{key}_".replace(f"_{unit}_", "_").removesuffix("_") if unit else key
+
+
+def _unit_of(key: str, dimension: str | None) -> str:
+    """Return the unit in a key, the longest it ends in, else the longest amid it; empty where there is none."""
+    units = sorted(DIMENSIONS[dimension], key=len, reverse=True) if dimension else []
+    last = [unit for unit in units if key.endswith(f"_{unit}")]
+    return next(iter(last + [unit for unit in units if f"_{unit}_" in key]), "")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -204,39 +225,68 @@ class Calculation:
 
     def read(self, inputs: Mapping[str, Any]) -> tuple[Values, dict[str, str]]:
         """Return the values in SI by name, and under which key each was given."""
-        found, keys, problems = self._sort(inputs)
-        values: Values = {}
-        for item in self.takes:
-            if item.name not in found:
-                if item.required:
-                    problems.append(Problem(item.key, _("missing: {doc}").format(doc=item.doc)))
-                else:
-                    values[item.name] = item.default
-                continue
-            wrong = list(_problems(item, found[item.name], keys[item.name]))
-            problems += wrong
-            if not wrong:
-                values[item.name] = _si(item, found[item.name], keys[item.name])
+        values, keys, problems = _read(self.takes, inputs)
         problems += self.check(values, lambda name: keys[name])
         check(problems)
         return values, keys
 
-    def _sort(self, inputs: Mapping[str, Any]) -> tuple[Values, dict[str, str], list[Problem]]:
-        """Find the input each given key belongs to."""
-        own = {item.key: item for item in self.takes}
-        keys = {item.name: item.key for item in self.takes}
-        found: Values = {}
-        problems: list[Problem] = []
-        for key, value in inputs.items():
-            item = own.get(key) or _in_other_unit(key, self.takes)
-            if item is None:
-                problems.append(Problem(key, _unknown(key, own)))
-            elif item.name in found:
-                problems.append(Problem(key, _("given twice, also as {other}").format(other=keys[item.name])))
-            elif value is not None or item.required:
-                found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-                keys[item.name] = key
-        return found, keys, problems
+
+def _read(
+    takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str = ""
+) -> tuple[Values, dict[str, str], list[Problem]]:
+    """Return the values in SI by name, under which key each was given, and what is wrong with them one by one."""
+    found, keys, problems = _sort(takes, inputs, before)
+    values: Values = {}
+    for item in takes:
+        if item.name not in found:
+            if item.required:
+                problems.append(Problem(before + item.key, _("missing: {doc}").format(doc=item.doc)))
+            else:
+                values[item.name] = item.default
+            continue
+        key = keys[item.name]
+        if item.kind == "rows":
+            wrong, value = _rows(item, found[item.name], before + key)
+        else:
+            wrong, value = list(_problems(item, found[item.name], key)), None
+            wrong = [Problem(before + problem.field, problem.message) for problem in wrong]
+        problems += wrong
+        if not wrong:
+            values[item.name] = value if item.kind == "rows" else _si(item, found[item.name], key)
+    return values, keys, problems
+
+
+def _sort(
+    takes: tuple[Given, ...], inputs: Mapping[str, Any], before: str
+) -> tuple[Values, dict[str, str], list[Problem]]:
+    """Find the input each given key belongs to."""
+    own = {item.key: item for item in takes}
+    keys = {item.name: item.key for item in takes}
+    found: Values = {}
+    problems: list[Problem] = []
+    for key, value in inputs.items():
+        item = own.get(key) or _in_other_unit(key, takes)
+        if item is None:
+            problems.append(Problem(before + key, _unknown(key, own)))
+        elif item.name in found:
+            problems.append(Problem(before + key, _("given twice, also as {other}").format(other=keys[item.name])))
+        elif value is not None or item.required:
+            found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            keys[item.name] = key
+    return found, keys, problems
+
+
+def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values]]:
+    """Return what is wrong with a list of tables, and the tables in SI by name."""
+    if not isinstance(value, list | tuple) or not all(isinstance(row, Mapping) for row in value):
+        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], []
+    problems: list[Problem] = []
+    tables: list[Values] = []
+    for k, row in enumerate(value):
+        values, _keys, wrong = _read(item.columns, row, f"{key}[{k}].")
+        problems += wrong
+        tables.append(values)
+    return problems, tables
 
 
 def _unknown(key: str, known: Iterable[str]) -> str:
@@ -249,27 +299,29 @@ def _unknown(key: str, known: Iterable[str]) -> str:
 def _in_other_unit(key: str, takes: tuple[Given, ...]) -> Given | None:
     for item in takes:
         dimension = item.meaning.dimension
-        if dimension and any(key == f"{item.name}_{unit}" for unit in DIMENSIONS[dimension]):
+        if dimension and _unit_of(key, dimension) and without_unit(key, dimension) == item.name:
             return item
     return None
 
 
 def _factor(item: Given, key: str) -> float:
     dimension = item.meaning.dimension
-    return factor(dimension, key.removeprefix(f"{item.name}_")) if dimension else 1.0
+    return factor(dimension, _unit_of(key, dimension)) if dimension else 1.0
 
 
 def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
     """Yield what is wrong with one input by itself."""
-    if item.kind == "word":
-        if value not in item.meaning.choices:
-            near = nearest(str(value), item.meaning.choices)
-            hint = _("; did you mean {near}?").format(near=near) if near else ""
-            yield Problem(
-                key,
-                _("{value} is none of {choices}").format(value=repr(value), choices=", ".join(item.meaning.choices))
-                + hint,
-            )
+    if item.kind == "flag":
+        if not isinstance(value, bool):
+            yield Problem(key, _("{value} is neither true nor false").format(value=_short(value)))
+    elif item.kind == "word" and item.axes == (0,):
+        yield from _word(item, value, key)
+    elif item.kind == "word":
+        if not isinstance(value, list | tuple):
+            yield Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))
+            return
+        for k, word in enumerate(value):
+            yield from _word(item, word, f"{key}[{k}]")
     elif item.kind == "table":
         if not isinstance(value, Mapping):
             yield Problem(key, _("{value} is no table from shaft number to value").format(value=repr(value)))
@@ -280,6 +332,17 @@ def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
             yield from _number(item, entry, f"{key}.{name}", key)
     else:
         yield from _array(item, value, key)
+
+
+def _word(item: Given, value: Any, key: str) -> Iterator[Problem]:
+    if not item.meaning.choices:
+        if not isinstance(value, str):
+            yield Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))
+    elif value not in item.meaning.choices:
+        near = nearest(str(value), item.meaning.choices)
+        hint = _("; did you mean {near}?").format(near=near) if near else ""
+        text = _("{value} is none of {choices}")
+        yield Problem(key, text.format(value=_short(value), choices=", ".join(item.meaning.choices)) + hint)
 
 
 def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
@@ -348,7 +411,7 @@ def _short(value: Any) -> str:
 
 
 def _si(item: Given, value: Any, key: str) -> Any:
-    if item.kind == "word":
+    if item.kind in ("word", "flag"):
         return value
     scale = _factor(item, key)
     if item.kind == "table":

@@ -10,7 +10,7 @@ from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import book, kinematics, moving, synthesis
+from . import accuracy, assembly, book, forces, kinematics, losses, moving, synthesis
 from .calculation import Calculation, given
 
 
@@ -34,7 +34,9 @@ ERRORS = Call(
 )
 
 CALCULATIONS: dict[str, Calculation] = {
-    calculation.name: calculation for part in (kinematics, synthesis, moving, book) for calculation in part.CALCULATIONS
+    calculation.name: calculation
+    for part in (kinematics, synthesis, moving, forces, losses, assembly, accuracy, book)
+    for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""
 

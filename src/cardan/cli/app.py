@@ -41,6 +41,37 @@ COMMANDS = {
         _("What happens while the drive moves: worst positions, spline strokes."),
         ("cardan articulation tractor.toml", "cardan articulation tractor.toml --csv > history.csv"),
     ),
+    "forces": Entry(
+        "forces",
+        QUESTIONS,
+        _("What every shaft, joint and bearing carries over a turn."),
+        (
+            "cardan forces truck.toml",
+            "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
+            "cardan forces truck.toml --plot forces.svg",
+        ),
+    ),
+    "losses": Entry(
+        "losses",
+        QUESTIONS,
+        _("How much of the power turns to heat, and where."),
+        ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
+    ),
+    "tolerance": Entry(
+        "tolerance",
+        QUESTIONS,
+        _("What machining tolerances do to the output, and the cheapest ones for a target."),
+        (
+            "cardan tolerance instrument.toml --method worst",
+            "cardan tolerance instrument.toml --allocate 2arcmin -o better.toml",
+        ),
+    ),
+    "assembly": Entry(
+        "assembly",
+        QUESTIONS,
+        _("Whether the drive binds: forces of parts that do not fit, and what to let go."),
+        ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
+    ),
     "report": Entry(
         "report",
         QUESTIONS,

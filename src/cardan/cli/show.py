@@ -163,7 +163,8 @@ def _write_text(answer: Answer, plot: Path | None) -> None:
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=False)
     sign, colour = SIGNS[answer.tone]
     wide = min(console.width, WIDEST)
-    console.print(Text(f"{sign} {answer.sentence}".strip(), style=f"bold {colour}".strip()), width=wide)
+    first = _filled(f"{sign} {answer.sentence}".strip(), wide)
+    console.print(Text(first, style=f"bold {colour}".strip()), soft_wrap=True)
     for table in answer.tables():
         console.print()
         _print_table(console, table)
@@ -174,12 +175,20 @@ def _write_text(answer: Answer, plot: Path | None) -> None:
         console.print()
     for remark in remarks:
         mark, tint = SIGNS[remark.tone]
-        line = Text(f"{mark} " if mark else "", style=tint)
-        line.append(remark.text, style=tint if remark.tone in ("failed", "warning") else "")
-        console.print(line, width=wide)
+        said = _filled(f"{mark} {remark.text}".strip(), wide)
+        line = Text(said, style=tint if remark.tone in ("failed", "warning") else "")
+        line.stylize(tint, 0, len(mark))
+        console.print(line, soft_wrap=True)
         if remark.command:
             console.print(Text(f"    {join(remark.command)}", style=tint), soft_wrap=True)
     sys.stdout.flush()
+
+
+def _filled(text: str, width: int) -> str:
+    """Return a text in lines; thin blanks within numbers hold it together."""
+    from textwrap import fill
+
+    return fill(text, width, break_on_hyphens=False, break_long_words=False)
 
 
 def _print_table(console: Console, table: Table) -> None:

@@ -14,7 +14,9 @@ from .joints import Hooke, Joint
 from .joints.joint import Point
 from .movement import Movement
 from .pose import Pose
+from .settings import Settings
 from .shaft import Shaft
+from .support import Support
 
 Form: TypeAlias = Literal["points", "angles", "slopes"]
 
@@ -58,10 +60,12 @@ class Drive:
 
     name: str = plain("", doc="name of the drive")
     note: str = plain("", doc="what the reader of the report should know")
+    settings: Settings = plain(Settings(), doc="surroundings of the drive")
     input: Input = plain(Input(), doc="the driving end")
     output: Output = plain(Output(), doc="the driven end")
     joints: tuple[Joint, ...] = plain(doc="the joints in the order of the power flow")
     shafts: tuple[Shaft, ...] = plain((), doc="the shafts, any of them, by their number")
+    supports: tuple[Support, ...] = plain((), doc="bearings that hold the shafts in the housing")
     duty: Duty = plain(Duty(), doc="what the drive does")
     limits: Limits = plain(Limits(), doc="limits over the built-in ones")
     movements: tuple[Movement, ...] = plain((), doc="how the points of the drive move")

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cardan.units import quantity
+from cardan.units import plain, quantity
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Harmonic:
+    """Part of a torque that swings with the turning of the shaft where the torque is given."""
+
+    order: float = plain(doc="swings in one turn of that shaft", above=0.0)
+    torque: float = quantity("torque", doc="amplitude", low=0.0)
+    phase: float = quantity("angle", 0.0, doc="phase of the cosine at the start position")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -13,6 +22,14 @@ class Duty:
 
     speed: float | None = quantity("angular_speed", None, doc="input speed; negative runs the other way")
     acceleration: float = quantity("angular_acceleration", 0.0, doc="input angular acceleration")
+    torque: float | None = quantity(
+        "torque",
+        None,
+        doc="torque of the load at the output, positive when it resists turning about the power flow; at the input "
+        "the driving torque",
+    )
+    torque_at: str = plain("output", doc="at which end of the drive the torque is given", choices=("output", "input"))
+    harmonics: tuple[Harmonic, ...] = plain((), doc="swinging parts of the torque, beside its mean")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

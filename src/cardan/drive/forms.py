@@ -36,8 +36,9 @@ def in_form(drive: Drive, form: Form) -> Drive:
     drive : Drive
         The drive.
     form : {"points", "angles", "slopes"}
-        The form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole; slopes
-        put joint 1 at the origin. Movements are carried along where the drive is shifted but not turned.
+        The form wanted. Angles put joint 1 at the origin and shaft 1 along x, which turns the drive as a whole,
+        gravity with it; slopes put joint 1 at the origin. Movements are carried along where the drive is shifted but
+        not turned.
 
     Returns
     -------
@@ -63,7 +64,26 @@ def in_form(drive: Drive, form: Form) -> Drive:
     if form == "points":
         return _phased(_to_points(drive, here), here)
     other = _to_angles(drive, here) if form == "angles" else _phased(_to_slopes(drive, here), here)
+    other = _with_vectors(other, here) if turned else other
     return replace(other, movements=tuple(_shifted(one, here.points[1]) for one in drive.movements))
+
+
+def _with_vectors(other: Drive, old: Geometry) -> Drive:
+    """Return a drive that was turned as a whole with gravity and the offsets of its supports turned alike."""
+    now = geometry(other)
+    ours, theirs = (
+        np.stack((place.axis[0], place.normal[0], np.cross(place.axis[0], place.normal[0]))) for place in (now, old)
+    )
+    turn = ours.T @ theirs
+
+    def turned(vector: Point) -> Point:
+        x, y, z = (float(c) for c in turn @ np.asarray(vector))
+        return x, y, z
+
+    supports = tuple(replace(s, offset=turned(s.offset)) if any(s.offset) else s for s in other.supports)
+    if not any(s.mass or s.outer for s in other.shafts) and not any(j.cross and j.cross.mass for j in other.joints):
+        return replace(other, supports=supports)
+    return replace(other, supports=supports, settings=replace(other.settings, gravity=turned(other.settings.gravity)))
 
 
 def _tied_to_form(drive: Drive, form: Form, *, turned: bool) -> list[Problem]:

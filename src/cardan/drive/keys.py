@@ -18,6 +18,9 @@ from .movement import MOVEMENTS, Movement
 KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {Joint: (JOINTS, "hooke"), Movement: (MOVEMENTS, None)}
 """Base class -> its kinds by the value of the key ``kind``, and the default kind."""
 
+WORD_OR_FLAG: Any = bool | str
+"""Type of a field that is true, false or one of its words."""
+
 
 @dataclass(frozen=True, slots=True)
 class Field:

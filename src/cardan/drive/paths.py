@@ -17,7 +17,7 @@ from cardan.texts import _
 from cardan.units import DIMENSIONS, nearest
 
 from .drive import Drive
-from .keys import Field, fields_of, in_unit, spelled, spellings_of
+from .keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled, spellings_of
 from .validity import in_range, out_of_range
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
@@ -257,6 +257,8 @@ def _shaped(kind: Any, value: Any, there: Place, path: str) -> Any:
         raise _misfit(value, path, _("true or false"))
     if kind is str and not isinstance(value, str):
         raise _misfit(value, path, _("a text"))
+    if kind == WORD_OR_FLAG and not isinstance(value, bool | str):
+        raise _misfit(value, path, _("true, false or a word"))
     return value
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
+from .material import Material
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Spline:
@@ -14,6 +16,23 @@ class Spline:
     teeth: int | None = plain(None, doc="number of teeth; the yoke angle can be set in steps of 360°/teeth", low=1)
     engaged: float | None = quantity("length", None, doc="engaged length in the drawn position", above=0.0)
     gap: float | None = quantity("length", None, doc="way left to bottoming in the drawn position", above=0.0)
+    position: float | None = quantity(
+        "length", None, doc="place along the power flow from the joint before; the middle of the shaft when not given"
+    )
+    mean_diameter: float | None = quantity("length", None, doc="mean diameter of the teeth", above=0.0)
+    friction: float | None = plain(None, doc="coefficient of friction of the teeth", low=0.0)
+    pressure_angle: float = quantity(
+        "angle",
+        0.0,
+        doc="pressure angle of the teeth where `friction` is that of the materials; 0 where it is a reduced one",
+        low=0.0,
+        below=1.57,
+    )
+    sliding: str = plain(
+        "both",
+        doc="which way the shaft slides under load: it grows longer, shorter, or one and then the other",
+        choices=("out", "in", "both"),
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -45,4 +64,26 @@ class Shaft:
     )
     yoke_fixed: bool = plain(False, doc="true excludes this yoke angle from synthesis")
     weight: float = plain(1.0, doc="weight of this shaft's irregularity as a secondary goal of synthesis", low=0.0)
+    outer: float | None = quantity("length", None, doc="outer diameter", above=0.0)
+    inner: float | None = quantity("length", None, doc="inner diameter of a tube", low=0.0)
+    wall: float | None = quantity("length", None, doc="thickness of the wall of a tube", above=0.0)
+    material: Material | None = plain(None, doc="material; steel when not given")
+    mass: float | None = quantity("mass", None, doc="mass, in place of that of the body", low=0.0)
+    centre_of_mass: float | None = quantity(
+        "length",
+        None,
+        doc="place of the centre of mass along the power flow from the joint before; on shaft 1 from joint 1",
+    )
+    inertia: float | None = quantity(
+        "inertia", None, doc="moment of inertia about its axis, in place of that of the body", low=0.0
+    )
+    transverse_inertia: float | None = quantity(
+        "inertia",
+        None,
+        doc="moment of inertia about an axis across through the centre of mass, in place of that of the body",
+        low=0.0,
+    )
+    resisting_torque: float = quantity(
+        "torque", 0.0, doc="torque that resists the turning of this shaft beside the load of the drive"
+    )
     spline: Spline | None = plain(None, doc="sliding spline of the shaft")

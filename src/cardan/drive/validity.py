@@ -13,6 +13,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import KEY, Key, factor, label, preferred
 
+from .parts import part_problems
 from .shaft import Shaft
 
 if TYPE_CHECKING:
@@ -107,6 +108,10 @@ def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
             yield from range_problems(value, here)
         elif isinstance(value, str):
             yield from _text_problems(value, here, lines=field.name == "note")
+            choices = field.metadata[KEY].choices if KEY in field.metadata else ()
+            if choices and value not in choices:
+                text = _("{value} is none of {choices}")
+                yield Problem(here, text.format(value=repr(value), choices=", ".join(choices)))
         elif KEY in field.metadata and not isinstance(value, bool):
             yield from _number_problems(value, field.metadata[KEY], here)
 
@@ -203,6 +208,7 @@ def problems(drive: Drive) -> Iterator[Problem]:
         *_form_problems(drive),
         *_place_problems(drive),
         *movement_problems(drive.movements, n),
+        *part_problems(drive),
         *_unused(drive),
     ]
     yield from found

@@ -9,8 +9,9 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, angle_axis, axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, axis
 from .palette import dash_of, shaft
+from .turning import across, shaft_name
 from .wording import percent, significant
 
 NOISE = 1e-12
@@ -34,14 +35,14 @@ def motion_figure(found: Motion) -> Figure:
     lead = np.asarray(found.lead) / deg
     known = found.speed is not None
     steep = np.asarray(found.shaft_acceleration) if known else np.asarray(found.shaft_slope)
-    across = _across(angle)
+    along = across(angle)
     panels = (
-        _panel(angle, np.asarray(found.shaft_ratio), across, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
-        _panel(angle, lead, across, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
+        _panel(angle, np.asarray(found.shaft_ratio), along, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
+        _panel(angle, lead, along, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
         _panel(
             angle,
             steep,
-            _across(angle, named=True),
+            across(angle, named=True),
             _("Angular acceleration ε") if known else _("Angular acceleration per input speed squared, ε/ω₁²"),
             "rad/s²" if known else "–",
             0.0,
@@ -60,20 +61,10 @@ def motion_figure(found: Motion) -> Figure:
     )
 
 
-def _across(angle: Array, *, named: bool = False) -> Axis:
-    label = _("input angle φ₁ from the start position") if named else ""
-    stop = float(np.max(angle)) if angle.size else 360.0
-    if float(np.min(angle, initial=0.0)) < 0.0 or stop > 1080.0 or stop < 45.0:
-        made = axis(label, "°" if named else "", [angle], margin=0.0, least=1.0)
-    else:
-        made = angle_axis(label, stop)
-    return made if named else Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)
-
-
 def _panel(
     angle: Array,
     rows: Array,
-    across: Axis,
+    along: Axis,
     label: str,
     unit: str,
     middle: float,
@@ -86,7 +77,7 @@ def _panel(
         Curve(
             x=angle,
             y=row,
-            label=_name(k, len(rows)) if named else "",
+            label=shaft_name(k, len(rows)) if named else "",
             role=shaft(k),
             dash=dash_of(k),
             width=2.2 if k == len(rows) else 1.3,
@@ -105,15 +96,7 @@ def _panel(
         mirrored=middle if flat or lopsided < 2.0 else None,
         least=least if flat else 0.0,
     )
-    return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=across, y=upright)
-
-
-def _name(number: int, count: int) -> str:
-    if number == 1:
-        return _("shaft 1, input")
-    if number == count:
-        return _("shaft {number}, output").format(number=number)
-    return _("shaft {number}").format(number=number)
+    return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=along, y=upright)
 
 
 def _sentence(found: Motion, lead: Array) -> str:

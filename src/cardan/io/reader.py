@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, Field, fields_of, numbers_in, scaled, spelled, spellings_of
+from cardan.drive.keys import KINDS, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
 from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
 from cardan.drive.validity import MAX_JOINTS, in_range, out_of_range
@@ -181,10 +181,18 @@ def _scalar(
     one: Field, kind: Any, value: Any, key: str, factor: float, written: str, path: str, found: Findings
 ) -> Any:
     number = isinstance(value, int | float) and not isinstance(value, bool)
-    fits = {float: number, int: number and isinstance(value, int), bool: isinstance(value, bool)}.get(
-        kind, isinstance(value, str)
-    )
-    wanted = {float: _("a number"), int: _("a whole number"), bool: _("true or false")}.get(kind, _("a text"))
+    fits = {
+        float: number,
+        int: number and isinstance(value, int),
+        bool: isinstance(value, bool),
+        WORD_OR_FLAG: isinstance(value, bool | str),
+    }.get(kind, isinstance(value, str))
+    wanted = {
+        float: _("a number"),
+        int: _("a whole number"),
+        bool: _("true or false"),
+        WORD_OR_FLAG: _("true, false or a word"),
+    }.get(kind, _("a text"))
     message = ""
     if not fits:
         message = _("must be {wanted}, not {given}").format(wanted=wanted, given=_shown(value))
@@ -198,7 +206,7 @@ def _scalar(
         message = out_of_range(_shown(value), one.key, result, one.unit(key), mirrored=factor < 0)
     elif kind is str and not value.isprintable() and any("\ud800" <= c <= "\udfff" for c in value):
         message = _("holds half a character (a lone surrogate), which no file can keep")
-    elif one.key.choices and value not in one.key.choices:
+    elif one.key.choices and isinstance(value, str) and value not in one.key.choices:
         message = _("{value} is none of {choices}").format(value=_shown(value), choices=", ".join(one.key.choices))
     if not message:
         return value
@@ -304,7 +312,7 @@ def _blank(kind: Any) -> Any:
         return () if parts[-1] is Ellipsis else tuple(_blank(part) for part in parts)
     if kind in KINDS or is_dataclass(kind):
         return kind(**{name: _blank(one.type) for name, one in fields_of(kind).items() if one.required})
-    return {float: math.nan, int: 1, bool: False}.get(kind, "")
+    return {float: math.nan, int: 1, bool: False, WORD_OR_FLAG: False}.get(kind, "")
 
 
 def _is_table(value: Any, written: str, path: str, found: Findings) -> bool:

@@ -6,13 +6,18 @@ from collections.abc import Iterator
 from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
+from cardan.drive.accuracy import Cost, Error, Tolerance
+from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
-from cardan.drive.duty import Duty, Limits
+from cardan.drive.duty import Duty, Harmonic, Limits
 from cardan.drive.joints import JOINTS
-from cardan.drive.keys import Field, fields_of
+from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of
+from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
+from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.support import Support
 from cardan.drive.validity import allowed
 from cardan.units import DIMENSIONS
 
@@ -20,12 +25,20 @@ from .writer import written
 
 SECTIONS: tuple[tuple[str, type], ...] = (
     ("Head of the file", Drive),
+    ("`[settings]`", Settings),
     ("`input`", Input),
     ("`output`", Output),
     *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
+    ("`cross` of a joint", Cross),
+    ("`error` of a joint", Error),
+    ("`tolerance` of a joint", Tolerance),
+    ("`cost` of tolerances", Cost),
     ("`[[shafts]]`", Shaft),
+    ("`material` of a shaft", Material),
     ("`spline` of a shaft", Spline),
+    ("`[[supports]]`", Support),
     ("`[duty]`", Duty),
+    ("`harmonics` of the duty", Harmonic),
     ("`[limits]`", Limits),
     *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
     ("`spectrum` of a random movement", Spectrum),
@@ -78,6 +91,10 @@ def _shape(kind: Any, one: Field) -> str:
         return f"{len(parts)} {inner}s" if inner == "number" else f"{len(parts)} pairs of numbers"
     if is_dataclass(kind):
         return "table"
+    if kind == WORD_OR_FLAG:
+        return "true, false or one of " + ", ".join(f"`{word}`" for word in one.key.choices)
+    if one.key.choices:
+        return "one of " + ", ".join(f"`{word}`" for word in one.key.choices)
     return {float: "number", int: "whole number", bool: "true or false"}.get(kind, "text")
 
 

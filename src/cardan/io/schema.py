@@ -7,7 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, Field, fields_of
+from cardan.drive.keys import KINDS, WORD_OR_FLAG, Field, fields_of
 from cardan.units import label
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -70,6 +70,8 @@ def _shape(kind: Any, one: Field, factor: float) -> dict[str, Any]:
         return _kinds(kind)
     if is_dataclass(kind):
         return _table(kind)  # type: ignore[arg-type]
+    if kind == WORD_OR_FLAG:
+        return {"enum": [True, False, *one.key.choices]}
     if kind is bool:
         return {"type": "boolean"}
     if kind is str:

@@ -100,7 +100,7 @@ def _emit(table: Mapping[str, Any], path: str, lines: list[str]) -> None:
             lines += [f"{key}.{inner} = {_toml(item)}" for inner, item in value.items()]
         elif not path and isinstance(value, str) and "\n" in value:
             lines.append(f"{_key(key)} = {_paragraphs(value)}")
-        elif (isinstance(value, Mapping) and path) or (not isinstance(value, Mapping) and not _is_tables(value)):
+        elif path or not (isinstance(value, Mapping) or _is_tables(value)):
             lines.append(f"{_key(key)} = {_toml(value)}")
     if path:
         return

@@ -10,8 +10,7 @@ from .arrays import Array, namespace
 
 def dot(a: Array, b: Array) -> Array:
     """Return the scalar product over the last axis."""
-    xp = namespace(a, b)
-    return xp.sum(a * b, axis=-1)
+    return namespace(a, b).vecdot(a, b)
 
 
 def cross(a: Array, b: Array) -> Array:

@@ -17,6 +17,7 @@ from cardan.files import write_text
 from cardan.texts import _
 
 from .block import Listing, Page, Picture, Points, Table, Words
+from .loaded import loaded
 from .method import method
 from .moving import moving
 from .phasing import phasing
@@ -92,6 +93,7 @@ def page(
     pages: list[Page] = [understood(on), turning(on), phasing(on)]
     if on.moving is not None:
         pages.append(moving(on))
+    pages += loaded(on)
     pages.append(method(on, source_text))
 
     def drawn(figure: Figure) -> str:

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
+from cardan.drive.accuracy import Error, Tolerance
+from cardan.drive.cross import Cross
 from cardan.units import plain, quantity
 
 Point: TypeAlias = tuple[float, float, float]
@@ -31,3 +33,19 @@ class Joint:
     move_within: Box | None = quantity(
         "length", None, doc="box [[x0, x1], [y0, y1], [z0, z1]] in which layout synthesis may put the centre"
     )
+    friction: float | None = plain(
+        None, doc="reduced coefficient of friction of the journals in their bearings", low=0.0
+    )
+    material_friction: float | None = plain(
+        None,
+        doc="coefficient of friction of the materials of plain journals, from which the reduced one follows",
+        low=0.0,
+    )
+    fit: str = plain(
+        "new",
+        doc="how plain journals bear: new (evenly pressed) or run in (pressed as a cosine)",
+        choices=("new", "run_in"),
+    )
+    cross: Cross | None = plain(None, doc="cross of the joint")
+    error: Error | None = plain(None, doc="manufacturing errors of the joint, as measured")
+    tolerance: Tolerance | None = plain(None, doc="tolerances of the joint, each to both sides")

@@ -1,0 +1,302 @@
+"""Torque and couples of every shaft and cross while a drive turns: exact, backwards from the load, as arrays.
+
+A cross passes on a couple along its own normal and nothing else, but for what turns the cross itself and what rubs in
+its bearings. So the couple at the load gives that of every shaft before it, one joint at a time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.drive.chain import Chain
+from cardan.drive.train import Train
+from cardan.maths import frames
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+
+from .moving_chain import Spins, moving_axes
+from .swing_couple import swing_couple
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stand:
+    """How shafts and crosses stand and turn; the leading axes are those of the drives, then that of the positions.
+
+    Attributes
+    ----------
+    axis : array (..., p or 1, n+1, 3)
+        Directions e_i of the shafts.
+    axis_rate, axis_acceleration : array (p, n+1, 3) [1/s, 1/s²] or None
+        ė_i and ë_i; None where the axes stand still.
+    speed, acceleration : arrays (..., p, n+1) [rad/s, rad/s²]
+        ω_i, ε_i about the axes.
+    driving_arm, driven_arm : arrays (..., p, n, 3)
+        u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke.
+    """
+
+    axis: Array
+    axis_rate: Array | None
+    axis_acceleration: Array | None
+    speed: Array
+    acceleration: Array
+    driving_arm: Array
+    driven_arm: Array
+
+    def turning(self, i: int) -> Array:
+        """Angular velocity Ω_i of shaft i, array (..., p, 3) [rad/s]."""
+        about = self.speed[..., i, None] * self.axis[..., i, :]
+        if self.axis_rate is None:
+            return about
+        return about + frames.cross(self.axis[..., i, :], self.axis_rate[..., i, :])
+
+    def turning_rate(self, i: int) -> Array:
+        """Its time derivative, array (..., p, 3) [rad/s²]."""
+        about = self.acceleration[..., i, None] * self.axis[..., i, :]
+        if self.axis_rate is None or self.axis_acceleration is None:
+            return about
+        swept = self.speed[..., i, None] * self.axis_rate[..., i, :]
+        return about + swept + frames.cross(self.axis[..., i, :], self.axis_acceleration[..., i, :])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Couples:
+    """Torques and couples; the leading axes are those of the drives, then that of the positions.
+
+    Attributes
+    ----------
+    shaft_torque : array (..., p, n+1) [N·m]
+        τ_i, torque that must enter each shaft; the first one is the torque at the input.
+    joint_torque : array (..., p, n) [N·m]
+        T_i, part of the couple along the normal of each cross, on the driven yoke.
+    driving_torque : array (..., p, n) [N·m]
+        The same part on the side of the driving yoke; the two differ by what turns the cross.
+    driving, driven : arrays (..., p, n, 3) [N·m]
+        K_i⁻, couple of the driving yoke on the cross, and K_i⁺, of the cross on the driven yoke.
+    secondary : array (..., p, n+1, 3) [N·m]
+        S_i, couple across each shaft that its supports and the joint forces have to balance.
+    loss : array (..., p, n) [W]
+        Power lost in the journals of each joint.
+    power : array (..., p) [W]
+        What the power balance leaves.
+    flow : array (..., p) [W]
+        Largest power in that balance, to judge what is left by.
+    """
+
+    shaft_torque: Array
+    joint_torque: Array
+    driving_torque: Array
+    driving: Array
+    driven: Array
+    secondary: Array
+    loss: Array
+    power: Array
+    flow: Array
+
+
+def standing(
+    chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
+) -> Stand:
+    """Return how drives whose axes stand still turn.
+
+    Parameters
+    ----------
+    chain : Chain (...)
+        Yoke angles and start phase.
+    axis : array (..., n+1, 3)
+        Directions of the shafts.
+    normal : array (..., n, 3)
+        Normals N_i of the joints' planes; the first one fixes the zero of φ_1.
+    angle : array (p,) [rad]
+        φ_1 from the start position.
+    speed, acceleration : float or array (...) [rad/s, rad/s²]
+        ω_1, ε_1.
+
+    Notes
+    -----
+    The exact step u_1 = rot(e_1, φ_1+ψ_1) (N_1×e_1), v_{i+1} = unit(e_{i+1}×u_i), u_i = rot(e_i, -γ_i) v_i.
+    """
+    xp = namespace(axis, angle)
+    first = frames.cross(normal[..., 0, :], axis[..., 0, :])[..., None, :]
+    along = axis[..., None, 0, :]
+    phi = angle + xp.asarray(chain.start_phase)[..., None]
+    c, s = xp.cos(phi)[..., None], xp.sin(phi)[..., None]
+    arm = c * first + s * frames.cross(along, first)
+    still = axis[..., None, :, :]
+    none = xp.zeros_like(still)
+    spins = moving_axes(
+        (still, none, none),
+        arm,
+        yoke_angle=xp.asarray(chain.yoke_angle)[..., None, :],
+        speed=real(speed, xp)[..., None],
+        acceleration=real(acceleration, xp)[..., None],
+    )
+    return _stand(still, None, None, spins)
+
+
+def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> Stand:
+    return Stand(
+        axis=axis,
+        axis_rate=rate,
+        axis_acceleration=curve,
+        speed=spins.spin,
+        acceleration=spins.spin_acceleration,
+        driving_arm=spins.driving_arm,
+        driven_arm=spins.driven_arm,
+    )
+
+
+def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> Stand:
+    """Return how a drive whose axes move turns, from the jet of its axes (p, n+1, 3) and its spins."""
+    return _stand(*axes, spins)
+
+
+def couples(train: Train, stand: Stand, load: Array) -> Couples:
+    """Return torques and couples of all shafts, backwards from the load.
+
+    Parameters
+    ----------
+    train : Train (...)
+        Masses and friction.
+    stand : Stand (..., p)
+        How shafts and crosses stand and turn.
+    load : array (..., p) [N·m]
+        Torque that resists the output shaft, positive when it resists positive turning.
+
+    Notes
+    -----
+    With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
+    τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
+    the rates of the cross against the driving and of the driven yoke against the cross. Book (103), (113) are cases.
+    """
+    xp = namespace(stand.speed, load)
+    n = train.joints
+    crossed = train.cross_inertia
+    e, w = stand.axis, stand.speed
+    zero = xp.zeros_like(w[..., 0])
+
+    def each(table: Array | None, i: int) -> Array | float:
+        return 0.0 if table is None else table[..., None, i]
+
+    def own(i: int) -> Array:
+        """Return what resists shaft i besides the next one: torque and inertia."""
+        return each(train.resisting_torque, i) + each(train.inertia, i) * stand.acceleration[..., i]
+
+    tau = load + own(n) + zero
+    work = load * w[..., n] + own(n) * w[..., n]
+    flow = xp.abs(load * w[..., n])
+    rows: list[list[Array]] = [[], [], [], [], []]
+    torque, pushed, driving, driven, losses = rows
+    entering = [tau]
+    for i in reversed(range(n)):
+        u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
+        normal = frames.cross(u, v)
+        lean = frames.dot(u, e[..., i + 1, :])
+        into = frames.dot(normal, e[..., i + 1, :])
+        swing = None if crossed is None else _cross_swing(stand, crossed[..., None, i, :], i, (u, v, normal))
+        top = tau if swing is None else tau + swing.rate[0] * lean
+        if train.drag is not None:
+            p, q = _journal_rates(stand, i, u, v, lean)
+            kappa = train.drag[..., None, i]
+            t = top / (into - kappa * xp.sign(top) * xp.sign(p) * lean)
+            rubs = kappa * xp.abs(t)
+            lost = rubs * (xp.abs(p) + xp.abs(q))
+            along_u, along_v = -rubs * xp.sign(p), rubs * xp.sign(q)
+            out = t[..., None] * normal + along_u[..., None] * u + along_v[..., None] * v
+        else:
+            t = top / into
+            lost = zero
+            out = t[..., None] * normal
+        back, given = t, out
+        if swing is not None:
+            hu, hv, hn = swing.rate
+            back = t + hn
+            given = out + hn[..., None] * normal + hv[..., None] * v
+            out = out - hu[..., None] * u
+            work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
+        tau = frames.dot(given, e[..., i, :]) + own(i)
+        work = work + own(i) * w[..., i] + lost
+        flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
+        for row, value in zip(
+            (torque, pushed, driving, driven, losses, entering), (t, back, given, out, lost, tau), strict=True
+        ):
+            row.insert(0, value)
+    secondary = _secondary(train, stand, driving, driven)
+    if stand.axis_rate is not None:
+        for i in range(n + 1):
+            across = frames.cross(e[..., i, :], stand.axis_rate[..., i, :])
+            work = work + frames.dot(secondary[i] + swing_need(train, stand, i), across)
+    return Couples(
+        shaft_torque=xp.stack(entering, axis=-1),
+        joint_torque=xp.stack(torque, axis=-1),
+        driving_torque=xp.stack(pushed, axis=-1),
+        driving=xp.stack(driving, axis=-2),
+        driven=xp.stack(driven, axis=-2),
+        secondary=xp.stack(secondary, axis=-2),
+        loss=xp.stack(losses, axis=-1),
+        power=tau * w[..., 0] - work,
+        flow=flow,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _CrossSwing:
+    """Angular velocity of a cross and the rate of its angular momentum, along u, v and n, each (..., p)."""
+
+    turning: tuple[Array, Array, Array]
+    rate: tuple[Array, Array, Array]
+
+
+def _cross_swing(stand: Stand, inertia: Array, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing:
+    """Return how cross i turns and what that takes.
+
+    Notes
+    -----
+    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn with
+    the cross, so Euler's equations give Ḣ.
+    """
+    u, v, normal = arms
+    one, two = stand.turning(i), stand.turning(i + 1)
+    gain_one = stand.turning_rate(i)
+    a, b, c = (frames.dot(one, arm) for arm in arms)
+    # Ω_i×u = c' v - b' n in the frame of the cross, with b' and c' the parts of Ω_i along v and n.
+    p = frames.dot(two, u) - a
+    gain = frames.dot(stand.turning_rate(i + 1), u) + c * frames.dot(two - one, v) - b * frames.dot(two - one, normal)
+    turning = a + p, b, c
+    rates = gain, frames.dot(gain_one, v) + p * c, frames.dot(gain_one, normal) - p * b
+    rate = []
+    for k in range(3):
+        j, m = (k + 1) % 3, (k + 2) % 3
+        rate.append(inertia[..., k] * rates[k] + (inertia[..., m] - inertia[..., j]) * turning[j] * turning[m])
+    return _CrossSwing(turning, (rate[0], rate[1], rate[2]))
+
+
+def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[Array, Array]:
+    """Return the rates of cross i against its driving yoke about u and against the driven one about v [rad/s]."""
+    if stand.axis_rate is None:
+        return stand.speed[..., i + 1] * lean, stand.speed[..., i] * frames.dot(stand.axis[..., i, :], v)
+    one, two = stand.turning(i), stand.turning(i + 1)
+    return frames.dot(two - one, u), frames.dot(one - two, v)
+
+
+def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
+    """Return the couple that swings the axis of shaft i, J ω ė + I_t e×ë, array (p, 3) [N·m]; 0 where it rests."""
+    if stand.axis_rate is None or stand.axis_acceleration is None:
+        return 0.0
+
+    def own(table: Array | None) -> Array | None:
+        return None if table is None else table[..., None, i]
+
+    jet = stand.axis[..., i, :], stand.axis_rate[..., i, :], stand.axis_acceleration[..., i, :]
+    return -swing_couple(jet, stand.speed[..., i], own(train.inertia), own(train.transverse_inertia)).whole
+
+
+def _secondary(train: Train, stand: Stand, driving: list[Array], driven: list[Array]) -> list[Array]:
+    """Return S_i of every shaft: what the couples at its ends, and its swinging, leave across its axis."""
+    found = []
+    for i in range(train.joints + 1):
+        e = stand.axis[..., i, :]
+        whole = driven[i - 1] if i else -driving[0]
+        if 0 < i < train.joints:
+            whole = whole - driving[i]
+        across = whole - frames.dot(whole, e)[..., None] * e
+        found.append(across - swing_need(train, stand, i))
+    return found

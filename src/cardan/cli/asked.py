@@ -1,0 +1,212 @@
+"""What the questions about forces share: the duty they are asked for, the keys they miss, the figures they have."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import typer
+
+from cardan.texts import _
+
+if TYPE_CHECKING:
+    from cardan.analysis.over_turn import Turn
+    from cardan.drive.drive import Drive
+    from cardan.errors import Problem
+
+    from .answer import Cell, Table
+
+TorqueNm: TypeAlias = Annotated[
+    float | None,
+    typer.Option(
+        "--torque-Nm",
+        "--torque-nm",
+        metavar="NM",
+        help=_("Torque, instead of the one in the file."),
+        show_default=False,
+    ),
+]
+
+CurveAngle: TypeAlias = Annotated[
+    list[float] | None,
+    typer.Option(
+        "--angle-deg",
+        "--angle",
+        metavar="DEG",
+        help=_("Input angle of the curves (--csv, --json); may be repeated. Instead of a whole turn."),
+        show_default=False,
+    ),
+]
+CurveStep: TypeAlias = Annotated[
+    float | None,
+    typer.Option(
+        "--angle-step-deg",
+        "--angle-step",
+        metavar="DEG",
+        help=_("Step of the curves over one turn: 1 by default."),
+        show_default=False,
+    ),
+]
+
+SUFFIX = {
+    "torque": "Nm",
+    "speed": "rpm",
+    "span": "mm",
+    "journal": "mm",
+    "bore": "mm",
+    "length": "mm",
+    "mean_diameter": "mm",
+    "mass_centre": "mm",
+    "stiffness": "N_per_um",
+    "axial_stiffness": "N_per_um",
+    "tilt_stiffness": "Nm_per_rad",
+}
+"""Field of the drive -> unit that its key in a file is best given in."""
+
+ROUNDING = 1e-9
+"""Values below this share of the largest are nothing but rounding."""
+
+
+def check_torque(torque: float | None) -> None:
+    """Refuse a torque that is not a finite number."""
+    from math import isfinite
+
+    from cardan.errors import refuse
+
+    if torque is not None and not isfinite(torque):
+        raise refuse("--torque-Nm", _("{value} is not a finite number").format(value=torque))
+
+
+def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Drive:
+    """Return a drive with the speed [rpm] and torque [N·m] of the command line instead of its own."""
+    from dataclasses import replace
+
+    from cardan.units import rpm
+
+    duty = drive.duty
+    if speed_rpm is not None:
+        duty = replace(duty, speed=speed_rpm * rpm)
+    if torque is not None:
+        duty = replace(duty, torque=torque)
+    return replace(drive, duty=duty)
+
+
+@contextmanager
+def keys_of(file: Path) -> Iterator[None]:
+    """Name the file and its keys, with their units, in whatever an answer misses."""
+    from cardan.errors import InputError, Problem
+
+    from .failure import about
+    from .source import STDIN
+
+    with about(_("standard input") if file == STDIN else str(file)):
+        try:
+            yield
+        except InputError as error:
+            raise InputError(Problem(key_of(one.field), _hinted(one)) for one in error.problems) from error
+
+
+def _hinted(problem: Problem) -> str:
+    """Return a message with the keys in it as a file has them, and the option that does as well."""
+    message = re.sub(r"\b[a-z]+\[\d+\](?:\.[a-z_]+)+", lambda found: key_of(found[0]), problem.message)
+    option = {"duty.torque": "--torque-Nm", "duty.speed": "--speed-rpm"}.get(problem.field)
+    if option is None or not problem.message.startswith(_("missing")):
+        return message
+    return _("{message}; or say {option}").format(message=message, option=option)
+
+
+def key_of(field: str) -> str:
+    """Return the key of a field in a file.
+
+    Examples
+    --------
+    >>> key_of("joints[0].cross.span"), key_of("supports")
+    ('joints[0].cross.span_mm', 'supports')
+    """
+    unit = SUFFIX.get(field.rpartition(".")[2])
+    return f"{field}_{unit}" if unit else field
+
+
+def figures(*results: Any) -> Any:
+    """Return the figures of results.
+
+    Raises
+    ------
+    InputError
+        None of them can be drawn.
+    """
+    from cardan.errors import refuse
+    from cardan.figures import for_result
+
+    try:
+        return tuple(figure for result in results for figure in for_result(result))
+    except TypeError as error:
+        raise refuse("--plot", _("this answer has no figure yet; --csv gives the curves to draw")) from error
+
+
+def tidy(values: Any) -> Any:
+    """Return values with what is nothing but rounding set to zero.
+
+    Examples
+    --------
+    >>> tidy([1.0, 1e-15]).tolist()
+    [1.0, 0.0]
+    """
+    import numpy as np
+
+    table = np.asarray(values, dtype=float)
+    largest = np.max(np.abs(table), initial=0.0, where=np.isfinite(table))
+    return np.where(np.abs(table) <= ROUNDING * largest, 0.0, table)
+
+
+def size(vectors: Any) -> Any:
+    """Return the sizes of vectors (..., 3)."""
+    import numpy as np
+
+    return np.linalg.norm(np.asarray(vectors, dtype=float), axis=-1)
+
+
+def turn(angle: Any, values: Any) -> Turn:
+    """Return least and largest of quantities (..., p) over a turn, rounding left out."""
+    from cardan.analysis.over_turn import over_turn
+
+    return over_turn(angle, tidy(values))
+
+
+def called(number: int, name: str) -> str:
+    """Return a number with its name, as a sentence has it.
+
+    Examples
+    --------
+    >>> called(4, "pinion, front"), called(2, "")
+    ('4 (pinion, front)', '2')
+    """
+    return f"{number} ({name})" if name else str(number)
+
+
+def listed(indices: Sequence[int]) -> str:
+    """Return the numbers of what is counted from 0.
+
+    Examples
+    --------
+    >>> listed([0, 3]), listed([0, 1, 2])
+    ('1, 4', '1 to 3')
+    """
+    if len(indices) > 2 and indices[-1] - indices[0] == len(indices) - 1:
+        return _("{first} to {last}").format(first=indices[0] + 1, last=indices[-1] + 1)
+    return ", ".join(str(i + 1) for i in indices)
+
+
+def columns_of(table: Table) -> dict[str, list[Cell]]:
+    """Return the columns of a table by their keys, for a program."""
+    return {column.key: [row[k] for row in table.rows] for k, column in enumerate(table.columns)}
+
+
+def degrees(angle: Any) -> float:
+    """Return an angle of the turn in degrees, 360 as 0."""
+    from math import degrees as in_degrees
+
+    return round(in_degrees(float(angle)), 9) % 360.0

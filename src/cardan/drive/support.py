@@ -1,0 +1,30 @@
+"""A support: a bearing that holds a shaft in the housing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.units import plain, quantity
+
+from .joints.joint import Point
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Support:
+    """Bearing of a shaft: radial unless it says otherwise."""
+
+    name: str = plain("", doc="name of the support, for tables and pictures")
+    shaft: int = plain(doc="number of the shaft it holds", low=1)
+    position: float = quantity(
+        "length",
+        doc="place along the power flow from the joint before it; on shaft 1 from joint 1, so zero or negative there",
+    )
+    radial: bool = plain(True, doc="whether it holds the shaft sideways")
+    axial: bool = plain(False, doc="whether it holds the shaft lengthwise, both ways")
+    tilt: bool = plain(False, doc="whether it holds the slope of the shaft too, as a fixed end does")
+    stiffness: float | None = quantity("stiffness", None, doc="radial stiffness", above=0.0)
+    axial_stiffness: float | None = quantity("stiffness", None, doc="axial stiffness", above=0.0)
+    tilt_stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against tilting", above=0.0)
+    bore: float | None = quantity("length", None, doc="diameter at which its friction acts", above=0.0)
+    friction: float | None = plain(None, doc="coefficient of friction, at the diameter `bore`", low=0.0)
+    offset: Point = quantity("length", (0.0, 0.0, 0.0), doc="displacement of the housing there [x, y, z]")

@@ -1,0 +1,176 @@
+"""What the drive carries: torques, secondary couples, journals and supports."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cardan.analysis.forces import Forces, forces
+from cardan.analysis.reactions import Held
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.figures.forces import reactions_figure, torques_figure
+from cardan.figures.palette import colour, shaft
+from cardan.figures.wording import significant
+from cardan.maths import frames
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import deg
+
+from .balance import ROUNDING, checks, refused
+from .block import Block, Cell, Column, Page, Picture, Table, Words, number, of_shaft
+from .subject import Subject
+
+NOTHING = 1e-9
+"""Share of the largest force below which a force is rounding."""
+
+
+def carrying(on: Subject) -> Page | None:
+    """Return the page of the forces; None where the drive carries no torque or nothing holds its shafts."""
+    if on.drive.duty.torque is None or not on.drive.supports:
+        return None
+    remark: list[Block] = []
+    try:
+        found = forces(on.drive)
+    except InputError as error:
+        try:
+            found = forces(replace(on.drive, supports=()))
+        except InputError:
+            return refused("forces", _("Forces"), error)
+        remark = [Words(text=f"{one.field}: {one.message}", tone="warning") for one in error.problems]
+    turned = torques_figure(found)
+    if found.reaction is None:
+        blocks: list[Block] = [*remark, Picture(figure=turned), _shafts(on.drive, found), _checks(found)]
+        return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks)
+    held = reactions_figure(found, on.drive)
+    if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
+        text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
+        remark = [Words(text=text, tone="warning")]
+    blocks = [
+        *remark,
+        Picture(figure=turned),
+        _shafts(on.drive, found),
+        Picture(figure=held),
+        _supports(on.drive, found),
+        _checks(found),
+    ]
+    return Page(name="forces", title=_("Forces"), answer=_answer(on.drive, found), blocks=blocks)
+
+
+def _senses(found: Forces) -> tuple[Forces, ...]:
+    return (found,) if found.reverse is None else (found, found.reverse)
+
+
+def _answer(drive: Drive, found: Forces) -> str:
+    size = np.max([frames.norm(np.asarray(one.reaction)).max(axis=-1) for one in _senses(found)], axis=0)
+    worst = int(np.argmax(size))
+    entering = np.asarray(found.input_torque)
+    name = drive.supports[worst].name
+    return _("To carry its torque the drive takes {low} to {high} N·m; support {name} takes most, {most} N.").format(
+        low=significant(float(np.min(entering))),
+        high=significant(float(np.max(entering))),
+        name=f"{worst + 1} ({name})" if name else str(worst + 1),
+        most=significant(float(size[worst])),
+    )
+
+
+def _peak(row: Array) -> tuple[float, int]:
+    at = int(np.argmax(row))
+    return float(row[at]), at
+
+
+def _shafts(drive: Drive, found: Forces) -> Table:
+    torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
+    journal = np.asarray(found.journals.size).max(axis=-1)
+    known = np.all(np.isfinite(journal), axis=-1)
+    rows = []
+    for k, one in enumerate(drive.shafts):
+        row = [
+            of_shaft(k + 1, one.name),
+            _amount(float(np.min(torque[k]))),
+            _amount(float(np.max(torque[k]))),
+            _amount(float(np.max(couple[k])), float(np.max(np.abs(torque)))),
+        ]
+        if np.any(known):
+            last = k + 1 == len(drive.shafts)
+            row.append(Cell(text="–") if last or not known[k] else _amount(float(np.max(journal[k]))))
+        rows.append(row)
+    journals = (Column(heading=_("greatest load of a journal of the joint behind"), unit="N"),) if np.any(known) else ()
+    return Table(
+        title=_("Shafts and joints"),
+        columns=(
+            Column(heading=_("shaft"), left=True),
+            Column(heading=_("least torque"), unit="N·m"),
+            Column(heading=_("greatest torque"), unit="N·m"),
+            Column(heading=_("greatest secondary couple"), unit="N·m"),
+            *journals,
+        ),
+        rows=rows,
+        note=_("Least and greatest over a turn in steps of a degree."),
+    )
+
+
+def _supports(drive: Drive, found: Forces) -> Table:
+    angle = np.asarray(found.angle) / deg
+    senses = _senses(found)
+    # One sense of sliding behind the other along the angle: the table takes the worse.
+    radial, axial, turn = (
+        np.concatenate([part(one) for one in senses], axis=-1)
+        for part in (
+            lambda one: np.asarray(one.radial),
+            lambda one: np.asarray(one.axial),
+            lambda one: frames.norm(np.asarray(one.support_couple)),
+        )
+    )
+    top = max(float(np.max(radial)), float(np.max(np.abs(axial))))
+    tilts = any(support.tilt for support in drive.supports)
+    rows: list[Sequence[Cell]] = []
+    for k, support in enumerate(drive.supports):
+        most, at = _peak(radial[k])
+        row = [
+            Cell(text=" ".join((str(k + 1), support.name)).strip(), chip=colour(shaft(support.shaft))),
+            _amount(most, top),
+            number(f"{angle[at % len(angle)]:.0f}", float(angle[at % len(angle)])),
+            _amount(float(np.mean(radial[k])), top),
+            _amount(float(np.min(axial[k])), top) if support.axial else Cell(text="–"),
+            _amount(float(np.max(axial[k])), top) if support.axial else Cell(text="–"),
+        ]
+        if tilts:
+            row.append(_amount(float(np.max(turn[k])), top) if support.tilt else Cell(text="–"))
+        rows.append(row)
+    return Table(
+        title=_("Supports"),
+        columns=(
+            Column(heading=_("support, colour of its shaft"), left=True),
+            Column(heading=_("greatest radial force"), unit="N"),
+            Column(heading=_("at"), unit="°"),
+            Column(heading=_("mean radial force"), unit="N"),
+            Column(heading=_("axial force from"), unit="N"),
+            Column(heading=_("to"), unit="N"),
+            *((Column(heading=_("greatest couple"), unit="N·m"),) if tilts else ()),
+        ),
+        rows=rows,
+        note=_("The worse of both ways that the splines slide.") if len(senses) > 1 else "",
+    )
+
+
+def _checks(found: Forces) -> Table:
+    rows = [
+        (
+            _("power"),
+            _("what enters less what leaves, what friction takes and what inertia stores, over the largest of them"),
+            float(np.max(np.asarray(found.power_left))),
+            ROUNDING,
+        )
+    ]
+    if found.force_left is not None and found.moment_left is not None:
+        text = _("all that acts on the whole drive from outside, over the largest of it")
+        rows.append((_("forces"), text, float(np.max(np.asarray(found.force_left))), ROUNDING))
+        rows.append((_("moments"), text, float(np.max(np.asarray(found.moment_left))), ROUNDING))
+    return checks(rows)
+
+
+def _amount(value: float, top: float = 0.0) -> Cell:
+    return number("0" if abs(value) <= NOTHING * top else significant(value), value)

@@ -1,0 +1,85 @@
+"""Where the drive turns power to heat."""
+
+from __future__ import annotations
+
+from cardan.analysis.losses import Losses, losses
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.figures.losses import heat_figure, heat_parts
+from cardan.figures.palette import colour
+from cardan.figures.wording import percent, significant
+from cardan.texts import _
+
+from .balance import ROUNDING, checks, refused
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, number
+from .subject import Subject
+
+
+def rubbing(on: Subject) -> Page | None:
+    """Return the page of the losses; None where the file gives no torque, no speed or no friction."""
+    duty = on.drive.duty
+    if duty.torque is None or duty.speed is None or not _rubs(on.drive):
+        return None
+    title = _("Losses")
+    try:
+        found = losses(on.drive)
+    except InputError as error:
+        return refused("losses", title, error)
+    figure = heat_figure(found)
+    blocks: list[Block] = []
+    if found.locked:
+        blocks.append(Words(text=figure.sentence, tone="failed"))
+    elif heat_parts(found):
+        blocks += [Picture(figure=figure), _table(found)]
+    if found.uncounted:
+        items = [f"{one.field}: {one.message}" for one in found.uncounted]
+        blocks.append(Points(title=_("Not counted"), items=items))
+    if not found.locked:
+        blocks.append(_checks(found))
+    return Page(name="losses", title=title, answer=figure.sentence, blocks=blocks)
+
+
+def _rubs(drive: Drive) -> bool:
+    joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
+    supports = any(support.friction is not None for support in drive.supports)
+    splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
+    return joints or supports or splines
+
+
+def _table(found: Losses) -> Table:
+    rows = [
+        [
+            Cell(text=name, chip=colour(role)),
+            number(significant(heat), heat),
+            number(percent(heat / found.heat).removesuffix(" %"), 100.0 * heat / found.heat),
+        ]
+        for name, heat, role in heat_parts(found)
+    ]
+    rows.append([Cell(text=_("all")), number(significant(found.heat), found.heat), number("100", 100.0)])
+    return Table(
+        title=_("Heat of every part"),
+        columns=(
+            Column(heading=_("part"), left=True),
+            Column(heading=_("mean heat"), unit="W"),
+            Column(heading=_("share"), unit="%"),
+        ),
+        rows=rows,
+        note=_(
+            "Efficiency {exact}; to first order and for the joints alone {first}, by the rule for small bends {small}."
+        ).format(
+            exact=percent(found.efficiency, 5), first=percent(found.first_order, 5), small=percent(found.small_angle, 5)
+        ),
+    )
+
+
+def _checks(found: Losses) -> Table:
+    return checks(
+        [
+            (
+                _("power"),
+                _("what enters less what leaves, all heat, resisting torques and inertia, over the larger end"),
+                found.residual,
+                ROUNDING,
+            )
+        ]
+    )

@@ -1,0 +1,55 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import assembly, example, forces
+from cardan.analysis.forces import kinetostatics
+from cardan.analysis.reactions import Held
+from cardan.drive.accuracy import Error
+from cardan.drive.duty import Duty
+from cardan.drive.train import train, train_of_points
+
+PUMP = example("overconstrained-pump")
+FITTING = replace(
+    PUMP,
+    joints=tuple(replace(joint, error=Error()) for joint in PUMP.joints),
+    supports=tuple(replace(support, offset=(0.0, 0.0, 0.0)) for support in PUMP.supports),
+)
+ANGLES = np.linspace(0.0, 2 * np.pi, 13)
+
+
+def test_torque_and_misfit_add():
+    whole, loaded, alone = forces(PUMP, angle=ANGLES), forces(FITTING, angle=ANGLES), assembly(PUMP, angle=ANGLES)
+    largest = np.max(np.abs(whole.reaction))
+    np.testing.assert_allclose(whole.reaction, loaded.reaction + alone.reaction, atol=1e-11 * largest)
+    np.testing.assert_allclose(whole.joint_force, loaded.joint_force + alone.joint_force, atol=1e-11 * largest)
+    assert int(whole.status) == Held.INDETERMINATE
+
+
+def test_what_is_determinate_does_not_care_for_misfit():
+    rows = tuple(
+        replace(support, axial=False, axial_stiffness=None) if k == 3 else support
+        for k, support in enumerate(PUMP.supports)
+        if k != 1
+    )
+    drives = [
+        replace(one, supports=tuple(replace(s, offset=off) for s in rows))
+        for one, off in ((PUMP, (0.0, 1e-3, 0.0)), (FITTING, (0.0, 0.0, 0.0)))
+    ]
+    found = [forces(one, Duty(torque=10.0), ANGLES).reaction for one in drives]
+    np.testing.assert_array_equal(*found)
+
+
+def test_many_drives_share_alike_in_one_call():
+    one = train(FITTING)
+    points = np.stack((one.points, one.points + np.asarray([0.0, 0.0, 1.0])))
+    parts = {name: np.stack([getattr(one, name)] * 2) for name in ("position", "stiffness", "offset")}
+    parts |= {name: np.stack([getattr(one, name)] * 2) for name in ("bending", "stretching")}
+    many = kinetostatics(train_of_points(points, bearings=one.bearings, **parts), ANGLES, torque=[120.0, 240.0])
+    single = kinetostatics(replace(one, mass=None, inertia=None, cross_mass=None), ANGLES, torque=120.0)
+    assert many.reaction.shape == (2, 4, 13, 3)
+    largest = np.max(np.abs(single.reaction))
+    np.testing.assert_allclose(many.reaction[0], single.reaction, atol=1e-10 * largest)
+    np.testing.assert_allclose(many.reaction[1], 2 * single.reaction, atol=2e-10 * largest)
+    assert np.max(many.moment_left) == pytest.approx(0.0, abs=1e-12)

@@ -1,0 +1,98 @@
+"""cardan assembly: does a drive bind, by how much, and what should be let go?"""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from cardan import io as files
+from cardan.analysis.assembly import assembly
+from tests.cli.conftest import EXAMPLES
+from tests.cli.test_forces import plain, widest
+
+PUMP = EXAMPLES / "overconstrained-pump.toml"
+TRUCK = EXAMPLES / "truck-supports.toml"
+HELD = [path for path in sorted(EXAMPLES.glob("*.toml")) if files.load(path).supports]
+
+
+@pytest.mark.parametrize("path", HELD, ids=lambda path: path.stem)
+def test_every_held_example_is_answered_within_80_columns(cardan, path):
+    done = cardan("assembly", path)
+    assert (done.code, done.err) == (0, "")
+    assert widest(done.out) <= 80
+    assert files.load(path).name in plain(done.out)
+
+
+def test_the_pump_binds_and_is_told_what_to_let_go(cardan, drive_file):
+    out = plain(cardan("assembly", PUMP).out)
+    found = assembly(files.load(PUMP))
+    assert "held by 3 forces too many" in out
+    assert all(f"{key} = false" in out for key in found.spare)
+    text = PUMP.read_text().replace("axial = true\nstiffness_N_per_um = 150\naxial_stiffness_N_per_um = 80\n", "")
+    start, end = text.index('[[supports]]\nname = "motor, near"'), text.index('[[supports]]\nname = "pump, near"')
+    assert len(text) < len(PUMP.read_text())
+    done = cardan("assembly", drive_file(text[:start] + text[end:]))
+    assert done.code == 0, done.err
+    assert "held just enough; it does not bind" in plain(done.out)
+
+
+def test_json_is_the_forces_of_assembly(cardan):
+    said = cardan("assembly", PUMP, "--json").content
+    found = assembly(files.load(PUMP))
+    assert said["degree"] == found.degree
+    assert said["let_go"] == list(found.spare)
+    assert said["supports"][1]["let_go"] == "radial"
+    assert [row["radial_max_N"] for row in said["supports"]] == [one.value for one in found.radial_peak]
+    curves = said["forces"]
+    for k in range(4):
+        np.testing.assert_allclose(curves[f"support_{k + 1}_radial_N"], found.radial[k], rtol=1e-12)
+        np.testing.assert_allclose(curves[f"support_{k + 1}_y_N"], found.reaction[k, :, 1], rtol=1e-12)
+    np.testing.assert_allclose(curves["joint_1_gap_x_um"], found.gap[0, :, 0] * 1e6, rtol=1e-12)
+    np.testing.assert_allclose(curves["torque_Nm"], found.torque, rtol=1e-12)
+
+
+def test_csv_and_json_agree_at_angles_asked_for(cardan):
+    options = ("--angle", 10, "--angle", -30)
+    table = list(csv.DictReader(io.StringIO(cardan("assembly", PUMP, *options, "--csv").out)))
+    said = cardan("assembly", PUMP, *options, "--json").content["forces"]
+    assert said["angle_deg"] == pytest.approx([10.0, -30.0], rel=1e-12)
+    assert {key: [float(row[key]) for row in table] for key in said} == said
+
+
+def test_the_peaks_are_those_of_the_turn_whatever_angles_are_asked_for(cardan):
+    few = cardan("assembly", PUMP, "--angle", 0, "--json").content
+    assert few["supports"] == cardan("assembly", PUMP, "--json").content["supports"]
+
+
+def test_parts_that_fit_do_not_strain(cardan, drive_file):
+    text = "\n".join(line for line in PUMP.read_text().splitlines() if not line.startswith(("offset", "error")))
+    out = plain(cardan("assembly", drive_file(text)).out)
+    assert "as drawn all parts fit and nothing binds" in out
+    assert "Give offset_mm" in out
+
+
+def test_a_rigid_shaft_is_told(cardan, drive_file):
+    text = PUMP.read_text().replace("outer_mm = 35\n", "")
+    assert text != PUMP.read_text()
+    assert "Shaft 2 counts as rigid, as outer_mm is not given" in plain(cardan("assembly", drive_file(text)).out)
+
+
+def test_missing_supports_are_named(cardan):
+    done = cardan("assembly", EXAMPLES / "six-joints.toml")
+    assert (done.code, done.out) == (2, "")
+    assert "six-joints.toml: supports: missing" in done.err
+
+
+def test_missing_stiffness_names_its_keys(cardan, drive_file):
+    text = "\n".join(line for line in PUMP.read_text().splitlines() if "stiffness" not in line)
+    done = cardan("assembly", drive_file(text), "--json")
+    assert (done.code, done.out) == (2, "")
+    fields = [problem["field"] for problem in done.complaint["problems"]]
+    assert "supports[0].stiffness_N_per_um" in fields
+    assert "supports[3].axial_stiffness_N_per_um" in fields
+
+
+def test_a_figure_is_drawn(cardan, tmp_path):
+    assert cardan("assembly", PUMP, "--plot", "strain.svg").code == 0
+    assert (tmp_path / "strain.svg").stat().st_size > 1000

@@ -1,0 +1,171 @@
+"""Parts of the report under load: present where the file says enough, with the numbers of the analyses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan.analysis.assembly import assembly
+from cardan.analysis.forces import forces
+from cardan.analysis.losses import losses
+from cardan.analysis.tolerance import Linear, WorstCase, tolerance
+from cardan.drive.accuracy import Error
+from cardan.drive.drive import Drive
+from cardan.figures.losses import watts
+from cardan.figures.wording import percent, significant
+from cardan.io import example, example_names
+from cardan.maths import frames
+from cardan.report.report import page
+from cardan.report.subject import asked
+from cardan.units import arcmin
+
+from .test_report import parsed
+
+WITH = {
+    "truck-supports": {"forces", "losses"},
+    "pto-spline-thrust": {"forces", "losses"},
+    "instrument-joint": {"forces", "accuracy"},
+    "overconstrained-pump": {"forces", "assembly"},
+}
+"""Examples with parts of their own."""
+
+PARTS = {"forces", "losses", "accuracy", "assembly"}
+
+
+def words(drive):
+    return "".join(parsed(page(drive)).words)
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_each_part_stands_only_where_the_file_asks_for_it(name):
+    assert PARTS & set(parsed(page(example(name))).ids) == WITH.get(name, set())
+
+
+@pytest.mark.parametrize("name", WITH)
+def test_every_check_passes(name):
+    from cardan.report.loaded import loaded
+
+    tables = [
+        item
+        for part in loaded(asked(example(name), None, None))
+        for item in part.blocks
+        if getattr(item, "title", "") == "Checks"
+    ]
+    assert len(tables) == len(WITH[name])  # each part has one
+    assert {row[-1].tone for table in tables for row in table.rows} == {"good"}
+
+
+def test_stopped_by_the_reader_no_part_is_added():
+    text = page(example("truck-supports"), progress=lambda share: "stop")
+    assert not PARTS & set(parsed(text).ids)
+
+
+def test_forces_says_what_the_worst_support_takes():
+    drive = example("truck-supports")
+    found = forces(drive)
+    top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
+    text = words(drive)
+    assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
+    assert significant(float(np.max(found.journals.size[1]))) in text
+
+
+def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
+    drive = example("overconstrained-pump")
+    rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
+    text = words(replace(drive, supports=rigid))
+    assert "more than statics can tell" in text
+    assert "Torque and secondary couple of every shaft" in text
+    assert "What the supports take" not in text
+
+
+def test_a_loose_shaft_is_named():
+    drive = example("truck-supports")
+    assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
+
+
+def test_shared_forces_are_called_so():
+    assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
+    assert "share the forces" not in words(example("truck-supports"))
+
+
+def test_assembly_says_how_much_and_what_to_let_go():
+    drive = example("overconstrained-pump")
+    found = assembly(drive)
+    text = words(drive)
+    assert f"joint 1 carries up to {significant(found.joint_peak[0].value)} N" in text
+    assert "held by 3 more than statics needs" in text
+    assert "4 (pump, far) lengthwise, 2 (motor, near) sideways" in text
+
+
+def test_parts_that_fit_strain_nothing():
+    drive = example("overconstrained-pump")
+    fits = replace(
+        drive,
+        joints=(replace(drive.joints[0], error=None),),
+        supports=tuple(replace(one, offset=(0.0, 0.0, 0.0)) for one in drive.supports),
+    )
+    text = words(fits)
+    assert "all parts fit" in text
+    assert "What misfit presses" not in text
+
+
+def test_stiffness_left_out_is_asked_for_by_name():
+    drive = example("overconstrained-pump")
+    rigid = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in drive.supports)
+    assert "supports[0].stiffness: missing" in words(replace(drive, supports=rigid))
+
+
+def test_losses_tell_heat_efficiency_and_what_is_left_out():
+    drive = example("truck-supports")
+    found = losses(drive)
+    text = words(drive)
+    assert f"{watts(found.heat, 3)} of {watts(found.input_power, 4)} turn to heat" in text
+    assert f"efficiency {percent(found.efficiency, 4)}" in text
+    assert "the splines slide only while the drive moves" in text
+
+
+def test_a_drive_that_locks_is_called_so():
+    drive = example("truck-supports")
+    joint = replace(drive.joints[2], friction=40.0)
+    text = words(replace(drive, joints=(*drive.joints[:2], joint)))
+    assert "Friction holds joint 3" in text
+
+
+def test_without_speed_nothing_is_said_of_losses():
+    drive = example("truck-supports")
+    assert "turn to heat" not in words(replace(drive, duty=replace(drive.duty, speed=None)))
+
+
+def test_accuracy_tells_both_bounds_and_what_matters():
+    drive = example("instrument-joint")
+    most, worst = (tolerance(drive, method=way).output.largest / arcmin for way in (Linear(), WorstCase()))
+    text = words(drive)
+    assert f"within {significant(most, 3)}′, at worst {significant(worst, 3)}′" in text
+    assert "yoke phase of joint 1 matters most" in text
+    assert "Shift of the output shaft" in text
+
+
+def test_a_held_output_does_not_shift():
+    drive = example("instrument-joint")
+    held = tuple(replace(one, axial=True) if k == 3 else one for k, one in enumerate(drive.supports))
+    text = words(replace(drive, supports=held))
+    assert "Shift of the output shaft" not in text
+    assert "output shift" not in text
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [(Error(alpha2=0.5 * arcmin), "known errors put the output"), (Error(a2=1e-5), "Shift of the output shaft")],
+)
+def test_known_errors_alone_have_a_part(error, says):
+    single = Drive.from_angles([0.4])
+    drive = replace(single, joints=(replace(single.joints[0], error=error),))
+    seen = parsed(page(drive))
+    assert "accuracy" in seen.ids
+    assert says in "".join(seen.words)
+
+
+def test_errors_that_cannot_be_assembled_are_called_so():
+    single = Drive.from_angles([0.4])
+    drive = replace(single, joints=(replace(single.joints[0], error=Error(alpha2=1.3)),))
+    assert "cannot be assembled" in words(drive)
