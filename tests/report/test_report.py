@@ -108,6 +108,16 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     assert "22.27°" in words
 
 
+def test_a_slope_at_a_minimum_is_zero():
+    from cardan.report.phasing import phasing
+    from cardan.report.subject import asked
+
+    blocks = phasing(asked(example("three-joints-unequal"), None, None)).blocks
+    costs = next(block for block in blocks if getattr(block, "title", "").startswith("Change of δ"))
+    assert [row[2].text for row in costs.rows] == ["0", "0"]
+    assert all(row[1].text != "0" for row in costs.rows)
+
+
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
     drive = example("pto-hitch")
     held = "".join(parsed(page(drive)).words)

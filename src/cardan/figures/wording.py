@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 THIN = "\u202f"
 
@@ -53,6 +54,24 @@ def percent(share: float, digits: int = 3) -> str:
     if "·" not in text and abs(share) < 1e-3:
         text = f"{100.0 * share:.{digits}g}" if abs(share) >= 1e-6 else text
     return f"{text} %"
+
+
+def noiseless(slope: Iterable[float], largest: float) -> list[float]:
+    """Return slopes of the irregularity with 0 for those that are nothing but rounding.
+
+    Parameters
+    ----------
+    slope : iterable of float
+        At a minimum the slope is 0 only to the rounding of the yoke angles.
+    largest : float
+        Largest irregularity that turning the yokes can make; no slope is much greater.
+
+    Examples
+    --------
+    >>> noiseless([0.01, 8e-9], 0.2)
+    [0.01, 0.0]
+    """
+    return [float(one) if abs(one) > 1e-6 * largest else 0.0 for one in slope]
 
 
 def half_turn(angle: float) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.figures.phases import phasing_figures
-from cardan.figures.wording import fixed, percent, significant
+from cardan.figures.wording import fixed, noiseless, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _
 from cardan.units import deg
@@ -146,13 +146,11 @@ def _between(one: YokeSetting) -> Cell:
 
 def _costs(on: Subject) -> Table:
     some = [on.phasing.as_built, *on.phasing.settings[:3]]
+    slopes = [noiseless(one.sensitivity * deg * 100.0, on.phasing.irregularity_max) for one in some]
     rows: Sequence[list[Cell]] = [
         [
             of_shaft(k + 2),
-            *(
-                number(_slope(float(one.sensitivity[k]) * deg * 100.0), float(one.sensitivity[k]) * deg * 100.0)
-                for one in some
-            ),
+            *(number(significant(slope[k], 3), slope[k]) for slope in slopes),
         ]
         for k in range(on.joints - 1)
     ]
@@ -167,10 +165,6 @@ def _costs(on: Subject) -> Table:
             "Where δ is 0 it grows to both sides alike; elsewhere a negative value means that turning forward helps."
         ),
     )
-
-
-def _slope(value: float) -> str:
-    return "0" if abs(value) < 1e-9 else significant(value, 3)
 
 
 def _poses(on: Subject) -> Table:
