@@ -81,6 +81,27 @@ def test_the_table_has_the_step_asked_for(cardan):
     assert [line.split()[0] for line in table.splitlines()[2:]] == [str(45 * k) for k in range(9)]
 
 
+@pytest.mark.parametrize("name", ["w-arrangement", "single-20deg"])
+def test_accelerations_that_are_rounding_are_shown_as_zero(cardan, name):
+    """The output of an even drive, and a single joint at its dead points; JSON keeps what was reckoned."""
+    path = EXAMPLES / f"{name}.toml"
+    tables = cardan("motion", path, "--angle-deg", "0", "--angle-deg", "90").out.split("\n\n")
+    turn = next(part for part in tables if part.strip().startswith("input")).splitlines()[2:]
+    assert [line.split()[3] for line in turn] == ["0", "0"]
+    shaft = next(part for part in tables if part.strip().startswith("shaft")).splitlines()
+    assert (shaft[-1].split()[-1] == "0") == (name == "w-arrangement")
+    assert cardan("motion", path, "--json").content["max_acceleration_per_speed_squared"] > 0.0
+
+
+def test_an_even_moving_drive_stays_even(cardan, drive_file):
+    """A hitch that never turns keeps both joints straight."""
+    text = (EXAMPLES / "pto-hitch.toml").read_text()
+    path = drive_file(text.replace("pitch_deg = 8", "pitch_deg = 0").replace("yaw_deg = 40", "yaw_deg = 0"))
+    done = cardan("articulation", path)
+    said = " ".join(done.out.split())
+    assert "Counting the movement itself, the output stays even." in said, done.err
+
+
 def test_orders_are_those_of_one_joint(cardan):
     """τ^k/k, spec of the equivalent joint: order 2k of the angle error."""
     orders = cardan("motion", EXAMPLES / "single-20deg.toml", "--json").content["orders"]
@@ -152,6 +173,17 @@ def test_applying_over_the_file_itself(cardan, drive_file):
     path = drive_file(TRUCK.read_text())
     assert cardan("phases", path, "-o", path).code == 0
     assert float(equivalent_joint(files.load(path)).irregularity) < 1e-13
+
+
+def test_applying_over_another_file_needs_force(cardan, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text("kept")
+    done = cardan("phases", TRUCK, "-o", "other.toml", "--json")
+    assert done.code == 2
+    assert done.complaint["problems"] == [{"field": "--out", "message": "other.toml exists; --force overwrites it"}]
+    assert other.read_text() == "kept"
+    assert cardan("phases", TRUCK, "-o", "other.toml", "--force").code == 0
+    assert float(equivalent_joint(files.load(other)).irregularity) < 1e-13
 
 
 def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
