@@ -135,7 +135,37 @@ def test_an_infeasible_drive_is_told_its_bound_and_its_joint(cardan, drive_file)
     excess = np.log(np.cos(10 * deg) * np.cos(12 * deg) / np.cos(25 * deg))
     assert said["irregularity_min"] == pytest.approx(2 * np.sinh(excess), rel=1e-12)
     assert f"at least {100 * said['irregularity_min']:.2f} % remains" in " ".join(done.out.split())
-    assert "Joint 2 bends too much (25.00°)" in done.out
+    # cos x = cos 10° cos 12°, by hand: x = 15.57°.
+    assert "with 15.57° instead of 25.00° the drive could be even" in " ".join(done.out.split())
+
+
+def test_a_joint_that_bends_a_little_too_much_is_told_so(cardan, drive_file):
+    """Two joints: the bend that closes is that of the other one."""
+    path = drive_file("format = 1\n[[joints]]\nbend_deg = 20.1\n[[joints]]\nbend_deg = 20\n")
+    said = " ".join(cardan("phases", path).out.split())
+    assert "Joint 1 bends a little more than the other one can undo: with 20.00° instead of 20.10°" in said
+    assert "▲" not in said
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ((), "A keeps the intermediate shafts calmest, B is its mirror image; C is nearest"),
+        (("--goal", "nearest"), "A is nearest to the present yokes, B its mirror image; C keeps"),
+        (("--fix", "2=90"), "A and B are mirror images"),
+    ],
+)
+def test_letters_are_explained_and_mean_what_is_said(cardan, more, words):
+    assert words in " ".join(cardan("phases", TRUCK, *more).out.split())
+    by_label = {row["label"]: row for row in cardan("phases", TRUCK, *more, "--json").content["settings"]}
+    # The shafts between the joints of a mirror image turn alike, except where a held yoke stands between two joints.
+    if not more or more[0] == "--goal":
+        a, b = (by_label[label]["shaft_irregularity"][:-1] for label in "AB")
+        np.testing.assert_allclose(a, b, rtol=1e-6)
+        near = {label: np.linalg.norm(by_label[label]["change_deg"]) for label in "ABC"}
+        calm = {label: sum(by_label[label]["shaft_irregularity"][:-1]) for label in "ABC"}
+        assert min(near, key=near.get) == ("A" if more else "C")
+        assert min(calm.values()) == pytest.approx(calm["C" if more else "A"], rel=1e-9)
 
 
 def test_a_goal_changes_the_choice(cardan):

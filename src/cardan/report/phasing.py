@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.figures.phases import phasing_figures
-from cardan.figures.wording import fixed, noiseless, percent, significant
+from cardan.figures.wording import fixed, letters, noiseless, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _
 from cardan.units import deg
@@ -101,6 +101,7 @@ def _settings(on: Subject) -> Table:
             title=_("Settings to choose from: yoke angles [°]"),
             columns=(Column(heading=_("shaft"), left=True), *(Column(heading=one.label) for one in some)),
             rows=rows,
+            note=" ".join(_notes(on)),
         )
     return Table(
         title=_("Settings to choose from"),
@@ -116,8 +117,8 @@ def _settings(on: Subject) -> Table:
 
 
 def _notes(on: Subject) -> Iterator[str]:
-    if len(on.phasing.settings) > 1 and on.phasing.feasible:
-        yield _("A and B are mirror images; both are exact.")
+    if meaning := letters(on.phasing):
+        yield meaning
     if on.phasing.spline_steps:
         steps = ", ".join(
             _("{steps} places on shaft {number}").format(steps=steps, number=number)
