@@ -182,9 +182,13 @@ def test_everything_wrong_is_told_at_once():
 
 
 def test_an_unknown_capability_is_met_with_the_nearest():
-    assert problems("single_join", {}) == {"capability": "'single_join' is unknown; did you mean single_joint?"}
-    assert "the names are" in problems("xyz", {})["capability"]
-    assert problems("errors", {"call": "chian"}) == {"call": "'chian' is unknown; did you mean chain?"}
+    assert problems("single_join", {}) == {
+        "capability": "there is no calculation named 'single_join'; did you mean single_joint?"
+    }
+    assert "there are blokh" in problems("xyz", {})["capability"]
+    assert problems("errors", {"call": "chian"}) == {
+        "call": "there is no calculation named 'chian'; did you mean chain?"
+    }
     assert find("chain").name == "chain"
 
 

@@ -81,6 +81,27 @@ def test_the_table_has_the_step_asked_for(cardan):
     assert [line.split()[0] for line in table.splitlines()[2:]] == [str(45 * k) for k in range(9)]
 
 
+@pytest.mark.parametrize("name", ["w-arrangement", "single-20deg"])
+def test_accelerations_that_are_rounding_are_shown_as_zero(cardan, name):
+    """The output of an even drive, and a single joint at its dead points; JSON keeps what was reckoned."""
+    path = EXAMPLES / f"{name}.toml"
+    tables = cardan("motion", path, "--angle-deg", "0", "--angle-deg", "90").out.split("\n\n")
+    turn = next(part for part in tables if part.strip().startswith("input")).splitlines()[2:]
+    assert [line.split()[3] for line in turn] == ["0", "0"]
+    shaft = next(part for part in tables if part.strip().startswith("shaft")).splitlines()
+    assert (shaft[-1].split()[-1] == "0") == (name == "w-arrangement")
+    assert cardan("motion", path, "--json").content["max_acceleration_per_speed_squared"] > 0.0
+
+
+def test_an_even_moving_drive_stays_even(cardan, drive_file):
+    """A hitch that never turns keeps both joints straight."""
+    text = (EXAMPLES / "pto-hitch.toml").read_text()
+    path = drive_file(text.replace("pitch_deg = 8", "pitch_deg = 0").replace("yaw_deg = 40", "yaw_deg = 0"))
+    done = cardan("articulation", path)
+    said = " ".join(done.out.split())
+    assert "Counting the movement itself, the output stays even." in said, done.err
+
+
 def test_orders_are_those_of_one_joint(cardan):
     """τ^k/k, spec of the equivalent joint: order 2k of the angle error."""
     orders = cardan("motion", EXAMPLES / "single-20deg.toml", "--json").content["orders"]
@@ -114,7 +135,37 @@ def test_an_infeasible_drive_is_told_its_bound_and_its_joint(cardan, drive_file)
     excess = np.log(np.cos(10 * deg) * np.cos(12 * deg) / np.cos(25 * deg))
     assert said["irregularity_min"] == pytest.approx(2 * np.sinh(excess), rel=1e-12)
     assert f"at least {100 * said['irregularity_min']:.2f} % remains" in " ".join(done.out.split())
-    assert "Joint 2 bends too much (25.00°)" in done.out
+    # cos x = cos 10° cos 12°, by hand: x = 15.57°.
+    assert "with 15.57° instead of 25.00° the drive could be even" in " ".join(done.out.split())
+
+
+def test_a_joint_that_bends_a_little_too_much_is_told_so(cardan, drive_file):
+    """Two joints: the bend that closes is that of the other one."""
+    path = drive_file("format = 1\n[[joints]]\nbend_deg = 20.1\n[[joints]]\nbend_deg = 20\n")
+    said = " ".join(cardan("phases", path).out.split())
+    assert "Joint 1 bends a little more than the other one can undo: with 20.00° instead of 20.10°" in said
+    assert "▲" not in said
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ((), "A keeps the intermediate shafts calmest, B is its mirror image; C is nearest"),
+        (("--goal", "nearest"), "A is nearest to the present yokes, B its mirror image; C keeps"),
+        (("--fix", "2=90"), "A and B are mirror images"),
+    ],
+)
+def test_letters_are_explained_and_mean_what_is_said(cardan, more, words):
+    assert words in " ".join(cardan("phases", TRUCK, *more).out.split())
+    by_label = {row["label"]: row for row in cardan("phases", TRUCK, *more, "--json").content["settings"]}
+    # The shafts between the joints of a mirror image turn alike, except where a held yoke stands between two joints.
+    if not more or more[0] == "--goal":
+        a, b = (by_label[label]["shaft_irregularity"][:-1] for label in "AB")
+        np.testing.assert_allclose(a, b, rtol=1e-6)
+        near = {label: np.linalg.norm(by_label[label]["change_deg"]) for label in "ABC"}
+        calm = {label: sum(by_label[label]["shaft_irregularity"][:-1]) for label in "ABC"}
+        assert min(near, key=near.get) == ("A" if more else "C")
+        assert min(calm.values()) == pytest.approx(calm["C" if more else "A"], rel=1e-9)
 
 
 def test_a_goal_changes_the_choice(cardan):
@@ -152,6 +203,17 @@ def test_applying_over_the_file_itself(cardan, drive_file):
     path = drive_file(TRUCK.read_text())
     assert cardan("phases", path, "-o", path).code == 0
     assert float(equivalent_joint(files.load(path)).irregularity) < 1e-13
+
+
+def test_applying_over_another_file_needs_force(cardan, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text("kept")
+    done = cardan("phases", TRUCK, "-o", "other.toml", "--json")
+    assert done.code == 2
+    assert done.complaint["problems"] == [{"field": "--out", "message": "other.toml exists; --force overwrites it"}]
+    assert other.read_text() == "kept"
+    assert cardan("phases", TRUCK, "-o", "other.toml", "--force").code == 0
+    assert float(equivalent_joint(files.load(other)).irregularity) < 1e-13
 
 
 def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):

@@ -103,9 +103,19 @@ def test_a_synchronous_drive_is_called_so():
 
 def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     words = "".join(parsed(page(Drive.from_angles([10 * deg, 30 * deg, 20 * deg]))).words)
-    assert "cannot be made synchronous: joint 2" in words
+    assert "cannot be made synchronous. Joint 2 bends more than all others together" in words
     # cos x = cos 10° cos 20°, by hand: x = 22.27°.
     assert "22.27°" in words
+
+
+def test_a_slope_at_a_minimum_is_zero():
+    from cardan.report.phasing import phasing
+    from cardan.report.subject import asked
+
+    blocks = phasing(asked(example("three-joints-unequal"), None, None)).blocks
+    costs = next(block for block in blocks if getattr(block, "title", "").startswith("Change of δ"))
+    assert [row[2].text for row in costs.rows] == ["0", "0"]
+    assert all(row[1].text != "0" for row in costs.rows)
 
 
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
@@ -131,6 +141,21 @@ def test_changes_come_with_the_most_helpful_first():
         assert 1 < len(left) <= 3
         assert left == sorted(left)
         assert left[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_change_is_listed_once_and_told_to_concern_the_drive_as_drawn():
+    """Spline teeth that allow setting A itself are no second change."""
+    from cardan.report.subject import asked
+    from cardan.report.summary import changes
+    from cardan.synthesis.setting import YokeSetting
+
+    on = asked(example("three-joints-unequal"), None, None)
+    assert isinstance(on.best, YokeSetting)
+    twice = dataclasses.replace(on, phasing=dataclasses.replace(on.phasing, spline_settings=(on.best,)))
+    assert [row[0].text for row in changes(twice).rows] == [row[0].text for row in changes(on).rows]
+    assert changes(on).note == ""
+    moving = dataclasses.replace(on, drive=dataclasses.replace(on.drive, movements=example("pto-hitch").movements))
+    assert "standing still" in changes(moving).note
 
 
 def test_bends_beyond_joints_and_beyond_digits_are_warned_of():

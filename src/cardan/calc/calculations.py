@@ -52,7 +52,9 @@ def find(capability: str, *, field: str = "capability") -> Calculation:
     if capability in CALCULATIONS:
         return CALCULATIONS[capability]
     near = nearest(str(capability), CALCULATIONS)
-    text = _("{given} is unknown; did you mean {near}?") if near else _("{given} is unknown; the names are {names}")
+    text = _("there is no calculation named {given}; did you mean {near}?")
+    if not near:
+        text = _("there is no calculation named {given}; there are {names}")
     raise refuse(field, text.format(given=repr(capability), near=near, names=", ".join(sorted(CALCULATIONS))))
 
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from cardan.errors import refuse
 from cardan.texts import _
 
+from .convert import SUFFIXES
+
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
     from cardan.synthesis.phases import Phasing, YokeSetting
@@ -84,6 +86,20 @@ def applied(
     )
 
 
+def check_copy(out: Path, file: Path, *, force: bool) -> None:
+    """Refuse to write over another file unless told to, and what is neither TOML nor JSON, before any work is done."""
+    from .output import check_new, check_target
+    from .source import STDIN
+
+    if file != STDIN and out.exists() and file.exists() and out.samefile(file):
+        check_target(out, "--out")
+        return
+    if out.suffix.lower() not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise refuse("--out", _("{path} should end in one of {known}").format(path=out, known=known))
+    check_new(out, force=force, field="--out")
+
+
 def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
     """Return the setting of a name, or of a word or more of one; the best comes first.
 
@@ -98,6 +114,6 @@ def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
     exact = [one for one in settings if one.label.casefold() == wanted]
     near = exact or [one for one in settings if len(wanted) > 2 and wanted in one.label.casefold()]
     if not near:
-        labels = ", ".join(one.label for one in settings)
+        labels = "; ".join(one.label for one in settings)
         raise refuse("--apply", _("there is no setting {label}; there are {labels}").format(label=label, labels=labels))
     return near[0]

@@ -208,6 +208,8 @@ def _remarks(drive: Drive, file: Path, found: Articulation) -> Iterator[Remark]:
     frozen = _worst(found, "irregularity")
     if moving is not None and frozen is not None:
         text = _("Counting the movement itself, the output's speed swings by {share}, at {time} s.")
+        if percent(moving.value) == percent(0.0):
+            text = _("Counting the movement itself, the output stays even.")
         yield Remark(text=text.format(share=percent(moving.value), time=significant(moving.time, 3)))
     elif found.speed is None:
         yield Remark(text=_("Irregularity of the drive standing at each instant; --speed-rpm counts the movement too."))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cardan.errors import Problem, check, refuse
+from cardan.errors import InputError, Problem, check, refuse
 from cardan.texts import _
 
 from .options import AsCsv, AsJson
@@ -60,6 +60,7 @@ def calc(
     csv: AsCsv = False,
 ) -> int:
     """Reach any single formula by name."""
+    from .failure import RefusedError
     from .show import check_common, show
 
     check_common(json=json, csv=csv)
@@ -72,7 +73,10 @@ def calc(
         if not list_:
             raise refuse("", _("which formula? cardan calc --list names them"))
         return show(_catalogue(), json=json, csv=csv)
-    item = find(capability)
+    try:
+        item = find(capability)
+    except InputError as error:
+        raise RefusedError("", error.problems, headline=error.problems[0].message) from error
     if list_:
         return show(_described(item), json=json, csv=csv)
     return show(_answer(item, compute(capability, given)), json=json, csv=csv)

@@ -23,11 +23,12 @@ SHOWN = 40
 
 
 class RefusedError(CardanError):
-    """An input error together with the file it is about."""
+    """An input error together with the file it is about, or with a headline that names no field."""
 
-    def __init__(self, subject: str, problems: tuple[Problem, ...]) -> None:
+    def __init__(self, subject: str, problems: tuple[Problem, ...], *, headline: str = "") -> None:
         self.subject = subject
         self.problems = problems
+        self.headline = headline
         super().__init__(subject)
 
 
@@ -65,7 +66,7 @@ def answer(error: BaseException, arguments: Sequence[str]) -> int:
     if isinstance(error, KeyboardInterrupt) or type(error).__name__ == "Abort":
         return interrupted(arguments)
     if isinstance(error, RefusedError):
-        return _say(error.subject, error.problems, BAD_INPUT, arguments)
+        return _say(error.subject, error.problems, BAD_INPUT, arguments, error.headline)
     if isinstance(error, InputError):
         return _say("", error.problems, BAD_INPUT, arguments)
     if isinstance(error, MissingExtraError):
@@ -105,17 +106,18 @@ def _usage(error: Any) -> str:
     return _("{text}; see {command} --help").format(text=text, command=command)
 
 
-def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequence[str]) -> int:
+def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequence[str], headline: str = "") -> int:
+    head = headline or _headline(subject, problems)
     with suppress(OSError, ValueError):
-        print(_json(subject, problems, code) if "--json" in arguments else _text(subject, problems), file=sys.stderr)
+        print(_json(head, subject, problems, code) if "--json" in arguments else _text(head, problems), file=sys.stderr)
     return _closed(code)
 
 
-def _json(subject: str, problems: Sequence[Problem], code: int) -> str:
+def _json(head: str, subject: str, problems: Sequence[Problem], code: int) -> str:
     import json
 
     listed = [{"field": problem.field, "message": problem.message} for problem in problems]
-    error = {"message": _headline(subject, problems), "file": subject, "problems": listed, "exit_code": code}
+    error = {"message": head, "file": subject, "problems": listed, "exit_code": code}
     return json.dumps({"error": error}, ensure_ascii=False)
 
 
@@ -126,11 +128,11 @@ def _headline(subject: str, problems: Sequence[Problem]) -> str:
     return _("{file} has {count}").format(file=subject, count=count) if subject else count
 
 
-def _text(subject: str, problems: Sequence[Problem]) -> str:
+def _text(head: str, problems: Sequence[Problem]) -> str:
     word = _("error:")
     if sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
         word = f"\033[1;31m{word}\033[0m"
-    lines = [f"{word} {_visible(_headline(subject, problems))}"]
+    lines = [f"{word} {_visible(head)}"]
     if len(problems) > 1:
         lines += [f"  {_visible(str(problem))}" for problem in problems[:SHOWN]]
         if len(problems) > SHOWN:

@@ -103,6 +103,7 @@ def _table(found: Layout) -> Table:
 
 
 def _remarks(file: Path, found: Layout, held: Mapping[int, float], goal: str) -> Iterator[Remark]:
+    from cardan.figures.wording import letters
     from cardan.synthesis.layout import Status
 
     from .answer import Remark
@@ -111,6 +112,8 @@ def _remarks(file: Path, found: Layout, held: Mapping[int, float], goal: str) ->
         yield Remark(text=_("Warning: the search was stopped; this is the best layout so far."), tone="warning")
     if not found.feasible:
         yield Remark(text=_("No place within the boxes makes the drive synchronous; wider boxes may."))
+    if meaning := letters(found.phasing, nearest=goal == "nearest"):
+        yield Remark(text=meaning)
     yield from spread(found.phasing)
     yield Remark(
         text=_("Write the new centres and yoke angles into a copy of the file:"),

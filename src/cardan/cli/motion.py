@@ -25,6 +25,9 @@ STEP = 30.0
 ORDERS = 3
 """So many orders of the input speed are listed: 2, 4, 6."""
 
+NOISE = 1e-12
+"""Accelerations below this share of a shaft's largest one are rounding and are shown as 0."""
+
 MOST_POSITIONS = 1_000_000
 """More positions than this would not fit a table anyone reads."""
 
@@ -113,7 +116,11 @@ def _answer(drive: Drive, file: Path, found: Motion, each: EquivalentJoint, draw
     return Answer(
         sentence=sentence(drive, file, each),
         tone="good" if _even(each) else "plain",
-        tables=lambda: (_joint_table(drive), _shaft_table(drive, found, each), _turn_table(found)),
+        tables=lambda: (
+            _joint_table(drive),
+            _shaft_table(drive, found, each, tidy=True),
+            _turn_table(found, _accelerations(found, each, tidy=True)),
+        ),
         remarks=tuple(_remarks(drive, file, found, each)),
         content=lambda: _content(drive, file, found, each),
         csv=lambda: _trace(found),
@@ -179,12 +186,12 @@ def _joint_table(drive: Drive) -> Table:
     return Table(columns=columns, rows=rows)
 
 
-def _shaft_table(drive: Drive, found: Motion, each: EquivalentJoint) -> Table:
+def _shaft_table(drive: Drive, found: Motion, each: EquivalentJoint, *, tidy: bool = False) -> Table:
     from cardan.units import deg
 
     from .answer import Column, Table, named
 
-    steep = _accelerations(found, each)
+    steep = _accelerations(found, each, tidy=tidy)
     rows = []
     for k, shaft in enumerate(drive.shafts[1:]):
         last = shaft.number == len(drive.shafts)
@@ -211,7 +218,7 @@ def _shaft_table(drive: Drive, found: Motion, each: EquivalentJoint) -> Table:
     return Table(columns=columns, rows=rows)
 
 
-def _turn_table(found: Motion) -> Table:
+def _turn_table(found: Motion, largest: list[float]) -> Table:
     from cardan.units import deg
 
     from .answer import Column, Table
@@ -233,7 +240,7 @@ def _turn_table(found: Motion) -> Table:
             float(found.angle[p]) / deg,
             float(lead[-1, p]) / deg,
             float(ratio[-1, p]),
-            float(steep[-1, p]),
+            float(steep[-1, p]) if abs(steep[-1, p]) > NOISE * largest[-1] > 0.0 else 0.0,
             *(float(ratio[k, p]) for k in range(1, last - 1)),
         )
         for p in range(len(found.angle))
@@ -266,10 +273,16 @@ def _acceleration_rows(found: Motion) -> Any:
     return found.shaft_slope if found.speed is None else found.shaft_acceleration
 
 
-def _accelerations(found: Motion, each: EquivalentJoint) -> list[float]:
-    """Return the largest acceleration of shafts 2 … n+1 at uniform input [rad/s²], over ω² without a speed."""
+def _accelerations(found: Motion, each: EquivalentJoint, *, tidy: bool = False) -> list[float]:
+    """Return the largest acceleration of shafts 2 … n+1 at uniform input [rad/s²], over ω² without a speed.
+
+    ``tidy`` makes it 0 where a shaft is even but for rounding.
+    """
+    from cardan.analysis.equivalence import SYNCHRONOUS
+
     scale = 1.0 if found.speed is None else float(found.speed) ** 2
-    return [scale * float(value) for value in each.max_acceleration]
+    even = [tidy and bool(share < SYNCHRONOUS) for share in each.irregularity]
+    return [0.0 if e else scale * float(value) for e, value in zip(even, each.max_acceleration, strict=True)]
 
 
 def _unit(found: Motion) -> str:

@@ -69,22 +69,22 @@ def phases(
             show_default=False,
         ),
     ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
+    ] = False,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,
 ) -> int:
     """Tell which yoke angles make the output even, or how even it can be."""
-    from .output import check_target
     from .show import check_common, show
 
     check_common(json=json, csv=csv, plot=plot)
     held = held_yokes(fix or ())
     if out is not None:
-        check_target(out, "--out")
-    elif apply is not None:
-        from cardan.errors import refuse
+        from .apply import check_copy
 
-        raise refuse("--apply", _("needs -o PATH; -o with the name of FILE overwrites it"))
+        check_copy(out, file, force=force)
 
     from .source import read_with_text
 
@@ -100,6 +100,14 @@ def phases(
 
         found = _ask(drive, held, goal)
         answer, changed = turned(drive, file, found, held, goal), {}
+    if apply is not None and out is None:
+        from cardan.errors import refuse
+
+        from .apply import named
+        from .phasing import every_setting
+
+        named(every_setting(found), apply)
+        raise refuse("--apply", _("needs -o PATH; -o with the name of FILE overwrites it"))
     if out is not None:
         from .apply import applied
 

@@ -20,9 +20,6 @@ WIDEST = 7
 WORTH = 2e-4
 """A setting that turns no yoke by more than this [rad] is not worth writing."""
 
-SLIGHT = 1e-3
-"""An irregularity below this needs no other bends."""
-
 PITCHED = 3
 """So many settings of spline teeth are shown; JSON and CSV hold all."""
 
@@ -97,6 +94,8 @@ def _sentence(drive: Drive, file: Path, found: Phasing) -> str:
 
 
 def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float], goal: str) -> Iterator[Remark]:
+    from cardan.figures.wording import letters
+
     from .answer import Remark
     from .motion import steep_joints
 
@@ -104,6 +103,8 @@ def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float]
         yield Remark(text=_("Warning: the search was stopped; these are the best settings so far."), tone="warning")
     if not found.feasible:
         yield from _limits(drive, found)
+    if meaning := letters(found, nearest=goal == "nearest"):
+        yield Remark(text=meaning)
     yield from spread(found)
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
@@ -128,12 +129,15 @@ def spread(found: Phasing) -> Iterator[Remark]:
     """Yield what an error of the yokes costs, or what the free yokes reach."""
     from math import radians
 
+    from cardan.figures.wording import noiseless
+
     from .answer import Remark, percent, significant
 
     if found.settings and found.free:
         best = found.settings[0]
         numbers = sorted((*found.free, *found.fixed))
-        each = [100.0 * abs(float(best.sensitivity[k - 2])) * radians(1.0) for k in numbers]
+        slopes = noiseless(best.sensitivity, found.irregularity_max)
+        each = [100.0 * abs(slopes[k - 2]) * radians(1.0) for k in numbers]
         if found.feasible and len(numbers) > WIDEST:
             text = _("A yoke 1° off costs at most {cost} %, on shaft {shaft}.")
             yield Remark(text=text.format(cost=significant(max(each), 2), shaft=numbers[each.index(max(each))]))
@@ -155,6 +159,8 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     from math import degrees
 
     from cardan.drive.chain import chain
+    from cardan.figures.wording import LITTLE, excess
+    from cardan.units import deg
 
     from .answer import Remark
 
@@ -164,10 +170,6 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     if found.limiting_joint is None or not found.free:
         return
     bend = degrees(float(chain(drive).bend[found.limiting_joint - 1]))
-    if found.irregularity_min < SLIGHT:
-        text = _("Joint {number} ({bend:.2f}°) bends slightly more than the others can undo; what remains is small.")
-        yield Remark(text=text.format(number=found.limiting_joint, bend=bend))
-        return
     if len(found.limiting_joints) > 1:
         tied = ", ".join(str(k) for k in found.limiting_joints)
         text = _(
@@ -175,11 +177,8 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             "joint {number} ({bend:.2f}°) less."
         ).format(tied=tied, number=found.limiting_joint, bend=bend)
     else:
-        text = _(
-            "Joint {number} bends too much ({bend:.2f}°): all others together cannot undo it. Bend it less, the "
-            "others more."
-        ).format(number=found.limiting_joint, bend=bend)
-    yield Remark(text=text, tone="warning")
+        text = excess(found, len(drive.joints), bend * deg)
+    yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
 
 
 def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.figures.phases import phasing_figures
-from cardan.figures.wording import fixed, percent, significant
+from cardan.figures.wording import fixed, letters, noiseless, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _
 from cardan.units import deg
@@ -101,6 +101,7 @@ def _settings(on: Subject) -> Table:
             title=_("Settings to choose from: yoke angles [°]"),
             columns=(Column(heading=_("shaft"), left=True), *(Column(heading=one.label) for one in some)),
             rows=rows,
+            note=" ".join(_notes(on)),
         )
     return Table(
         title=_("Settings to choose from"),
@@ -116,8 +117,8 @@ def _settings(on: Subject) -> Table:
 
 
 def _notes(on: Subject) -> Iterator[str]:
-    if len(on.phasing.settings) > 1 and on.phasing.feasible:
-        yield _("A and B are mirror images; both are exact.")
+    if meaning := letters(on.phasing):
+        yield meaning
     if on.phasing.spline_steps:
         steps = ", ".join(
             _("{steps} places on shaft {number}").format(steps=steps, number=number)
@@ -146,13 +147,11 @@ def _between(one: YokeSetting) -> Cell:
 
 def _costs(on: Subject) -> Table:
     some = [on.phasing.as_built, *on.phasing.settings[:3]]
+    slopes = [noiseless(one.sensitivity * deg * 100.0, on.phasing.irregularity_max) for one in some]
     rows: Sequence[list[Cell]] = [
         [
             of_shaft(k + 2),
-            *(
-                number(_slope(float(one.sensitivity[k]) * deg * 100.0), float(one.sensitivity[k]) * deg * 100.0)
-                for one in some
-            ),
+            *(number(significant(slope[k], 3), slope[k]) for slope in slopes),
         ]
         for k in range(on.joints - 1)
     ]
@@ -167,10 +166,6 @@ def _costs(on: Subject) -> Table:
             "Where δ is 0 it grows to both sides alike; elsewhere a negative value means that turning forward helps."
         ),
     )
-
-
-def _slope(value: float) -> str:
-    return "0" if abs(value) < 1e-9 else significant(value, 3)
 
 
 def _poses(on: Subject) -> Table:

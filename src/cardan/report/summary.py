@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.analysis.equivalence import WARN_BEND
-from cardan.figures.wording import fixed, half_turn, percent, significant
+from cardan.figures.wording import excess, fixed, half_turn, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
@@ -23,6 +23,10 @@ CALM = 1e-3
 
 UTMOST = 1e-9
 """Changes of the irregularity smaller than this help nobody."""
+
+
+SAME = 1e-6
+"""Yokes that differ by less than this [rad] are one and the same setting."""
 
 
 def judgement(on: Subject) -> Words:
@@ -96,12 +100,10 @@ def warnings(on: Subject) -> Iterator[Words]:
                 tone="failed",
             )
     if on.joints > 1 and not on.phasing.feasible and on.phasing.limiting_joint is not None:
-        yield Words(
-            text=_("It cannot be made synchronous: joint {k} bends more than the others can cancel.").format(
-                k=on.phasing.limiting_joint
-            ),
-            tone="warning",
-        )
+        why = _("Joints tied by held yokes act as one that is too uneven for the others.")
+        if len(on.phasing.limiting_joints) == 1:
+            why = excess(on.phasing, on.joints, float(on.train.bend[on.phasing.limiting_joint - 1]))
+        yield Words(text=_("It cannot be made synchronous. {why}").format(why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
     if on.moving is not None:
@@ -230,6 +232,7 @@ def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> li
 
 def changes(on: Subject) -> Table | Words:
     """Return the changes that help most, with their effect, at most three."""
+    drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
     if on.even:
         if _while_moving(on) > UTMOST:
             return Words(
@@ -244,7 +247,7 @@ def changes(on: Subject) -> Table | Words:
             return Words(
                 text=_("Add a second joint of the same bend, its yokes set to undo the first: then the output is even.")
             )
-        return Words(text=_("No change of the yokes helps; only other bends do."))
+        return Words(text=f"{_('No change of the yokes helps; only other bends do.')} {drawn}".strip())
     return Table(
         columns=(
             Column(heading=_("change"), left=True),
@@ -253,16 +256,25 @@ def changes(on: Subject) -> Table | Words:
         ),
         rows=rows,
         title=_("Changes that help most"),
+        note=drawn,
     )
 
 
 def _changes(on: Subject) -> Iterator[tuple[str, float]]:
     """Yield changes and the irregularity each would leave."""
-    if on.best is not None:
-        yield _set_to(on.best, on.best.label, on), on.best.irregularity
-    for one in on.phasing.spline_settings[:1]:
-        yield _set_to(one, one.label, on), one.irregularity
+    told: list[YokeSetting] = []
+
+    def new(one: YokeSetting) -> bool:
+        fresh = all(np.max(np.abs(np.sin(one.yoke_angle - other.yoke_angle))) > SAME for other in told)
+        told.append(one)
+        return bool(fresh)
+
+    for one in (*on.phasing.settings[:1], *on.phasing.spline_settings[:1]):
+        if new(one):
+            yield _set_to(one, one.label, on), one.irregularity
     for k, one in on.alone[:2]:
+        if not new(one):
+            continue
         angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
         yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
     if on.joints > 1 and not on.phasing.feasible and not on.phasing.fixed:
