@@ -66,6 +66,11 @@ class TransmissionError:
         """Shift of the output shaft, array (..., p) [m]."""
         return self.shift[..., -1, :]
 
+    @property
+    def course(self) -> Course:
+        """Mean, orders and peak to peak of the error, if the angles are evenly spaced over one turn without its end."""
+        return course(self.error)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Course:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.analysis.forces import Forces
+from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import geometry
 from cardan.drive.solids import solids
@@ -17,7 +18,7 @@ from cardan.texts import _
 from cardan.units import deg, mm
 
 from .drive import MARGIN, WIDE, views_figure
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, axis, steps
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, axis, steps, written
 from .palette import dash_of, shaft
 from .projection import onto
 from .turning import across, shaft_name, support_dashes, support_name
@@ -135,9 +136,10 @@ def _hodograph(found: Forces, k: int, reach: float) -> Panel:
     x, y = frames.dot(vector, right), frames.dot(vector, up)
     turn = np.linspace(0.0, 2.0 * np.pi, 91)
     series: list[Series] = []
-    for ring in steps(0.0, reach, 2)[1:]:
+    rings = steps(0.0, reach, 2)
+    for ring, name in list(zip(rings, written(rings), strict=True))[1:]:
         series.append(Curve(x=ring * np.sin(turn), y=ring * np.cos(turn), role="faint", width=0.8))
-        series.append(Note(text=significant(ring, 3), x=0.7071 * ring, y=-0.7071 * ring, role="muted", size=6.6))
+        series.append(Note(text=name, x=0.7071 * ring, y=-0.7071 * ring, role="muted", size=6.6))
     middle = Curve(x=np.asarray([0.0]), y=np.asarray([0.0]), role="muted", width=0.0, marker=2.5)
     path = Curve(x=x, y=y, role=shaft(k + 1), dash=dash_of(k + 1), width=1.8)
     start = Curve(x=x[:1], y=y[:1], role=shaft(k + 1), width=0.0, marker=5.5)
@@ -169,6 +171,9 @@ def reactions_figure(found: Forces, drive: Drive | None = None) -> Figure:
             "Support {number} on shaft {shaft} takes most, {most} N at {angle}°; the drawings show all forces on the "
             "shafts at that angle."
         )
+    source = _("Balance of forces and moments of every shaft in one linear system; rigid shafts and crosses")
+    if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
+        source = _("Balance of every shaft, shared by least energy among bearings and shafts that give way")
     rows = [
         Row(
             panels=(
@@ -209,7 +214,7 @@ def reactions_figure(found: Forces, drive: Drive | None = None) -> Figure:
             most=significant(top),
             angle=_degrees(float(angle[when])),
         ),
-        source=_("Balance of forces and moments of every shaft in one linear system; rigid shafts and crosses"),
+        source=source,
         rows=(*views, *rows),
     )
 
@@ -281,20 +286,23 @@ def _views(found: Forces, drive: Drive, when: int) -> tuple[Row, ...]:
 
 def _arrows(panel: Panel, feet: Array, tips: Array) -> Iterator[Series]:
     assert panel.view is not None
+    most = float(np.max(frames.norm(tips - feet)))
     for k, (foot, tip) in enumerate(zip(feet, tips, strict=True), start=1):
         way = onto(panel.view, tip - foot)[:2]
         long = float(np.hypot(*way))
         x, y, z = np.stack((foot, tip), axis=-1)
-        yield Curve(x=x[:1], y=y[:1], z=z[:1], role="ink", width=0.0, marker=4.0)
         if long > 0.0:
             yield Curve(x=x, y=y, z=z, role="paper", width=3.2)
             yield Curve(x=x, y=y, z=z, role="ink", width=1.4, arrow=True)
-        right, up = way / long if long > 0.0 else (0.0, -1.0)
+        yield Curve(x=x[:1], y=y[:1], z=z[:1], role="ink", width=0.0, marker=4.0)
+        short = long <= 0.3 * most  # then the number stands behind the foot, not over the arrow
+        right, up = (-1.4 if short else 1.0) * way / long if long > 0.0 else (0.0, -1.4)
+        at = foot if short else tip
         yield Note(
             text=str(k),
-            x=float(tip[0]),
-            y=float(tip[1]),
-            z=float(tip[2]),
+            x=float(at[0]),
+            y=float(at[1]),
+            z=float(at[2]),
             shift=(6.0 * float(right), 6.0 * float(up)),
             bold=True,
             size=7.6,

@@ -158,7 +158,7 @@ def pareto_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
     return Figure(
         name="pareto",
         title=_("Which tolerances matter"),
-        sentence=_("{share} of the variance come from {name}.").format(
+        sentence=_("{share} of the variance is due to {name}.").format(
             name=tolerance_name(top[0].field)[0], share=percent(top[0].share)
         ),
         source=_(

@@ -140,8 +140,8 @@ def tables() -> tuple[tuple[str, type], ...]:
 
     Examples
     --------
-    >>> [title for title, cls in tables()][:4]
-    ['the head of the file', '[input]', '[output]', '[[joints]]']
+    >>> [title for title, cls in tables()][:5]
+    ['the head of the file', '[settings]', '[input]', '[output]', '[[joints]]']
     """
     return tuple(_tables(Drive, ""))
 

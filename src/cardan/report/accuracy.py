@@ -68,7 +68,7 @@ def _errs(known: TransmissionError, shifts: bool) -> bool:
 def _table(known: TransmissionError, bands: tuple[ToleranceBand, ToleranceBand] | None, *, shifts: bool) -> Table:
     rows: list[Sequence[Cell]] = []
     for name, curve, part, size, unit in (
-        (_("output angle"), np.asarray(known.error), "output", arcmin, "′"),
+        (_("output angle"), np.asarray(known.error), "output", arcmin, "arcmin"),
         (_("output shift"), np.asarray(known.output_shift), "shift", MICRON, "µm"),
     )[: 2 if shifts else 1]:
         if float(np.max(np.abs(curve))) > 0.0:

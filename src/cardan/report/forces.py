@@ -97,6 +97,9 @@ def _shafts(drive: Drive, found: Forces) -> Table:
             last = k + 1 == len(drive.shafts)
             row.append(Cell(text="–") if last or not known[k] else _amount(float(np.max(journal[k]))))
         rows.append(row)
+    note = _("Least and greatest over a turn in steps of a degree.")
+    if found.assumed:
+        note += " " + _("Not given, so assumed: {paths}.").format(paths=", ".join(found.assumed))
     journals = (Column(heading=_("greatest load of a journal of the joint behind"), unit="N"),) if np.any(known) else ()
     return Table(
         title=_("Shafts and joints"),
@@ -108,7 +111,7 @@ def _shafts(drive: Drive, found: Forces) -> Table:
             *journals,
         ),
         rows=rows,
-        note=_("Least and greatest over a turn in steps of a degree."),
+        note=note,
     )
 
 
