@@ -357,7 +357,7 @@ def test_what_is_missing_is_named() -> None:
 
 def test_loose_shafts_are_named_with_their_direction() -> None:
     loaded = replace(Drive.from_points(PARALLEL), duty=Duty(torque=1.0))
-    with pytest.raises(InputError, match="nothing keeps shaft 1 .*along its axis"):
+    with pytest.raises(InputError, match=r"nothing keeps shaft 1 .*along its axis"):
         forces(replace(loaded, supports=(replace(HELD[0], axial=False), *HELD[1:])))
     with pytest.raises(InputError, match="stiffness"):
         forces(replace(loaded, supports=(*HELD[:3], replace(HELD[3], axial=True))))
