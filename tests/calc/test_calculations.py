@@ -185,7 +185,7 @@ def test_an_unknown_capability_is_met_with_the_nearest():
     assert problems("single_join", {}) == {
         "capability": "there is no calculation named 'single_join'; did you mean single_joint?"
     }
-    assert "there are blokh" in problems("xyz", {})["capability"]
+    assert "there are assembly_forces, blokh, " in problems("xyz", {})["capability"]
     assert problems("errors", {"call": "chian"}) == {
         "call": "there is no calculation named 'chian'; did you mean chain?"
     }

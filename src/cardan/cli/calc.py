@@ -15,8 +15,12 @@ from .options import AsCsv, AsJson
 
 if TYPE_CHECKING:
     from cardan.calc import Calculation
+    from cardan.calc.calculation import Given
 
     from .answer import Answer
+
+LONG = 32
+"""Forms of a key longer than this are told beside its meaning."""
 
 INLINE = 6
 """A list longer than this is summed up in the terminal."""
@@ -157,7 +161,9 @@ def _catalogue() -> Answer:
 def _described(item: Calculation) -> Answer:
     from .answer import Answer, Column, Remark, Table
 
-    takes = [(given.key, given.shape, _("needed") if given.required else "", given.doc) for given in item.takes]
+    takes = [
+        (one.key, form, _("needed") if one.required else "", doc) for one in item.takes for form, doc in [_form(one)]
+    ]
     gives = [(output.key, "", "", output.doc) for output in item.returns]
     columns = (
         Column(key="key", heading=_("takes"), left=True),
@@ -186,6 +192,16 @@ def _described(item: Calculation) -> Answer:
             "gives": [{"key": output.key, "doc": output.doc} for output in item.returns],
         },
     )
+
+
+def _form(one: Given) -> tuple[str, str]:
+    """Return form and meaning of a key; what would make the form long goes to the meaning, which wraps."""
+    head, _with, columns = one.shape.partition(" with ")
+    if columns:
+        return head, f"{one.doc}: {columns}"
+    if len(one.shape) > LONG:
+        return _("a word"), f"{one.doc}: {one.shape}"
+    return one.shape, one.doc
 
 
 def _answer(item: Calculation, found: dict[str, Any]) -> Answer:
