@@ -39,7 +39,7 @@ def test_the_kernel_gives_what_every_chain_gives_alone(joints):
     alone = transmission_error(drive, phi, turns=turns).error - centre.error
     # A few roundings of numbers of the order of one.
     kept = np.concatenate(sums[0].kept, axis=-1)
-    assert kept.T == pytest.approx(alone, abs=1e-14)
+    np.testing.assert_allclose(kept.T, alone, rtol=0, atol=1e-14)
     count, one, two = sums[0].batches[0]
     assert np.all(count == 800)
     assert one == pytest.approx(alone.sum(axis=0), abs=1e-11)

@@ -69,16 +69,27 @@ def ended(along: Any, across: Any, link_of: tuple[Any, ...], ci: Any, si: Any, c
     return arctangent((across * ci - along * si) / (along * ci + across * si)) - centre
 
 
-def reduced(
-    off: Any, total: Any, c1: Any, s1: Any, c2: Any, s2: Any, most: Any, least: Any, one: Any, two: Any, *basis: Any
-) -> tuple[Any, ...]:
-    """Return sums over the positions of a sample, its extremes, and sums over the samples of a position."""
-    xp = namespace(off)
-    cp, sp, cq, sq = basis
-    return (
-        *(total + off, c1 + off * cp, s1 + off * sp, c2 + off * cq, s2 + off * sq),
-        *(xp.where(off > most, off, most), xp.where(off < least, off, least), one + off, two + off * off),
+def reduced(*given: Any) -> tuple[Any, ...]:
+    """Return sums over positions of a sample, its extremes, and sums over the samples of each of the positions.
+
+    Given are the errors at some positions, the seven sums and extremes so far, two sums of each position so far, and
+    the four numbers of the orders at each.
+    """
+    count = (len(given) - _STATE) // 7
+    offs, state, sums, basis = (
+        given[:count],
+        list(given[count : count + _STATE]),
+        given[count + _STATE : 3 * count + _STATE],
+        given[3 * count + _STATE :],
     )
+    xp = namespace(offs[0])
+    for k, off in enumerate(offs):
+        state[0] = state[0] + off
+        for wave in range(4):
+            state[1 + wave] = state[1 + wave] + off * basis[4 * k + wave]
+        state[5] = xp.where(off > state[5], off, state[5])
+        state[6] = xp.where(off < state[6], off, state[6])
+    return (*state, *(add for k, off in enumerate(offs) for add in (sums[2 * k] + off, sums[2 * k + 1] + off * off)))
 
 
 def _first(
@@ -87,19 +98,16 @@ def _first(
     return onward(c, s, cd, sd, a, p, q, f, g, cm, sm)
 
 
-def _only(*given: Any) -> tuple[Any, ...]:
-    """Take one joint alone, from the position to the sums."""
-    link_of, state, (c, s, ci, si, centre, *basis) = given[:_LINK], given[_LINK : _LINK + 9], given[_LINK + 9 :]
-    off = ended(c, s, link_of, ci, si, centre)
-    return (off, *reduced(off, *state, *basis))
+def _only(*given: Any) -> tuple[Any]:
+    """Take one joint alone, from the position to the error."""
+    link_of, (c, s, ci, si, centre) = given[:_LINK], given[_LINK:]
+    return (ended(c, s, link_of, ci, si, centre),)
 
 
-def _last(*given: Any) -> tuple[Any, ...]:
-    """Take the last joint, from the direction of its driving yoke to the sums."""
-    (along, across), link_of, state = given[:2], given[2 : 2 + _LINK], given[2 + _LINK : 11 + _LINK]
-    ci, si, centre, *basis = given[11 + _LINK :]
-    off = ended(along, across, link_of, ci, si, centre)
-    return (off, *reduced(off, *state, *basis))
+def _last(along: Any, across: Any, *given: Any) -> tuple[Any]:
+    """Take the last joint, from the direction of its driving yoke to the error."""
+    link_of, (ci, si, centre) = given[:_LINK], given[_LINK:]
+    return (ended(along, across, link_of, ci, si, centre),)
 
 
 def finished(
@@ -113,7 +121,7 @@ def finished(
 
 
 _link_of, _first_of, _onward_of = step(link), step(_first), step(onward)
-_only_of, _last_of, _finished_of = step(_only), step(_last), step(finished)
+_only_of, _last_of, _finished_of, _reduced_of = step(_only), step(_last), step(finished), step(reduced)
 
 
 @njit(nogil=True)
@@ -148,7 +156,7 @@ def _build(sources: int) -> Any:
         _sources = sources  # part of the key on disk
         joints, positions = bend.size // 2, table.size // SHARED
         own, links, state = np.empty(SEATS * LANES), np.empty(_LINK * LANES * joints), np.empty(_STATE * LANES)
-        way, rest = np.empty(2 * LANES), np.empty(LANES)
+        way, rest = np.empty(2 * LANES), np.empty(positions * LANES)
         at_own, at_links, at_state, at_way = address(own), address(links), address(state), address(way)
         to_keep, to_sums, to_sizes, to_rest = address(keep), address(sums), address(sizes), address(rest)
         direction = (at_way, at_way + BYTES)
@@ -173,27 +181,53 @@ def _build(sources: int) -> Any:
                     (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES, p + 6 * BYTES),
                 )
             _begin(state)
+            start, stride = (to_keep + 8 * begin, 8 * kept) if begin < kept else (to_rest, BYTES)
             for k in range(positions):
                 t = SHARED * k
                 p = at_links
                 one = (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES, p + 6 * BYTES)
-                here = to_sums + 2 * BYTES * k
-                out = to_keep + 8 * (k * kept + begin) if begin < kept else to_rest
-                places = (out, *running, here, here + BYTES)
-                loaded = (*running, here, here + BYTES)
                 perfect = (table[t + 2], table[t + 3], table[t + 4])
-                basis = (table[t + 5], table[t + 6], table[t + 7], table[t + 8])
+                out = (start + stride * k,)
                 if joints == 1:
-                    _only_of((*one, *loaded), (table[t], table[t + 1], *perfect, *basis), places)
-                else:
-                    _first_of(one, (table[t], table[t + 1], between[0], between[1]), direction)
-                    for j in range(1, joints):
-                        p = at_links + j * _LINK * BYTES
-                        one = (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES, p + 6 * BYTES)
-                        if j < joints - 1:
-                            _onward_of((*direction, *one), (between[2 * j], between[2 * j + 1]), direction)
-                        else:
-                            _last_of((*direction, *one, *loaded), (*perfect, *basis), places)
+                    _only_of(one, (table[t], table[t + 1], *perfect), out)
+                    continue
+                _first_of(one, (table[t], table[t + 1], between[0], between[1]), direction)
+                for j in range(1, joints):
+                    p = at_links + j * _LINK * BYTES
+                    one = (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES, p + 6 * BYTES)
+                    if j < joints - 1:
+                        _onward_of((*direction, *one), (between[2 * j], between[2 * j + 1]), direction)
+                    else:
+                        _last_of((*direction, *one), perfect, out)
+            whole = positions - positions % 4
+            for k in range(0, whole, 4):
+                o, h, t = start + stride * k, to_sums + 2 * BYTES * k, SHARED * k + 5
+                here = (
+                    h,
+                    h + BYTES,
+                    h + 2 * BYTES,
+                    h + 3 * BYTES,
+                    h + 4 * BYTES,
+                    h + 5 * BYTES,
+                    h + 6 * BYTES,
+                    h + 7 * BYTES,
+                )
+                one_basis = (table[t], table[t + 1], table[t + 2], table[t + 3])
+                t += SHARED
+                two_basis = (table[t], table[t + 1], table[t + 2], table[t + 3])
+                t += SHARED
+                three_basis = (table[t], table[t + 1], table[t + 2], table[t + 3])
+                t += SHARED
+                four_basis = (table[t], table[t + 1], table[t + 2], table[t + 3])
+                _reduced_of(
+                    (o, o + stride, o + 2 * stride, o + 3 * stride, *running, *here),
+                    (*one_basis, *two_basis, *three_basis, *four_basis),
+                    (*running, *here),
+                )
+            for k in range(whole, positions):
+                h, t = to_sums + 2 * BYTES * k, SHARED * k + 5
+                basis = (table[t], table[t + 1], table[t + 2], table[t + 3])
+                _reduced_of((start + stride * k, *running, h, h + BYTES), basis, (*running, h, h + BYTES))
             to = to_sizes + 8 * begin
             wide = 8 * count
             _finished_of(running, (1.0 / positions,), (to, to + wide, to + 2 * wide, to + 3 * wide))
