@@ -6,7 +6,7 @@ import argparse
 import importlib
 import sys
 
-NAMES = ("stored_traces", "without_positions", "single_drive", "forces", "synthesis", "start_up")
+NAMES = ("stored_traces", "without_positions", "single_drive", "forces", "synthesis", "tolerance", "start_up")
 
 
 def main(arguments: list[str] | None = None) -> int:

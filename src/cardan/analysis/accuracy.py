@@ -111,13 +111,12 @@ def course(values: Array) -> Course:
     count = int(values.shape[-1])
     phi = xp.arange(count, dtype=xp.float64) * (2.0 * xp.pi / count)
 
-    def order(k: int) -> Array:
-        return 2.0 * xp.hypot(xp.mean(values * xp.cos(k * phi), axis=-1), xp.mean(values * xp.sin(k * phi), axis=-1))
-
+    waves = xp.stack((xp.cos(phi), xp.sin(phi), xp.cos(2.0 * phi), xp.sin(2.0 * phi)), axis=-1)
+    parts = xp.matmul(values, waves * (2.0 / count))
     return Course(
         mean=xp.mean(values, axis=-1),
-        first=order(1),
-        second=order(2),
+        first=xp.hypot(parts[..., 0], parts[..., 1]),
+        second=xp.hypot(parts[..., 2], parts[..., 3]),
         peak_to_peak=xp.max(values, axis=-1) - xp.min(values, axis=-1),
     )
 

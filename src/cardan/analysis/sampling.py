@@ -9,25 +9,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.accuracy import Tolerance
-from cardan.drive.chain import Chain, chain
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
+from cardan.maths.compiled.method import Method
+from cardan.maths.compiled.threads import share
 from cardan.texts import _
 
-from .accuracy import ahead, error_arrays, links, located_shafts, one_turn, transmission_error, walk
+from .accuracy import error_arrays, one_turn, transmission_error
+from .sample_sums import BATCHES, LANES, Exact, Sums, spread
 
 SIGMA = {"normal": 1.0 / 3.0, "uniform": 1.0 / math.sqrt(3.0), "triangular": 1.0 / math.sqrt(6.0)}
 """Standard deviation of each distribution, as a share of the tolerance."""
 
-BATCHES = 8
-"""Independent draws whose scatter tells how far a result is to be trusted."""
-
-KEPT = 65_536
-"""Samples whose values at every position are kept for quantiles."""
-
-_CACHE = 16_000
-"""Values for which the expressions stay in the caches."""
+_PIECE = 16_384
+"""Errors of one kind that are worth a thread."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -37,19 +33,22 @@ class MonteCarlo:
     Parameters
     ----------
     samples : int
-        Drives to draw; for Sobol' points rounded up to eight times a power of two.
+        Drives to draw, rounded up to eights in each of eight batches, for Sobol' points to powers of two.
     seed : int
         The same seed draws the same drives.
     points : str
         "sobol" (scrambled, evenly spread) or "random".
     positions : int
         Positions of a turn.
+    compute : Plain or Compiled, optional
+        Compiled by default for large jobs without tolerances of lengths, where numba is installed.
     """
 
     samples: int = 65_536
     seed: int = 1
     points: str = "sobol"
     positions: int = 72
+    compute: Method | None = None
 
     def __post_init__(self) -> None:
         problems = []
@@ -154,16 +153,29 @@ def drawn(limits: Array, distributions: Sequence[str], count: int, *, seed: int,
     >>> first.shape, bool(abs(first.mean()) < 0.01)
     ((128, 1), True)
     """
-    each = -(-count // BATCHES)
+    each = LANES * -(-count // (BATCHES * LANES))
     for child in np.random.SeedSequence(seed).spawn(BATCHES):
         rng = np.random.default_rng(child)
         if points == "sobol":
             from scipy.stats import qmc
 
-            share = qmc.Sobol(len(limits), rng=rng).random_base2(max(0, math.ceil(math.log2(each))))
+            shares = qmc.Sobol(len(limits), rng=rng).random_base2(math.ceil(math.log2(each)))
         else:
-            share = rng.random((each, len(limits)))
-        yield np.stack([_from_share(share[:, k], kind) for k, kind in enumerate(distributions)], axis=-1) * limits
+            shares = rng.random((each, len(limits)))
+        yield _errors(shares, limits, distributions)
+
+
+def _errors(shares: Array, limits: Array, distributions: Sequence[str]) -> Array:
+    """Return errors (m, d) at given shares of their distributions, each error beside itself in memory."""
+    found = np.empty(shares.shape[::-1])
+
+    def work(first: int, last: int) -> None:
+        part = slice(first, last)
+        for row, column, limit, kind in zip(found, shares.T, limits, distributions, strict=True):
+            row[part] = limit * _from_share(column[part], kind)
+
+    share(work, len(shares), least=_PIECE)
+    return found.T
 
 
 def _from_share(share: Array, kind: str) -> Array:
@@ -203,120 +215,48 @@ def sampled(
     -------
     Draw
     """
-    whole = chain(drive)
     limits = np.concatenate(error_arrays(spreads), axis=-1)
-    laws = [["normal" if row is None else row.distribution] * 10 for row in spreads]
+    laws = [law for row in spreads for law in ["normal" if row is None else row.distribution] * 10]
     seats = np.flatnonzero(limits)
     known = np.concatenate(error_arrays([joint.error for joint in drive.joints]), axis=-1)
-    exact = _Exact(whole, one_turn(method.positions), located_shafts(drive), shifts=bool(np.any(limits[:, 5:])))
-    centre = transmission_error(drive, exact.phi)
-    sums = [_Sums(method.positions, curve) for curve in (centre.error, centre.output_shift)]
-    kinds = [law for row in laws for law in row]
+    phi = one_turn(method.positions)
+    centre = transmission_error(drive, phi)
+    sums = (Sums(centre.error), Sums(centre.output_shift))
+    exact = Exact(drive, phi, known=known, limits=limits, centre=centre, samples=method.samples, method=method.compute)
     batches = drawn(
-        limits.reshape(-1)[seats], [kinds[k] for k in seats], method.samples, seed=method.seed, points=method.points
+        limits.reshape(-1)[seats], [laws[k] for k in seats], method.samples, seed=method.seed, points=method.points
     )
     lost, cancelled = 0, False
     for k, errors in enumerate(batches):
-        lost += _batch(exact, known, seats, errors, sums)
+        lost += exact.add(errors, sums)
         if progress is not None and progress((k + 1) / BATCHES) == "stop":
             cancelled = k + 1 < BATCHES
             break
     leading = sums[0] if np.any(limits[:, :5]) else sums[1]
-    return Draw(
-        samples=(sums[0].sample(), sums[1].sample()), convergence=leading.convergence(lost), cancelled=cancelled
+    return Draw(samples=(_sample(sums[0]), _sample(sums[1])), convergence=_settled(leading, lost), cancelled=cancelled)
+
+
+def _sample(sums: Sums) -> Sample:
+    total = np.sum(sums.batches, axis=0)
+    levels, sizes = sums.levels([0.0015, 0.025, 0.975, 0.9985]), np.quantile(sums.all_sizes(), 0.997, axis=-1)
+    return Sample(
+        average=sums.centre + total[1] / np.where(total[0] > 0.0, total[0], math.nan),
+        deviation=spread(total),
+        lower=levels[0],
+        lower_95=levels[1],
+        upper_95=levels[2],
+        upper=levels[3],
+        **dict(zip(("mean", "first", "second", "peak_to_peak"), map(float, sizes), strict=True)),
     )
 
 
-class _Exact:
-    """Exact output of a chain with errors, at fixed positions."""
-
-    def __init__(self, whole: Chain, phi: Array, held: Sequence[int], *, shifts: bool) -> None:
-        self.bend, self.mu, self.phi, self.held, self.shifts = whole.bend, whole.turn_before, phi, held, shifts
-        self.start = np.cos(self.mu[:1] + phi), np.sin(self.mu[:1] + phi)
-        self.ideal = walk(links(whole.bend, None), self.mu, None, self.start)[0]
-
-    def __call__(self, errors: Array) -> tuple[Array, Array]:
-        """Return error of the output angle and shift, arrays (m, p), for errors (m, n, 10)."""
-        turned = errors[..., :5]
-        carry = ((errors[..., 5:], self.held),) if self.shifts else ()
-        direction, carried = walk(links(self.bend, turned), self.mu, turned[..., 0], self.start, carry=carry)
-        error = ahead(direction, self.ideal)
-        return error, carried[-1][0] if carry else np.zeros_like(error)
-
-
-def _batch(exact: _Exact, known: Array, seats: Array, errors: Array, sums: Sequence[_Sums]) -> int:
-    """Add a batch of errors to the sums, piece by piece; return how many could not be assembled."""
-    piece, lost = max(1, _CACHE // len(exact.phi)), 0
-    for one in sums:
-        one.open(len(errors))
-    for first in range(0, len(errors), piece):
-        part = errors[first : first + piece]
-        table = np.broadcast_to(known, (len(part), *known.shape)).copy()
-        table.reshape(len(part), -1)[:, seats] += part
-        found = exact(table)
-        good = np.isfinite(found[0]).all(axis=-1) & np.isfinite(found[1]).all(axis=-1)
-        lost += int(len(good) - good.sum())
-        for one, values in zip(sums, found, strict=True):
-            one.add(values if good.all() else values[good])
-    return lost
-
-
-class _Sums:
-    """Sums over samples of curves (m, p) less a centre (p,), batch by batch."""
-
-    def __init__(self, positions: int, centre: Array) -> None:
-        self.centre = centre
-        phi = one_turn(positions)
-        self.basis = np.stack([np.ones_like(phi), *(2 * f(k * phi) for k in (1, 2) for f in (np.cos, np.sin))], axis=-1)
-        self.batches: list[Array] = []
-        self.kept: list[Array] = []
-        self.curves: list[Array] = []
-        self.room = KEPT
-
-    def open(self, expected: int) -> None:
-        self.batches.append(np.zeros((3, len(self.centre))))
-        self.share = max(1, KEPT // BATCHES)
-        self.room = min(expected, self.share)
-
-    def add(self, values: Array) -> None:
-        off = values - self.centre
-        self.batches[-1] += np.stack((np.full(len(self.centre), len(off)), off.sum(axis=0), (off * off).sum(axis=0)))
-        parts = off @ self.basis / len(self.centre)
-        change = off.max(axis=-1) - off.min(axis=-1)
-        sizes = (np.abs(parts[:, 0]), np.hypot(parts[:, 1], parts[:, 2]), np.hypot(parts[:, 3], parts[:, 4]), change)
-        self.curves.append(np.stack(sizes, axis=-1))
-        if self.room > 0:
-            self.kept.append(values[: self.room])
-            self.room -= len(self.kept[-1])
-
-    def _spread(self, rows: Array) -> Array:
-        count, one, two = rows
-        count = np.where(count > 0.0, count, math.nan)
-        return np.sqrt(np.maximum(two - one * one / count, 0.0) / np.maximum(count - 1.0, 1.0))
-
-    def sample(self) -> Sample:
-        total = np.sum(self.batches, axis=0)
-        kept, curves = np.concatenate(self.kept), np.concatenate(self.curves)
-        if not len(kept):  # nothing could be assembled
-            kept, curves = np.full((1, kept.shape[-1]), math.nan), np.full((1, 4), math.nan)
-        levels = np.quantile(kept, [0.0015, 0.025, 0.975, 0.9985], axis=0)
-        sizes = np.quantile(curves, 0.997, axis=0)
-        return Sample(
-            average=self.centre + total[1] / np.where(total[0] > 0.0, total[0], math.nan),
-            deviation=self._spread(total),
-            lower=levels[0],
-            lower_95=levels[1],
-            upper_95=levels[2],
-            upper=levels[3],
-            **dict(zip(("mean", "first", "second", "peak_to_peak"), map(float, sizes), strict=True)),
-        )
-
-    def convergence(self, lost: int) -> Convergence:
-        rows = np.asarray(self.batches)
-        worst = int(np.argmax(self._spread(rows.sum(axis=0))))
-        running = np.cumsum(rows[..., worst], axis=0)
-        deviation = self._spread(running.T)
-        each = self._spread(rows[..., worst].T)
-        scatter = float(np.std(each, ddof=1)) / math.sqrt(len(each)) if len(each) > 1 else math.inf
-        error = scatter / float(deviation[-1]) if deviation[-1] != 0.0 else 0.0
-        return Convergence(samples=running[:, 0].astype(int), deviation=deviation, standard_error=error, lost=lost)
+def _settled(sums: Sums, lost: int) -> Convergence:
+    rows = np.asarray(sums.batches)
+    worst = int(np.argmax(spread(rows.sum(axis=0))))
+    running = np.cumsum(rows[..., worst], axis=0)
+    deviation = spread(running.T)
+    scatter = math.inf
+    if len(rows) > 1:
+        scatter = float(np.std(spread(rows[..., worst].T), ddof=1)) / math.sqrt(len(rows))
+    error = scatter / float(deviation[-1]) if deviation[-1] != 0.0 else 0.0
+    return Convergence(samples=running[:, 0].astype(int), deviation=deviation, standard_error=error, lost=lost)
