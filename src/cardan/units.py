@@ -33,11 +33,12 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "torque": {"Nm": 1.0, "kNm": 1e3, "Nmm": mm, "lbft": 12 * inch * lbf, "lbin": inch * lbf},
     "force": {"N": 1.0, "kN": 1e3, "lbf": lbf},
     "mass": {"kg": 1.0, "g": 1e-3, "lb": pound},
-    "inertia": {"kg_m2": 1.0, "kg_mm2": mm * mm, "g_mm2": 1e-3 * mm * mm, "kg_cm2": 1e-4},
+    "inertia": {"kg_m2": 1.0, "kg_mm2": mm * mm, "g_mm2": 1e-3 * mm * mm, "kg_cm2": 1e-4, "kgm2": 1.0},
     "density": {"kg_m3": 1.0, "g_cm3": 1e3},
     "stress": {"MPa": 1e6, "Pa": 1.0, "GPa": 1e9, "psi": lbf / inch**2},
     "stiffness": {"N_per_m": 1.0, "N_per_mm": 1e3, "kN_per_mm": 1e6, "N_per_um": 1e6},
     "turning_stiffness": {"Nm_per_rad": 1.0, "kNm_per_rad": 1e3, "Nm_per_deg": 1 / deg},
+    "turning_damping": {"Nms_per_rad": 1.0, "Nms_per_deg": 1 / deg},
     "power": {"W": 1.0, "kW": 1e3},
     "work": {"J": 1.0, "kJ": 1e3},
 }
@@ -62,6 +63,7 @@ LABELS = {
     "lbft": "lbf·ft",
     "lbin": "lbf·in",
     "kg_m2": "kg·m²",
+    "kgm2": "kg·m²",
     "kg_mm2": "kg·mm²",
     "kg_cm2": "kg·cm²",
     "g_mm2": "g·mm²",
@@ -74,6 +76,8 @@ LABELS = {
     "Nm_per_rad": "N·m/rad",
     "kNm_per_rad": "kN·m/rad",
     "Nm_per_deg": "N·m/°",
+    "Nms_per_rad": "N·m·s/rad",
+    "Nms_per_deg": "N·m·s/°",
 }
 """How a unit suffix is printed, where it is not printed as it stands."""
 
