@@ -98,6 +98,12 @@ def test_swinging_parts_belong_to_a_torque() -> None:
     assert fields(duty=Duty(torque_at="input")) == ["duty.torque_at"]
 
 
+def test_a_range_of_speeds_rises_from_standstill_on() -> None:
+    assert fields(duty=Duty(speed_range=(300.0, 200.0))) == ["duty.speed_range"]
+    assert fields(duty=Duty(speed_range=(-1.0, 200.0))) == ["duty.speed_range[0]"]
+    assert replace(DRIVE, duty=Duty(speed_range=(0.0, 300.0))).duty.speed is None
+
+
 def test_paths_reach_the_parts() -> None:
     drive = with_values(
         replace(DRIVE, supports=(Support(shaft=1, position=-0.1),)),

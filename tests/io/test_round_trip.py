@@ -93,7 +93,8 @@ def test_movements(kind: type, data: st.DataObject) -> None:
 
 bodies = st.sampled_from([{}, {"outer": 0.07}, {"outer": 0.07, "wall": 0.002}, {"outer": 1 / 3, "inner": 0.1}])
 splines = things(Spline, mean_diameter=st.just(0.04), friction=st.floats(0.0, 0.3), position=st.just(0.25))
-duties = things(Duty, torque=st.floats(-1e5, 1e5, allow_subnormal=False))
+ranges = st.tuples(*[st.floats(0.0, 1e4, allow_subnormal=False)] * 2).map(lambda ends: tuple(sorted(ends)))
+duties = things(Duty, torque=st.floats(-1e5, 1e5, allow_subnormal=False), speed_range=st.none() | ranges)
 
 
 @st.composite

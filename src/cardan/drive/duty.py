@@ -21,6 +21,9 @@ class Duty:
     """Steady running of the input shaft."""
 
     speed: float | None = quantity("angular_speed", None, doc="input speed; negative runs the other way")
+    speed_range: tuple[float, float] | None = quantity(
+        "angular_speed", None, doc="lowest and highest input speed in use [low, high], either way round", low=0.0
+    )
     acceleration: float = quantity("angular_acceleration", 0.0, doc="input angular acceleration")
     torque: float | None = quantity(
         "torque",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from cardan.errors import Problem
 from cardan.texts import _
-from cardan.units import mm
+from cardan.units import mm, rpm
 
 from .joints import Joint
 from .shaft import Shaft
@@ -32,6 +32,10 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
             yield from _spline(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}].spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
+    between = drive.duty.speed_range
+    if between is not None and between[0] > between[1]:
+        text = _("its first speed, {low:.6g} rpm, is above its second, {high:.6g} rpm")
+        yield Problem("duty.speed_range", text.format(low=between[0] / rpm, high=between[1] / rpm))
     if drive.duty.torque is None:
         for name, there in (("harmonics", drive.duty.harmonics), ("torque_at", drive.duty.torque_at != "output")):
             if there:
