@@ -1,0 +1,190 @@
+"""Laws of the torques that act on stations: how large at a time, an angle and a speed, and their slopes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array, namespace
+
+Slopes: TypeAlias = tuple[Array, Array, Array]
+"""Torque [N·m], its derivative by the angle [N·m/rad] and by the speed [N·m·s/rad]."""
+
+
+class Law(Protocol):
+    """How a torque depends on time, on the angle of its station and on its speed; positive with the rotation."""
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return torque, slope by angle and slope by speed at times, angles and speeds of one shape."""
+
+    @property
+    def order(self) -> float | None:
+        """Swings in one turn of the station; 0 where it does not depend on the angle, None where it runs in time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Constant:
+    """Constant torque: `value` [N·m]."""
+
+    value: Array
+
+    order = 0.0
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return the same torque everywhere."""
+        nothing = 0.0 * angle
+        return self.value + nothing, nothing, nothing
+
+
+@dataclass(frozen=True, kw_only=True)
+class Swinging:
+    """Harmonic torque a sin(order·F + phase), F the angle of its station.
+
+    Parameters
+    ----------
+    amplitude : array (...) [N·m]
+        a.
+    frequency : float
+        Swings in one turn of the station.
+    phase : array (...) [rad]
+        Phase of the sine at the start position.
+    """
+
+    amplitude: Array
+    frequency: float
+    phase: Array = 0.0
+
+    @property
+    def order(self) -> float:
+        """Swings in one turn of the station."""
+        return self.frequency
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return a sin(order·F + phase)."""
+        xp = namespace(angle)
+        inside = self.frequency * angle + self.phase
+        return self.amplitude * xp.sin(inside), self.amplitude * self.frequency * xp.cos(inside), 0.0 * angle
+
+
+@dataclass(frozen=True, kw_only=True)
+class Falling:
+    """Torque that falls with the speed: M0 - slope·Ḟ; a load that rises with the speed has M0 ≤ 0.
+
+    Parameters
+    ----------
+    standstill : array (...) [N·m]
+        M0.
+    slope : array (...) [N·m·s/rad]
+    """
+
+    standstill: Array
+    slope: Array
+
+    order = 0.0
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return M0 - slope·Ḟ."""
+        nothing = 0.0 * angle
+        return self.standstill - self.slope * speed, nothing, nothing - self.slope
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedTable:
+    """Torque read off a table over the speed, straight between its points, held beyond its ends.
+
+    Parameters
+    ----------
+    speeds : array (k,) [rad/s]
+        Rising.
+    torques : array (k,) [N·m]
+    """
+
+    speeds: Array
+    torques: Array
+
+    order = 0.0
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return what the table says at the speed."""
+        value, slope = _read(self.speeds, self.torques, speed)
+        return value, 0.0 * angle, slope
+
+
+@dataclass(frozen=True, kw_only=True)
+class History:
+    """Torque over time, straight between its points, held beyond its ends.
+
+    Parameters
+    ----------
+    times : array (k,) [s]
+        Rising.
+    torques : array (k,) [N·m]
+    """
+
+    times: Array
+    torques: Array
+
+    order = None
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return what the table says at the time."""
+        value, _slope = _read(self.times, self.torques, time + 0.0 * angle)
+        return value, 0.0 * angle, 0.0 * angle
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asynchronous:
+    """Asynchronous motor by Kloss: M = 2 M_p s s_p/(s² + s_p²) with the slip s = 1 - Ḟ/ω_sync.
+
+    Parameters
+    ----------
+    synchronous_speed : array (...) [rad/s]
+        ω_sync.
+    pullout_torque : array (...) [N·m]
+        M_p.
+    pullout_slip : array (...)
+        s_p.
+    """
+
+    synchronous_speed: Array
+    pullout_torque: Array
+    pullout_slip: Array
+
+    order = 0.0
+
+    def at(self, time: Array, angle: Array, speed: Array) -> Slopes:
+        """Return the torque at the slip of the speed."""
+        slip = 1.0 - speed / self.synchronous_speed
+        square = slip * slip + self.pullout_slip**2
+        scale = 2.0 * self.pullout_torque * self.pullout_slip
+        by_slip = scale * (self.pullout_slip**2 - slip * slip) / square**2
+        return scale * slip / square, 0.0 * angle, -by_slip / self.synchronous_speed
+
+
+def _read(places: Array, values: Array, where: Array) -> tuple[Array, Array]:
+    """Return value and slope of a table at places."""
+    left = np.clip(np.searchsorted(places, where, side="right") - 1, 0, max(len(places) - 2, 0))
+    if len(places) == 1:
+        return values[0] + 0.0 * where, 0.0 * where
+    slope = (values[left + 1] - values[left]) / (places[left + 1] - places[left])
+    inside = (where >= places[0]) & (where < places[-1])
+    return np.interp(where, places, values), np.where(inside, slope, 0.0)
+
+
+def base_period(orders: tuple[float, ...]) -> float | None:
+    """Return the shortest of π, 2π and 4π of shaft angle that all orders allow [rad]; None where none does.
+
+    Examples
+    --------
+    >>> [round(base_period(orders) / math.pi) for orders in ((), (2.0,), (3.0,), (1.5, 4.0))]
+    [1, 1, 2, 4]
+    >>> base_period((6.8,)) is None
+    True
+    """
+    for turns in (0.5, 1.0, 2.0):
+        if all(abs(order * turns - round(order * turns)) <= 1e-9 * max(1.0, order) for order in orders):
+            return 2.0 * math.pi * turns
+    return None

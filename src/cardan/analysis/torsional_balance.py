@@ -1,0 +1,323 @@
+"""Exact equations of the torsional model: where its stations are, the balance of its torques, and their slopes.
+
+For every coordinate r, with F the angle of a station as a function of its coordinate and τ the sum of the torques on
+it,
+
+    (Σ J F'²) q̈ + (Σ J F' F'') q̇² = Σ F' τ                                                               (Lagrange)
+
+the sums over the stations that the coordinate turns. Leading axes of coordinates are those of the drives, then any of
+positions or times; an array of the model is widened to them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.maths.arrays import Array, namespace
+
+from .torsional_model import TorsionalModel
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Places:
+    """Angles of the stations over their coordinates: F and its first three derivatives, arrays (..., N)."""
+
+    angle: Array
+    first: Array
+    second: Array
+    third: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Slopes:
+    """Linearised balance M q̈ + C q̇ + K q: mass array (..., R), damping and stiffness arrays (..., R, R)."""
+
+    mass: Array
+    damping: Array
+    stiffness: Array
+
+
+def joint_law(angle: Array, bend: Array) -> tuple[Array, Array, Array, Array]:
+    """Return T and its first three derivatives of a Hooke joint, its angle counted from the plane of its shafts.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        θ of the driving yoke.
+    bend : array (...) [rad]
+        α.
+
+    Returns
+    -------
+    tuple of arrays (...)
+        T, T', T'', T''': T = θ + arg(1 - τ e^(-2iθ)) unwrapped, τ = tan²(α/2), T' = cos α/(1 - sin²α cos²θ).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> [float(round(one, 4)) for one in joint_law(np.asarray(np.pi), np.asarray(np.pi / 3))]
+    [3.1416, 2.0, -0.0, -12.0]
+    """
+    xp = namespace(angle, bend)
+    tau = xp.tan(0.5 * bend) ** 2
+    twice_sin, twice_cos = xp.sin(2.0 * angle), xp.cos(2.0 * angle)
+    cosine, square = xp.cos(bend), xp.sin(bend) ** 2
+    whole = angle + xp.atan2(tau * twice_sin, 1.0 - tau * twice_cos)
+    below = 1.0 / (1.0 - 0.5 * square * (1.0 + twice_cos))
+    first = cosine * below
+    second = -first * square * twice_sin * below
+    third = 2.0 * first * square * below * (square * twice_sin**2 * below - twice_cos)
+    return whole, first, second, third
+
+
+def places(model: TorsionalModel, q: Array) -> Places:
+    """Return the angles of the stations and their derivatives by their coordinates.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    q : array (..., R) [rad]
+
+    Notes
+    -----
+    Chain rule behind a joint: F = T(f+ψ) - T(ψ), F' = T' f', F'' = T'' f'² + T' f'',
+    F''' = T''' f'³ + 3 T'' f' f'' + T' f'''.
+    """
+    xp = namespace(q)
+    found: list[tuple[Array, Array, Array, Array]] = []
+    one = xp.ones_like(q[..., 0])
+    nothing = xp.zeros_like(one)
+    for k, source in enumerate(model.driven):
+        if source is None:
+            found.append((q[..., model.coordinate[k]], one, nothing, nothing))
+            continue
+        f, f1, f2, f3 = found[source[0]]
+        bend, phase = _wide(model.bend[..., source[1]], one), _wide(model.phase[..., source[1]], one)
+        t, t1, t2, t3 = joint_law(f + phase, bend)
+        start = joint_law(phase, bend)[0]
+        found.append((t - start, t1 * f1, t2 * f1**2 + t1 * f2, t3 * f1**3 + 3.0 * t2 * f1 * f2 + t1 * f3))
+    angle, first, second, third = (xp.stack([each[i] for each in found], axis=-1) for i in range(4))
+    return Places(angle=angle, first=first, second=second, third=third)
+
+
+def _wide(values: Array, like: Array) -> Array:
+    """Return values (lead) with axes of length 1 behind them, so that they spread over ``like`` (lead, rest)."""
+    return values.reshape(values.shape + (1,) * (like.ndim - values.ndim)) if values.ndim else values
+
+
+def _each(values: Array, like: Array) -> Array:
+    """Return values (lead, k) as (lead, 1…, k) beside ``like`` (lead, rest)."""
+    missing = like.ndim - (values.ndim - 1)
+    return values.reshape(values.shape[:-1] + (1,) * missing + values.shape[-1:]) if values.ndim > 1 else values
+
+
+def _speeds(model: TorsionalModel, place: Places, rate: Array) -> Array:
+    """Return the speeds of the stations, array (..., N)."""
+    return place.first * rate[..., list(model.coordinate)]
+
+
+def _twist(model: TorsionalModel, values: Array) -> Array:
+    """Return value at A minus value at B of each element, array (..., E)."""
+    heads, tails = [a for a, _b in model.elements], [b for _a, b in model.elements]
+    return values[..., heads] - values[..., tails]
+
+
+def _contact(model: TorsionalModel, twist: Array, like: Array) -> tuple[Array, Array]:
+    """Return elastic twist of the elements and 1 where they touch."""
+    xp = namespace(twist)
+    half = 0.5 * _each(model.backlash, like)
+    over = xp.where(twist > half, twist - half, xp.where(twist < -half, twist + half, 0.0 * twist))
+    touching = xp.where((xp.abs(twist) > half) | (half == 0.0), 1.0, 0.0)
+    return over, touching
+
+
+def element_torques(model: TorsionalModel, q: Array, rate: Array) -> Array:
+    """Return the torque of every element, positive when it carries power from A to B.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    q, rate : array (..., R) [rad, rad/s]
+
+    Returns
+    -------
+    array (..., E) [N·m]
+        t = c x_e + b (Ḟ_A - Ḟ_B).
+    """
+    place = places(model, q)
+    return _torques(model, place, _speeds(model, place, rate), q[..., 0])
+
+
+def _torques(model: TorsionalModel, place: Places, speed: Array, like: Array) -> Array:
+    over, touching = _contact(model, _twist(model, place.angle), like)
+    return _each(model.stiffness, like) * over + _each(model.damping, like) * touching * _twist(model, speed)
+
+
+def _acting(model: TorsionalModel, place: Places, speed: Array, time: Array) -> tuple[Array, Array, Array]:
+    """Return the torque on every station and the slopes of the outer ones by angle and speed, arrays (..., N)."""
+    xp = namespace(place.angle)
+    like = place.angle[..., 0]
+    force = _torques(model, place, speed, like)
+    total = [-_wide(model.ground_damping[..., k], like) * speed[..., k] for k in range(len(model.driven))]
+    by_angle = [xp.zeros_like(like) for _k in model.driven]
+    by_speed = [xp.zeros_like(like) for _k in model.driven]
+    for e, (a, b) in enumerate(model.elements):
+        total[a] = total[a] - force[..., e]
+        total[b] = total[b] + force[..., e]
+    for torque in model.torques:
+        k = torque.station
+        value, along, across = torque.law.at(time, place.angle[..., k], speed[..., k])
+        total[k], by_angle[k], by_speed[k] = total[k] + value, by_angle[k] + along, by_speed[k] + across
+    return xp.stack(total, axis=-1), xp.stack(by_angle, axis=-1), xp.stack(by_speed, axis=-1)
+
+
+def gathered(model: TorsionalModel, values: Array) -> Array:
+    """Return the sums over the stations of each coordinate, array (..., R)."""
+    xp = namespace(values)
+    sums = [0.0 * values[..., k] for k in model.owner]
+    for k, r in enumerate(model.coordinate):
+        sums[r] = sums[r] + values[..., k]
+    return xp.stack(sums, axis=-1)
+
+
+def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Array:
+    """Return left minus right side of the equations of motion; zero where they hold.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
+    time : array (...) [s]
+
+    Returns
+    -------
+    array (..., R) [N·m]
+        Of a coordinate whose speed is forced it is the torque that forces it.
+    """
+    place = places(model, q)
+    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
+    inertia = _each(model.inertia, q[..., 0])
+    return (
+        gathered(model, inertia * place.first**2) * acceleration
+        + gathered(model, inertia * place.first * place.second) * rate**2
+        - gathered(model, place.first * acting)
+    )
+
+
+def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> Array:
+    """Return the accelerations of the coordinates; that of a forced one is zero.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+        Every coordinate turns some inertia.
+    q, rate : array (..., R) [rad, rad/s]
+    time : array (...) [s]
+
+    Returns
+    -------
+    array (..., R) [rad/s²]
+    """
+    xp = namespace(q)
+    place = places(model, q)
+    acting, _along, _across = _acting(model, place, _speeds(model, place, rate), time)
+    inertia = _each(model.inertia, q[..., 0])
+    found = (
+        gathered(model, place.first * acting) - gathered(model, inertia * place.first * place.second) * rate**2
+    ) / gathered(model, inertia * place.first**2)
+    if model.free:
+        return found
+    return xp.concat([0.0 * found[..., :1], found[..., 1:]], axis=-1)
+
+
+def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Slopes:
+    """Return the balance linearised about a motion: M δq̈ + C δq̇ + K δq.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
+    time : array (...) [s]
+
+    Returns
+    -------
+    Slopes
+        With all coordinates, a forced one too; leave out its row and column for the rest.
+
+    Notes
+    -----
+    The term F'' τ holds the torque that the drive carries: a parametric stiffness that the book leaves out.
+    """
+    xp = namespace(q)
+    like = q[..., 0]
+    place = places(model, q)
+    wide = list(model.coordinate)
+    speed = _speeds(model, place, rate)
+    acting, along, across = _acting(model, place, speed, time)
+    inertia, ground = _each(model.inertia, like), _each(model.ground_damping, like)
+    own, own_rate = rate[..., wide], acceleration[..., wide]
+    f1, f2, f3 = place.first, place.second, place.third
+    damping = gathered(model, 2.0 * own * inertia * f1 * f2 + ground * f1**2 - f1**2 * across)
+    stiffness = gathered(
+        model,
+        2.0 * inertia * f1 * f2 * own_rate
+        + inertia * (f2**2 + f1 * f3) * own**2
+        - f2 * acting
+        + f1 * f2 * own * (ground - across)
+        - f1**2 * along,
+    )
+    rank = model.coordinates
+    c = [[xp.zeros_like(like) for _s in range(rank)] for _r in range(rank)]
+    k = [[xp.zeros_like(like) for _s in range(rank)] for _r in range(rank)]
+    for r in range(rank):
+        c[r][r], k[r][r] = damping[..., r], stiffness[..., r]
+    _over, touching = _contact(model, _twist(model, place.angle), like)
+    spring = _each(model.stiffness, like) * touching
+    damper = _each(model.damping, like) * touching
+    for e, (a, b) in enumerate(model.elements):
+        ends = (
+            (model.coordinate[a], f1[..., a], (f2 * own)[..., a]),
+            (model.coordinate[b], -f1[..., b], -(f2 * own)[..., b]),
+        )
+        for r, g, _h in ends:
+            for s, along_g, along_h in ends:
+                c[r][s] = c[r][s] + damper[..., e] * g * along_g
+                k[r][s] = k[r][s] + spring[..., e] * g * along_g + damper[..., e] * g * along_h
+    return Slopes(
+        mass=gathered(model, inertia * f1**2),
+        damping=xp.stack([xp.stack(row, axis=-1) for row in c], axis=-2),
+        stiffness=xp.stack([xp.stack(row, axis=-1) for row in k], axis=-2),
+    )
+
+
+def energy(model: TorsionalModel, q: Array, rate: Array) -> Array:
+    """Return Σ ½ J Ḟ² + Σ ½ c x_e², array (...) [J]."""
+    xp = namespace(q)
+    like = q[..., 0]
+    place = places(model, q)
+    over, _touching = _contact(model, _twist(model, place.angle), like)
+    kinetic = xp.sum(_each(model.inertia, like) * _speeds(model, place, rate) ** 2, axis=-1)
+    return 0.5 * kinetic + 0.5 * xp.sum(_each(model.stiffness, like) * over**2, axis=-1)
+
+
+def power(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> tuple[Array, Array]:
+    """Return the power of the outer torques and what the dampers take, arrays (...) [W].
+
+    The power of a forced speed is not in the first: it is the balance of its coordinate times that speed.
+    """
+    xp = namespace(q)
+    like = q[..., 0]
+    place = places(model, q)
+    speed = _speeds(model, place, rate)
+    _over, touching = _contact(model, _twist(model, place.angle), like)
+    lost = xp.sum(_each(model.ground_damping, like) * speed**2, axis=-1) + xp.sum(
+        _each(model.damping, like) * touching * _twist(model, speed) ** 2, axis=-1
+    )
+    given = xp.zeros_like(like)
+    for torque in model.torques:
+        given = (
+            given
+            + torque.law.at(time, place.angle[..., torque.station], speed[..., torque.station])[0]
+            * speed[..., torque.station]
+        )
+    return given, lost
