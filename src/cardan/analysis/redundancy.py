@@ -20,7 +20,7 @@ TAKES_PART = 1e-7
 READY: dict[Hold, float] = {"tilt": 4.0, "axial": 2.0, "radial": 1.0}
 """How readily each hold is let go: a self-aligning bearing and a floating one are cheap, one bearing less is not."""
 
-MOST_TRIALS = 4096
+MOST_TRIALS = 1024
 """Layouts looked at when searching for what to let go; in the order of search the first is nearly always the answer."""
 
 

@@ -75,12 +75,11 @@ def _release(drive: Drive, found: AssemblyForces) -> str:
         named.append(f"{k + 1}{f' ({name})' if name else ''} {holds[hold]}")
     text = _("The drive is held by {degree} more than statics needs.").format(degree=found.degree)
     if not named:
-        return text
-    return (
-        text
-        + " "
-        + _("Nothing would strain it if these supports did not hold: {names}.").format(names=", ".join(named))
-    )
+        return f"{text} {_('No support can be let go without freeing a shaft.')}"
+    more = _("Nothing would strain it if these supports did not hold: {names}.")
+    if found.kept:
+        more = _("Without these holds {kept} would be left: {names}; no other can go without freeing a shaft.")
+    return f"{text} {more.format(names=', '.join(named), kept=found.kept)}"
 
 
 def _table(drive: Drive, found: AssemblyForces) -> Table:
