@@ -372,3 +372,15 @@ def test_a_loose_drive_in_a_batch_has_a_status() -> None:
     assert np.isnan(found.reaction[1]).all()
     assert np.isfinite(found.reaction[[0, 2]]).all()
     assert np.isfinite(found.shaft_torque).all()
+
+
+def test_a_joint_that_friction_locks_is_refused() -> None:
+    # Beyond κ tan α = 1 no torque drives the joint: its equations still have a solution, which no drive obeys.
+    def held(bend: float) -> Drive:
+        joint = Hooke(bend=bend, friction=4.0, cross=Cross(span=0.1, journal=0.025))
+        return Drive(joints=(Hooke(bend=0.1), joint), duty=Duty(torque=10.0))
+
+    assert np.max(forces(held(44.0 * deg)).power_left) < 1e-12
+    with pytest.raises(InputError, match="locks joint 2") as caught:
+        forces(held(46.0 * deg))
+    assert [one.field for one in caught.value.problems] == ["joints[1].friction"]

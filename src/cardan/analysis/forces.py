@@ -12,7 +12,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry, geometry_from_points
 from cardan.drive.movement import Movement
 from cardan.drive.train import Train, mass_problems, train
-from cardan.errors import check, refuse
+from cardan.errors import Problem, check, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.paths import Path
@@ -176,8 +176,8 @@ def forces(
     Raises
     ------
     InputError
-        No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, or something
-        that would need a speed.
+        No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, a joint that
+        friction locks, or something that would need a speed.
 
     Notes
     -----
@@ -205,6 +205,8 @@ def forces(
         raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"))
     xp = namespace(whole.points, angle)
     phi = positions(angle, xp)
+    if isinstance(drive, Drive) and movement is None:
+        _refuse_locked(whole, np.asarray(whole.chain.bend))
     if movement is None:
 
         def asked(one: Train) -> Forces:
@@ -290,6 +292,19 @@ def kinetostatics(
     return _answer(used, moved, whole.points[..., None, :, :], None, angle, carried, still=still, field=field)
 
 
+def _refuse_locked(whole: Train, bend: Array) -> None:
+    """Refuse a drive that does not turn, as the friction of a joint reaches what turns it; bends (..., n)."""
+    if whole.drag is None:
+        return
+    steepest = np.max(np.reshape(bend, (-1, whole.joints)), axis=0)
+    hold = np.asarray(whole.drag) * np.tan(steepest)
+    text = _("friction locks joint {number}: over the journals it reaches {share:.3g} of what turns it")
+    check(
+        Problem(f"joints[{i}].friction", text.format(number=i + 1, share=float(hold[i])))
+        for i in np.flatnonzero(hold >= 1.0)
+    )
+
+
 def _slid_back(drive: Drive, whole: Train) -> Train | None:
     """Return the train with the splines that slide both ways sliding the other way; None where none of them rubs."""
     both = [shaft.spline is not None and shaft.spline.sliding == "both" for shaft in drive.shafts]
@@ -352,6 +367,7 @@ def _moving(
         start=start,
         normal=place.normal[0],
     )
+    _refuse_locked(whole, np.asarray(found.shafts.bend))
     stand = swinging(found.axes, found.spins)
     points = np.asarray(found.points[0]).copy()
     points[:, 0] = points[:, 1] - place.length[0] * found.shafts.axis[:, 0]
