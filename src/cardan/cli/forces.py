@@ -55,8 +55,12 @@ def forces(
 
 def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
     from .answer import Answer
-    from .asked import figures
     from .force_tables import tables
+
+    def drawn() -> Any:
+        from cardan.figures.forces import forces_figures
+
+        return forces_figures(found, drive)
 
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -64,7 +68,7 @@ def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
         remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found, curves),
         csv=lambda: _trace(curves),
-        figure=lambda: figures(found),
+        figure=drawn,
     )
 
 

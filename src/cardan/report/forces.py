@@ -11,6 +11,7 @@ from cardan.analysis.forces import Forces, forces
 from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
+from cardan.figures.force_arrows import loads_figures
 from cardan.figures.forces import reactions_figure, torques_figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
@@ -44,7 +45,7 @@ def carrying(on: Subject) -> Page | None:
     if found.reaction is None:
         blocks: list[Block] = [*remark, Picture(figure=turned), _shafts(on.drive, found), _checks(found)]
         return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks)
-    held = reactions_figure(found, on.drive)
+    held = reactions_figure(found, [one.name for one in on.drive.supports])
     if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
         text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
         remark = [Words(text=text, tone="warning")]
@@ -52,6 +53,7 @@ def carrying(on: Subject) -> Page | None:
         *remark,
         Picture(figure=turned),
         _shafts(on.drive, found),
+        *(Picture(figure=drawn) for drawn in loads_figures(found, on.drive)),
         Picture(figure=held),
         _supports(on.drive, found),
         _checks(found),
