@@ -9,9 +9,9 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import geometry, geometry_from_points
+from cardan.drive.geometry import geometry
 from cardan.drive.movement import Movement
-from cardan.drive.train import Train, mass_problems, train
+from cardan.drive.train import Train, mass_problems, place_of, train
 from cardan.errors import Problem, check, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
@@ -20,21 +20,12 @@ from cardan.texts import _
 
 from .cross_loads import JournalLoads, journal_loads
 from .elastic import elastic, refuse_soft
-from .kinetostatics import Couples, Stand, couples, standing, swinging
+from .kinetostatics import Couples, Stand, couples, resisted, standing, swinging
 from .motion import positions
 from .moving_chain import moving_centres
 from .moving_points import moving_path, start_time
 from .reactions import Frame, Held, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
 from .redundancy import redundancy
-
-CONVERGED = 1e-14
-"""The torque at the input is met to this share of the torques in the drive."""
-
-NUDGE = 1e-3
-"""Step from which the slope of the input torque by the load is taken: it changes only where friction turns about."""
-
-ROUNDS = 12
-"""Steps of Newton's method at most; without friction one is enough."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -203,6 +194,8 @@ def forces(
         used, whole = Duty() if duty is None else duty, drive
     if used.torque is None:
         raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"))
+    if used.speed == 0.0 and whole.drag is not None:
+        raise refuse("duty.speed", _("at standstill the sense of friction is open; give the speed of running, or none"))
     xp = namespace(whole.points, angle)
     phi = positions(angle, xp)
     if isinstance(drive, Drive) and movement is None:
@@ -272,7 +265,7 @@ def kinetostatics(
            [1.11803399]])
     """
     xp = namespace(whole.points, angle)
-    place = geometry_from_points(whole.points)
+    place = place_of(whole)
     still = speed is None
     moved = standing(
         whole.chain,
@@ -329,19 +322,8 @@ def _carried(whole: Train, stand: Stand, given: Array, torque_at: str) -> tuple[
     """Return the couples for a torque at either end, and the torque that resists the output."""
     if torque_at == "output":
         return couples(whole, stand, given), given
-    xp = namespace(given)
-    load = given * stand.speed[..., 0] / stand.speed[..., -1]
-    found = couples(whole, stand, load)
-    for _round in range(ROUNDS):
-        gap = given - found.shaft_torque[..., 0]
-        size = xp.abs(given) + xp.max(xp.abs(found.shaft_torque), axis=-1)
-        if not bool(xp.any(xp.abs(gap) > CONVERGED * size)):
-            break
-        nudge = xp.where(gap < 0.0, -NUDGE, NUDGE) * xp.where(size > 0.0, size, 1.0)
-        other = couples(whole, stand, load + nudge)
-        load = load + gap * nudge / (other.shaft_torque[..., 0] - found.shaft_torque[..., 0])
-        found = couples(whole, stand, load)
-    return found, load
+    load = resisted(whole, stand, given)
+    return couples(whole, stand, load), load
 
 
 def _moving(
@@ -374,6 +356,7 @@ def _moving(
     sense = -np.sign(np.asarray(found.shafts.length_rate)[:, list(whole.splines)])
     torque = np.zeros(angle.shape) + (duty.torque or 0.0)
     carried = _carried(whole, stand, torque, duty.torque_at)
+    whole = replace(whole, normal=None)
     return _answer(whole, stand, points, found.points[2], angle, carried, still=False, field="supports", sense=sense)
 
 
