@@ -7,9 +7,50 @@ import numpy as np
 from cardan.maths.arrays import Array
 
 from .torsional_batch import Turning
+from .torsional_model import TorsionalModel
 
 SAMPLES = 16
 """Angles over which torques are averaged."""
+
+
+def straight_stiffness(drives: TorsionalModel) -> Array:
+    """Return the stiffness of drives between their coordinates, all joints straight, array (b, R, R) [N·m/rad]."""
+    found = np.zeros((len(drives.stiffness), drives.coordinates, drives.coordinates))
+    for e, (first, last) in enumerate(drives.elements):
+        a, b = drives.coordinate[first], drives.coordinate[last]
+        for r, s, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
+            found[:, r, s] += sign * drives.stiffness[:, e]
+    return found
+
+
+def straight_frequencies(drives: TorsionalModel) -> Array:
+    """Return the natural frequencies of drives, all joints straight and all backlash closed, array (b, m) [rad/s].
+
+    Parameters
+    ----------
+    drives : TorsionalModel (b,)
+
+    Returns
+    -------
+    array (b, m)
+        Rising; of a free drive the first is 0, its turning as a whole.
+    """
+    mass = np.zeros((len(drives.inertia), drives.coordinates))
+    for k, r in enumerate(drives.coordinate):
+        mass[:, r] += drives.inertia[:, k]
+    first = 0 if drives.free else 1
+    mass, stiffness = mass[:, first:], straight_stiffness(drives)[:, first:, first:]
+    heavy = np.any(mass > 0.0, axis=0)
+    inner = stiffness[:, heavy][:, :, heavy]
+    if not heavy.all():
+        across = stiffness[:, heavy][:, :, ~heavy]
+        inner = inner - across @ np.linalg.solve(stiffness[:, ~heavy][:, :, ~heavy], across.swapaxes(-1, -2))
+    root = np.sqrt(mass[:, heavy])
+    values = np.linalg.eigvalsh(inner / (root[:, :, None] * root[:, None, :]))
+    found: Array = np.sqrt(np.maximum(values, 0.0))
+    if drives.free and found.shape[-1]:
+        found[:, 0] = 0.0
+    return found
 
 
 def at_rest(turning: Turning) -> Array:
@@ -29,15 +70,12 @@ def at_rest(turning: Turning) -> Array:
         load[:, drives.coordinate[torque.station]] += value
     for k, r in enumerate(drives.coordinate):
         load[:, r] -= drives.ground_damping[:, k] * turning.speed
-    stiffness = np.zeros((len(rows), drives.coordinates, drives.coordinates))
     ends = [(drives.coordinate[a], drives.coordinate[b]) for a, b in drives.elements]
-    for e, (a, b) in enumerate(ends):
-        spring = drives.stiffness[:, e]
-        for r, s, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
-            stiffness[:, r, s] += sign * spring
-        if drives.rest is not None:
-            load[:, a] += spring * drives.rest[:, e]
-            load[:, b] -= spring * drives.rest[:, e]
+    if drives.rest is not None:
+        for e, (a, b) in enumerate(ends):
+            load[:, a] += drives.stiffness[:, e] * drives.rest[:, e]
+            load[:, b] -= drives.stiffness[:, e] * drives.rest[:, e]
+    stiffness = straight_stiffness(drives)
     inner = stiffness[:, 1:, 1:]
     found = np.zeros((len(rows), drives.coordinates))
     if inner.shape[-1]:
