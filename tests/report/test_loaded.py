@@ -27,8 +27,8 @@ from .test_report import parsed
 WITH = {
     "truck-supports": {"forces", "losses"},
     "pto-spline-thrust": {"forces", "losses"},
-    "instrument-joint": {"forces", "accuracy"},
-    "overconstrained-pump": {"forces", "assembly"},
+    "instrument-joint": {"forces", "losses", "accuracy"},
+    "overconstrained-pump": {"forces", "losses", "assembly"},
 }
 """Examples with parts of their own."""
 
