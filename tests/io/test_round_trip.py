@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import Drive
+from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.joints import Hooke
@@ -105,6 +106,9 @@ def shafts(draw: st.DrawFn) -> Shaft:
             Shaft,
             number=st.just(2),
             spline=st.none() | splines,
+            segments=st.just(()),
+            masses=st.lists(things(Lump, position=st.just(0.0)), max_size=2).map(tuple),
+            wear_factor=st.none(),
             **{name: st.none() for name in none},
         )
     )

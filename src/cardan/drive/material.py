@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cardan.units import quantity
+from cardan.units import plain, quantity
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -13,3 +13,18 @@ class Material:
 
     density: float = quantity("density", 7850.0, doc="density", above=0.0)
     youngs: float = quantity("stress", 2.06e11, doc="Young's modulus", above=0.0)
+    shear: float | None = quantity(
+        "stress", None, doc="shear modulus; from Young's modulus and Poisson's ratio when not given", above=0.0
+    )
+    poisson: float = plain(0.3, doc="Poisson's ratio", low=0.0, below=0.5)
+
+    @property
+    def shear_modulus(self) -> float:
+        """G [Pa]: as given, else E/(2(1+ν)).
+
+        Examples
+        --------
+        >>> Material(youngs=7e10, poisson=0.25).shear_modulus
+        28000000000.0
+        """
+        return 0.5 * self.youngs / (1.0 + self.poisson) if self.shear is None else self.shear

@@ -10,6 +10,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import mm, rpm
 
+from .body import body_problems
 from .joints import Joint
 from .shaft import Shaft
 from .support import Support
@@ -29,6 +30,7 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
     for shaft in drive.shafts:
         if shaft.number <= len(drive.joints) + 1:
             yield from _body(shaft, f"shafts[{shaft.number - 1}]")
+            yield from body_problems(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}]")
             yield from _spline(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}].spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
@@ -78,7 +80,7 @@ def _body(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.inner", _("is not less than the outer diameter"))
     elif shaft.wall is not None and 2.0 * shaft.wall > shaft.outer:
         yield Problem(f"{path}.wall", _("is more than half the outer diameter"))
-    if shaft.centre_of_mass is not None and shaft.mass is None and shaft.outer is None:
+    if shaft.centre_of_mass is not None and shaft.mass is None and not shaft.has_body:
         yield Problem(f"{path}.centre_of_mass", _("the shaft has no mass: give its mass or its body"))
 
 

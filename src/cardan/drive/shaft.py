@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
+from .body import Lump, Segment
 from .material import Material
 
 
@@ -68,6 +69,16 @@ class Shaft:
     inner: float | None = quantity("length", None, doc="inner diameter of a tube", low=0.0)
     wall: float | None = quantity("length", None, doc="thickness of the wall of a tube", above=0.0)
     material: Material | None = plain(None, doc="material; steel when not given")
+    segments: tuple[Segment, ...] = plain(
+        (), doc="stretches of a stepped body from start to end, in place of `outer`; they add up to the shaft's length"
+    )
+    masses: tuple[Lump, ...] = plain((), doc="yokes, flanges and other parts on the shaft, beside its body")
+    wear_factor: float | None = plain(
+        None,
+        doc="critical speed of the real shaft over the computed one; 0.9 with a spline and 1 without when not given",
+        above=0.0,
+        high=1.0,
+    )
     mass: float | None = quantity("mass", None, doc="mass, in place of that of the body", low=0.0)
     centre_of_mass: float | None = quantity(
         "length",
@@ -87,3 +98,8 @@ class Shaft:
         "torque", 0.0, doc="torque that resists the turning of this shaft beside the load of the drive"
     )
     spline: Spline | None = plain(None, doc="sliding spline of the shaft")
+
+    @property
+    def has_body(self) -> bool:
+        """Whether the drive says what the shaft looks like between its ends."""
+        return self.outer is not None or bool(self.segments)

@@ -7,6 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.accuracy import Cost, Error, Tolerance
+from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Duty, Harmonic, Limits
@@ -35,6 +36,8 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`cost` of tolerances", Cost),
     ("`[[shafts]]`", Shaft),
     ("`material` of a shaft", Material),
+    ("`segments` of a shaft", Segment),
+    ("`masses` of a shaft", Lump),
     ("`spline` of a shaft", Spline),
     ("`[[supports]]`", Support),
     ("`[duty]`", Duty),
