@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
+from .machine import Engine, MachineTorque, RunUp
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Harmonic:
@@ -33,6 +35,19 @@ class Duty:
     )
     torque_at: str = plain("output", doc="at which end of the drive the torque is given", choices=("output", "input"))
     harmonics: tuple[Harmonic, ...] = plain((), doc="swinging parts of the torque, beside its mean")
+    input: str | None = plain(
+        None,
+        doc="whether the input turns evenly at its speed, or freely as torques make it; free when not given and an "
+        "engine, a motor or a torque on the input drives it",
+        choices=("uniform", "free"),
+    )
+    engine: Engine | None = plain(None, doc="piston engine on the input shaft")
+    motor: MachineTorque | None = plain(None, doc="motor on the input shaft; its torque drives")
+    load: MachineTorque | None = plain(
+        None, doc="machine on the output shaft, for torsional vibration in place of `torque`; positive when it resists"
+    )
+    torques: tuple[MachineTorque, ...] = plain((), doc="further torques on stations, positive with the rotation")
+    run_up: RunUp | None = plain(None, doc="change of the input speed at a steady rate")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

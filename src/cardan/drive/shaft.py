@@ -29,6 +29,10 @@ class Spline:
         low=0.0,
         below=1.57,
     )
+    backlash: float = quantity("angle", 0.0, doc="whole angular play of the teeth", low=0.0)
+    stiffness: float | None = quantity(
+        "turning_stiffness", None, doc="torsional stiffness of the teeth; rigid when not given", above=0.0
+    )
     sliding: str = plain(
         "both",
         doc="which way the shaft slides under load: it grows longer, shorter, or one and then the other",
@@ -93,6 +97,16 @@ class Shaft:
         None,
         doc="moment of inertia about an axis across through the centre of mass, in place of that of the body",
         low=0.0,
+    )
+    stiffness: float | None = quantity(
+        "turning_stiffness",
+        None,
+        doc="torsional stiffness from end to end, its spline included, in place of that of the body",
+        above=0.0,
+    )
+    damping: float | None = quantity("turning_damping", None, doc="torsional damping from end to end", low=0.0)
+    loss_factor: float | None = plain(
+        None, doc="structural damping η: the energy lost in a radian of vibration over the greatest stored", low=0.0
     )
     resisting_torque: float = quantity(
         "torque", 0.0, doc="torque that resists the turning of this shaft beside the load of the drive"

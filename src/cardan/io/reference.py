@@ -13,11 +13,13 @@ from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Duty, Harmonic, Limits
 from cardan.drive.joints import JOINTS
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of
+from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.drive.validity import allowed
 from cardan.units import DIMENSIONS
@@ -40,8 +42,16 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`masses` of a shaft", Lump),
     ("`spline` of a shaft", Spline),
     ("`[[supports]]`", Support),
+    ("`[[stations]]`", Station),
+    ("`to_next` of a station", ToNext),
+    ("`absorber` of a station", Absorber),
+    ("`pendulum` of a station", Pendulum),
     ("`[duty]`", Duty),
     ("`harmonics` of the duty", Harmonic),
+    ("`engine` of the duty", Engine),
+    ("`harmonics` of an engine", EngineHarmonic),
+    *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
+    ("`run_up` of the duty", RunUp),
     ("`[limits]`", Limits),
     *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
     ("`spectrum` of a random movement", Spectrum),

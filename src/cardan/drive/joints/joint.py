@@ -46,6 +46,7 @@ class Joint:
         doc="how plain journals bear: new (evenly pressed) or run in (pressed as a cosine)",
         choices=("new", "run_in"),
     )
+    backlash: float = quantity("angle", 0.0, doc="whole angular play, as its driving shaft feels it", low=0.0)
     cross: Cross | None = plain(None, doc="cross of the joint")
     error: Error | None = plain(None, doc="manufacturing errors of the joint, as measured")
     tolerance: Tolerance | None = plain(None, doc="tolerances of the joint, each to both sides")
