@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
+import typer
+
+from cardan.errors import refuse
 from cardan.texts import _
 
 from .asked import CurveAngle, CurveStep, TorqueNm
@@ -27,6 +30,15 @@ def forces(
     step: CurveStep = None,
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
+    movement: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--movement",
+            metavar="NAME",
+            help=_("Movement of the file that runs meanwhile: its name or number, or all; may be repeated."),
+            show_default=False,
+        ),
+    ] = None,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,
@@ -41,12 +53,19 @@ def forces(
     check_positions(angle, step)
     check_speed(speed_rpm)
     check_torque(torque)
-
-    from cardan.analysis.forces import forces as question
+    if movement and (angle or step is not None):
+        raise refuse("--movement", _("is followed in time; --angle-deg and --angle-step-deg are of a standing drive"))
 
     from .source import read
 
     drive = on_duty(read(file), speed_rpm, torque)
+    if movement:
+        from .moving_forces import answer as moving
+
+        return show(moving(drive, file, movement), json=json, csv=csv, plot=plot)
+
+    from cardan.analysis.forces import forces as question
+
     with keys_of(file):
         found = question(drive)
     curves = question(drive, angle=positions(angle, step or 1.0)) if angle or step else found
