@@ -10,7 +10,20 @@ from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import accuracy, assembly, book, forces, joint_forces, kinematics, losses, moving, simulation, steady, synthesis
+from . import (
+    accuracy,
+    assembly,
+    book,
+    forces,
+    joint_forces,
+    kinematics,
+    losses,
+    moving,
+    simulation,
+    steady,
+    synthesis,
+    varying,
+)
 from .calculation import Calculation, given
 
 
@@ -38,6 +51,7 @@ CALCULATIONS: dict[str, Calculation] = {
     for part in (
         kinematics,
         synthesis,
+        varying,
         moving,
         forces,
         joint_forces,
