@@ -97,6 +97,8 @@ def test_stretches_are_drawn_to_fit_between_the_joints() -> None:
         ({"wear_factor": 0.8}, ["shafts[1].wear_factor"]),
         ({"outer": 0.05, "wear_factor": 1.1}, ["shafts[1].wear_factor"]),
         ({"masses": (Lump(position=0.1, mass=-1.0),)}, ["shafts[1].masses[0].mass"]),
+        ({"masses": (Lump(position=1.1, mass=1.0),)}, ["shafts[1].masses[0].position"]),
+        ({"number": 1, "masses": (Lump(position=0.1, mass=1.0),)}, ["shafts[0].masses[0].position"]),
     ],
 )
 def test_contradictions(keys: dict[str, object], found: list[str]) -> None:

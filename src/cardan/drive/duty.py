@@ -27,6 +27,9 @@ class Duty:
         "angular_speed", None, doc="lowest and highest input speed in use [low, high], either way round", low=0.0
     )
     acceleration: float = quantity("angular_acceleration", 0.0, doc="input angular acceleration")
+    application: str = plain(
+        "automotive", doc="trade whose rules hold, where makers have two", choices=("automotive", "industrial")
+    )
     torque: float | None = quantity(
         "torque",
         None,

@@ -29,9 +29,12 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
     length = known_lengths(drive)
     for shaft in drive.shafts:
         if shaft.number <= len(drive.joints) + 1:
-            yield from _body(shaft, f"shafts[{shaft.number - 1}]")
-            yield from body_problems(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}]")
-            yield from _spline(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}].spline")
+            path = f"shafts[{shaft.number - 1}]"
+            yield from _body(shaft, path)
+            yield from body_problems(shaft, length.get(shaft.number), path)
+            for k, lump in enumerate(shaft.masses):
+                yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
+            yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
     between = drive.duty.speed_range
