@@ -23,6 +23,8 @@ PYTHON = {
     "angle": ("phi1",),
     "deviation": ("alpha_std",),
     "times": ("t",),
+    "time": ("t",),
+    "end": ("t_max",),
     "shafts": ("spline_teeth",),
 }
 """What the functions call an input -> its names here, where they differ."""

@@ -11,6 +11,7 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from . import (
+    absorbers,
     accuracy,
     assembly,
     book,
@@ -19,8 +20,10 @@ from . import (
     kinematics,
     losses,
     moving,
+    run_up,
     simulation,
     steady,
+    straight_line,
     synthesis,
     varying,
 )
@@ -58,7 +61,10 @@ CALCULATIONS: dict[str, Calculation] = {
         losses,
         assembly,
         accuracy,
+        straight_line,
         steady,
+        absorbers,
+        run_up,
         simulation,
         book,
     )
