@@ -41,6 +41,10 @@ def shaft_places(drive: Drive, number: int, length: float | None) -> tuple[Place
         Of the shaft, from 1.
     length : float or None [m]
         Its `line_length`.
+
+    Notes
+    -----
+    Stations without a place follow in the order of the file; on an end shaft the outermost of them is its free end.
     """
     own = [k for k, station in enumerate(drive.stations) if station.shaft == number]
     if not is_elastic(drive, number, length):
@@ -61,6 +65,11 @@ def shaft_places(drive: Drive, number: int, length: float | None) -> tuple[Place
             between[-1][1].append(k)
         else:
             between.append((at, [k]))
+    if between and between[0][0] is None:  # without places of their own they reach to the free end of the drive
+        if number == 1 and not groups["start"]:
+            groups["start"] = between.pop(0)[1]
+        elif number == len(drive.joints) + 1 and not groups["end"]:
+            groups["end"] = between.pop()[1]
     return (
         Place(position=begin, stations=tuple(groups["start"])),
         *(Place(position=at, stations=tuple(here)) for at, here in between),
