@@ -41,8 +41,8 @@ class TorsionalTrain:
         Stations of the driving and of the driven yoke of every joint.
     hangs : tuple of N (int or None)
         Station that an absorber or pendulum hangs on; None for one of the line itself.
-    played : tuple of int
-        Elements with backlash.
+    pendulums : tuple of int
+        Elements that hold pendulums: their stiffness goes with the square of the speed.
     assumed : tuple of str
         Paths of what the drive does not say and the model assumes.
     """
@@ -51,6 +51,7 @@ class TorsionalTrain:
     position: Array
     joints: tuple[tuple[int, int], ...]
     hangs: tuple[int | None, ...]
+    pendulums: tuple[int, ...]
     assumed: tuple[str, ...]
 
     @property
@@ -181,6 +182,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
         position=np.asarray(places, dtype=float),
         joints=tuple((start - 1, start) for start in starts[1:]),
         hangs=(None,) * len(driven),
+        pendulums=(),
         assumed=tuple(path for line in lines for path in line.assumed),
     )
 
@@ -196,6 +198,7 @@ def _with_branches(
     model = train.model
     inertia, stiffness, damping = list(model.inertia), list(model.stiffness), list(model.damping)
     elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
+    pendulums: list[int] = []
     for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
         station = drive.stations[k]
         if station.absorber is not None:
@@ -208,6 +211,7 @@ def _with_branches(
             mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
             spring, damper = mass * float(speed or 0.0) ** 2 * hung.radius / hung.length, 0.0
             name = _("pendulum on {name}")
+            pendulums.append(len(elements))
         else:
             continue
         elements.append((host, len(inertia)))
@@ -231,7 +235,7 @@ def _with_branches(
         names=tuple(names),
     )
     position = np.append(train.position, [train.position[host] for host in hangs if host is not None])
-    return replace(train, model=whole, position=position, hangs=tuple(hangs))
+    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums))
 
 
 def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
