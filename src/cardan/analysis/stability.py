@@ -170,13 +170,17 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     orbit = response.orbit if isinstance(response, SteadyResponse) else response
     lead, count = orbit.lead, orbit.count
     there = np.isfinite(orbit.coefficient).all(axis=(-1, -2)).reshape(-1)
-    order = np.argsort(-orbit.time.reshape(-1), kind="stable")
-    order = order[there[order]]
     free = orbit.model.free
+    smooth = np.asarray([there[k] and k not in orbit.pieces for k in range(count)])
+    order = np.argsort(-orbit.time.reshape(-1), kind="stable")
+    order = order[smooth[order]]
     parts: list[tuple[Array, Array, Array, Array]] = []
     for first in range(0, len(order), CHUNK):
         rows = order[first : first + CHUNK]
         parts.append((rows, *_multipliers(orbit, rows)))
+    for row, pieces in orbit.pieces.items():
+        whole, alone = pieces.monodromy[None], np.asarray([row])
+        parts.append((alone, *_values(orbit, alone, whole, pieces.heavy), np.full(1, np.nan)))
     width = max((part[1].shape[-1] for part in parts), default=0)
     multipliers = np.full((count, width), np.nan + 0j)
     removed, residual = np.zeros(count, dtype=int), np.full(count, np.nan)
@@ -206,22 +210,27 @@ def _multipliers(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
 
     matrix = monodromy(coefficients, duration)
     residual = _liouville(coefficients, duration, matrix)
+    heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
+    return *_values(orbit, rows, matrix, heavy), residual
+
+
+def _values(orbit: Orbit, rows: Array, matrix: Array, heavy: Array) -> tuple[Array, Array]:
+    """Return the eigenvalues of monodromy matrices, the largest first, and how many were left out."""
     removed = np.zeros(len(rows), dtype=int)
-    if drives.free:
+    free = orbit.model.free
+    if free:
         _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
-        heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
         matrix = without_direction(matrix, np.concatenate([rate, acceleration[:, heavy]], axis=-1))
         removed += 1
     values: Array = np.linalg.eigvals(matrix)
-    if drives.free:
+    if free:
         near = np.abs(values - 1.0)
         best = np.argmin(near, axis=-1)
         loose = near[np.arange(len(rows)), best] < LOOSE
         values[np.flatnonzero(loose), best[loose]] = np.nan
         removed += loose
     size = np.where(np.isfinite(values), np.abs(values), -1.0)
-    values = np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1)
-    return values, removed, residual
+    return np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1), removed
 
 
 def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
