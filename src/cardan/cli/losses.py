@@ -69,7 +69,11 @@ def losses(
 
 def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> Answer:
     from .answer import Answer
-    from .asked import figures
+
+    def drawn() -> Any:
+        from cardan.figures.losses import losses_figures, map_figures
+
+        return (*losses_figures(found, drive), *(() if over is None else map_figures(over)))
 
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -78,7 +82,7 @@ def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> An
         remarks=tuple(_remarks(drive, file, found, over)),
         content=lambda: _content(drive, file, found, over),
         csv=lambda: _trace(found) if over is None else _map_rows(over),
-        figure=lambda: figures(found) if over is None else figures(found, over),
+        figure=drawn,
         code=1 if found.locked else 0,
     )
 

@@ -35,7 +35,7 @@ def straining(on: Subject) -> Page | None:
         found = assembly(on.drive)
     except InputError as error:
         return refused("assembly", _("Assembly"), error)
-    figure = misfit_figure(found)
+    figure = misfit_figure(found, [one.name for one in on.drive.supports])
     loaded = _top(found) > 0.0
     blocks: list[Block] = [Picture(figure=figure), _table(on.drive, found)] if loaded else []
     if found.degree:
