@@ -212,7 +212,8 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     values = eigvals(plain, order**2 * np.diag(mass[first:]) - more)
     real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
     squares = np.sort(values.real[real])
-    return np.sqrt(squares[squares > STILL**2 * np.max(squares, initial=0.0)])
+    found: Array = np.sqrt(squares[squares > STILL**2 * float(np.max(squares, initial=0.0))])
+    return found
 
 
 def _stiffness(model: TorsionalModel, springs: Array) -> Array:
