@@ -88,6 +88,14 @@ def test_a_loose_shaft_is_named():
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
 
 
+def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
+    drive = example("truck-supports")
+    centre = replace(drive.supports[2], stiffness=2.5e5)
+    text = page(replace(drive, supports=(centre,), duty=replace(drive.duty, torque=None)))
+    assert "assembly" not in parsed(text).ids
+    assert "not reckoned" not in text
+
+
 def test_shared_forces_are_called_so():
     assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
     assert "share the forces" not in words(example("truck-supports"))
