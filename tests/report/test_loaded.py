@@ -246,3 +246,10 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     assert "What the supports take while the drive moves" in text
     assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
     assert "while moving, 3 (implement, near)" in text
+
+
+def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
+    text = front(example("pto-spline-thrust"))  # bends equal to 0.0001°
+    assert "cannot be made synchronous" not in text
+    assert "instead of" not in text
+    assert "Nothing needs to be changed for an even output" in text
