@@ -211,7 +211,7 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     np.add.at(mass, list(model.coordinate), model.inertia)
     values = eigvals(plain, order**2 * np.diag(mass[first:]) - more)
     real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
-    squares = np.sort(values.real[real])
+    squares: Array = np.sort(values.real[real])
     found: Array = np.sqrt(squares[squares > STILL**2 * float(np.max(squares, initial=0.0))])
     return found
 
