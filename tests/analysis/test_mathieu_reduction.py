@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -6,6 +8,7 @@ from cardan.analysis.book import book_series
 from cardan.analysis.mathieu_reduction import mathieu_reduction
 from cardan.analysis.motion import phase_angles
 from cardan.errors import InputError
+from cardan.maths.mathieu import exponents
 from cardan.units import deg, rpm
 
 BENDS = [11.5 * deg, 15.3 * deg, 15 * deg, 16.5 * deg]
@@ -70,6 +73,23 @@ def test_a_shift_of_the_start_turns_the_phasors_with_it():
     later = reduction([20 * deg], [0.5], SPRINGS[:2])
     found = reduction([20 * deg], [0.0], SPRINGS[:2])
     assert later.wave == pytest.approx(found.wave * np.exp(1j), rel=1e-13)
+
+
+@pytest.mark.parametrize("zone", [1, 2])
+def test_between_the_speeds_of_a_zone_the_drive_is_unstable(zone):
+    found = reduction([25 * deg], [0.3], [1000.0, 4000.0], 1.0, 0.4)
+    low, high = found.zone_speeds(zone)
+    assert low < found.natural_frequency / zone < high
+    wide = high - low
+    for speed, stable in ((low - 0.05 * wide, True), (0.5 * (low + high), False), (high + 0.05 * wide, True)):
+        there = replace(found, speed=speed)
+        assert bool(exponents(there.a, there.q).stable) == stable
+    assert replace(found, speed=3.0).zone_speeds(zone) == pytest.approx((low, high), rel=1e-12)
+
+
+def test_a_straight_drive_has_no_zone():
+    found = reduction([0.0], [0.3], [1000.0, 4000.0], 1.0, 0.4)
+    assert found.zone_speeds() == pytest.approx([found.natural_frequency] * 2)
 
 
 def test_what_is_wrong_is_told_all_at_once():

@@ -13,7 +13,11 @@ import numpy as np
 
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.mathieu import boundaries
 from cardan.texts import _
+
+REPEATS = 200
+"""Repetitions at most that find where a ray crosses a boundary."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -124,6 +128,30 @@ class MathieuReduction:
     def wave_phase(self) -> float:
         """δ_0 [rad]."""
         return float(0.5 * np.angle(self.wave))
+
+    def zone_speeds(self, zone: int = 1) -> tuple[float, float]:
+        """Return the speeds between which steady running is unstable without damping [rad/s].
+
+        Parameters
+        ----------
+        zone : int
+            1 is the principal zone, about ω_e; zone r lies about ω_e/r.
+
+        Notes
+        -----
+        Another speed moves (a, q) along the ray through the origin: a = a_r(q), b_r(q) with q = a (q/a), found by
+        repetition.
+        """
+        slope = self.q / self.a
+        ends = []
+        for which in (0, 1):
+            a = float(zone * zone)
+            for _round in range(REPEATS):
+                before, a = a, float(boundaries(slope * a, zone)[which][-1])
+                if abs(a - before) <= 1e-14 * a:
+                    break
+            ends.append(self.natural_frequency / np.sqrt(a))
+        return float(ends[0]), float(ends[1])
 
 
 def mathieu_reduction(

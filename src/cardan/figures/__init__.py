@@ -21,6 +21,7 @@ _MAKERS = {
     "cardan.analysis.tolerance.ToleranceBand": "tolerance.tolerance_figures",
     "cardan.analysis.accuracy.TransmissionError": "tolerance.error_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
+    "cardan.analysis.mathieu_reduction.MathieuReduction": "mathieu.reduction_figures",
     "cardan.analysis.absorbers.AbsorberResponse": "absorbers.response_figures",
     "cardan.analysis.absorber_tuning.Variants": "absorbers.variants_figures",
     "cardan.analysis.run_up.RunUp": "run_up.run_up_figures",
