@@ -15,10 +15,12 @@ from . import (
     accuracy,
     assembly,
     book,
+    dynamic_book,
     forces,
     joint_forces,
     kinematics,
     losses,
+    mathieu,
     moving,
     run_up,
     simulation,
@@ -67,6 +69,8 @@ CALCULATIONS: dict[str, Calculation] = {
         run_up,
         simulation,
         book,
+        mathieu,
+        dynamic_book,
     )
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
