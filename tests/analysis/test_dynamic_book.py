@@ -89,6 +89,17 @@ def test_without_a_wave_nothing_is_neglected():
     assert not found.too_far
 
 
+def test_a_resonance_is_told_and_refuses_nothing():
+    """Undamped, order 2 at a = 4 has no bound; the other orders have."""
+    found = validity(4.0, 0.0, [0.0, 2.0])
+    assert not found.rule
+    assert np.isinf(found.solved).tolist() == [False, True]
+    assert found.too_far
+    with pytest.raises(InputError) as caught:
+        validity(4.1, 0.0, [0.0, -2.0, np.nan])
+    assert [problem.field for problem in caught.value.problems] == ["order[1]", "order[2]"]
+
+
 def test_the_truck_runs_above_its_resonances():
     found = truck_example()
     assert found.speed**2 == pytest.approx(8110.62, abs=0.005)

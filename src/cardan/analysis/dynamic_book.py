@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.errors import Problem, check
+from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.mathieu import exponents
 from cardan.maths.mathieu_forced import ForcedSolution, forced
@@ -106,7 +106,7 @@ class Validity:
     rule : bool
         Whether Book (237) is met, orders 0, 1 and 2 included.
     solved, simple : arrays (m,)
-        Amplitude of each order's own response to a unit force: solved, and 1/\\|a - ν²\\|.
+        Amplitude of each order's own response to a unit force: solved, and 1/\\|a - ν²\\|; infinite in resonance.
     side : array (m,)
         Largest amplitude at any other order.
     """
@@ -123,7 +123,8 @@ class Validity:
     @property
     def error(self) -> Array:
         """What neglecting the parametric term costs, a share of the simplified amplitude, array (m,)."""
-        return np.asarray(np.maximum(np.abs(self.solved - self.simple), self.side) / self.simple)
+        with np.errstate(invalid="ignore"):
+            return np.asarray(np.maximum(np.abs(self.solved - self.simple), self.side) / self.simple)
 
     @property
     def too_far(self) -> bool:
@@ -148,7 +149,7 @@ def validity(a: float, q: float, order: ArrayLike) -> Validity:
     Raises
     ------
     InputError
-        A value is out of range, or an order is in resonance: ``order[i]``.
+        A value is out of range, or an order is negative: ``order[i]``.
 
     Notes
     -----
@@ -162,11 +163,14 @@ def validity(a: float, q: float, order: ArrayLike) -> Validity:
     [0.8798 0.8798 0.0798] False [0.0041 0.0004 0.0003] False
     """
     orders = np.atleast_1d(np.asarray(order, dtype=float))
+    text = _("{value} is not a finite number of at least 0")
+    wrong = np.flatnonzero(~(np.isfinite(orders) & (orders >= 0.0)))
+    check(Problem(f"order[{i}]", text.format(value=orders[i])) for i in wrong)
     found = exponents(a, q)
     beta = float(found.beta)
     distance = _distance(beta, orders)
     near = np.concatenate((distance, _distance(beta, np.asarray(RULE_ORDERS))))
-    answer = [_response(a, q, float(nu), k) for k, nu in enumerate(orders)]
+    answer = [_response(a, q, float(nu)) for nu in orders]
     with np.errstate(divide="ignore"):
         simple = 1.0 / np.abs(a - orders**2)
     return Validity(
@@ -186,9 +190,12 @@ def _distance(beta: float, order: Array) -> Array:
     return np.asarray(np.minimum(*(np.abs(np.remainder(order + sign * beta + 1.0, 2.0) - 1.0) for sign in (1.0, -1.0))))
 
 
-def _response(a: float, q: float, nu: float, place: int) -> tuple[float, float]:
+def _response(a: float, q: float, nu: float) -> tuple[float, float]:
     """Return the amplitudes of the own order and of the largest other one, under a unit force."""
-    found: ForcedSolution = forced(a, q, order=[nu], amplitude=[1.0], phase=[0.5 * np.pi if nu == 0.0 else 0.0])
+    try:
+        found = forced(a, q, order=[nu], amplitude=[1.0], phase=[0.5 * np.pi if nu == 0.0 else 0.0])
+    except InputError:  # in resonance
+        return np.inf, np.inf
     own = int(np.argmin(np.abs(found.order - nu)))
     others = np.delete(found.amplitude, own)
     return float(found.amplitude[own]), float(np.max(others, initial=0.0))

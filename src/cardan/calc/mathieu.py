@@ -12,10 +12,11 @@ import numpy as np
 from cardan.analysis.dynamic_book import book_beta, book_half_trace, book_zone
 from cardan.analysis.massless_joints import steady_twist
 from cardan.analysis.mathieu_reduction import mathieu_reduction
-from cardan.errors import InputError, Problem
+from cardan.errors import InputError, Problem, refuse
 from cardan.maths.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents
 from cardan.maths.mathieu_forced import forced
 from cardan.texts import _
+from cardan.units import rpm
 
 from .calculation import Calculation, Values, given, gives, rows
 from .kinematics import RIGHT
@@ -143,7 +144,11 @@ def _reduction(values: Values) -> Values:
         "delta0_rad": found.wave_phase,
     }
     if values["drive_torque"] is not None:
-        with fields_named({"a": "speed", "q": "speed", "torque": "drive_torque"}):
+        slow = max(found.a / LARGEST_A, found.q / LARGEST_Q)
+        if slow > 1.0:
+            text = _("too slow for Mathieu's equation of this drive: {least:.4g} rpm are the least")
+            raise refuse("speed", text.format(least=found.speed * np.sqrt(slow) / rpm))
+        with fields_named({"torque": "drive_torque"}):
             traces = exponents(found.a, np.asarray([found.q_book, found.q])).half_trace
             answer |= {
                 "half_trace_exact": steady_twist(found, values["drive_torque"]).half_trace,
