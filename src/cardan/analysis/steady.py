@@ -92,7 +92,7 @@ def periodic_response(
     >>> found.torque.amplitude[:, 0].round(3)  # order 2
     array([123.541, 117.368])
     """
-    omega = _speeds(model, speed)
+    omega = speeds_of(model, speed)
     lead = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
     if not model.free:
         model = replace(model, input_speed=omega)
@@ -111,8 +111,8 @@ def periodic_response(
     return _described(orbit, waves.status, orders)
 
 
-def _speeds(model: TorsionalModel, speed: ArrayLike | None) -> Array:
-    """Return the speeds asked for."""
+def speeds_of(model: TorsionalModel, speed: ArrayLike | None) -> Array:
+    """Return the speeds asked for; refuse those at which nothing runs steadily."""
     if model.input_motion is not None:
         raise refuse("input_motion", _("its speed changes; steady running needs one speed"))
     if speed is None and model.input_speed is None:
@@ -220,7 +220,7 @@ def _by_waves(part: Turning, method: HarmonicBalance | None) -> Waves:
         lost = found.status == Status.NO_CONVERGENCE
     coefficient = np.where(lost[:, None, None], np.nan, found.coefficient)
     if free:
-        coefficient = _started(coefficient, part.period)
+        coefficient = started(coefficient, part.period)
     return replace(found, coefficient=coefficient, force=np.where(lost, np.nan, found.force))
 
 
@@ -232,7 +232,7 @@ def _either(one: Waves, other: Waves, chosen: Array) -> Waves:
     return Waves(coefficient=np.where(chosen[:, None, None], pair[1], pair[0]), **rest)
 
 
-def _started(coefficient: Array, period: float) -> Array:
+def started(coefficient: Array, period: float) -> Array:
     """Return motions shifted in time so that the first coordinate is 0 with the shaft angle."""
     scale = 2.0 * np.pi / period
     order = np.arange(coefficient.shape[-1])
