@@ -88,6 +88,8 @@ class TorsionModes:
         Where each mode stands still.
     speed : float [rad/s]
         Input speed at which pendulums and machines were asked; 0 where the drive gives none.
+    speed_range : (float, float) or None [rad/s]
+        Input speeds in use.
     crossings : tuple of Crossing
         Orders of joints, engine and load that meet a natural frequency, the slowest first.
     residual : float
@@ -102,6 +104,7 @@ class TorsionModes:
     modulation: Array
     nodes: tuple[tuple[Node, ...], ...]
     speed: float
+    speed_range: tuple[float, float] | None
     crossings: tuple[Crossing, ...]
     residual: float
 
@@ -201,6 +204,7 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
         modulation=np.abs(modulation(train.model, found.joint_weight)),
         nodes=tuple(tuple(_nodes(train, shape)) for shape in found.shape / largest),
         speed=abs(chosen.speed or 0.0),
+        speed_range=chosen.speed_range,
         crossings=tuple(_crossings(drive, chosen, train)),
         residual=float(np.max(found.residual)),
     )

@@ -2,34 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from cardan.drive.chain import chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.paths import place, with_values
+from cardan.drive.paths import place, read, with_values
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.periodic import HarmonicBalance
-from cardan.maths.pieces import Shooting
 from cardan.texts import _
+from cardan.units import deg
 
-from .stability import Verdict, Zone, floquet
-from .steady import periodic_response
-from .torsion_response import Progress, loaded_model, parted
+from .floquet_map import floquet_map
+from .motion import phase_angles
+from .stability import Verdict, Zone
+from .torsion_response import Progress, at_held_speed, loaded_model, parted
 from .torsional_batch import chosen as some_of
 from .torsional_model import TorsionalModel
 from .torsional_train import TorsionalTrain, chained
 
-CHUNK = 64
-"""Points of a map that are solved at once."""
+CHUNK, FEW = 2048, 128
+"""Points of a map that are judged at once: variants of one quantity beside the speed, and of two."""
 
 MOST = 1_000_000
 """Points of a map at most."""
 
-PACE = 0.01
+BEND = "bend_deg"
+"""Stands for the bend of the most bent joint, the others in proportion."""
+
+PACE = 0.001
 """Seconds that a point of a map takes, about."""
 
 
@@ -57,8 +61,10 @@ class Stability:
         Lowest order of the shaft at which it swings.
     zone : Zone
         Nearest zone of parametric resonance.
-    swing : array (..., E) [N·m]
-        Half of highest less lowest torque of every element.
+    multipliers : array (..., m), complex
+        What each disturbance is multiplied by over a period, the largest first.
+    here : tuple of (str, float)
+        Values of the drive itself on the axes, where it has one.
     cancelled : bool
         Whether the work was stopped; what was not done is unknown.
     """
@@ -72,7 +78,8 @@ class Stability:
     spectral_radius: Array
     order: Array
     zone: Zone
-    swing: Array
+    multipliers: Array
+    here: tuple[tuple[str, float], ...] = ()
     cancelled: bool = False
 
     @property
@@ -92,7 +99,6 @@ def stability(
     duty: Duty | None = None,
     *,
     over: Mapping[str, ArrayLike] | None = None,
-    method: HarmonicBalance | Shooting | None = None,
     pieces: int = 1,
     progress: Progress | None = None,
 ) -> Stability:
@@ -106,9 +112,8 @@ def stability(
         What it does; that of the drive by default.
     over : mapping of str to array, optional
         One or two paths, each with its values in the unit of the path, as ``{"duty.speed_rpm": [...],
-        "joints[0].bend_deg": [...]}``. The others stay as they are.
-    method : HarmonicBalance or Shooting, optional
-        How to find the motion.
+        "shafts[1].damping_Nms_per_rad": [...]}``; ``"bend_deg"`` is that of the most bent joint, the others in
+        proportion. All else stays as it is.
     pieces : int
         Into how many equal stretches the body between two stations is divided.
     progress : function, optional
@@ -146,32 +151,32 @@ def stability(
     count = int(np.prod(shape, dtype=int))
     parts: list[dict[str, Array]] = []
     stopped = False
-    for first in range(0, count, CHUNK):
-        rows = np.arange(first, min(first + CHUNK, count))
+    size = CHUNK if len(variants.others) < 2 else FEW
+    for first in range(0, count, size):
+        rows = np.arange(first, min(first + size, count))
         if stopped:
             parts.append(_unknown(parts[0], len(rows)))
             continue
-        parts.append(_judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows)), method))
+        parts.append(_judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))))
         if progress is not None:
             stopped = progress((int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
-    return Stability(over=axes, train=variants.train, zone=zone, cancelled=stopped, **found)
+    return Stability(over=axes, train=variants.train, zone=zone, here=variants.here, cancelled=stopped, **found)
 
 
-def _judged(model: TorsionalModel, speed: Array, method: HarmonicBalance | Shooting | None) -> dict[str, Array]:
+def _judged(model: TorsionalModel, speed: Array) -> dict[str, Array]:
     """Return what is known of some points."""
-    steady = periodic_response(model, speed=speed, method=method)
-    judged = floquet(steady)
-    zone = {f"zone_{one.name}": getattr(judged.zone, one.name) for one in fields(Zone)}
-    plain = {name: getattr(judged, name) for name in ("verdict", "kind", "growth_rate", "spectral_radius", "order")}
-    return plain | zone | {"speed": speed, "swing": 0.5 * steady.peak_to_peak}
+    verdict = at_held_speed(floquet_map(model, speed=speed).floquet, model, speed)
+    zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
+    names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
+    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}
 
 
 def _unknown(like: dict[str, Array], count: int) -> dict[str, Array]:
     """Return points that were not looked at."""
-    empty = {name: np.nan if values.dtype.kind == "f" else 0 for name, values in like.items()}
+    empty = {name: np.nan if values.dtype.kind in "fc" else 0 for name, values in like.items()}
     found = {name: np.full((count, *values.shape[1:]), empty[name]) for name, values in like.items()}
     return found | {"verdict": np.full(count, int(Verdict.UNKNOWN))}
 
@@ -187,10 +192,13 @@ def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array
         values = np.asarray(given, dtype=float)
         if values.ndim != 1 or not len(values) or not np.all(np.isfinite(values)):
             problems.append(Problem(path, _("a list of finite numbers is needed")))
-        try:
-            place(drive, path)
-        except InputError as error:
-            problems += error.problems
+        if path == BEND:
+            problems += _bend_problems(drive, values)
+        else:
+            try:
+                place(drive, path)
+            except InputError as error:
+                problems += error.problems
         axes.append((path, values))
     count = int(np.prod([values.size for _path, values in axes], dtype=float))
     if count > MOST:
@@ -201,22 +209,43 @@ def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array
     return tuple(axes)
 
 
+def _bend_problems(drive: Drive, values: Array) -> Iterator[Problem]:
+    """Yield bends that no joint can have, or that none of the drive grows with."""
+    if values.ndim == 1 and np.any((values < 0.0) | (values >= 90.0)):
+        yield Problem(BEND, _("a joint bends from 0° to less than 90°"))
+    if not np.max(chain(drive).bend):
+        yield Problem(BEND, _("all joints are straight; there is nothing to bend in proportion"))
+
+
+def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
+    """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
+    whole = chain(drive)
+    bends = replace(whole, bend=whole.bend * (largest / np.max(whole.bend)))
+    return replace(model, bend=bends.bend, phase=phase_angles(bends))
+
+
 class _Variants:
     """The drive with other values at the points of a map, and at its own where there is none."""
 
     def __init__(self, drive: Drive, axes: Sequence[tuple[str, Array]], pieces: int) -> None:
         self.drive, self.axes, self.pieces = drive, axes, pieces
-        spots = [place(drive, path) for path, _values in axes]
-        self.speeding = next((k for k, spot in enumerate(spots) if spot.steps == ("duty", "speed")), None)
+        spots = [None if path == BEND else place(drive, path) for path, _values in axes]
+        self.bending = next((k for k, spot in enumerate(spots) if spot is None), None)
+        speeds = ((k, spot) for k, spot in enumerate(spots) if spot is not None and spot.steps == ("duty", "speed"))
+        self.speeding: int | None
+        self.speeding, factor = next(((k, spot.factor) for k, spot in speeds), (None, 1.0))
         if drive.duty.speed is None and self.speeding is None:
             raise refuse("duty.speed", _("missing; torsional vibration needs it"))
         self.speeds = np.asarray([drive.duty.speed or 0.0])
         if self.speeding is not None:
             path, values = axes[self.speeding]
-            self.speeds = values * spots[self.speeding].factor
+            self.speeds = values * factor
             if np.any(self.speeds == 0.0):
                 raise refuse(path, _("0 is given; steady running needs a speed other than 0"))
         self.others = [k for k in range(len(axes)) if k != self.speeding]
+        largest = float(np.max(chain(drive).bend, initial=0.0)) / deg
+        own = {path: largest if path == BEND else read(drive, path) for path, _values in axes}
+        self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
 
     def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
@@ -230,6 +259,9 @@ class _Variants:
             rows = np.flatnonzero(np.all(keys == key, axis=-1))
             drive = self._variant(key)
             _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces)
+            if self.bending is not None:
+                largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
+                model = _bent(drive, model, largest * deg)
             found.append(some_of(parted(model)[0], (len(rows),), np.arange(len(rows)), moments=False))
             order.append(rows)
         back = np.argsort(np.concatenate(order), kind="stable")
@@ -237,5 +269,6 @@ class _Variants:
         return some_of(whole, (count,), back, moments=False), speed
 
     def _variant(self, key: Array) -> Drive:
-        values = {self.axes[k][0]: float(self.axes[k][1][j]) for k, j in zip(self.others, key, strict=True)}
+        pairs = [(self.axes[k], j) for k, j in zip(self.others, key, strict=True) if k != self.bending]
+        values = {path: float(given[j]) for (path, given), j in pairs}
         return with_values(self.drive, values) if values else self.drive

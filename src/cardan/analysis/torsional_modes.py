@@ -211,8 +211,8 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     np.add.at(mass, list(model.coordinate), model.inertia)
     values = eigvals(plain, order**2 * np.diag(mass[first:]) - more)
     real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
-    squares: Array = np.sort(values.real[real])
-    found: Array = np.sqrt(squares[squares > STILL**2 * float(np.max(squares, initial=0.0))])
+    squares = sorted(float(one) for one in values.real[real])
+    found: Array = np.sqrt([one for one in squares if one > STILL**2 * squares[-1]])
     return found
 
 
