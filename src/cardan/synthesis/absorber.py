@@ -19,9 +19,10 @@ from cardan.maths.arrays import Array
 from .absorber_choice import KINDS as KINDS
 from .absorber_choice import closed_form, meeting, mode_problems, problems, served, still
 from .absorber_curves import Curves, fine, named_elements
-from .absorber_search import Search, Setting, Stopped, Task, highest, rounded
+from .absorber_search import Setting, Settings, Task, highest, rounded
 from .band import band_speeds, excited, lines, wanted_band
 from .hosts import Host, host_named, hosts
+from .least_swing import LeastSwing, Stopped, Watched
 
 RATIO = 0.1
 """Inertia of an absorber over that of the mode where none is given."""
@@ -31,6 +32,9 @@ WIDE = 0.3
 
 COUNT = 25
 """Evenly spread speeds of the search."""
+
+EXPECTED = 40
+"""Settings that a search takes for each unknown, about."""
 
 WATCHED = (0.05, 0.75)
 """Shares of the work when the search begins and ends."""
@@ -257,10 +261,18 @@ def absorber(
     if serves is None:  # what it adds are resonances of its own
         both = np.concatenate([bare.omega, task.line(task.closed_form)[0].omega], axis=-1)
         speed = band_speeds(*band, both, excited(asked, asked.duty), count=COUNT)[0]
-        task = replace(task, speed=speed, closer=lambda line: fine(bare, line, band))
-    search = Search(task, worst, watch.part(*WATCHED))
+        task = replace(task, speed=speed)
+
+    def closer(place: Array) -> Array:
+        return fine(bare, task.line(task.setting(place))[0], band)
+
+    settings = Settings(task, worst)
+    expected = len(settings.start) + EXPECTED * len(task.ranges)
+    watched = Watched(progress=watch.part(*WATCHED), expected=expected)
+    search = LeastSwing(settings.swings, task.speed, closer if serves is None else None, watched)
     with contextlib.suppress(Stopped):
-        search.run()
+        search.run(settings.start)
+    search.best = search.best if search.best.size else np.full(len(task.ranges), 0.5)
     best = task.setting(search.best)
     curves = Curves(task, best, band, watch.part(WATCHED[1], 1.0))
     if curves.peaked(task.closed_form, curves.closed).peak < curves.peaked(best, curves.after).peak:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import log10
@@ -10,7 +10,6 @@ from math import log10
 import numpy as np
 
 from cardan.analysis.torque_swing import torque_swings
-from cardan.analysis.torsion_response import Progress
 from cardan.analysis.torsional_batch import chosen
 from cardan.analysis.torsional_model import TorsionalModel
 from cardan.drive.drive import Drive
@@ -18,9 +17,8 @@ from cardan.drive.station import Absorber as Branch
 from cardan.drive.station import Pendulum
 from cardan.maths.arrays import Array
 
-from .band import Lines, about_peaks, lines
+from .band import Lines, lines
 from .hosts import Host, branch_of, hung
-from .minimax import least_peak
 
 FREQUENCY = 2.0
 """Range of the natural frequency of an absorber in the search: closed form over and times this."""
@@ -33,15 +31,6 @@ ORDER = 1.4
 
 COARSE = (0.3, 0.4, 0.5, 0.6, 0.7)
 """Places in these ranges from which the search takes the best to begin with; 0.5 is the closed form."""
-
-ROUNDS = 6
-"""Times that peaks are met between the speeds of the search, and the search goes on."""
-
-CLOSE = 0.003
-"""Peaks between the speeds of the search may be higher by this share."""
-
-MET = 8
-"""Peaks met at once."""
 
 LOST = 10.0
 """What a motion that was not found counts as, times the largest torque without absorber."""
@@ -92,10 +81,6 @@ def rounded(value: float) -> float:
     return 0.0 if value == 0.0 else round(value, DIGITS - 1 - int(np.floor(log10(abs(value)))))
 
 
-class Stopped(Exception):
-    """The one who watches has answered "stop"."""
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Task:
     """A drive, what hangs on it, and the band it is judged in.
@@ -118,8 +103,6 @@ class Task:
         Of pendulums.
     count : int
         Of pendulums.
-    closer : callable or None
-        From a drive with an absorber to the speeds at which it is looked at closer; None where one speed counts.
     """
 
     drive: Drive
@@ -131,7 +114,6 @@ class Task:
     elements: Array
     radius: float
     count: int
-    closer: Callable[[Lines], Array] | None = None
 
     @property
     def ranges(self) -> tuple[float, ...]:
@@ -169,62 +151,30 @@ class Task:
         return found, len(found.elements) + branch_of(drive, table)
 
 
-class Search:
-    """Finds the setting whose largest swing of a torque is smallest; keeps the best it has seen.
+class Settings:
+    """A drive with an absorber of any setting, run at any speeds.
 
     Parameters
     ----------
     task : Task
     bare : float [N·m]
         Largest swing without.
-    progress : function, optional
-        Told the share done.
     """
 
-    def __init__(self, task: Task, bare: float, progress: Progress | None) -> None:
-        self.task, self.bare, self.progress = task, bare, progress
+    def __init__(self, task: Task, bare: float) -> None:
+        self.task, self.lost = task, LOST * bare
         self.line, self.element = task.line(task.closed_form)
-        self.speed = task.speed
-        self.kept: list[Array] = []
-        self.best, self.least = np.full(len(task.ranges), 0.5), np.inf
-        self.asked = 0
-        self.converged = False
 
-    def run(self) -> None:
-        """Search; raises Stopped when told to."""
-        unknowns = len(self.task.ranges)
-        self._curves(np.asarray(list(product(COARSE, repeat=unknowns))))
-        for _round in range(ROUNDS):
-            self.converged = least_peak(self._curves, self.best).converged
-            if self.task.closer is None or not self._met():
-                return
-            middle = np.full(unknowns, 0.5)
-            places, self.least = np.stack([self.best, middle, *self.kept]), np.inf
-            self._curves(places)
-        self.converged = False
+    @property
+    def start(self) -> Array:
+        """Places from which a search takes the best to begin with, the closed form amid them: array (D, v)."""
+        return np.asarray(list(product(COARSE, repeat=len(self.task.ranges))))
 
-    def _met(self) -> bool:
-        """Look closer at the best so far; tell whether peaks between the speeds of the search have been met."""
-        assert self.task.closer is not None
-        speed = self.task.closer(self.task.line(self.task.setting(self.best))[0])
-        peak = self._peaks(speed)
-        between = about_peaks(speed, peak)
-        order = np.argsort(np.append(speed, between), kind="stable")
-        speed, peak = np.append(speed, between)[order], np.append(peak, self._peaks(between))[order]
-        beside = np.pad(peak, 1, constant_values=-1.0)
-        local = (peak >= beside[:-2]) & (peak >= beside[2:]) & (peak > self.least * (1.0 + CLOSE))
-        if not local.any():
-            return False
-        highest_first = np.flatnonzero(local)[np.argsort(-peak[local])][:MET]
-        self.kept.append(self.best)
-        self.speed = np.unique(np.concatenate([self.speed, speed[highest_first]]))
-        return True
-
-    def _peaks(self, speed: Array) -> Array:
-        """Return the largest swing with the best setting at speeds, array (S,) [N·m]."""
-        found = torque_swings(self._models(self.best[None], speed), speed)
-        peak: Array = np.max(np.nan_to_num(found.swing[:, self.task.elements], nan=LOST * self.bare), axis=-1)
-        return peak
+    def swings(self, places: Array, speed: Array) -> Array:
+        """Return the swings of the judged torques, array (D, S, E) [N·m]."""
+        found = torque_swings(self._models(places, speed), np.tile(speed, len(places)))
+        swing = found.swing[:, self.task.elements]
+        return np.where(np.isfinite(swing), swing, self.lost).reshape(len(places), len(speed), -1)
 
     def _models(self, places: Array, speed: Array) -> TorsionalModel:
         """Return the drives of places (D, v) at speeds (S,), in one axis (D·S,)."""
@@ -240,21 +190,6 @@ class Search:
         if len(reach) > 1:
             damping[:, self.element] = middle.damping * factor[:, 1]
         return replace(model, stiffness=stiffness, damping=damping)
-
-    def _curves(self, places: Array) -> Array:
-        """Return the swings of the torques of drives, array (D, S·E) [N·m]."""
-        if self.progress is not None:
-            share = min(self.asked / (40.0 * len(self.task.ranges) + len(COARSE) ** len(self.task.ranges)), 1.0)
-            if self.progress(share) == "stop":
-                raise Stopped
-        found = torque_swings(self._models(places, self.speed), np.tile(self.speed, len(places)))
-        self.asked += len(places)
-        swing = found.swing[:, self.task.elements]
-        swing = np.where(np.isfinite(swing), swing, LOST * self.bare).reshape(len(places), -1)
-        peak = np.max(swing, axis=-1)
-        if float(np.min(peak)) < self.least:
-            self.best, self.least = places[int(np.argmin(peak))], float(np.min(peak))
-        return swing
 
 
 def highest(swing: Array, speed: Array, elements: Sequence[int] | Array) -> tuple[float, float, int]:
