@@ -55,6 +55,21 @@ class TorsionalTrain:
     assumed: tuple[str, ...]
 
     @property
+    def element_names(self) -> tuple[str, ...]:
+        """Names of the elements: of their shaft where it has but one, else with the stations at their ends."""
+        model, names = self.model, self.model.names
+        line = [b for _a, b in model.elements if self.hangs[b] is None]
+        alone = {k for k in model.shaft if sum(model.shaft[b] == k for b in line) == 1}
+        found = []
+        for a, b in model.elements:
+            if self.hangs[b] is not None:
+                found.append(names[b])
+                continue
+            text = _("shaft {number}") if model.shaft[a] in alone else _("shaft {number}, {one} to {two}")
+            found.append(text.format(number=model.shaft[a] + 1, one=names[a], two=names[b]))
+        return tuple(found)
+
+    @property
     def line(self) -> tuple[int, ...]:
         """Stations of the line itself, along the power flow."""
         return tuple(k for k, host in enumerate(self.hangs) if host is None)

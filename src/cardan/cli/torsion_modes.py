@@ -23,6 +23,9 @@ SHOWN = 4
 CROSSINGS = 12
 """Crossings in the terminal."""
 
+FAR = 3.0
+"""Crossings at speeds so many times above those in use are left out in the terminal."""
+
 NEAR = 0.1
 """Speeds nearer than this share are too near."""
 
@@ -92,7 +95,13 @@ def _sentence(drive: Drive, file: Path, found: TorsionModes) -> tuple[Tone, str]
         zone = [significant(float(one) / rpm, 4) for one in found.zone[growing[0]]]
         return "failed", text + said.format(mode=growing[0] + 1, low=zone[0], high=zone[1])
     low, high = used
-    meets = [one for one in found.crossings if low * (1 - NEAR) <= one.speed <= high * (1 + NEAR)]
+    reach = low * (1 - NEAR), high * (1 + NEAR)
+    near = [k for k in range(len(found.omega)) if _overlaps(found.zone[k], reach)]
+    if near:
+        said = _("; mode {mode} grows from {low} to {high} rpm, near to the speeds in use.")
+        zone = [significant(float(one) / rpm, 4) for one in found.zone[near[0]]]
+        return "warning", text + said.format(mode=near[0] + 1, low=zone[0], high=zone[1])
+    meets = [one for one in found.crossings if reach[0] <= one.speed <= reach[1]]
     if meets:
         count = plural(
             "{count} order meets a mode at speeds in use", "{count} orders meet a mode at speeds in use", len(meets)
@@ -194,9 +203,10 @@ def _crossing_table(found: TorsionModes) -> Table:
 
     from .answer import Column, Table
 
-    inside = [one for one in found.crossings if one.inside is not False]
+    used = found.speed_range[1] if found.speed_range is not None else found.speed
+    near = [one for one in found.crossings if not used or one.speed < FAR * used]
     rows: list[list[Cell]] = [
-        [one.speed / rpm, one.order, one.mode, one.inside, one.cause] for one in (inside or found.crossings)[:CROSSINGS]
+        [one.speed / rpm, one.order, one.mode, one.inside, one.cause] for one in (near or found.crossings)[:CROSSINGS]
     ]
     columns = (
         Column(key="speed_rpm", heading=_("speed"), unit="rpm"),
@@ -218,8 +228,11 @@ def _remarks(drive: Drive, file: Path, found: TorsionModes) -> Iterator[Remark]:
         for node in nodes:
             names = found.train.model.names
             text = _("Mode {mode} stands still at {place} mm from the input end, between {one} and {two}.")
-            where = {"one": names[node.before], "two": names[node.behind], "place": significant(1e3 * node.position, 3)}
-            yield Remark(text=text.format(mode=k, **where))
+            at = node.before if node.share < 0.005 else node.behind if node.share > 0.995 else None
+            if at is not None:
+                text = _("Mode {mode} stands still at {place} mm from the input end, at {one}.")
+            one, two = names[node.before if at is None else at], names[node.behind]
+            yield Remark(text=text.format(mode=k, place=significant(1e3 * node.position, 3), one=one, two=two))
     if found.joint_weight.shape[-1]:
         nearest = int(np.argmin(np.abs(found.joint_weight[0]))) + 1
         text = _(

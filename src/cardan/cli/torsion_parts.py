@@ -139,12 +139,6 @@ def ended(code: int, telling: Any) -> int:
     return code
 
 
-def element_names(train: TorsionalTrain) -> list[str]:
-    """Return what to call every element: the stations at its ends."""
-    names = train.model.names
-    return [f"{names[a]} – {names[b]}" for a, b in train.model.elements]
-
-
 def short(name: str, most: int = 44) -> str:
     """Return a name that fits a column.
 

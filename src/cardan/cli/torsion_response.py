@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 SHOWN = 12
 """Speeds of a sweep in the terminal."""
 
+EVEN = 1e-3
+"""An irregularity below which yoke angles have little left to take away."""
+
 STATES = (_("stable"), _("neutral"), _("unstable"), _("unknown"))
 """What becomes of a small disturbance, by `cardan.analysis.stability.Verdict`."""
 
@@ -67,7 +70,7 @@ def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
         sentence=sentence,
         tone=tone,
         tables=lambda: [_sweep_table(found)] if swept else _tables(found),
-        remarks=tuple(_remarks(file, found)),
+        remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found),
         csv=lambda: _rows(found),
         figure=lambda: figures(found),
@@ -83,7 +86,6 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
 
     from .answer import significant
     from .source import title
-    from .torsion_parts import element_names
 
     at = {"name": title(drive, file), "speed": significant(abs(float(found.speed)) / rpm)}
     if not bool(found.steady.found):
@@ -91,7 +93,7 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
     e = int(np.argmax(found.swing))
     mean, swing = float(found.steady.torque.mean[e]), float(found.swing[e])
     text = _("{name}: at {speed} rpm {element} carries {mean} ± {swing} N·m").format(
-        element=element_names(found.train)[e], mean=significant(mean), swing=significant(swing, 3), **at
+        element=found.train.element_names[e], mean=significant(mean), swing=significant(swing, 3), **at
     )
     verdict = int(found.floquet.verdict)
     if verdict == Verdict.UNSTABLE:
@@ -114,11 +116,11 @@ def _element_table(found: TorsionResponse) -> Table:
     import numpy as np
 
     from .answer import Column, Table, significant
-    from .torsion_parts import element_names, short
+    from .torsion_parts import short
 
     torque, order = found.steady.torque, found.steady.order
     rows: list[list[Cell]] = []
-    for e, name in enumerate(element_names(found.train)):
+    for e, name in enumerate(found.train.element_names):
         amplitude = torque.amplitude[e]
         others = np.where((order == 2.0) | (order == 4.0), 0.0, amplitude)
         k = int(np.argmax(others))
@@ -136,7 +138,7 @@ def _element_table(found: TorsionResponse) -> Table:
             ]
         )
     columns = (
-        Column(key="element", heading=_("torque between"), left=True),
+        Column(key="element", heading=_("torque in"), left=True),
         Column(key="mean_Nm", heading=_("mean"), unit="N·m", form="3"),
         Column(key="min_Nm", heading=_("min"), unit="N·m", form="3"),
         Column(key="max_Nm", heading=_("max"), unit="N·m", form="3"),
@@ -187,7 +189,6 @@ def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]
 
     from .answer import significant
     from .source import title
-    from .torsion_parts import element_names
 
     name = title(drive, file)
     swing = np.where(np.isfinite(found.swing), found.swing, -1.0)
@@ -199,7 +200,7 @@ def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]
         name=name,
         speed=significant(abs(float(found.speed[k])) / rpm),
         swing=significant(float(swing[k, e]), 3),
-        element=element_names(found.train)[e],
+        element=found.train.element_names[e],
     )
     unstable = intervals(np.abs(found.speed) / rpm, found.floquet.verdict == Verdict.UNSTABLE)
     if unstable:
@@ -234,13 +235,13 @@ def _sweep_table(found: TorsionResponse) -> Table:
     from cardan.units import rpm
 
     from .answer import Column, Table
-    from .torsion_parts import element_names, short
+    from .torsion_parts import short
 
     count = len(found.speed)
     worst = np.nanargmax(np.where(np.isfinite(found.swing), found.swing, -1.0), axis=-1)
     chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
     peak = int(np.argmax(np.nan_to_num(found.swing[np.arange(count), worst])))
-    names = element_names(found.train)
+    names = found.train.element_names
     second = int(np.flatnonzero(found.steady.order == 2.0)[0])
     rows: list[list[Cell]] = []
     for k in np.unique(np.append(chosen, peak)):
@@ -261,12 +262,12 @@ def _sweep_table(found: TorsionResponse) -> Table:
         Column(key="max_Nm", heading=_("max"), unit="N·m", form="3"),
         Column(key="order_2_Nm", heading=_("order 2"), unit="± N·m", form="3"),
         Column(key="state", heading=_("motion"), left=True),
-        Column(key="element", heading=_("worst between"), left=True),
+        Column(key="element", heading=_("worst in"), left=True),
     )
     return Table(columns=columns, rows=rows)
 
 
-def _remarks(file: Path, found: TorsionResponse) -> Iterator[Remark]:
+def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remark]:
     import numpy as np
 
     from .answer import Remark, significant
@@ -299,6 +300,9 @@ def _remarks(file: Path, found: TorsionResponse) -> Iterator[Remark]:
             "Equations of motion checked between the points of the solution: {rest:.0e} of the torque is left over."
         )
         yield Remark(text=text.format(rest=float(np.nanmax(steady.residual))))
+    if _from_yokes(drive, found):
+        text = _("Most of it is order 2 of the joints; other yoke angles may take that away:")
+        yield Remark(text=text, command=("cardan", "phases", str(file)), tone="next")
     if found.speed.ndim:
         return
     yield Remark(
@@ -306,6 +310,21 @@ def _remarks(file: Path, found: TorsionResponse) -> Iterator[Remark]:
         command=("cardan", "torsion", "response", str(file), "--speeds", "LOW:HIGH"),
         tone="next",
     )
+
+
+def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
+    """Tell whether most of the swing is order 2 of joints that are not set to cancel each other."""
+    import numpy as np
+
+    from cardan.analysis.equivalence import equivalent_joint
+
+    if len(drive.joints) < 2 or not np.any(found.steady.found):
+        return False
+    swing = np.nan_to_num(found.swing)
+    at = np.unravel_index(int(np.argmax(swing)), swing.shape)
+    second = found.steady.torque.amplitude[at][np.flatnonzero(found.steady.order == 2.0)[0]]
+    uneven = float(equivalent_joint(drive).irregularity)
+    return bool(second > 0.5 * swing[at]) and uneven > EVEN
 
 
 def _rows(found: TorsionResponse) -> Table:
@@ -343,8 +362,6 @@ def _rows(found: TorsionResponse) -> Table:
 def _content(drive: Drive, file: Path, found: TorsionResponse) -> dict[str, Any]:
     from cardan.units import rpm
 
-    from .torsion_parts import element_names
-
     steady = found.steady
     return {
         "question": "torsion response",
@@ -352,7 +369,7 @@ def _content(drive: Drive, file: Path, found: TorsionResponse) -> dict[str, Any]
         "file": str(file),
         "speed_rpm": abs(found.speed) / rpm,
         "input": "free" if found.train.model.free else "uniform",
-        "elements": element_names(found.train),
+        "elements": found.train.element_names,
         "stations": found.train.model.names,
         "orders": steady.order,
         "mean_Nm": steady.torque.mean,

@@ -115,7 +115,6 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
 
     from .answer import significant
     from .source import title
-    from .torsion_parts import element_names
 
     ends = found.motion.extremes
     size = np.maximum(np.abs(ends.torque_low), np.abs(ends.torque_high))
@@ -127,7 +126,7 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
         span=significant(float(found.motion.ended), 3),
         peak=significant(float(ends.torque_high[e] if high else ends.torque_low[e])),
         time=significant(float(ends.torque_high_time[e] if high else ends.torque_low_time[e]), 3),
-        element=element_names(found.train)[e],
+        element=found.train.element_names[e],
     )
     status = int(found.motion.status)
     if status == Status.DIVERGED:
@@ -141,7 +140,7 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
 
 def _element_table(found: Transient) -> Table:
     from .answer import Column, Table
-    from .torsion_parts import element_names, short
+    from .torsion_parts import short
 
     ends = found.motion.extremes
     rows: list[list[Cell]] = [
@@ -152,10 +151,10 @@ def _element_table(found: Transient) -> Table:
             float(ends.torque_high[e]),
             float(ends.torque_high_time[e]),
         ]
-        for e, name in enumerate(element_names(found.train))
+        for e, name in enumerate(found.train.element_names)
     ]
     columns = (
-        Column(key="element", heading=_("torque between"), left=True),
+        Column(key="element", heading=_("torque in"), left=True),
         Column(key="min_Nm", heading=_("lowest"), unit="N·m"),
         Column(key="min_at_s", unit=_("at s"), form="3"),
         Column(key="max_Nm", heading=_("highest"), unit="N·m"),
@@ -235,7 +234,6 @@ def _content(drive: Drive, file: Path, found: Transient) -> dict[str, Any]:
     from cardan.units import rpm
 
     from .asked import columns_of
-    from .torsion_parts import element_names
 
     ends = found.motion.extremes
     return {
@@ -253,7 +251,7 @@ def _content(drive: Drive, file: Path, found: Transient) -> dict[str, Any]:
                 "max_Nm": ends.torque_high[e],
                 "max_at_s": ends.torque_high_time[e],
             }
-            for e, name in enumerate(element_names(found.train))
+            for e, name in enumerate(found.train.element_names)
         ],
         "stations": [
             {"name": name, "min_rpm": ends.speed_low[k] / rpm, "max_rpm": ends.speed_high[k] / rpm}

@@ -9,7 +9,6 @@ import numpy as np
 
 from cardan.analysis.stability import Verdict
 from cardan.analysis.torsion_response import TorsionResponse
-from cardan.analysis.torsional_train import TorsionalTrain
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, rpm
@@ -36,12 +35,6 @@ def response_figures(found: TorsionResponse) -> tuple[Figure, ...]:
     return (response_figure(found),) if bool(found.steady.found) else ()
 
 
-def element_names(train: TorsionalTrain) -> list[str]:
-    """Return what to call every element: the stations at its ends."""
-    model = train.model
-    return [f"{model.names[a]} – {model.names[b]}" for a, b in model.elements]
-
-
 def worst_elements(swing: Array) -> list[int]:
     """Return the elements that swing most."""
     return [int(e) for e in np.argsort(-np.nan_to_num(swing), kind="stable")[:CURVES]]
@@ -58,7 +51,7 @@ def response_figure(found: TorsionResponse) -> Figure:
     turn = max(2.0 * math.pi, found.steady.period)
     angle = np.linspace(0.0, turn, 721)
     traces = found.steady.at(angle)
-    names, worst = element_names(found.train), worst_elements(found.swing)
+    names, worst = found.train.element_names, worst_elements(found.swing)
     torque = np.asarray(traces.torque)
     over = Panel(
         series=tuple(
@@ -107,7 +100,7 @@ def _response_sentence(found: TorsionResponse, e: int, name: str) -> str:
         Verdict.NEUTRAL: _("small disturbances neither grow nor die out"),
         Verdict.UNSTABLE: _("small disturbances grow: this motion does not last"),
     }.get(Verdict(int(found.floquet.verdict)), _("its stability is not known"))
-    text = _("The torque between {name} swings by ± {swing} N·m about {mean} N·m; {stable}.")
+    text = _("The torque in {name} swings by ± {swing} N·m about {mean} N·m; {stable}.")
     return text.format(
         name=name,
         swing=significant(float(found.swing[e]), 3),
@@ -125,7 +118,7 @@ def sweep_figure(found: TorsionResponse) -> Figure:
         Over speeds.
     """
     speed = np.abs(found.speed) / rpm
-    names = element_names(found.train)
+    names = found.train.element_names
     peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
     worst = worst_elements(peak)
     shaded = tuple(unstable_bands(speed, found.floquet.verdict))
@@ -193,7 +186,7 @@ def runs(mask: Array) -> Iterator[tuple[int, int]]:
 def _sweep_sentence(found: TorsionResponse, speed: Array, e: int, name: str) -> str:
     swing = found.swing[:, e]
     k = int(np.nanargmax(np.where(np.isfinite(swing), swing, -1.0)))
-    text = _("The torque between {name} swings most at {speed} rpm, by ± {swing} N·m.")
+    text = _("The torque in {name} swings most at {speed} rpm, by ± {swing} N·m.")
     said = text.format(name=name, speed=significant(float(speed[k]), 3), swing=significant(float(swing[k]), 3))
     if np.any(found.floquet.verdict == Verdict.UNSTABLE):
         said += " " + _("Shaded speeds are unstable.")
@@ -241,7 +234,7 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
     text = _("The tallest peak is order {order} at {speed} rpm, ± {torque} N·m.")
     return Figure(
         name="torsion-waterfall",
-        title=_("Orders of the torque between {name}").format(name=element_names(found.train)[e]),
+        title=_("Orders of the torque in {name}").format(name=found.train.element_names[e]),
         sentence=text.format(
             order=f"{order[tallest[1]]:g}",
             speed=significant(float(speed[tallest[0]]), 3),

@@ -10,7 +10,7 @@ from cardan.units import rpm
 
 from .figure import Curve, Figure, Panel, Row, axis
 from .palette import DASHES, shaft
-from .torsion_running import element_names, worst_elements
+from .torsion_running import worst_elements
 from .wording import significant
 
 
@@ -28,7 +28,7 @@ def transient_figure(found: Transient) -> Figure:
         Of one drive.
     """
     motion = found.motion
-    names = element_names(found.train)
+    names = found.train.element_names
     ends = motion.extremes
     swing = np.nan_to_num(ends.torque_high - ends.torque_low)
     worst = worst_elements(swing)
@@ -60,7 +60,7 @@ def transient_figure(found: Transient) -> Figure:
     )
     e = worst[0]
     high = abs(float(ends.torque_high[e])) >= abs(float(ends.torque_low[e]))
-    text = _("The torque between {name} reaches {torque} N·m after {time} s.")
+    text = _("The torque in {name} reaches {torque} N·m after {time} s.")
     return Figure(
         name="torsion-transient",
         title=_("Torques and speeds in time"),
