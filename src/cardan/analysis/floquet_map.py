@@ -41,6 +41,9 @@ PACE, WEIGHT = 1e-4, 1000
 SURE = 1e-5
 """Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
 
+ROUGH = 5e-7
+"""Error of the kernel's multipliers, about: so close to modulus 1 they count as neutral."""
+
 SMALL = 1e-4
 """Largest of the upper harmonics, over the largest of all, of a motion that is not called coarse."""
 
@@ -212,7 +215,7 @@ class _Table:
         nothing = np.full(len(values), np.nan)
         self.put(
             rows[sure],
-            judged(values, removed, nothing, frequencies, part.speed, part.period),
+            judged(values, removed, nothing, frequencies, part.speed, part.period, ROUGH),
             np.pad(coefficient, ((0, 0), (part.first, 0), (0, 0))),
             found.force[sure],
             np.where(tail <= SMALL * np.max(size, axis=-1), int(Status.CONVERGED), int(Status.COARSE)),

@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.compiled.method import chosen as chosen_method
 from cardan.maths.periodic import HarmonicBalance
 from cardan.maths.pieces import Shooting
 from cardan.texts import _
@@ -211,7 +212,7 @@ def _zones(frequencies: Array) -> Array:
 def _growths(model: TorsionalModel, speeds: Array, progress: Progress | None) -> tuple[Array, Array, Array, bool]:
     """Return growth rates, verdicts and kinds at speeds, and whether the work was stopped."""
     free = replace(model, input_speed=None) if model.free else replace(model, input_speed=speeds)
-    found = floquet_map(free, speed=speeds, progress=progress)
+    found = floquet_map(free, speed=speeds, method=chosen_method(None, np, large=True), progress=progress)
     growth = np.where(np.isfinite(found.floquet.growth_rate), found.floquet.growth_rate, -np.inf)
     return growth, found.floquet.verdict, found.floquet.kind, found.cancelled
 

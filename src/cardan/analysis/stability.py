@@ -16,11 +16,14 @@ from .steady_result import SteadyResponse
 from .steady_start import straight_frequencies
 from .torsional_balance import slopes
 
-NEUTRAL = 1e-8
+NEUTRAL = 1e-7
 """A multiplier this close to modulus 1 neither grows nor dies out."""
 
 LOOSE = 1e-6
 """A second multiplier of a free drive this close to 1 says that it may turn at any speed."""
+
+FADED = 20.0
+"""What has died out by e to this power over a period leaves no digits to check."""
 
 ZONES = 4
 """Zones that are named: m = 1 … 4."""
@@ -250,22 +253,32 @@ def values_of(matrix: Array, tangent: Array | None) -> tuple[Array, Array]:
 
 
 def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
-    """Return ln det of the monodromy matrix plus the integral of tr C/M, nan where a coordinate has no mass."""
+    """Return ln det of the monodromy matrix plus the integral of tr C/M; nan where that says nothing.
+
+    So where a coordinate has no mass, and where what is left of a disturbance is smaller than rounding.
+    """
     share = (np.arange(128) + 0.5) / 128
     mass, damping, _stiffness = coefficients(share)
     if np.any(mass == 0.0):
         return np.full(len(duration), np.nan)
     lost = np.mean(np.einsum("bprr,bpr->bp", damping, 1.0 / mass), axis=-1) * duration
-    return np.linalg.slogdet(matrix)[1] + lost
+    with np.errstate(divide="ignore"):
+        return np.where(lost < FADED, np.linalg.slogdet(matrix)[1] + lost, np.nan)
 
 
 def judged(
-    multipliers: Array, removed: Array, residual: Array, frequencies: Array, speed: Array, period: float
+    multipliers: Array,
+    removed: Array,
+    residual: Array,
+    frequencies: Array,
+    speed: Array,
+    period: float,
+    neutral: float = NEUTRAL,
 ) -> Floquet:
-    """Return what the multipliers (b, m) of drives say; see `Floquet`."""
+    """Return what the multipliers (b, m) of drives say, known to ``neutral``; see `Floquet`."""
     first = multipliers[:, 0] if multipliers.shape[-1] else np.zeros(len(multipliers), dtype=complex)
     radius, omega = np.abs(first), np.abs(speed)
-    verdict = np.where(radius > 1.0 + NEUTRAL, Verdict.UNSTABLE, np.where(radius < 1.0 - NEUTRAL, 0, Verdict.NEUTRAL))
+    verdict = np.where(radius > 1.0 + neutral, Verdict.UNSTABLE, np.where(radius < 1.0 - neutral, 0, Verdict.NEUTRAL))
     verdict = np.where(np.isfinite(radius), verdict, Verdict.UNKNOWN)
     plain = np.abs(first.imag) <= 1e-7 * radius
     kind = np.where(plain, np.where(first.real < 0.0, Kind.DOUBLING, Kind.REPEATING), Kind.COMBINATION)

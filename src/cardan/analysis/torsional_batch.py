@@ -128,6 +128,16 @@ def period_of(model: TorsionalModel) -> float:
     return found
 
 
+def repeating(model: TorsionalModel) -> tuple[TorsionalModel, tuple[int, ...]]:
+    """Return a model without the torques whose orders no two turns hold a whole number of times, and which these are.
+
+    Of stability what is left tells the truth to first order: such a torque changes no coefficient in step with another.
+    """
+    orders = [torque.law.order for torque in model.torques]
+    loose = tuple(k for k, order in enumerate(orders) if order is not None and base_period((order,)) is None)
+    return replace(model, torques=tuple(one for k, one in enumerate(model.torques) if k not in loose)), loose
+
+
 class Turning:
     """The drives as oscillators: how far each coordinate is off even rotation; see `cardan.maths.periodic.Equation`.
 

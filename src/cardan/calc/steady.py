@@ -9,6 +9,8 @@ import numpy as np
 from cardan.analysis.stability import Floquet, Kind, Verdict, floquet
 from cardan.analysis.steady import periodic_response
 from cardan.analysis.steady_result import Orders, SteadyResponse
+from cardan.analysis.torsional_batch import repeating
+from cardan.analysis.torsional_model import TorsionalModel
 from cardan.errors import InputError, Problem
 from cardan.maths.arrays import Array
 from cardan.maths.periodic import Status
@@ -44,15 +46,16 @@ def speed_problems(values: Values, key: Callable[[str], str]) -> Iterator[Proble
             yield Problem(key(name), _("0 given; steady running needs a speed"))
 
 
-def _steady(values: Values) -> SteadyResponse:
+def _steady(model: TorsionalModel, values: Values) -> SteadyResponse:
     try:
-        return periodic_response(model_of(values), speed=values["mean_speed"])
+        return periodic_response(model, speed=values["mean_speed"])
     except InputError as error:
         raise error.renamed(lambda field: "mean_speed" if field == "speed" else field) from None
 
 
 def _stability(values: Values) -> Values:
-    steady = _steady(values)
+    model, loose = repeating(model_of(values))
+    steady = _steady(model, values)
     found = floquet(steady)
     return {
         "multiplier_period_rad": found.period,
@@ -61,12 +64,13 @@ def _stability(values: Values) -> Values:
         "stable": bool(found.stable),
         "verdict": Verdict(int(found.verdict)).name.lower(),
         "growth_rate_1_per_s": found.growth_rate,
-        "kind": Kind(int(found.kind)).name.lower(),
+        "kind": Kind(int(found.kind)).name.lower() if found.verdict == Verdict.UNSTABLE else None,
         "disturbance_order": found.order,
         "nearest_zone": found.zone.name(),
         "nearest_zone_rad_s": found.zone.speed,
         "status": Status(int(steady.status)).name.lower(),
         "determinant_residual": found.determinant_residual,
+        "torques_left_out": [k + 1 for k in loose] or None,
     }
 
 
@@ -80,7 +84,7 @@ def _multipliers(found: Floquet) -> Values:
 
 
 def _response(values: Values) -> Values:
-    found = _steady(values)
+    found = _steady(model_of(values), values)
     model, steadiness = found.model, floquet(found)
     orders = [f"{order:g}" for order in found.order]
     free = model.free
@@ -147,12 +151,13 @@ CALCULATIONS = (
             gives("stable", _("whether every disturbance dies out")),
             gives("verdict", _("stable, neutral, unstable or unknown")),
             gives("growth_rate_1_per_s", _("rate at which the largest disturbance grows")),
-            gives("kind", _("repeating, doubling or combination")),
+            gives("kind", _("how a growing disturbance swings: repeating, doubling or combination")),
             gives("disturbance_order", _("lowest order at which it swings")),
             gives("nearest_zone", _("nearest zone of parametric resonance")),
             gives("nearest_zone_rad_s", _("its speed by the straight drive")),
             gives("status", _("of the steady motion: converged, coarse or no_convergence")),
             gives("determinant_residual", _("what the product of the multipliers misses against the damping")),
+            gives("torques_left_out", _("numbers of torques whose order does not repeat within two turns")),
         ),
         answer=_stability,
         check=speed_problems,

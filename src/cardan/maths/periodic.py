@@ -48,6 +48,9 @@ class Linearised:
     stiffness: Array
 
 
+SMALL = 1e-6
+"""A balance is nought if it is this small beside what the motion makes of its terms."""
+
 Equation: TypeAlias = Callable[[Array, Array, Array, Array, Array], Linearised]
 """From rows (b,) of the batch, phases (S,) of the period [rad], and x, ẋ, ẍ there (b, S, R), to what the balance is."""
 
@@ -212,7 +215,7 @@ def _newton(
     known_force = force.copy()
     step, step_force = np.zeros_like(known), np.zeros_like(force)
     share = np.ones(len(rows))
-    best = np.full(len(rows), np.inf)
+    best, first = np.full(len(rows), np.inf), np.zeros(len(rows))
     good = np.zeros(len(rows), dtype=bool)
     going = np.arange(len(rows))
     for _round in range(how.steps):
@@ -227,7 +230,11 @@ def _newton(
         size = np.sqrt(np.sum(left**2, axis=(-1, -2)))
         better = np.isfinite(size) & (size <= best[going] * (1.0 - 1e-4 * share[going]))
         stuck = ~better & (share[going] < 2.0**-7)
-        settled = _settled(part * step[going], known[going]) & np.isfinite(best[going])
+        still = _settled(part * step[going], known[going]) & np.isfinite(best[going])
+        first[going] = np.where(np.isinf(best[going]), size, first[going])
+        reach = np.max(np.abs(here.stiffness), axis=(1, 2, 3)) * (np.max(np.abs(trial), axis=(1, 2)) + SMALL)
+        settled = still & (size <= SMALL * (first[going] + reach))
+        stuck |= still & ~settled
         share[going] = np.where(better, 1.0, 0.5 * share[going])
         best[going] = np.where(better, size, best[going])
         accepted = going[better]
