@@ -37,6 +37,7 @@ def test_all_of_them_are_there() -> None:
         "truck-supports",
         "truck-wrong-yokes",
         "two-piece-rear-drive",
+        "two-piece-rubber-bearing",
         "unstable-drive",
         "w-arrangement",
         "z-arrangement",

@@ -94,7 +94,10 @@ class CriticalSpeeds:
     half_crossed : array of bool (m,)
         Whether the drive runs within 8 percent of half of it, where the secondary couples excite the mode.
     deciding : int or None
-        Mode that the rules are about: the lowest in which a shaft bows, counted from 0; None where none was found.
+        Mode that the rules are about: the lowest in which a shaft bows, counted from 0; it may lie beyond those asked
+        for. None where none was found.
+    bowing : Part or None
+        That shaft.
     margin : Margin or None
         How far the drive stays below that mode; None without a speed.
     alone : array (n+1,) [rad/s]
@@ -110,6 +113,8 @@ class CriticalSpeeds:
         Where the supports are; nan where they are not part of the line.
     shaft_span : array (n+1, 2) [m]
         Beginning and end of each shaft; nan where it is not part of the line.
+    rigid : tuple of bool
+        For each support, whether it holds its shaft still sideways.
     held : tuple of int
         Joints at the ends that count as held by the machine.
     residual : float
@@ -131,6 +136,7 @@ class CriticalSpeeds:
     crossed: Array
     half_crossed: Array
     deciding: int | None
+    bowing: Part | None
     margin: Margin | None
     alone: Array
     place: Array
@@ -138,6 +144,7 @@ class CriticalSpeeds:
     joint_place: Array
     support_place: Array
     shaft_span: Array
+    rigid: tuple[bool, ...]
     held: tuple[int, ...]
     residual: float
     missed: int
@@ -224,6 +231,7 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
         crossed=(actual[first] >= low) & (actual[first] <= high),
         half_crossed=(0.5 * (1.0 + HALF_BAND) * actual[first] >= low) & (0.5 * (1 - HALF_BAND) * actual[first] <= high),
         deciding=bowing,
+        bowing=None if bowing is None else part[bowing],
         margin=None
         if used is None or bowing is None
         else speed_margin(
@@ -240,6 +248,7 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
         joint_place=_places(whole, whole.joint_node, len(drive.joints)),
         support_place=_places(whole, whole.support_node, len(drive.supports)),
         shaft_span=_spans(whole, len(drive.shafts)),
+        rigid=tuple(one.radial and one.stiffness is None for one in drive.supports),
         held=whole.held,
         residual=float(np.max(np.abs(found.speed[first] / speed[first] - 1.0))),
         missed=_missed(whole, speed[first]),
@@ -247,9 +256,9 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     )
 
 
-def elements(whole: WhirlLine, modes: int) -> Array:
+def elements(whole: WhirlLine, modes: int, fine: int = FINE) -> Array:
     """Return into how many finite elements each beam of a line is cut for its lowest modes, int array (e,)."""
-    size = (whole.place[-1] - whole.place[0]) / (FINE * (modes + 1))
+    size = (whole.place[-1] - whole.place[0]) / (fine * (modes + 1))
     return np.ceil(whole.line.length / size).astype(int)
 
 

@@ -18,8 +18,11 @@ from cardan.texts import _
 from .bending import elements, used_speeds
 from .whirl_line import WhirlLine, whirl_line
 
-VALUES = 61
+VALUES = 49
 """Values of a map where none are given."""
+
+COARSE = 8
+"""Elements along the line for each mode, and one mode more: enough for curves."""
 
 STIFFNESS = (1e4, 1e9)
 """Range of stiffness for a support whose own is not known [N/m]: soft rubber to a rigid housing."""
@@ -97,7 +100,7 @@ def speed_map(
     >>> from cardan.units import rpm
     >>> found = speed_map(example("truck-supports"), [0.9, 1.2, 1.5], shaft=3, modes=1)
     >>> (found.speed / rpm).round(-1).tolist()
-    [[16710.0], [10990.0], [7150.0]]
+    [[16710.0], [10990.0], [7160.0]]
     """
     whole = whirl_line(drive)
     number = _chosen(drive, whole) if support is None and shaft is None else support
@@ -166,5 +169,4 @@ def _over_length(drive: Drive, whole: WhirlLine, number: int, given: Array | Non
 
 def _speeds(varied: WhirlLine, whole: WhirlLine, modes: int) -> Array:
     """Return the critical speeds of a stack of lines, array (v, m) [rad/s]."""
-    parts = elements(whole, modes)
-    return synchronous(divided(varied.line, parts), modes).speed
+    return synchronous(divided(varied.line, elements(whole, modes, COARSE)), modes).speed

@@ -68,6 +68,16 @@ COMMANDS = {
             "cardan tolerance instrument.toml --allocate 2arcmin -o better.toml",
         ),
     ),
+    "bending": Entry(
+        "bending",
+        QUESTIONS,
+        _("At which speeds the shafts whirl, and how far the drive stays away."),
+        (
+            "cardan bending truck.toml",
+            "cardan bending truck.toml --map",
+            "cardan bending truck.toml --plot shapes.svg",
+        ),
+    ),
     "assembly": Entry(
         "assembly",
         QUESTIONS,

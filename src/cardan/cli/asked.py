@@ -55,6 +55,8 @@ SUFFIX = {
     "torque": "Nm",
     "speed": "rpm",
     "span": "mm",
+    "outer": "mm",
+    "position": "mm",
     "journal": "mm",
     "bore": "mm",
     "length": "mm",
