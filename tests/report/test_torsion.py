@@ -1,0 +1,68 @@
+"""The report's page of torsional vibration: present where the file asks for it, with the numbers of the analyses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, example, torsion_modes, torsion_response
+from cardan.drive.shaft import Shaft
+from cardan.figures.wording import significant
+from cardan.report import torsion
+from cardan.report.subject import asked
+from cardan.report.torsion import twisting
+
+
+@pytest.fixture(autouse=True)
+def few_speeds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sweep over a handful of speeds: the page is the same, and its time is not."""
+    monkeypatch.setattr(torsion, "SWEEP", 5)
+
+
+def of(drive: Drive):
+    return twisting(asked(drive, None, None))
+
+
+def test_it_stands_only_where_masses_or_stiffnesses_are_given() -> None:
+    assert of(example("z-arrangement")) is None
+    assert of(example("truck-supports")) is None
+
+
+def test_the_first_page_tells_the_mode_and_the_swing() -> None:
+    drive = example("truck-power-unit")
+    found = of(drive)
+    swing = float(np.max(torsion_response(drive).swing))
+    assert found.keys[0][1].full == repr(float(torsion_modes(drive).omega[0]) / (2 * np.pi))
+    assert found.keys[2][1].full == repr(swing)
+    assert f"± {significant(swing, 3)} N·m" in found.answer
+    assert found.alarms == []
+
+
+def test_growing_vibration_is_an_alarm() -> None:
+    found = of(example("unstable-drive"))
+    assert [alarm.tone for alarm in found.alarms] == ["failed"]
+    assert "principal zone of mode 1" in found.alarms[0].text
+    assert "and small disturbances grow" in found.answer
+    assert of(example("cured-drive")).alarms == []
+
+
+def test_what_is_met_in_use_is_told() -> None:
+    drive = example("truck-power-unit")
+    low = replace(drive, duty=replace(drive.duty, speed_range=(35.0, 85.0)))
+    tones = [alarm.tone for alarm in of(low).alarms]
+    assert tones == ["failed", "warning"]
+
+
+def test_what_is_missing_is_told() -> None:
+    drive = replace(example("z-arrangement"), shafts=(Shaft(number=2, stiffness=1e4),))
+    found = of(drive)
+    assert [alarm.tone for alarm in found.alarms] == ["warning"]
+    assert "nothing here has inertia" in found.blocks[0].text
+
+
+@pytest.mark.parametrize("name", ["truck-power-unit", "pto-flywheel"])
+def test_every_check_passes(name: str) -> None:
+    table = of(example(name)).blocks[-1]
+    assert {row[-1].tone for row in table.rows} == {"good"}
