@@ -10,7 +10,7 @@ import pytest
 from cardan import Drive, InputError, example
 from cardan.analysis.bending import Running, bending_speeds, wear_factors
 from cardan.analysis.critical_speed import speed_margin, uniform_speed
-from cardan.analysis.speed_map import speed_map
+from cardan.analysis.speed_map import critical_speed_map
 from cardan.analysis.stepped import Node, stepped_speeds
 from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
@@ -258,14 +258,14 @@ def test_shafts_that_nothing_holds_are_named():
 
 def test_a_map_over_stiffness_is_each_drive_by_itself():
     drive = two_piece()
-    found = speed_map(drive, [1e5, 2e5, 5e6])
+    found = critical_speed_map(drive, [1e5, 2e5, 5e6])
     assert (found.over, found.number, found.drawn) == ("stiffness", 1, 2e5)
     for stiffness, speed in zip(found.value, found.speed, strict=True):
         alone = bending_speeds(replace(drive, supports=(replace(drive.supports[0], stiffness=stiffness),)))
         # Elements against transfer matrices.
         np.testing.assert_allclose(speed, alone.speed, rtol=1e-3)
     rigid = replace(drive, supports=(replace(drive.supports[0], stiffness=None),))
-    stiff = speed_map(rigid, np.geomspace(1e4, 1e10, 7))
+    stiff = critical_speed_map(rigid, np.geomspace(1e4, 1e10, 7))
     assert stiff.drawn is None
     np.testing.assert_allclose(stiff.speed[-1], bending_speeds(rigid).speed, rtol=5e-3)
     assert np.all(np.diff(stiff.speed, axis=0) > -1e-9)
@@ -273,8 +273,8 @@ def test_a_map_over_stiffness_is_each_drive_by_itself():
 
 def test_a_map_over_length_moves_what_stands_on_the_shaft():
     drive = two_piece()
-    found = speed_map(drive, [0.8, 1.2], shaft=2)
-    np.testing.assert_allclose(found.speed[0], speed_map(drive, [2e5]).speed[0], rtol=1e-6)
+    found = critical_speed_map(drive, [0.8, 1.2], shaft=2)
+    np.testing.assert_allclose(found.speed[0], critical_speed_map(drive, [2e5]).speed[0], rtol=1e-6)
     longer = replace(
         line_of(1.2, 0.9),
         joints=tuple(replace(b, cross=a.cross) for a, b in zip(drive.joints, line_of(1.2, 0.9).joints, strict=True)),
@@ -282,7 +282,7 @@ def test_a_map_over_length_moves_what_stands_on_the_shaft():
         supports=(replace(drive.supports[0], position=1.05),),
     )
     np.testing.assert_allclose(found.speed[1], bending_speeds(longer).speed, rtol=1e-3)
-    plain = speed_map(single(), modes=1)
+    plain = critical_speed_map(single(), modes=1)
     assert (plain.over, plain.number, plain.drawn) == ("length", 2, pytest.approx(1.5))
     assert plain.speed.shape == (49, 1)
     assert np.all(np.diff(plain.speed, axis=0) < 0.0)
@@ -294,7 +294,7 @@ def test_a_map_over_length_moves_what_stands_on_the_shaft():
 )
 def test_a_map_needs_something_to_vary(keys, field):
     with pytest.raises(InputError) as caught:
-        speed_map(two_piece(), **keys)
+        critical_speed_map(two_piece(), **keys)
     assert [problem.field for problem in caught.value.problems] == [field]
 
 

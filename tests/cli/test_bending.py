@@ -8,7 +8,7 @@ import pytest
 
 from cardan import io as files
 from cardan.analysis.bending import bending_speeds
-from cardan.analysis.speed_map import speed_map
+from cardan.analysis.speed_map import critical_speed_map
 from cardan.units import rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest
@@ -67,7 +67,7 @@ def test_csv_has_a_row_for_each_mode(cardan):
 
 def test_the_map_is_that_of_the_library(cardan):
     rows = list(csv.DictReader(io.StringIO(cardan("bending", VAN, "--map", "--csv", "--modes", "1").out)))
-    found = speed_map(files.load(VAN), modes=1)
+    found = critical_speed_map(files.load(VAN), modes=1)
     np.testing.assert_allclose([float(row["stiffness_N_per_mm"]) for row in rows], found.value / 1e3)
     np.testing.assert_allclose([float(row["critical_1_rpm"]) for row in rows], found.speed[:, 0] / rpm)
 

@@ -8,7 +8,7 @@ import pytest
 
 from cardan import example, figures
 from cardan.analysis.bending import bending_speeds
-from cardan.analysis.speed_map import speed_map
+from cardan.analysis.speed_map import critical_speed_map
 from cardan.drive.duty import Duty
 from cardan.figures.bending import shapes_figure, speed_map_figure, speeds_figure
 from cardan.figures.figure import Band, Bars, Curve, Rule, Shape
@@ -35,7 +35,7 @@ def test_results_have_their_figures(drive):
     found = bending_speeds(drive)
     names = [figure.name for figure in figures.for_result(found)]
     assert names == ["critical-speeds", "mode-shapes"]
-    for figure in (*figures.for_result(found), *figures.for_result(speed_map(drive, modes=1))):
+    for figure in (*figures.for_result(found), *figures.for_result(critical_speed_map(drive, modes=1))):
         drawn(figure)
 
 
@@ -97,14 +97,14 @@ def test_many_modes_show_the_first_six():
 
 
 def test_maps_cover_their_values():
-    stiff = speed_map(VAN, np.geomspace(1e3, 1e9, 5), modes=2)
+    stiff = critical_speed_map(VAN, np.geomspace(1e3, 1e9, 5), modes=2)
     figure = speed_map_figure(stiff)
     assert figure.panels[0].x.log
     assert figure.panels[0].x.ticks[0] == 1.0
     assert len(of(figure.panels[0], Curve)) == 2
     drawn(figure)
-    one = speed_map_figure(speed_map(replace(VAN, duty=Duty(speed=100.0)), [2e5], modes=1))
+    one = speed_map_figure(critical_speed_map(replace(VAN, duty=Duty(speed=100.0)), [2e5], modes=1))
     drawn(one)
-    length = speed_map_figure(speed_map(TRUCK, [1.0, 1.2], shaft=3, modes=1))
+    length = speed_map_figure(critical_speed_map(TRUCK, [1.0, 1.2], shaft=3, modes=1))
     np.testing.assert_allclose(of(length.panels[0], Curve)[0].x, [1000.0, 1200.0])
     drawn(length)

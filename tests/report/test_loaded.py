@@ -27,14 +27,15 @@ from cardan.units import arcmin
 from .test_report import parsed
 
 WITH = {
-    "truck-supports": {"forces", "losses"},
+    "truck-supports": {"forces", "losses", "bending"},
+    "two-piece-rubber-bearing": {"bending"},
     "pto-spline-thrust": {"forces", "losses"},
     "instrument-joint": {"forces", "losses", "accuracy"},
-    "overconstrained-pump": {"forces", "losses", "assembly"},
+    "overconstrained-pump": {"forces", "losses", "assembly", "bending"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "accuracy", "assembly"}
+PARTS = {"forces", "losses", "accuracy", "assembly", "bending"}
 
 
 def words(drive):

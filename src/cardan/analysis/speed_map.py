@@ -29,7 +29,7 @@ STIFFNESS = (1e4, 1e9)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SpeedMap:
+class CriticalSpeedMap:
     """Critical speeds over one quantity of the drive.
 
     Attributes
@@ -56,14 +56,14 @@ class SpeedMap:
     used: tuple[float, float] | None
 
 
-def speed_map(
+def critical_speed_map(
     drive: Drive,
     value: ArrayLike | None = None,
     *,
     support: int | None = None,
     shaft: int | None = None,
     modes: int = 3,
-) -> SpeedMap:
+) -> CriticalSpeedMap:
     """Return the critical speeds of a drive over the stiffness of a support or the length of a shaft, all at once.
 
     Parameters
@@ -83,7 +83,7 @@ def speed_map(
 
     Returns
     -------
-    SpeedMap
+    CriticalSpeedMap
 
     Raises
     ------
@@ -98,7 +98,7 @@ def speed_map(
     --------
     >>> from cardan.io import example
     >>> from cardan.units import rpm
-    >>> found = speed_map(example("truck-supports"), [0.9, 1.2, 1.5], shaft=3, modes=1)
+    >>> found = critical_speed_map(example("truck-supports"), [0.9, 1.2, 1.5], shaft=3, modes=1)
     >>> (found.speed / rpm).round(-1).tolist()
     [[16710.0], [10990.0], [7160.0]]
     """
@@ -142,7 +142,7 @@ def _problems(
     return found
 
 
-def _over_stiffness(drive: Drive, whole: WhirlLine, number: int, given: Array | None, modes: int) -> SpeedMap:
+def _over_stiffness(drive: Drive, whole: WhirlLine, number: int, given: Array | None, modes: int) -> CriticalSpeedMap:
     node, drawn = whole.support_node[number], drive.supports[number - 1].stiffness
     if given is None:
         low, high = STIFFNESS if drawn is None else (drawn / 30.0, 30.0 * drawn)
@@ -153,18 +153,18 @@ def _over_stiffness(drive: Drive, whole: WhirlLine, number: int, given: Array | 
     free = tuple(one for one in whole.line.held if one != node)
     varied = replace(whole, line=replace(whole.line, spring=spring, held=free if drawn is None else whole.line.held))
     speed = _speeds(varied, whole, modes)
-    return SpeedMap(
+    return CriticalSpeedMap(
         over="stiffness", number=number, value=given, speed=speed, drawn=drawn, used=used_speeds(drive.duty)
     )
 
 
-def _over_length(drive: Drive, whole: WhirlLine, number: int, given: Array | None, modes: int) -> SpeedMap:
+def _over_length(drive: Drive, whole: WhirlLine, number: int, given: Array | None, modes: int) -> CriticalSpeedMap:
     drawn = known_lengths(drive)[number]
     value = np.linspace(0.5 * drawn, 1.5 * drawn, VALUES) if given is None else given
     factor = np.where(whole.shaft == number, value[:, None] / drawn, 1.0)
     varied = replace(whole, line=replace(whole.line, length=whole.line.length * factor))
     speed = _speeds(varied, whole, modes)
-    return SpeedMap(over="length", number=number, value=value, speed=speed, drawn=drawn, used=used_speeds(drive.duty))
+    return CriticalSpeedMap(over="length", number=number, value=value, speed=speed, drawn=drawn, used=used_speeds(drive.duty))
 
 
 def _speeds(varied: WhirlLine, whole: WhirlLine, modes: int) -> Array:

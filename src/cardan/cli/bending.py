@@ -14,7 +14,7 @@ from .options import AsCsv, AsJson, DriveFile, Plot
 
 if TYPE_CHECKING:
     from cardan.analysis.bending import CriticalSpeeds, Part
-    from cardan.analysis.speed_map import SpeedMap
+    from cardan.analysis.speed_map import CriticalSpeedMap
     from cardan.drive.drive import Drive
 
     from .answer import Answer, Remark
@@ -45,7 +45,7 @@ def bending(
     check_common(json=json, csv=csv, plot=plot)
 
     from cardan.analysis.bending import MOST, bending_speeds
-    from cardan.analysis.speed_map import speed_map
+    from cardan.analysis.speed_map import critical_speed_map
     from cardan.errors import refuse
 
     from .source import read
@@ -56,11 +56,11 @@ def bending(
     drive = read(file)
     with keys_of(file):
         found = bending_speeds(drive, modes=modes)
-        varied = speed_map(drive, modes=modes) if over else None
+        varied = critical_speed_map(drive, modes=modes) if over else None
     return show(_answer(drive, file, found, varied), json=json, csv=csv, plot=plot)
 
 
-def _answer(drive: Drive, file: Path, found: CriticalSpeeds, varied: SpeedMap | None) -> Answer:
+def _answer(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSpeedMap | None) -> Answer:
     from cardan.analysis.bending import Running
 
     from .answer import Answer
@@ -121,7 +121,7 @@ def _sentence(drive: Drive, file: Path, found: CriticalSpeeds) -> str:
     return text.format(name=name, part=part, speed=speed, ratio=ratio)
 
 
-def _remarks(drive: Drive, file: Path, found: CriticalSpeeds, varied: SpeedMap | None) -> Iterator[Remark]:
+def _remarks(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSpeedMap | None) -> Iterator[Remark]:
     from .answer import Remark
 
     yield from _judged(drive, found)
@@ -203,7 +203,7 @@ def _passed(drive: Drive, found: CriticalSpeeds) -> Iterator[Remark]:
             yield Remark(text=text.format(low=low, high=high, part=_said(drive, part)), tone="warning")
 
 
-def _content(drive: Drive, file: Path, found: CriticalSpeeds, varied: SpeedMap | None) -> dict[str, Any]:
+def _content(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSpeedMap | None) -> dict[str, Any]:
     from cardan.units import mm, rpm
 
     from .asked import columns_of, key_of

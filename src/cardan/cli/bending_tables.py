@@ -8,7 +8,7 @@ from cardan.texts import _
 
 if TYPE_CHECKING:
     from cardan.analysis.bending import CriticalSpeeds, Part
-    from cardan.analysis.speed_map import SpeedMap
+    from cardan.analysis.speed_map import CriticalSpeedMap
     from cardan.drive.drive import Drive
 
     from .answer import Cell, Table
@@ -121,7 +121,7 @@ def shaft_table(drive: Drive, found: CriticalSpeeds) -> Table:
     return Table(columns=columns, rows=rows)
 
 
-def map_table(drive: Drive, varied: SpeedMap, *, short: bool = False) -> Table:
+def map_table(drive: Drive, varied: CriticalSpeedMap, *, short: bool = False) -> Table:
     """Return the critical speeds over what varies; for the eye a few of its values, with a title."""
     from cardan.units import rpm
 
@@ -148,7 +148,7 @@ def map_table(drive: Drive, varied: SpeedMap, *, short: bool = False) -> Table:
     return Table(columns=(first, *modes), rows=rows, title=text.format(which=_name(drive, varied)) if short else "")
 
 
-def _name(drive: Drive, varied: SpeedMap) -> str:
+def _name(drive: Drive, varied: CriticalSpeedMap) -> str:
     from .asked import called
 
     things = drive.supports if varied.over == "stiffness" else drive.shafts

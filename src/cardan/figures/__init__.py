@@ -31,7 +31,7 @@ _MAKERS = {
     "cardan.analysis.torsion_stability.Stability": "torsion_map.stability_figures",
     "cardan.analysis.torsion_transient.Transient": "torsion_transient.transient_figures",
     "cardan.analysis.bending.CriticalSpeeds": "bending.bending_figures",
-    "cardan.analysis.speed_map.SpeedMap": "bending.speed_map_figures",
+    "cardan.analysis.speed_map.CriticalSpeedMap": "bending.speed_map_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",
     "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",

@@ -8,7 +8,7 @@ import numpy as np
 
 from cardan.analysis.bending import CriticalSpeeds, Part, Running
 from cardan.analysis.critical_speed import ARTICLE
-from cardan.analysis.speed_map import SpeedMap
+from cardan.analysis.speed_map import CriticalSpeedMap
 from cardan.texts import _, plural
 from cardan.units import mm, rpm
 
@@ -216,17 +216,17 @@ def _spring(x: float, y: float, width: float) -> Curve:
     return Curve(x=x + 0.008 * width * turns, y=-1.3 + (y + 1.3) * rise, role="muted", width=1.1)
 
 
-def speed_map_figures(found: SpeedMap) -> tuple[Figure, ...]:
+def speed_map_figures(found: CriticalSpeedMap) -> tuple[Figure, ...]:
     """Return the figures of a map of critical speeds."""
     return (speed_map_figure(found),)
 
 
-def speed_map_figure(found: SpeedMap) -> Figure:
+def speed_map_figure(found: CriticalSpeedMap) -> Figure:
     """Return critical speeds over the stiffness of a support or the length of a shaft.
 
     Parameters
     ----------
-    found : SpeedMap
+    found : CriticalSpeedMap
         Over one quantity.
     """
     stiff = found.over == "stiffness"
@@ -288,7 +288,7 @@ def _decades(label: str, unit: str, value: np.ndarray) -> Axis:
     return Axis(label=label, unit=unit, low=low, high=high, ticks=tuple(ticks), texts=texts, log=True)
 
 
-def _map_sentence(found: SpeedMap) -> str:
+def _map_sentence(found: CriticalSpeedMap) -> str:
     order = np.argsort(np.asarray(found.value))
     first = np.asarray(found.speed)[order, 0] / rpm
     ends = significant(float(first[0]), 3), significant(float(first[-1]), 3)

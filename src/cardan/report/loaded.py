@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 from .accuracy import erring
 from .assembly import straining
+from .bending import whirling
 from .block import Page
 from .forces import carrying
 from .losses import rubbing
 from .subject import Subject
 
-PAGES = (carrying, rubbing, erring, straining)
+PAGES = (carrying, rubbing, erring, straining, whirling)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
