@@ -164,7 +164,9 @@ def _over_length(drive: Drive, whole: WhirlLine, number: int, given: Array | Non
     factor = np.where(whole.shaft == number, value[:, None] / drawn, 1.0)
     varied = replace(whole, line=replace(whole.line, length=whole.line.length * factor))
     speed = _speeds(varied, whole, modes)
-    return CriticalSpeedMap(over="length", number=number, value=value, speed=speed, drawn=drawn, used=used_speeds(drive.duty))
+    return CriticalSpeedMap(
+        over="length", number=number, value=value, speed=speed, drawn=drawn, used=used_speeds(drive.duty)
+    )
 
 
 def _speeds(varied: WhirlLine, whole: WhirlLine, modes: int) -> Array:
