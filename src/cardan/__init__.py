@@ -26,6 +26,10 @@ _HOMES = {
     "articulation": "analysis.articulation",
     "AssemblyForces": "analysis.assembly",
     "assembly": "analysis.assembly",
+    "CriticalSpeeds": "analysis.bending",
+    "bending_speeds": "analysis.bending",
+    "CriticalSpeedMap": "analysis.speed_map",
+    "critical_speed_map": "analysis.speed_map",
     "LossMap": "analysis.losses",
     "Losses": "analysis.losses",
     "loss_map": "analysis.losses",
@@ -90,6 +94,8 @@ if TYPE_CHECKING:
     from .analysis.articulation import articulation as articulation
     from .analysis.assembly import AssemblyForces as AssemblyForces
     from .analysis.assembly import assembly as assembly
+    from .analysis.bending import CriticalSpeeds as CriticalSpeeds
+    from .analysis.bending import bending_speeds as bending_speeds
     from .analysis.book import BookComparison as BookComparison
     from .analysis.book import book_comparison as book_comparison
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
@@ -107,6 +113,8 @@ if TYPE_CHECKING:
     from .analysis.moving_forces import MovingForces as MovingForces
     from .analysis.moving_forces import moving_forces as moving_forces
     from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.speed_map import CriticalSpeedMap as CriticalSpeedMap
+    from .analysis.speed_map import critical_speed_map as critical_speed_map
     from .analysis.tolerance import Linear as Linear
     from .analysis.tolerance import ToleranceBand as ToleranceBand
     from .analysis.tolerance import WorstCase as WorstCase
