@@ -62,10 +62,14 @@ def test_a_history_is_simulated_to_its_end() -> None:
     assert np.mean(found.motion.torque[late, 0]) == pytest.approx(30.0, abs=1.5)  # swings and joint around it
 
 
-def test_without_a_torque_that_drives_it_a_free_drive_slows_down() -> None:
+def test_a_free_drive_that_nothing_drives_keeps_its_speed() -> None:
     found = transient(LINE, replace(LINE.duty, input="free"), span=0.1, method=ROUGH)
+    assert np.dot(found.motion.speed[-1, [0, 2]], [0.5, 0.4]) / 0.9 == pytest.approx(40.0, rel=0.05)
+    assert "duty.motor" in found.train.assumed
+    braked = replace(LINE.duty, motor=ConstantTorque(torque=0.0))
+    slower = transient(LINE, braked, span=0.1, method=ROUGH)
     mean = 40.0 - 60.0 * 0.1 / 0.9
-    assert np.dot(found.motion.speed[-1, [0, 2]], [0.5, 0.4]) / 0.9 == pytest.approx(mean, rel=0.05)
+    assert np.dot(slower.motion.speed[-1, [0, 2]], [0.5, 0.4]) / 0.9 == pytest.approx(mean, rel=0.05)
 
 
 def test_a_stop_keeps_what_is_done() -> None:

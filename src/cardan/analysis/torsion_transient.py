@@ -18,8 +18,9 @@ from cardan.texts import _
 from .input_motion import SpeedCourse
 from .simulation import Progress, Simulation, Status
 from .steady import periodic_response
+from .torques import Constant, Swinging
 from .torsion_response import parted
-from .torsional_model import TorsionalModel
+from .torsional_model import Torque, TorsionalModel
 from .torsional_modes import straight_modes
 from .torsional_train import TorsionalTrain, in_time, torsional_train
 from .transient import Method, simulate
@@ -105,7 +106,8 @@ def transient(
     Notes
     -----
     Exact equations of motion, see `cardan.analysis.transient.simulate`; structural damping counts as viscous, equal at
-    order 2 of the highest speed.
+    order 2 of the highest speed. Where nothing drives a free input, a constant torque does that equals what resists at
+    the start.
 
     Examples
     --------
@@ -134,18 +136,32 @@ def transient(
         if not bool(steady.found):
             raise refuse("start", _("no steady motion was found to start from; start even"))
         angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
-        if model.free:  # the constant torque that keeps the speed
+        if model.free:
             model = _held(model, float(steady.orbit.force))
+    elif model.free and first and not _pushed(model):
+        model, train = _held(model, _resisting(model, first)), replace(train, assumed=(*train.assumed, "duty.motor"))
     length = _span(chosen, model, fastest) if span is None else span
     motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=method, progress=progress)
     return Transient(train=train, motion=motion, start=start)
 
 
 def _held(model: TorsionalModel, force: float) -> TorsionalModel:
-    from .torques import Constant
-    from .torsional_model import Torque
-
+    """Return a drive with a constant torque on its input."""
     return replace(model, torques=(*model.torques, Torque(station=0, law=Constant(value=force))))
+
+
+def _pushed(model: TorsionalModel) -> bool:
+    """Tell whether anything but a swinging torque acts on the input."""
+    return any(torque.station == 0 and not isinstance(torque.law, Swinging) for torque in model.torques)
+
+
+def _resisting(model: TorsionalModel, speed: float) -> float:
+    """Return the torque on the input that what resists takes at the start [N·m]."""
+    taken = float(np.sum(model.ground_damping)) * speed
+    for torque in model.torques:
+        if not isinstance(torque.law, Swinging):
+            taken -= float(torque.law.at(np.asarray(0.0), np.asarray(0.0), np.asarray(speed))[0])
+    return taken
 
 
 def _speeds(duty: Duty) -> tuple[float, float]:

@@ -172,5 +172,7 @@ def assumptions(train: TorsionalTrain) -> Iterator[Remark]:
     for name, numbers in found.items():
         word = _("shaft") if len(numbers) == 1 else _("shafts")
         texts.append(said[name].format(shafts=f"{word} {listed(numbers)}"))
+    if "duty.motor" in train.assumed:
+        texts.append(_("driven by a constant torque that equals what resists at the start"))
     if texts:
         yield Remark(text=_("Assumed: {what}.").format(what="; ".join(texts)))

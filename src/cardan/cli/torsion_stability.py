@@ -174,7 +174,7 @@ def _tables(found: Stability) -> list[Table]:
     lines: list[list[Cell]] = [[float(rows[k]), "".join(SIGNS[int(table[k, n])] for n in j)] for k in i]
     ends = f"{printed(float(columns[0]), 'g')} … {printed(float(columns[-1]), 'g')}"
     heads = (
-        Column(key="value", heading=_axis(down), form="g"),
+        Column(key="value", heading=_axis(down)),
         Column(key="map", heading=f"{_axis(across)}: {ends}", left=True),
     )
     return [Table(columns=heads, rows=lines, title=_("# unstable, · stable"))]
