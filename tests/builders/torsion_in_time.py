@@ -1,0 +1,100 @@
+"""Torsional drives integrated in time by scipy, contacts located as events: the slow truth of steady running."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from cardan.analysis.torques import Asynchronous, Constant, Falling, SpeedTable, Swinging
+from cardan.analysis.torsional_balance import accelerations, places
+from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
+
+
+def drive(
+    speed=48.0, *, free=False, order=None, backlash=0.0, load=50.0, damping=1.0, bend=0.35, motor=False, table=False
+) -> TorsionalModel:
+    """Return a drive of three shafts and two joints whose middle shaft has a station of its own."""
+    torques = [
+        Torque(station=6, law=Constant(value=-load)),
+        Torque(station=6, law=Falling(standstill=0.0, slope=0.1)),
+    ]
+    if order is not None:
+        torques.append(Torque(station=1, law=Swinging(amplitude=8.0, frequency=order, phase=0.4)))
+    if motor:
+        torques.append(
+            Torque(station=0, law=Asynchronous(synchronous_speed=60.0, pullout_torque=150.0, pullout_slip=0.2))
+        )
+    if table:
+        law = SpeedTable(speeds=np.asarray([0.0, 90.0]), torques=np.asarray([0.0, -9.0]))
+        torques.append(Torque(station=5, law=law))
+    return torsional_line(
+        [[1.0, 0.02], [0.03, 0.3, 0.02], [0.03, 0.5]],
+        stiffness=[[3000.0], [5000.0, 5000.0], [4000.0]],
+        damping=[[damping], [damping, damping], [damping]],
+        backlash=[[backlash], [0.0, 0.0], [0.0]],
+        bend=[bend, 0.8 * bend],
+        phase=[0.0, 1.2],
+        torques=torques,
+        input_speed=None if free else speed,
+    )
+
+
+def flow(
+    model: TorsionalModel, speed: float, duration: float, states: np.ndarray, times: np.ndarray | None = None
+) -> np.ndarray:
+    """Return states (..., 2u) of the u free coordinates, angles before speeds, after a time, or at times (..., 2u, t).
+
+    Without backlash all states go in one integration.
+    """
+    flat = np.atleast_2d(np.asarray(states, dtype=float))
+    if np.any(model.backlash > 0.0):
+        found = np.stack([_by_contacts(model, speed, duration, one) for one in flat])
+    else:
+        done = solve_ivp(
+            lambda time, y: _rates(model, speed, time, y.reshape(flat.shape)).ravel(),
+            (0.0, duration), flat.ravel(), method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times,
+        )  # fmt: skip
+        found = done.y[:, -1].reshape(flat.shape) if times is None else done.y.reshape(*flat.shape, -1)
+    return found if np.ndim(states) > 1 else found[0]
+
+
+def _whole(model: TorsionalModel, speed: float, time: float, states: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    q, rate = np.split(states, 2, axis=-1)
+    if model.free:
+        return q, rate
+    even = np.ones((len(states), 1))
+    return np.concatenate([speed * time * even, q], axis=-1), np.concatenate([speed * even, rate], axis=-1)
+
+
+def _rates(model: TorsionalModel, speed: float, time: float, states: np.ndarray) -> np.ndarray:
+    q, rate = _whole(model, speed, time, states)
+    first = 0 if model.free else 1
+    return np.concatenate([rate[:, first:], accelerations(model, q, rate, time)[:, first:]], axis=-1)
+
+
+def _by_contacts(model: TorsionalModel, speed: float, duration: float, state: np.ndarray) -> np.ndarray:
+    def gap(element: int, level: float) -> Callable[[float, np.ndarray], float]:
+        def event(time: float, y: np.ndarray) -> float:
+            angle = places(model, _whole(model, speed, time, y[None])[0]).angle[0]
+            a, b = model.elements[element]
+            return float(angle[a] - angle[b] - level)
+
+        event.terminal = True  # type: ignore[attr-defined]
+        return event
+
+    half = 0.5 * model.backlash
+    events = [gap(e, side * half[e]) for e in range(len(half)) if half[e] > 0.0 for side in (1.0, -1.0)]
+    now, y = 0.0, state
+    while True:
+        done = solve_ivp(
+            lambda time, y: _rates(model, speed, time, y[None])[0],
+            (now, duration), y, method="DOP853", rtol=1e-10, atol=1e-12, events=events, max_step=duration / 20.0,
+        )  # fmt: skip
+        if done.status == 0:
+            return done.y[:, -1]
+        which = next(k for k, when in enumerate(done.t_events) if when.size)
+        past = 1e-10  # over the contact, so that the event does not fire again
+        now, y = float(done.t_events[which][0]), done.y_events[which][0]
+        now, y = now + past, y + past * _rates(model, speed, now, y[None])[0]
