@@ -26,7 +26,7 @@ from .marching import (
     twists,
 )
 from .simulation import Progress, Record, Simulation, Status, reported
-from .torques import Asynchronous, Swinging
+from .swiftness import contact_period, forced_rate, own_rates
 from .torsional_balance import linearised, places
 from .torsional_model import TorsionalModel
 
@@ -39,11 +39,8 @@ RESTLESS = 200
 IMPLICIT_COST = 6.0
 """Work of the implicit method for one radian of a rate that lives over that of the explicit one, measured."""
 
-FADED = 25.0
-"""What is damped by e to this power is gone."""
-
-ORDERS = 4.0
-"""Order of the shaft up to which joints excite a drive noticeably."""
+CONTACT_STEPS = 4.0
+"""Steps in the period of an element in contact, at least: within each, eight places are looked at."""
 
 SNAP = 1e-9
 """A static stiffness below this share of the stiffest element's holds no joint."""
@@ -129,7 +126,7 @@ class _Walk:
         self.state = (task.span[0], q[freedom.free], task.rate[freedom.free], 0.0)
         self.status = Status.DONE
         self.sides = self._sides()
-        self.longest = _contact_period(task, freedom) / 4.0
+        self.longest = float(contact_period(task.model, freedom.free, task.q)) / CONTACT_STEPS
         self.first: float | None = None
 
     def _whole(self, piece: Piece, times: Array) -> tuple[Array, Array]:
@@ -204,16 +201,16 @@ class _Walk:
             return None
         before = times[late[0] - 1] if late[0] else piece.start
         found = []
-        for e in np.flatnonzero(over[late[0]] > 0.0):
+        for e in np.flatnonzero(over[late[0]] > 0.0).tolist():
 
-            def past(time: float, e: int = int(e)) -> float:
+            def past(time: float, e: int = e) -> float:
                 twist = twists(model, self._whole(piece, np.asarray([time]))[0])
                 return float(passed(model, self.sides, twist)[0, e])
 
             when = (
                 float(before) if past(float(before)) >= 0.0 else float(brentq(past, before, times[late[0]], xtol=1e-15))
             )
-            found.append((when, int(e)))
+            found.append((when, e))
         when, e = min(found)
         when = max(when, float(np.nextafter(piece.start, np.inf)))
         twist = twists(model, self._whole(piece, np.asarray([when]))[0])[0, e]
@@ -281,64 +278,13 @@ def _settled(model: TorsionalModel, freedom: Freedom, q: Array, rate: Array, tim
     return None
 
 
-def _turns(task: Task) -> tuple[Array, Array, Array]:
-    """Return the drive linearised over half a turn: masses (m, R), damping and stiffness (m, R, R), all in contact."""
-    turn = np.linspace(0.0, math.pi, 8, endpoint=False)
-    q = task.q + turn[:, None]
-    rate = np.broadcast_to(task.rate, q.shape)
-    model = held(task.model, np.ones(len(task.model.elements)))
-    model = replace(model, rest=None)
-    by = linearised(model, q, rate, np.zeros_like(q), np.full(len(q), task.span[0]))[1]
-    return by.mass, by.damping, by.stiffness
-
-
 def _implicit(task: Task, freedom: Freedom) -> bool:
     """Tell whether the implicit method is needed, or is asked for, or costs less."""
     if len(freedom.heavy) < len(freedom.free) or task.stiff:
         return True
     if task.stiff is False or not len(freedom.free):
         return False
-    mass, damping, stiffness = _turns(task)
-    inner = np.ix_(np.arange(len(mass)), freedom.free, freedom.free)
-    share = 1.0 / mass[:, freedom.free, None]
-    count = len(freedom.free)
-    system = np.zeros((len(mass), 2 * count, 2 * count))
-    system[:, :count, count:] = np.eye(count)
-    system[:, count:, :count], system[:, count:, count:] = -share * stiffness[inner], -share * damping[inner]
-    values = np.linalg.eigvals(system)
     length = task.span[1] - task.span[0]
-    alive = 1.0 / np.maximum(1.0, -values.real * length / FADED)
-    fastest, living = float(np.max(np.abs(values))), float(np.max(np.abs(values) * alive))
-    return fastest > IMPLICIT_COST * max(living, _forced_rate(task), 1.0 / length)
-
-
-def _forced_rate(task: Task) -> float:
-    """Return how fast joints and torques excite the drive [rad/s]."""
-    speeds = [float(np.max(np.abs(task.rate)))]
-    if task.motion is not None:
-        moments = [*task.span, *(time for time in task.motion.breaks if task.span[0] < time < task.span[1])]
-        speeds.append(float(np.max(np.abs(task.motion.at(np.asarray(moments))[1]))))
-    orders = [ORDERS]
-    for torque in task.model.torques:
-        if isinstance(torque.law, Asynchronous):
-            speeds.append(abs(float(torque.law.synchronous_speed)))
-        if isinstance(torque.law, Swinging):
-            orders.append(abs(torque.law.frequency))
-    return max(speeds) * max(orders)
-
-
-def _contact_period(task: Task, freedom: Freedom) -> float:
-    """Return the shortest period of an element with play in contact [s]; infinite where there is no play."""
-    model = task.model
-    if not np.any(model.backlash > 0.0):
-        return math.inf
-    mass = np.min(_turns(task)[0], axis=0)
-    mass[np.setdiff1d(np.arange(model.coordinates), freedom.free)] = math.inf
-    light = float(np.min(mass[freedom.heavy], initial=math.inf))
-    mass = np.where(mass > 0.0, mass, light)
-    rate = 0.0
-    for e, (a, b) in enumerate(model.elements):
-        if model.backlash[e] > 0.0:
-            ends = (model.coordinate[a], model.coordinate[b])
-            rate = max(rate, math.sqrt(float(model.stiffness[e]) * sum(1.0 / mass[r] for r in ends)))
-    return 2.0 * math.pi / rate if rate > 0.0 else math.inf
+    fastest, living = own_rates(task.model, freedom.free, task.q, task.rate, task.span[0], length)
+    forced = forced_rate(task.model, task.motion, task.rate, task.span)
+    return bool(fastest > IMPLICIT_COST * max(float(living), float(forced), 1.0 / length))

@@ -104,6 +104,10 @@ class Stepper(Protocol):
 
     time: float
 
+    @property
+    def length(self) -> float:
+        """Length of the step to come [s]."""
+
     def step(self) -> Piece | None:
         """Return the next step; None where none is short enough."""
 

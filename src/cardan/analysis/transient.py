@@ -14,6 +14,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
 from .adaptive import Task, march
+from .fixed_steps import FixedStep, stepped
 from .input_motion import InputMotion, Uniform
 from .simulation import Extremes, Progress, Simulation
 from .torsional_batch import leading, single
@@ -51,7 +52,7 @@ class Adaptive:
         )
 
 
-Method: TypeAlias = Adaptive
+Method: TypeAlias = Adaptive | FixedStep
 
 
 def simulate(
@@ -79,8 +80,8 @@ def simulate(
         where their balance is looked for.
     speed : float or array (..., R) [rad/s], optional
         Speeds of the coordinates at the start; that of the forced station when not given, else 0.
-    method : Adaptive, optional
-        How to integrate.
+    method : Adaptive or FixedStep, optional
+        How to integrate; FixedStep takes many drives at once.
     progress : function, optional
         Called with the share done; answering "stop" ends the simulation with what is done.
 
@@ -111,6 +112,8 @@ def simulate(
     check(_span_problems(begin, end, samples))
     lead = leading(model)
     q, rate = _start(model, lead, begin, angle, speed)
+    if isinstance(way, FixedStep):
+        return stepped(model, way, span=(begin, end), times=samples, q=q, rate=rate, progress=progress)
     tasks = [
         Task(
             model=one,

@@ -20,7 +20,10 @@ def arithmetic(x, y):
 
 def choices(x, y):
     xp = namespace(x)
-    return (xp.abs(x), xp.sqrt(xp.abs(x)), xp.where(x < y, x, y), xp.where(x > 0.0, 1.0, y))
+    return (
+        *(xp.abs(x), xp.sqrt(xp.abs(x)), xp.where(x < y, x, y), xp.where(x > 0.0, 1.0, y)),
+        *(xp.maximum(x, y), xp.minimum(x, y)),
+    )
 
 
 @pytest.mark.parametrize("formula", [arithmetic, choices])

@@ -101,15 +101,24 @@ class _Functions:
         return _called("fabs", x)
 
     @staticmethod
+    def maximum(x: Lanes, y: Lanes) -> Lanes:
+        return _called("maxnum", x, y)
+
+    @staticmethod
+    def minimum(x: Lanes, y: Lanes) -> Lanes:
+        return _called("minnum", x, y)
+
+    @staticmethod
     def where(condition: Lanes, yes: Any, no: Any) -> Lanes:
         chosen = condition.builder.select(condition.value, condition._number(yes), condition._number(no))
         return Lanes(condition.builder, chosen)
 
 
-def _called(name: str, x: Lanes) -> Lanes:
-    kind = ir.FunctionType(_VECTOR, [_VECTOR])
+def _called(name: str, x: Lanes, *more: Lanes) -> Lanes:
+    given = [x.value, *(one.value for one in more)]
+    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(given))
     function = x.builder.module.declare_intrinsic(f"llvm.{name}.v{LANES}f64", (), kind)
-    return Lanes(x.builder, x.builder.call(function, [x.value]))
+    return Lanes(x.builder, x.builder.call(function, given))
 
 
 def _splat(builder: Any, number: Any) -> Lanes:
