@@ -11,6 +11,7 @@ NAMES = (
     "without_positions",
     "single_drive",
     "forces",
+    "critical_speeds",
     "synthesis",
     "tolerance",
     "torsional_response",
