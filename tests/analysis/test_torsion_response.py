@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
+from cardan.analysis import torsion_stability
 from cardan.analysis.stability import Verdict, floquet
 from cardan.analysis.steady import periodic_response
 from cardan.analysis.straight_line import line_response
 from cardan.analysis.torques import Constant
 from cardan.analysis.torsion_response import torsion_response
-from cardan.analysis import torsion_stability
 from cardan.analysis.torsion_stability import stability
 from cardan.analysis.torsional_model import Torque, torsional_line
 from cardan.analysis.torsional_waves import straight_waves
@@ -114,6 +114,15 @@ def test_a_torque_in_time_is_sent_to_the_simulation() -> None:
     with pytest.raises(InputError, match=r"duty\.load\.kind: runs in time") as caught:
         torsion_response(LINE, Duty(speed=1.0, load=history))
     assert len(caught.value.problems) == 1
+
+
+@pytest.mark.parametrize(
+    ("speed", "field"), [(0.0, "duty.speed"), ([10.0, 0.0], "speed"), ([[1.0]], "speed"), ([], "speed")]
+)
+def test_standing_still_is_no_running(speed: float | list[float], field: str) -> None:
+    with pytest.raises(InputError) as caught:
+        torsion_response(LINE, speed=speed)
+    assert [problem.field for problem in caught.value.problems] == [field]
 
 
 def test_a_stop_keeps_what_is_done() -> None:

@@ -195,6 +195,9 @@ def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) ->
     flat = speeds.reshape(-1)
     if not len(flat) or speeds.ndim > 1:
         raise refuse("speed", _("one list of speeds is needed"))
+    if np.any(flat == 0.0) or not np.all(np.isfinite(flat)):
+        field = "speed" if speeds.ndim else "duty.speed"
+        raise refuse(field, _("steady running needs a speed other than 0, and a finite one"))
     train = torsional_train(drive, duty, speed=float(flat[0]), pieces=pieces)
     masses = duty.engine is not None and bool(duty.engine.piston_mass)
     if speeds.ndim and (train.pendulums or masses):  # what changes with the speed
