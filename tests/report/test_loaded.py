@@ -32,10 +32,14 @@ WITH = {
     "pto-spline-thrust": {"forces", "losses"},
     "instrument-joint": {"forces", "losses", "accuracy"},
     "overconstrained-pump": {"forces", "losses", "assembly", "bending"},
+    "truck-power-unit": {"torsion"},
+    "pto-flywheel": {"torsion", "bending"},
+    "unstable-drive": {"torsion"},
+    "cured-drive": {"torsion"},
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "accuracy", "assembly", "bending"}
+PARTS = {"forces", "losses", "accuracy", "assembly", "torsion", "bending"}
 
 
 def words(drive):

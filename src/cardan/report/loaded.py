@@ -11,8 +11,9 @@ from .block import Page
 from .forces import carrying
 from .losses import rubbing
 from .subject import Subject
+from .torsion import twisting
 
-PAGES = (carrying, rubbing, erring, straining, whirling)
+PAGES = (carrying, rubbing, erring, straining, twisting, whirling)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
