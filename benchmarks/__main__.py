@@ -15,6 +15,7 @@ NAMES = (
     "synthesis",
     "tolerance",
     "torsional_response",
+    "transient",
     "mathieu_map",
     "start_up",
 )

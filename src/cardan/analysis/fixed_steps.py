@@ -36,7 +36,7 @@ CALM = 2.5
 CONTACT = 20.0
 """Steps in the period of an element in contact."""
 
-SMALL = 5_000
+SMALL = 300
 """Fewer steps, of all drives together, do not need to be compiled."""
 
 CHUNK = 4096
