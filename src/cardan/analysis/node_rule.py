@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import mm, rpm
+from cardan.units import rpm
 
+from .steady_start import at_rest
+from .torsional_batch import Turning
 from .torsional_modes import straight_modes
 from .torsional_train import TorsionalTrain
 
@@ -42,7 +44,8 @@ class NodeRule:
     parametric : complex array (n,)
         Share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄).
     forced : complex array (n,) [√(kg m²)]
-        How each joint pushes the mode twice a turn, with its phase: τ Σ J u behind it e^(2iψ̄).
+        How each joint pushes the mode twice a turn where order 2 meets it, with its phase, over ω²:
+        τ e^(2iψ̄) (S (1 + 2iδ) - 2i u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load.
     torque_of_mode : float [N·m/√(kg m²)]
         Largest torque of an element of the mode at unit amplitude.
     position : array (n,) [m]
@@ -96,7 +99,7 @@ class NodeRule:
         return tuple(_sentences(self))
 
 
-def node_rules(train: TorsionalTrain, *, speed: float = 0.0) -> tuple[NodeRule, ...]:
+def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, ...]:
     """Return what the joints of a drive do to each of its modes, the slowest first.
 
     Parameters
@@ -104,7 +107,7 @@ def node_rules(train: TorsionalTrain, *, speed: float = 0.0) -> tuple[NodeRule, 
     train : TorsionalTrain
         The model of a drive.
     speed : float [rad/s]
-        At which torques are asked how they change with the speed.
+        At which torques are asked for their mean and for how they change with the speed.
 
     Returns
     -------
@@ -116,7 +119,8 @@ def node_rules(train: TorsionalTrain, *, speed: float = 0.0) -> tuple[NodeRule, 
     by ε_k = τ_k sin 2(φ + ψ̄_k): the mode is pushed by 4Ω² Σ_k τ_k S_k sin 2(φ + ψ̄_k), S_k = Σ J u behind it. As the
     phase of joint k follows its own swing u_k, each push also changes with the swing: the parametric part, 2 τ_k κ_k of
     the stiffness with κ_k = u_k S_k. For one mass at either end κ_k = Σ_{i≤k} c/c_i - J_b/(J_a + J_b): a joint in the
-    node of the mode excites no parametric vibration. ψ̄ as in `torsional_modes.modulation`.
+    node of the mode excites no parametric vibration. ψ̄ as in `torsional_modes.modulation`. A drive under load pushes
+    a little otherwise, by its twist: each joint lags by δ, and its mean torque works on its swing.
 
     Examples
     --------
@@ -141,10 +145,13 @@ def node_rules(train: TorsionalTrain, *, speed: float = 0.0) -> tuple[NodeRule, 
     leads = np.cumsum(tau * np.sin(2.0 * model.phase))
     turn = np.exp(2j * (model.phase - np.append(0.0, leads[:-1]))) if len(tau) else np.zeros(0, dtype=complex)
     shaft = np.asarray(model.shaft)
+    lag, carried = _under_load(train, speed)
+    driving = [one for one, _driven in train.joints]
     rules = []
     for k, omega in enumerate(modes.omega):
         shape = modes.shape[k]
-        behind = [float(np.sum((model.inertia * shape)[shaft >= shaft[driven]])) for _driving, driven in train.joints]
+        behind = np.asarray([np.sum((model.inertia * shape)[shaft >= shaft[driven]]) for _one, driven in train.joints])
+        push = behind * (1.0 + 2j * lag) - 2j * shape[driving] * carried / omega**2
         twist = [shape[a] - shape[b] for a, b in model.elements]
         rules.append(
             NodeRule(
@@ -154,13 +161,31 @@ def node_rules(train: TorsionalTrain, *, speed: float = 0.0) -> tuple[NodeRule, 
                 kappa=modes.joint_weight[k],
                 bend_share=tau,
                 parametric=2.0 * tau * modes.joint_weight[k] * turn,
-                forced=tau * np.asarray(behind) * turn,
+                forced=tau * push * turn,
                 torque_of_mode=float(np.max(np.abs(model.stiffness * np.asarray(twist)), initial=0.0)),
-                position=np.asarray([train.position[driving] for driving, _driven in train.joints]),
+                position=train.position[driving],
                 nodes=tuple(_nodes(train, shape)),
             )
         )
     return tuple(rules)
+
+
+def _under_load(train: TorsionalTrain, speed: float) -> tuple[Array, Array]:
+    """Return by how much the driving yoke of each joint is ahead under mean torques, and the torque it carries."""
+    model, count = train.model, len(train.joints)
+    orders = [torque.law.order for torque in model.torques]
+    if not model.elements or any(order is None for order in orders):
+        return np.zeros(count), np.zeros(count)
+    bare = replace(model, torques=tuple(t for t in model.torques if t.law.order == 0.0), backlash=0.0 * model.backlash)
+    turning = Turning(replace(bare, input_speed=None), (), np.asarray([speed]), np.pi)
+    twist = at_rest(turning)[0, :, 0].real
+    angle, load = twist[list(model.coordinate)], -speed * model.ground_damping
+    for torque in bare.torques:
+        load[torque.station] += float(torque.law.at(np.asarray(0.0), np.asarray(0.0), np.asarray(speed))[0])
+    shaft = np.asarray(model.shaft)
+    lag = np.asarray([angle[driving] for driving, _driven in train.joints])
+    carried = np.asarray([-np.sum(load[shaft >= shaft[driven]]) for _driving, driven in train.joints])
+    return lag.reshape(count), carried.reshape(count)
 
 
 def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[float]:
@@ -231,7 +256,4 @@ def _where(rule: NodeRule, joint: int) -> str:
         return _("away from the node")
     nearest = min(rule.nodes, key=lambda at: abs(at - rule.position[joint]))
     way = rule.position[joint] - nearest
-    if abs(way) < 0.5 * mm:
-        return _("beside the node")
-    text = _("{way:.4g} mm behind the node") if way > 0.0 else _("{way:.4g} mm before the node")
-    return text.format(way=abs(way) / mm)
+    return _("behind the node") if way > 0.0 else _("before the node")
