@@ -18,9 +18,9 @@ from cardan.maths.arrays import Array
 
 from .absorber_choice import KINDS as KINDS
 from .absorber_choice import closed_form, meeting, mode_problems, problems, served, still
-from .absorber_curves import Curves, fine, named_elements
+from .absorber_curves import Curves
 from .absorber_search import Setting, Settings, Task, highest, rounded
-from .band import band_speeds, excited, lines, wanted_band
+from .band import band_speeds, excited, fine_speeds, lines, wanted_band
 from .hosts import Host, host_named, hosts
 from .least_swing import LeastSwing, Stopped, Watched
 
@@ -69,7 +69,7 @@ class Absorber:
     bare : Setting
         Nothing: its peak.
     elements : tuple of E str
-        Elements of the drive, by the stations at their ends.
+        Names of the elements of the drive.
     speed : array (s,) [rad/s]
         Of the input.
     before, closed, after : arrays (s, E) [N·m]
@@ -264,7 +264,7 @@ def absorber(
         task = replace(task, speed=speed)
 
     def closer(place: Array) -> Array:
-        return fine(bare, task.line(task.setting(place))[0], band)
+        return fine_speeds(band, (bare, task.line(task.setting(place))[0]))
 
     settings = Settings(task, worst)
     expected = len(settings.start) + EXPECTED * len(task.ranges)
@@ -292,7 +292,7 @@ def absorber(
         closed_form=curves.peaked(task.closed_form, curves.closed),
         best=curves.peaked(best, curves.after),
         bare=curves.peaked(Setting(inertia=0.0, stiffness=0.0, damping=0.0), curves.before),
-        elements=named_elements(bare),
+        elements=bare.element_names,
         speed=curves.speed,
         before=curves.before,
         closed=curves.closed,

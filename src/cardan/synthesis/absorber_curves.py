@@ -6,37 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.analysis.stability import Verdict, floquet
-from cardan.analysis.torque_swing import TorqueSwings, some_motions
+from cardan.analysis.torque_swing import TorqueSwings
 from cardan.analysis.torsion_response import Progress
 from cardan.analysis.torsional_balance import places
 from cardan.maths.arrays import Array
 
 from .absorber_search import Setting, Task, highest
-from .band import FINER, Lines, about_peaks, band_speeds, excited, lines, zone_speeds
-
-FINE = 81
-"""Evenly spread speeds of the curves."""
-
-JUDGED = 25
-"""Evenly spread speeds at which stability is asked for, beside those amid the zones."""
+from .band import Lines, about_peaks, fine_speeds, lines, unstable_speeds
 
 SAMPLES = 96
 """Angles of a period at which the swing of an absorber is read off."""
-
-
-def named_elements(found: Lines) -> tuple[str, ...]:
-    """Return the elements of the line by the stations at their ends."""
-    model = found.trains[0].model
-    pairs = [model.elements[k] for k in found.elements]
-    return tuple(f"{model.names[a]} – {model.names[b]}" for a, b in pairs)
-
-
-def fine(bare: Lines, line: Lines, band: tuple[float, float]) -> Array:
-    """Return the speeds of the curves of a drive, rising: evenly, and close about the resonances of both."""
-    drive = bare.drives[0]
-    omega = np.concatenate([bare.omega, line.omega], axis=-1)
-    return band_speeds(*band, omega, excited(drive, drive.duty), count=FINE, beside=FINER)[0]
 
 
 class Curves:
@@ -47,7 +26,7 @@ class Curves:
         (first, _at), (last, element) = task.line(task.closed_form), task.line(best)
         serves = task.speed if task.kind == "tuned" else []
         self.task, judged = task, bare.elements
-        rough = np.unique(np.append(fine(bare, last, band), serves))
+        rough = np.unique(np.append(fine_speeds(band, (bare, last)), serves))
         closer = [rough]
         for k, line in enumerate((bare, first, last)):
             peak = np.max(line.swings(rough[None]).swing[:, task.elements], axis=-1)
@@ -61,7 +40,9 @@ class Curves:
         self.before, self.closed, self.after = (one.swing[:, judged] for one in runs)
         self.torque = runs[2].swing[:, element]
         self.twist, self.heat = self._swing(runs[2], last, element, best)
-        self.unstable = tuple(self._unstable(one, line) for one, line in ((runs[0], bare), (runs[2], last)))
+        self.unstable = tuple(
+            unstable_speeds(one, line.omega, self.speed) for one, line in ((runs[0], bare), (runs[2], last))
+        )
         watch(1.0)
 
     def peaked(self, setting: Setting, swing: Array) -> Setting:
@@ -84,13 +65,3 @@ class Curves:
         if setting.arm is not None:
             swing = swing * (self.task.radius + setting.arm) / setting.arm
         return swing, heat
-
-    def _unstable(self, found: TorqueSwings, line: Lines) -> Array:
-        """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance."""
-        zones = zone_speeds(line.omega)[0]
-        wanted = np.append(np.linspace(self.speed[0], self.speed[-1], JUDGED), zones[(zones > self.speed[0])])
-        rows = np.unique([int(np.argmin(np.abs(self.speed - one))) for one in wanted if one <= self.speed[-1]])
-        rows = rows[found.found[rows]]
-        verdict = floquet(some_motions(found.orbit, rows)).verdict if rows.size else np.zeros(0)
-        grown: Array = self.speed[rows][verdict == Verdict.UNSTABLE]
-        return grown

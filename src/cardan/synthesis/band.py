@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from cardan.analysis.stability import floquet
+from cardan.analysis.stability import Verdict, floquet
 from cardan.analysis.steady_start import straight_frequencies
 from cardan.analysis.torque_swing import TorqueSwings, some_motions, torque_swings
 from cardan.analysis.torsion import orders
@@ -33,6 +33,12 @@ ZONED = 3
 
 JUDGED = 6
 """Speeds of a drive at which a search asks for stability."""
+
+FINE = 81
+"""Evenly spread speeds of curves."""
+
+SPREAD = 25
+"""Evenly spread speeds at which curves are asked for stability, beside those amid the zones."""
 
 HIGH = 0.7
 """Share of the highest peak from which others are looked at closer."""
@@ -68,6 +74,12 @@ class Lines:
         return np.asarray([k for k, ends in enumerate(train.model.elements) if line.issuperset(ends)], dtype=int)
 
     @property
+    def element_names(self) -> tuple[str, ...]:
+        """Names of these elements."""
+        names = self.trains[0].element_names
+        return tuple(names[k] for k in self.elements)
+
+    @property
     def omega(self) -> Array:
         """Natural frequencies of the straight lines, without turning as a whole, array (D, m) [rad/s]."""
         model = stacked([one.model for one in self.trains])
@@ -101,11 +113,16 @@ class Lines:
 
 def lines(drives: Sequence[Drive], speed: float) -> Lines:
     """Return drives of one build, their trains taken at a speed."""
-    trains = tuple(torsional_train(one, one.duty, speed=speed) for one in drives)
-    if not trains[0].model.elements:
+    return Lines(drives=tuple(drives), trains=tuple(train_at(one, speed) for one in drives), speed=speed)
+
+
+def train_at(drive: Drive, speed: float) -> TorsionalTrain:
+    """Return the torsional model of a drive at a speed [rad/s]; refused where nothing of it twists."""
+    train = torsional_train(drive, drive.duty, speed=speed)
+    if not train.model.elements:
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)
-    return Lines(drives=tuple(drives), trains=trains, speed=speed)
+    return train
 
 
 def built(train: TorsionalTrain) -> tuple[object, ...]:
@@ -198,7 +215,7 @@ def about_peaks(speed: Array, peak: Array) -> Array:
     return np.unique(np.concatenate(found)) if found else np.zeros(0)
 
 
-def growth(found: TorqueSwings, speed: Array, omega: Array) -> Array:
+def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Array:
     """Return how fast disturbances grow in drives, the largest growth of any speed asked: array (D,) [per period].
 
     Looked at amid the zones of parametric resonance, and at the speed of the largest torque: not at every speed.
@@ -209,30 +226,29 @@ def growth(found: TorqueSwings, speed: Array, omega: Array) -> Array:
     speed : array (D, S) [rad/s]
     omega : array (D, m) [rad/s]
         Natural frequencies.
+    asked : array of bool (D,)
+        Which of the drives.
 
     Returns
     -------
     array (D,)
-        ln of the largest multiplier; 0 where nothing grows.
+        ln of the largest multiplier; 0 where nothing grows, and for drives not asked.
     """
     count, width = speed.shape
     zones = zone_speeds(omega)
     inside = (zones >= speed[:, :1]) & (zones <= speed[:, -1:])
     largest = np.argmax(np.nan_to_num(np.max(found.swing, axis=-1)).reshape(count, width), axis=-1)
     rows: set[int] = set()
-    for d in range(count):
+    for d in np.flatnonzero(asked):
         columns = {int(np.argmin(np.abs(speed[d] - one))) for one in np.sort(zones[d][inside[d]])[: JUDGED - 1]}
-        rows |= {d * width + k for k in columns | {int(largest[d])}}
-    asked = np.asarray(sorted(row for row in rows if found.found.reshape(-1)[row]), dtype=int)
+        rows |= {int(d) * width + k for k in columns | {int(largest[d])}}
+    judged = np.asarray(sorted(row for row in rows if found.found.reshape(-1)[row]), dtype=int)
     worst = np.zeros(count)
-    if asked.size:
-        radius = floquet(some_motions(found.orbit, asked)).spectral_radius
-        np.maximum.at(worst, asked // width, np.log(np.maximum(radius, 1.0 + GROWING)) - np.log1p(GROWING))
+    if judged.size:
+        said = floquet(some_motions(found.orbit, judged))
+        grown = np.where(said.verdict == Verdict.UNSTABLE, np.log(np.maximum(said.spectral_radius, 1.0)), 0.0)
+        np.maximum.at(worst, judged // width, grown)
     return worst
-
-
-GROWING = 1e-7
-"""By how much a multiplier must exceed 1 to count as growing in a search."""
 
 
 def wanted_band(duty: Duty, speeds: tuple[float, float] | None) -> tuple[float, float] | None:
@@ -252,3 +268,30 @@ def wanted_band(duty: Duty, speeds: tuple[float, float] | None) -> tuple[float, 
 
 LOWEST = 0.02
 """Share of the highest speed below which a band does not reach: nothing vibrates at standstill."""
+
+
+def fine_speeds(band: tuple[float, float], runs: Sequence[Lines]) -> Array:
+    """Return the speeds of curves of drives, rising: evenly, and close about their resonances, array (S,) [rad/s]."""
+    drive = runs[0].drives[0]
+    omega = np.concatenate([one.omega for one in runs], axis=-1)
+    return band_speeds(*band, omega, excited(drive, drive.duty), count=FINE, beside=FINER)[0]
+
+
+def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> Array:
+    """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance.
+
+    Parameters
+    ----------
+    found : TorqueSwings (S,)
+    omega : array (1, m) [rad/s]
+        Natural frequencies.
+    speed : array (S,) [rad/s]
+        Rising.
+    """
+    zones, low, high = zone_speeds(omega)[0], speed[0], speed[-1]
+    wanted = np.append(np.linspace(low, high, SPREAD), zones[(zones > low) & (zones < high)])
+    rows = np.unique([int(np.argmin(np.abs(speed - one))) for one in wanted])
+    rows = rows[found.found[rows]]
+    verdict = floquet(some_motions(found.orbit, rows)).verdict if rows.size else np.zeros(0)
+    grown: Array = speed[rows][verdict == Verdict.UNSTABLE]
+    return grown

@@ -1,0 +1,166 @@
+"""The search behind `calm`: every combination or the last steps, and the curves before and after."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.analysis.torsion_response import Progress
+from cardan.drive.drive import Drive
+from cardan.errors import Problem
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .absorber_search import highest
+from .band import about_peaks, fine_speeds, lines, unstable_speeds
+from .calm_designs import Designs, Free
+from .evolution import Evolution, Evolved
+from .least_swing import LeastSwing, Stopped, Watched
+
+MOST = 200_000
+"""Designs that an exhaustive search may have at most."""
+
+PART = 64
+"""Designs of an exhaustive search that are solved at once."""
+
+EXPECTED = 25
+"""Designs that the last steps of a search take for each unknown, about."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grid:
+    """How to search everywhere: every combination.
+
+    Attributes
+    ----------
+    points : int
+        Values of every quantity; of one with steps all of them are taken.
+    """
+
+    points: int = 11
+
+
+Method: TypeAlias = Evolution | Grid
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Peak:
+    """Largest swing of a torque in the band.
+
+    Attributes
+    ----------
+    torque : float [N·m]
+        Half of highest less lowest.
+    speed : float [rad/s]
+    element : int
+        From 0 in `Calm.elements`.
+    """
+
+    torque: float
+    speed: float
+    element: int
+
+
+def method_problems(method: Method, free: tuple[Free, ...]) -> list[Problem]:
+    """Return what is wrong with a way to search."""
+    if not isinstance(method, Grid):
+        wrong = [name for name in ("rounds", "runs") if getattr(method, name) < 1]
+        wrong += ["size"] if method.size is not None and method.size < 4 else []
+        text = _("{given} given; at least {least}")
+        return [
+            Problem(f"method.{name}", text.format(given=getattr(method, name), least=4 if name == "size" else 1))
+            for name in wrong
+        ]
+    if method.points < 2:
+        return [Problem("method.points", _("{given} given; at least 2").format(given=method.points))]
+    count = prod(len(one.places(method.points)) for one in free)
+    if count > MOST:
+        text = _("{count:,} designs; at most {most:,} are done")
+        message = text.format(count=count, most=MOST).replace(",", "\u202f")
+        return [Problem("method.points", message)]
+    return []
+
+
+def everywhere(designs: Designs, method: Grid, progress: Progress | None) -> Evolved:
+    """Return the best of every combination."""
+    table = np.asarray(list(product(*(one.places(method.points) for one in designs.free))))
+    best, least, told = table[0], np.inf, []
+    stopped = False
+    for first in range(0, len(table), PART):
+        rows = table[first : first + PART]
+        cost = designs.cost(rows, np.full(len(rows), least))
+        if float(np.min(cost)) < least:
+            best, least = rows[int(np.argmin(cost))], float(np.min(cost))
+        told.append(least)
+        stopped = progress is not None and progress(min(first + PART, len(table)) / len(table)) == "stop"
+        if stopped:
+            break
+    return Evolved(
+        place=best,
+        cost=least,
+        run_places=best[None],
+        run_costs=np.asarray([least]),
+        history=(np.asarray(told),),
+        evaluations=designs.asked,
+        converged=not stopped,
+        cancelled=stopped,
+    )
+
+
+def refined(designs: Designs, start: Array, progress: Progress | None) -> Array:
+    """Return a better place near one, values with steps kept; the same where there is none, or it is unstable."""
+    loose = np.asarray([one.step is None for one in designs.free])
+    drive = designs.drive_at(start)
+    if not loose.any() or drive is None:
+        return start
+
+    def whole(places: Array) -> Array:
+        found = np.tile(start, (len(places), 1))
+        found[:, loose] = places
+        return found
+
+    def swings(places: Array, speed: Array) -> Array:
+        designs.asked += len(places)
+        return designs.swings(whole(places), speed)
+
+    def closer(at: Array) -> Array:
+        here = designs.drive_at(whole(at[None])[0])
+        return fine_speeds(designs.band, [designs.built if here is None else lines([here], designs.middle)])
+
+    first = designs.speeds(lines([drive], designs.middle))[0]
+    watched = Watched(progress=progress, expected=EXPECTED * int(np.sum(loose)))
+    search = LeastSwing(swings, first, closer if len(first) > 1 else None, watched)
+    with contextlib.suppress(Stopped):
+        search.run(start[loose][None])
+    if not search.best.size:
+        return start
+    both = np.stack([start, whole(search.best[None])[0]])
+    cost = designs.cost(both, np.full(2, np.inf))
+    return both[int(np.argmin(cost))]
+
+
+class Curves:
+    """What the drive as built and another do over the band."""
+
+    def __init__(self, designs: Designs, drive: Drive) -> None:
+        both = (designs.built, lines([drive], designs.middle))
+        rough = fine_speeds(designs.band, both)
+        closer = [rough]
+        for line in both:
+            peak = np.max(line.swings(rough[None]).swing[:, designs.elements], axis=-1)
+            closer.append(about_peaks(rough, peak))
+        self.speed = np.unique(np.concatenate(closer))
+        runs = [line.swings(self.speed[None]) for line in both]
+        self.swing = [found.swing[:, line.elements] for found, line in zip(runs, both, strict=True)]
+        self.peaks = [_peak(one, self.speed, designs.elements) for one in self.swing]
+        self.unstable = [unstable_speeds(found, line.omega, self.speed) for found, line in zip(runs, both, strict=True)]
+
+
+def _peak(swing: Array, speed: Array, elements: Array) -> Peak:
+    torque, at, element = highest(swing, speed, elements)
+    return Peak(torque=torque, speed=at, element=element)
