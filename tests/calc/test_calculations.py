@@ -52,7 +52,7 @@ def test_every_calculation_says_what_it_takes_and_gives(one):
 
 CASES = [
     case
-    for name in ("kinematics.json", "statics.json", "dynamics.json")
+    for name in ("kinematics.json", "statics.json", "dynamics.json", "strength.json")
     for case in json.loads((Path(__file__).parents[1] / "reference" / name).read_text("utf8"))["cases"]
     if case["capability"] != "errors" and "error_field" not in case["expected"]
 ]
@@ -90,6 +90,10 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
         required = {"mu_spline"}  # or any other of its parts
     if name in ("periodic_response", "floquet_stability"):
         required |= {"input_speed_rad_s"}  # or a mean speed
+    if name == "critical_speed_book":
+        required |= {"length_m"}  # or the material of its constant
+    if name == "critical_speed":
+        required |= {"d_out_mm", "length_mm", "E_GPa", "density_kg_m3"}  # or what another method needs
     if name == "mathieu_stability":
         required |= {"a"}  # or one of its other questions
     either = {"alpha_deg"} if "alpha_deg" in {i.key for i in CALCULATIONS[name].takes if not i.required} else set()
