@@ -1,4 +1,4 @@
-"""Pictures of torsional vibration: a joint in the node of a mode, and what yoke angles do to the swing of the torque."""
+"""Pictures of torsional vibration: a joint in the node of a mode, and what yoke angles do to a torque."""
 
 from __future__ import annotations
 
