@@ -153,13 +153,12 @@ def test_what_starts_a_drive() -> None:
     assert still["energy_J"] == 0.0
     turning = calc("torsional_simulation", free | {"torques": [], "initial_speed_rad_s": 60.0, "t_end_s": 1e-6})
     assert turning["energy_J"] == pytest.approx(0.5 * 3600.0 * (1.25 + 0.6) + 0.5 * 0.03 * turning_square(), rel=1e-6)
-    both = calc("torsional_simulation", DRIVE | {"initial_speed_rad_s": 10.0})
-    assert both["station_speed_rad_s"][0] == 60.0
-    assert both["lowest_station_speed_rad_s"][3] == pytest.approx(10.0, rel=1e-9)
+    both = calc("torsional_simulation", DRIVE | {"initial_speed_rad_s": 10.0, "t_end_s": 1e-7})
+    assert both["station_speed_rad_s"] == pytest.approx([60.0, 10.0, turning_square() ** 0.5 / 6.0, 10.0], rel=1e-3)
     twisted = calc(
         "torsional_simulation", free | {"torques": [], "initial_angles_rad": [0.0, 0.0, 0.02], "t_end_s": 1e-6}
     )
-    assert twisted["element_torque_Nm"][1] == pytest.approx(-100.0, rel=1e-6)
+    assert twisted["element_torque_Nm"][1] == pytest.approx(-100.0, rel=1e-4)
 
 
 def turning_square() -> float:
