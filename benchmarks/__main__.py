@@ -17,6 +17,8 @@ NAMES = (
     "torsional_response",
     "transient",
     "mathieu_map",
+    "speed_sweep",
+    "floquet_map",
     "start_up",
 )
 
