@@ -16,16 +16,10 @@ if TYPE_CHECKING:
     from cardan.analysis.torsion_response import TorsionResponse
     from cardan.drive.drive import Drive
 
-    from .answer import Answer, Cell, Remark, Table, Tone
-
-SHOWN = 12
-"""Speeds of a sweep in the terminal."""
+    from .answer import Answer, Remark, Table, Tone
 
 EVEN = 1e-3
 """An irregularity below which yoke angles have little left to take away."""
-
-STATES = (_("stable"), _("neutral"), _("unstable"), _("unknown"))
-"""What becomes of a small disturbance, by `cardan.analysis.stability.Verdict`."""
 
 
 def torsion_response(
@@ -63,13 +57,14 @@ def torsion_response(
 def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
     from .answer import Answer
     from .asked import figures
+    from .torsion_tables import sweep_table
 
     swept = bool(found.speed.ndim)
     tone, sentence = _swept(drive, file, found) if swept else _sentence(drive, file, found)
     return Answer(
         sentence=sentence,
         tone=tone,
-        tables=lambda: [_sweep_table(found)] if swept else _tables(found),
+        tables=lambda: [sweep_table(found)] if swept else _tables(found),
         remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found),
         csv=lambda: _rows(found),
@@ -109,76 +104,9 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
 
 
 def _tables(found: TorsionResponse) -> list[Table]:
-    return [_element_table(found), _station_table(found)] if bool(found.steady.found) else []
+    from .torsion_tables import element_table, station_table
 
-
-def _element_table(found: TorsionResponse) -> Table:
-    import numpy as np
-
-    from .answer import Column, Table, significant
-    from .torsion_parts import short
-
-    torque, order = found.steady.torque, found.steady.order
-    rows: list[list[Cell]] = []
-    for e, name in enumerate(found.train.element_names):
-        amplitude = torque.amplitude[e]
-        others = np.where((order == 2.0) | (order == 4.0), 0.0, amplitude)
-        k = int(np.argmax(others))
-        largest = float(np.max(np.abs(torque.mean)) + np.max(torque.amplitude))
-        there = others[k] > 1e-9 * largest
-        rows.append(
-            [
-                short(name, 28),
-                float(torque.mean[e]),
-                float(found.torque_lowest[e]),
-                float(found.torque_highest[e]),
-                float(amplitude[np.flatnonzero(order == 2.0)[0]]),
-                float(amplitude[np.flatnonzero(order == 4.0)[0]]),
-                f"{significant(float(others[k]), 3)} ({order[k]:g})" if there else None,
-            ]
-        )
-    columns = (
-        Column(key="element", heading=_("torque in"), left=True),
-        Column(key="mean_Nm", heading=_("mean"), unit="N·m", form="3"),
-        Column(key="min_Nm", heading=_("min"), unit="N·m", form="3"),
-        Column(key="max_Nm", heading=_("max"), unit="N·m", form="3"),
-        Column(key="order_2_Nm", heading=_("order 2"), unit="± N·m", form="3"),
-        Column(key="order_4_Nm", heading=_("order 4"), unit="± N·m", form="3"),
-        Column(key="other_Nm", heading=_("other"), unit=_("± (order)")),
-    )
-    return Table(columns=columns, rows=rows)
-
-
-def _station_table(found: TorsionResponse) -> Table:
-    import numpy as np
-
-    from .answer import Column, Table
-    from .torsion_parts import short
-
-    speed, order = found.steady.station_speed, found.steady.order
-    mean = abs(float(found.speed))
-    rows: list[list[Cell]] = []
-    for k, name in enumerate(found.train.model.names):
-        amplitude = speed.amplitude[k]
-        angle = np.degrees(found.steady.angle_amplitude[k])
-        second = int(np.flatnonzero(order == 2.0)[0])
-        top = int(np.argmax(amplitude))
-        there = bool(amplitude[top] > 1e-12 * mean)
-        rows.append(
-            [
-                short(name, 34),
-                100.0 * float(np.sum(amplitude)) / mean if there else 0.0,
-                float(angle[second]) if there else 0.0,
-                float(order[top]) if there else None,
-            ]
-        )
-    columns = (
-        Column(key="station", heading=_("station"), left=True),
-        Column(key="speed_swing_percent", heading=_("speed swings"), unit="± %", form="3"),
-        Column(key="angle_order_2_deg", heading=_("angle, order 2"), unit="± °", form="3"),
-        Column(key="largest_order", heading=_("strongest"), unit=_("order"), form="g"),
-    )
-    return Table(columns=columns, rows=rows)
+    return [element_table(found), station_table(found)] if bool(found.steady.found) else []
 
 
 def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]:
@@ -229,44 +157,6 @@ def intervals(speed: Any, mask: Any) -> str:
     return ", ".join(words)
 
 
-def _sweep_table(found: TorsionResponse) -> Table:
-    import numpy as np
-
-    from cardan.units import rpm
-
-    from .answer import Column, Table
-    from .torsion_parts import short
-
-    count = len(found.speed)
-    worst = np.nanargmax(np.where(np.isfinite(found.swing), found.swing, -1.0), axis=-1)
-    chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
-    peak = int(np.argmax(np.nan_to_num(found.swing[np.arange(count), worst])))
-    names = found.train.element_names
-    second = int(np.flatnonzero(found.steady.order == 2.0)[0])
-    rows: list[list[Cell]] = []
-    for k in np.unique(np.append(chosen, peak)):
-        e = int(worst[k])
-        rows.append(
-            [
-                abs(float(found.speed[k])) / rpm,
-                float(found.torque_lowest[k, e]),
-                float(found.torque_highest[k, e]),
-                float(found.steady.torque.amplitude[k, e, second]),
-                STATES[int(found.floquet.verdict[k])],
-                short(names[e], 40),
-            ]
-        )
-    columns = (
-        Column(key="speed_rpm", heading=_("speed"), unit="rpm"),
-        Column(key="min_Nm", heading=_("min"), unit="N·m", form="3"),
-        Column(key="max_Nm", heading=_("max"), unit="N·m", form="3"),
-        Column(key="order_2_Nm", heading=_("order 2"), unit="± N·m", form="3"),
-        Column(key="state", heading=_("motion"), left=True),
-        Column(key="element", heading=_("worst in"), left=True),
-    )
-    return Table(columns=columns, rows=rows)
-
-
 def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remark]:
     import numpy as np
 
@@ -289,6 +179,8 @@ def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remar
             "and added to the extremes."
         )
         yield Remark(text=text.format(order=f"{one.order:g}", torque=significant(float(np.max(np.abs(one.torque))), 3)))
+    if drive.duty.engine is not None and drive.duty.engine.mean_pressure is not None:
+        yield _engine(drive, found)
     if found.train.model.free and not found.speed.ndim and bool(steady.found):
         text = _("Beside the torques of the duty the input needs {torque} N·m to keep its speed.")
         yield Remark(text=text.format(torque=significant(float(steady.drive_torque.mean[0]))))
@@ -310,6 +202,27 @@ def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remar
         command=("cardan", "torsion", "response", str(file), "--speeds", "LOW:HIGH"),
         tone="next",
     )
+
+
+def _engine(drive: Drive, found: TorsionResponse) -> Remark:
+    """Return mean and strongest harmonics of the torque of an engine's crank drive."""
+    import numpy as np
+
+    from cardan.analysis.excitation import engine_torque
+
+    from .answer import Remark, significant
+
+    assert drive.duty.engine is not None
+    torque = engine_torque(drive.duty.engine, float(np.max(np.abs(found.speed))))
+    strongest = np.argsort(-torque.amplitude)[:3]
+    said = ", ".join(
+        _("order {order} ± {torque}").format(
+            order=f"{torque.order[k]:g}", torque=significant(float(torque.amplitude[k]), 3)
+        )
+        for k in strongest
+    )
+    text = _("The engine brings {mean} N·m to the input shaft and swings it by {orders} N·m, in orders of its crank.")
+    return Remark(text=text.format(mean=significant(float(torque.mean or 0.0), 3), orders=said))
 
 
 def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
@@ -361,6 +274,8 @@ def _rows(found: TorsionResponse) -> Table:
 
 def _content(drive: Drive, file: Path, found: TorsionResponse) -> dict[str, Any]:
     from cardan.units import rpm
+
+    from .torsion_tables import STATES
 
     steady = found.steady
     return {

@@ -234,7 +234,7 @@ def _content(drive: Drive, file: Path, found: Stability) -> dict[str, Any]:
 
     from cardan.units import rpm
 
-    from .torsion_response import STATES
+    from .torsion_tables import STATES
 
     states = np.asarray(STATES)[found.verdict]
     return {
