@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.maths.arrays import Array
+from cardan.maths.compiled.torsion_line import SPEED_LIMIT, TWIST_LIMIT
 
 from .input_motion import InputMotion
 from .marching import (
@@ -29,9 +30,6 @@ from .simulation import Progress, Record, Simulation, Status, reported
 from .swiftness import contact_period, forced_rate, own_rates
 from .torsional_balance import linearised, places
 from .torsional_model import TorsionalModel
-
-TWIST_LIMIT = 1e3
-"""Elements twisted by more than this [rad] have left all bounds."""
 
 RESTLESS = 200
 """Contacts that change so often while time all but stands still never settle."""
@@ -220,7 +218,7 @@ class _Walk:
         if not (np.all(np.isfinite(q)) and np.all(np.isfinite(rate)) and math.isfinite(work)):
             return False
         twist = twists(model, self.freedom.whole(np.asarray([time]), q[None], rate[None])[0])
-        return bool(np.all(np.abs(twist) < TWIST_LIMIT))
+        return bool(np.all(np.abs(twist) < TWIST_LIMIT) and np.all(np.abs(rate) < SPEED_LIMIT))
 
     def _cause(self, model: TorsionalModel) -> Status:
         """Return why no step was short enough."""

@@ -12,7 +12,7 @@ CONSTANT, FALLING, KLOSS, SWINGING, SPEEDS, HISTORY = range(6)
 """Kinds of loads; their numbers: value; M0, slope; 1/ω_sync, M_p, s_p; a, order, phase; value, then place and bend of
 every point of a table over the speed; none, a table over time."""
 
-SPEED_LIMIT = 1e9
+SPEED_LIMIT = 1e5
 """A drive that turns faster [rad/s] has left all bounds."""
 
 TWIST_LIMIT = 1e3
