@@ -38,7 +38,7 @@ MOST = 4_000_000
 PACE, WEIGHT = 1e-4, 1000
 """Seconds and bytes that a point takes, about."""
 
-SURE = 1e-5
+SURE = 2e-5
 """Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
 
 ROUGH = 5e-7
@@ -47,7 +47,7 @@ ROUGH = 5e-7
 SMALL = 1e-4
 """Largest of the upper harmonics, over the largest of all, of a motion that is not called coarse."""
 
-FINER = (2,)
+FINER = (1.6, 2.4)
 """Times the harmonics with which coarse motions are sought again."""
 
 
@@ -187,7 +187,7 @@ class _Table:
         lost = self.compiled(rows, self.harmonics, threads)
         coarse = rows[self.columns["status"][rows] == Status.COARSE] if "status" in self.columns else rows[:0]
         for more in FINER if len(coarse) else ():
-            self.compiled(coarse, more * self.harmonics, threads)
+            self.compiled(coarse, round(more * self.harmonics), threads)
             coarse = coarse[self.columns["status"][coarse] == Status.COARSE]
         return lost
 

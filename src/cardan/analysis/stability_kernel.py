@@ -24,8 +24,8 @@ LANES = 8
 KINDS = {Constant: 0, Falling: 1, Swinging: 2, Asynchronous: 3}
 """Laws of torques that the kernel knows, and their numbers there."""
 
-REACH = 1.5
-"""Largest phase of the fastest oscillation in a step of five stages; the error of a period stays below 1e-7."""
+REACH = 2.0
+"""Largest phase of the fastest oscillation in a step of five stages: it errs by 2e-7 of that phase, others by less."""
 
 LADDER = (16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048)
 """Numbers of steps of a period."""

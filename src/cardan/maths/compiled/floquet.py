@@ -18,7 +18,7 @@ from .lanes import BYTES, LANES, OUTPUT, SOURCES, address, compiled, step
 LEAP = 0.3
 """Longest way of a coordinate in one Newton step [rad]."""
 
-ENOUGH = 3e-6
+ENOUGH = 1e-5
 """Newton step, over the motion, whose square is rounding: the last one."""
 
 
