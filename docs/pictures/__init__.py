@@ -7,7 +7,17 @@ from pathlib import Path
 
 import matplotlib
 
-MODULES = ("conventions", "theory", "movements", "absorbers", "parametric", "torsion", "stability", "bending", "gallery")
+MODULES = (
+    "conventions",
+    "theory",
+    "movements",
+    "absorbers",
+    "parametric",
+    "torsion",
+    "stability",
+    "bending",
+    "gallery",
+)
 
 
 def build(folder: Path, only: str = "") -> list[Path]:

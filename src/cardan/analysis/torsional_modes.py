@@ -209,7 +209,7 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     plain, more = (_stiffness(model, one)[first:, first:] for one in (fixed, turning))
     mass = np.zeros(model.coordinates)
     np.add.at(mass, list(model.coordinate), model.inertia)
-    values = eigvals(plain, order**2 * np.diag(mass[first:]) - more)
+    values = np.asarray(eigvals(plain, order**2 * np.diag(mass[first:]) - more), dtype=complex)
     real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
     squares = sorted(float(one) for one in values.real[real])
     found: Array = np.sqrt([one for one in squares if one > STILL**2 * squares[-1]])
