@@ -15,6 +15,7 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
+from .hanging import Hang, hanging
 from .input_motion import SpeedCourse
 from .simulation import Progress, Simulation, Status
 from .steady import periodic_response
@@ -57,6 +58,11 @@ class Transient:
     start: Start
 
     @property
+    def hangs(self) -> tuple[Hang, ...]:
+        """Where a motor hung on a resonance: its speed stopped rising while power was there."""
+        return hanging(self.train.model, self.motion)
+
+    @property
     def complete(self) -> bool:
         """Whether the simulation reached its end."""
         return int(self.motion.status) == Status.DONE
@@ -87,7 +93,7 @@ def transient(
         How many samples, or when.
     start : {"even", "settled"}
         From even rotation with untwisted shafts, so that all torques come on at once, or from the steady motion.
-    method : Adaptive, optional
+    method : Adaptive or FixedStep, optional
         How to integrate.
     pieces : int
         Into how many equal stretches the body between two stations is divided.

@@ -192,6 +192,7 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     import numpy as np
 
     from cardan.analysis.simulation import Status
+    from cardan.units import rpm
 
     from .answer import Remark, significant
     from .torsion_parts import assumptions
@@ -199,6 +200,21 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     if int(found.motion.status) == Status.CANCELLED:
         text = _("Warning: stopped after {ended} s; what was done is shown.")
         yield Remark(text=text.format(ended=significant(float(found.motion.ended), 3)), tone="warning")
+    for hang in found.hangs:
+        text = _(
+            "Warning: from {start} s to {end} s the speed hangs at {speed} rpm although the motor could raise it by "
+        )
+        text += _("{could} rpm a second: swinging takes {power} kW.")
+        yield Remark(
+            text=text.format(
+                start=significant(hang.start, 3),
+                end=significant(hang.end, 3),
+                speed=significant(hang.speed / rpm, 3),
+                could=significant(hang.could / rpm, 3),
+                power=significant(hang.power / 1e3, 3),
+            ),
+            tone="warning",
+        )
     if found.start == "even":
         text = _("It starts from even rotation with untwisted shafts: all torques come on at once. --settled starts ")
         yield Remark(text=text + _("from the steady motion."))
@@ -256,6 +272,16 @@ def _content(drive: Drive, file: Path, found: Transient) -> dict[str, Any]:
         "stations": [
             {"name": name, "min_rpm": ends.speed_low[k] / rpm, "max_rpm": ends.speed_high[k] / rpm}
             for k, name in enumerate(found.train.model.names)
+        ],
+        "hangs": [
+            {
+                "from_s": hang.start,
+                "to_s": hang.end,
+                "speed_rpm": hang.speed / rpm,
+                "could_rise_rpm_per_s": hang.could / rpm,
+                "power_W": hang.power,
+            }
+            for hang in found.hangs
         ],
         "energy_imbalance": found.motion.imbalance,
         "steps": found.motion.steps,
