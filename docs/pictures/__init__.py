@@ -14,6 +14,7 @@ MODULES = (
     "absorbers",
     "parametric",
     "torsion",
+    "transient",
     "stability",
     "bending",
     "gallery",
