@@ -64,6 +64,7 @@ _HOMES = {
     "HarmonicBalance": "maths.periodic",
     "Shooting": "maths.pieces",
     "Adaptive": "analysis.transient",
+    "FixedStep": "analysis.fixed_steps",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
     "Allocation": "synthesis.allocation",
@@ -102,6 +103,7 @@ if TYPE_CHECKING:
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
+    from .analysis.fixed_steps import FixedStep as FixedStep
     from .analysis.forces import Forces as Forces
     from .analysis.forces import forces as forces
     from .analysis.losses import Losses as Losses
