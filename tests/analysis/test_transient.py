@@ -132,6 +132,22 @@ def test_a_damper_in_a_play_acts_in_contact_only() -> None:
     assert found.speed[3, 1] - found.speed[3, 0] == pytest.approx(parted, rel=1e-9)
 
 
+@pytest.mark.parametrize("play", [0.2, 1e-5])
+@pytest.mark.parametrize("stiff", [False, True])
+def test_it_rattles_from_side_to_side_for_good(play: float, stiff: bool) -> None:
+    """Half a swing in contact, a straight way through the play, and back; the narrow play is crossed in a moment."""
+    line = torsional_line([[1.0, 1.0]], stiffness=[[800.0]], backlash=[[play]])
+    half = np.pi / 40.0 + play / 2.0
+    times = np.asarray([0.0, 7.0, 10.0]) * half + 0.5 * play / 2.0
+    way = Adaptive(stiff=stiff)
+    found = followed(line, 11.0 * half, times=times, speed=np.asarray([11.0, 9.0]), method=way)
+    twist, turning = -np.diff(found.angle)[:, 0], -np.diff(found.speed)[:, 0]
+    np.testing.assert_allclose(turning, [2.0, -2.0, 2.0], rtol=1e-8)
+    np.testing.assert_allclose(twist, [0.5 * play, -0.5 * play, 0.5 * play], atol=1e-8)
+    np.testing.assert_allclose(found.extremes.torque_high, 800.0 * 2.0 / 40.0, rtol=1e-8)
+    np.testing.assert_allclose(found.extremes.torque_low, -800.0 * 2.0 / 40.0, rtol=1e-8)
+
+
 def test_a_straight_drive_swings_as_the_closed_form_says() -> None:
     line = torsional_line([[0.5, 0.3]], stiffness=[[700.0]], torques=[Torque(station=0, law=Constant(value=6.0))])
     times = np.linspace(0.0, 0.5, 41)

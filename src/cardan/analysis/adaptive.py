@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +39,9 @@ IMPLICIT_COST = 6.0
 
 CONTACT_STEPS = 4.0
 """Steps in the period of an element in contact, at least: within each, eight places are looked at."""
+
+HALVINGS = 30
+"""How often the distance to the start is halved in search of a contact that lasts a moment."""
 
 SNAP = 1e-9
 """A static stiffness below this share of the stiffest element's holds no joint."""
@@ -170,7 +173,7 @@ class _Walk:
                 return
             change = self._change(piece)
             if change is not None:
-                piece = replace(piece, end=change[0])
+                piece = stepper.cut(piece, change[0])
             q, rate, work = (one[0] for one in piece.dense(np.asarray([piece.end])))
             if not self._bounded(model, piece.end, q, rate, work):
                 self.status = Status.DIVERGED
@@ -190,35 +193,30 @@ class _Walk:
         model = self.task.model
         if not np.any(model.backlash > 0.0):
             return None
-        from scipy.optimize import brentq
-
         times = piece.within()
         over = passed(model, self.sides, twists(model, self._whole(piece, times)[0]))
-        late = np.flatnonzero(np.any(over > 0.0, axis=-1))
+        late = np.flatnonzero(np.any(over > 0.0, axis=(-2, -1)))
         if not len(late):
             return None
-        before = times[late[0] - 1] if late[0] else piece.start
+        before = float(times[late[0] - 1]) if late[0] else piece.start
         found = []
-        for e in np.flatnonzero(over[late[0]] > 0.0).tolist():
+        for e, end in np.argwhere(over[late[0]] > 0.0).tolist():
 
-            def past(time: float, e: int = e) -> float:
+            def past(time: float, e: int = e, end: int = end) -> float:
                 twist = twists(model, self._whole(piece, np.asarray([time]))[0])
-                return float(passed(model, self.sides, twist)[0, e])
+                return float(passed(model, self.sides, twist)[0, e, end])
 
-            when = (
-                float(before) if past(float(before)) >= 0.0 else float(brentq(past, before, times[late[0]], xtol=1e-15))
-            )
-            found.append((when, e))
-        when, e = min(found)
-        when = max(when, float(np.nextafter(piece.start, np.inf)))
-        twist = twists(model, self._whole(piece, np.asarray([when]))[0])[0, e]
-        return when, e, 0 if self.sides[e] else int(math.copysign(1.0, twist))
+            side = 0 if self.sides[e] else (1, -1)[end]
+            found.append((_first_zero(past, before, float(times[late[0]])), e, side))
+        when, e, side = min(found)
+        return max(when, float(np.nextafter(piece.start, np.inf))), e, side
 
     def _bounded(self, model: TorsionalModel, time: float, q: Array, rate: Array, work: float) -> bool:
         if not (np.all(np.isfinite(q)) and np.all(np.isfinite(rate)) and math.isfinite(work)):
             return False
         twist = twists(model, self.freedom.whole(np.asarray([time]), q[None], rate[None])[0])
-        return bool(np.all(np.abs(twist) < TWIST_LIMIT) and np.all(np.abs(rate) < SPEED_LIMIT))
+        heavy = np.searchsorted(self.freedom.free, self.freedom.heavy)
+        return bool(np.all(np.abs(twist) < TWIST_LIMIT) and np.all(np.abs(rate[heavy]) < SPEED_LIMIT))
 
     def _cause(self, model: TorsionalModel) -> Status:
         """Return why no step was short enough."""
@@ -232,6 +230,24 @@ class _Walk:
         if len(self.freedom.heavy) == len(self.freedom.free):
             return False
         return _hold(model, self.freedom, *self.state[:3]) <= SNAP * float(np.max(model.stiffness, initial=0.0))
+
+
+def _first_zero(past: Callable[[float], float], before: float, after: float) -> float:
+    """Return when a function becomes positive that is so at the end.
+
+    Where the piece begins at the end of a contact rounding may make it so there too: if it falls from there, the place
+    is the one at which it has risen again.
+    """
+    from scipy.optimize import brentq
+
+    low = before
+    if past(before) >= 0.0:
+        shares = (0.5**k for k in range(1, HALVINGS + 1))
+        fallen = (before + share * (after - before) for share in shares)
+        low = next((time for time in fallen if past(time) < 0.0), before)
+        if low == before:
+            return before
+    return float(brentq(past, low, after, xtol=1e-15))
 
 
 def _light(

@@ -111,6 +111,9 @@ class Stepper(Protocol):
     def step(self) -> Piece | None:
         """Return the next step; None where none is short enough."""
 
+    def cut(self, piece: Piece, end: float) -> Piece:
+        """Return the last step as far as a time within it; no more steps follow."""
+
 
 class Explicit:
     """Dormand and Prince's method of order eight, for drives all of whose coordinates turn some inertia."""
@@ -177,6 +180,10 @@ class Explicit:
             return y[:count].T, y[count:-1].T, y[-1]
 
         return Piece(start=start, end=self.time, dense=dense)
+
+    def cut(self, piece: Piece, end: float) -> Piece:
+        """Return the last step as far as a time within it: between its ends it is right to order seven."""
+        return replace(piece, end=end)
 
 
 class Implicit:
@@ -260,6 +267,21 @@ class Implicit:
             found = self.radau.step()
         if found is None:
             return None
+        return self._piece(found)
+
+    def cut(self, piece: Piece, end: float) -> Piece:
+        """Return the last step as far as a time within it, taken anew: its end is righter than what lies between."""
+        last = self.radau.last
+        assert last is not None
+        self.radau.time, self.radau.y = last.start, last.before
+        with np.errstate(all="ignore"):
+            found = self.radau.step(upto=end)
+        if found is None:
+            return replace(piece, end=end)
+        self.work = float(piece.dense(np.asarray([last.start]))[2][0])
+        return self._piece(found)
+
+    def _piece(self, found: Step) -> Piece:
         self.time = found.end
         brought, before = self._power(found), self.work
         self.work += found.integral(brought)
@@ -320,10 +342,25 @@ def sides_of(model: TorsionalModel, twist: Array, rate: Array) -> Array:
 
 
 def passed(model: TorsionalModel, sides: Array, twist: Array) -> Array:
-    """Return how far each element is past the end of its contact or of its play, positive past it: (m, E)."""
+    """Return how far each element is past the end of its contact, or past either end of its play.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    sides : array of int (E,)
+    twist : array (m, E) [rad]
+
+    Returns
+    -------
+    array (m, E, 2) [rad]
+        Positive past the end; of an element in contact the first one counts alone, of a loose one they are its
+        positive and its negative side.
+    """
     half = 0.5 * model.backlash
-    inside = np.abs(twist) - half
-    return np.where(half == 0.0, -1.0, np.where(sides == 0, inside, half - sides * twist))
+    touching, never = sides != 0, np.full_like(twist, -1.0)
+    first = np.where(touching, half - sides * twist, twist - half)
+    second = np.where(touching, never, -twist - half)
+    return np.where(half[:, None] == 0.0, -1.0, np.stack((first, second), axis=-1))
 
 
 def breaks_of(model: TorsionalModel, motion: InputMotion | None, start: float, end: float) -> Iterator[float]:
