@@ -31,6 +31,9 @@ FINE = 16
 MORE = 3
 """Modes looked at beyond those asked for, to find one in which a shaft bows."""
 
+APART = 1e-6
+"""Share by which the count of modes keeps off the last one: rounding of soft bearings under stiff shafts."""
+
 MOST = 40
 """Most modes that can be asked for."""
 
@@ -338,7 +341,7 @@ def used_speeds(duty: Duty) -> tuple[float, float] | None:
 
 def _missed(whole: WhirlLine, speed: Array) -> int:
     """Return by how many the count of the transfer matrices differs from the speeds found below the last one."""
-    below = float(speed[-1]) * (1.0 - 1e-9)
+    below = float(speed[-1]) * (1.0 - APART)
     return abs(modes_below(whole.line, below) - int(np.sum(speed < below)))
 
 
