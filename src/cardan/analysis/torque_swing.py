@@ -22,7 +22,7 @@ from .torsional_batch import Turning, chosen, leading, period_of
 from .torsional_model import Torque, TorsionalModel
 from .torsional_waves import straight_waves
 
-FEW, MOST = 4, 48
+FEW, MOST = 4, 24
 """Harmonics of half a turn to begin with, and at most."""
 
 TAIL = 1e-6

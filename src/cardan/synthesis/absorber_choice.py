@@ -8,8 +8,6 @@ import numpy as np
 
 from cardan.analysis.absorber_tuning import den_hartog, h_infinity, viscous_optimum
 from cardan.analysis.pendulum import tuned_length
-from cardan.analysis.steady import periodic_response
-from cardan.analysis.torsion_response import parted
 from cardan.analysis.torsional_modes import StraightModes
 from cardan.drive.duty import Duty
 from cardan.errors import Problem
@@ -92,13 +90,8 @@ def meeting(
     inside = np.flatnonzero((speed >= band[0]) & (speed <= band[1]))
     if not inside.size:
         return pairs[int(np.argmin(np.maximum(band[0] - speed, speed - band[1])))]
-    model = parted(found.at(speed[inside][None]))[0]
-    steady = periodic_response(model, speed=speed[inside], orders=max(known))
-    strength = []
-    for k, row in enumerate(inside):
-        at = np.flatnonzero(np.abs(steady.order - pairs[row][1]) < 1e-6)
-        own = steady.torque.amplitude[k, :, at[0]] if at.size else np.zeros(1)
-        strength.append(float(np.max(np.nan_to_num(own, nan=np.inf))))
+    swing = found.swings(speed[inside][None]).swing
+    strength = np.max(np.where(np.isfinite(swing), swing, np.inf), axis=-1)
     return pairs[int(inside[int(np.argmax(strength))])]
 
 

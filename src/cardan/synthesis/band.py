@@ -8,14 +8,14 @@ from itertools import combinations
 
 import numpy as np
 
-from cardan.analysis.stability import Verdict, floquet
 from cardan.analysis.steady_start import straight_frequencies
-from cardan.analysis.torque_swing import TorqueSwings, some_motions, torque_swings
+from cardan.analysis.torque_swing import TorqueSwings, torque_swings
 from cardan.analysis.torsion import orders
 from cardan.analysis.torsion_response import Progress, loaded_model
 from cardan.analysis.torsional_batch import chosen
 from cardan.analysis.torsional_model import TorsionalModel
 from cardan.analysis.torsional_train import TorsionalTrain, chained, in_time, stacked, torsional_train
+from cardan.analysis.vibration_growth import vibration_growth
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import refuse
@@ -30,6 +30,9 @@ FINER = (0.0, *(sign * step for step in (0.001, 0.002, 0.004, 0.007, 0.012, 0.02
 
 ZONED = 3
 """Modes whose sums with others are looked at for parametric resonance."""
+
+GROWS = 1e-5
+"""Growth in a period from which a motion is called unstable in a search."""
 
 JUDGED = 6
 """Speeds of a drive at which a search asks for stability."""
@@ -245,9 +248,8 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     judged = np.asarray(sorted(row for row in rows if found.found.reshape(-1)[row]), dtype=int)
     worst = np.zeros(count)
     if judged.size:
-        said = floquet(some_motions(found.orbit, judged))
-        grown = np.where(said.verdict == Verdict.UNSTABLE, np.log(np.maximum(said.spectral_radius, 1.0)), 0.0)
-        np.maximum.at(worst, judged // width, grown)
+        grown = vibration_growth(found.orbit, judged)
+        np.maximum.at(worst, judged // width, np.where(grown > GROWS, grown, 0.0))
     return worst
 
 
@@ -292,6 +294,6 @@ def unstable_speeds(found: TorqueSwings, omega: Array, speed: Array) -> Array:
     wanted = np.append(np.linspace(low, high, SPREAD), zones[(zones > low) & (zones < high)])
     rows = np.unique([int(np.argmin(np.abs(speed - one))) for one in wanted])
     rows = rows[found.found[rows]]
-    verdict = floquet(some_motions(found.orbit, rows)).verdict if rows.size else np.zeros(0)
-    grown: Array = speed[rows][verdict == Verdict.UNSTABLE]
-    return grown
+    grown = vibration_growth(found.orbit, rows) if rows.size else np.zeros(0)
+    unstable: Array = speed[rows][grown > GROWS]
+    return unstable
