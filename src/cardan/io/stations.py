@@ -1,0 +1,103 @@
+"""Putting a station, or what hangs on one, into a drive file without losing its comments."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from cardan.drive.drive import Drive
+
+from .drive_file import loads
+from .writer import toml_text, tree_of
+
+
+def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".") -> str:
+    """Return a TOML drive file with one of the `[[stations]]` of a drive; comments and layout stay.
+
+    Parameters
+    ----------
+    text : str
+        The drive file.
+    drive : Drive
+        The same drive, but with another thing on this station, or with it as a further one at the end.
+    number : int
+        Of the station, from 0.
+    folder : str or Path
+        Where files that the drive file names are looked for.
+
+    Returns
+    -------
+    str
+        The new text; it loads.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.station import Absorber, Station
+    >>> text = "format = 1" + chr(10) + "[[joints]]" + chr(10) + "bend_deg = 20  # steep" + chr(10)
+    >>> disc = Station(shaft=2, inertia=0.02, absorber=Absorber(inertia=0.002, stiffness=40.0))
+    >>> print(put_station(text, replace(loads(text), stations=(disc,)), 0))
+    format = 1
+    [[joints]]
+    bend_deg = 20  # steep
+    <BLANKLINE>
+    [[stations]]
+    shaft = 2
+    inertia_kg_m2 = 0.02
+    absorber = {inertia_kg_m2 = 0.002, stiffness_Nm_per_rad = 40}
+    <BLANKLINE>
+    """
+    import tomlkit
+
+    wanted: dict[str, Any] = tree_of(drive)["stations"][number]
+    document = tomlkit.parse(text)
+    tables: Any = document.get("stations")
+    if tables is not None and number < len(tables):
+        table = tables[number]
+        for key in ("absorber", "pendulum"):
+            if key in wanted:
+                table[key] = _inline(wanted[key])
+    elif isinstance(tables, tomlkit.items.Array):
+        tables.append(_inline(wanted))
+    else:
+        new = tomlkit.table()
+        for key, value in wanted.items():
+            new[key] = _inline(value) if isinstance(value, dict) else _plain(value)
+        if tables is None:
+            tables = tomlkit.aot()
+            if not text.endswith("\n\n"):
+                document.add(tomlkit.nl())
+            document["stations"] = tables
+        tables.append(new)
+    changed = tomlkit.dumps(document)
+    loads(changed, folder=folder)
+    return changed
+
+
+def station_text(drive: Drive, number: int) -> str:
+    """Return one of the `[[stations]]` of a drive as it stands in a file.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.station import Station
+    >>> print(station_text(replace(Drive.from_angles([0.1]), stations=(Station(shaft=2, inertia=0.02),)), 0))
+    [[stations]]
+    shaft = 2
+    inertia_kg_m2 = 0.02
+    """
+    return toml_text({"stations": [tree_of(drive)["stations"][number]]}).strip()
+
+
+def _inline(values: dict[str, Any]) -> Any:
+    import tomlkit
+
+    table = tomlkit.inline_table()
+    for key, value in values.items():
+        table[key] = _inline(value) if isinstance(value, dict) else _plain(value)
+    return table
+
+
+def _plain(value: Any) -> Any:
+    """Return whole numbers without a point."""
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
