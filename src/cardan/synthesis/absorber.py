@@ -87,6 +87,8 @@ class Absorber:
         Whether the search ended by itself.
     cancelled : bool
         Whether it was stopped; the best so far stands here.
+    play : bool
+        Whether the drive has play: it counts as closed here.
     assumed : tuple of str
         Paths of what the drive does not say.
     """
@@ -117,6 +119,7 @@ class Absorber:
     evaluations: int
     converged: bool
     cancelled: bool
+    play: bool
     assumed: tuple[str, ...]
 
     @property
@@ -306,6 +309,7 @@ def absorber(
         evaluations=search.asked,
         converged=search.converged,
         cancelled=watch.stopped,
+        play=bare.play,
         assumed=bare.trains[0].assumed,
     )
 

@@ -89,8 +89,13 @@ class Lines:
         whole = straight_frequencies(chosen(model, (len(self.trains),), np.arange(len(self.trains))))
         return whole[:, 1:] if model.free else whole
 
+    @property
+    def play(self) -> bool:
+        """Whether any of its elements has play, which counts as closed here."""
+        return bool(np.any(self.trains[0].model.backlash > 0.0))
+
     def at(self, speed: Array) -> TorsionalModel:
-        """Return the models at speeds (D, S) [rad/s], drive by drive in one axis (D·S,)."""
+        """Return the models at speeds (D, S) [rad/s], all play closed, drive by drive in one axis (D·S,)."""
         count, width = speed.shape
         train, duty = self.trains[0], self.drives[0].duty
         if duty.engine is not None and duty.engine.piston_mass:  # its torques change with the speed
@@ -98,7 +103,7 @@ class Lines:
             for drive, row in zip(self.drives, speed, strict=True):
                 model = loaded_model(drive, drive.duty, row)[1]
                 parts.append(chosen(model, (width,), np.arange(width), moments=False))
-            return chained(parts)
+            return _closed(chained(parts))
         rows = np.repeat(np.arange(count), width)
         model = chosen(stacked([one.model for one in self.trains]), (count,), rows, moments=False)
         if train.pendulums:
@@ -107,11 +112,15 @@ class Lines:
             model = replace(model, stiffness=stiffness)
         if not model.free:
             model = replace(model, input_speed=speed.reshape(-1))
-        return in_time(model, 2.0 * np.abs(speed.reshape(-1)))
+        return in_time(_closed(model), 2.0 * np.abs(speed.reshape(-1)))
 
     def swings(self, speed: Array, progress: Progress | None = None) -> TorqueSwings:
         """Return how far torques swing at speeds (D, S) [rad/s]; axes (D·S,)."""
         return torque_swings(self.at(speed), speed.reshape(-1), progress=progress)
+
+
+def _closed(model: TorsionalModel) -> TorsionalModel:
+    return replace(model, backlash=np.zeros_like(model.backlash))
 
 
 def lines(drives: Sequence[Drive], speed: float) -> Lines:

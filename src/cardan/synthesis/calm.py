@@ -62,6 +62,8 @@ class Calm:
         Whether every run ended by itself.
     cancelled : bool
         Whether the search was stopped; the best so far stands here.
+    play : bool
+        Whether the drive has play: it counts as closed here.
     assumed : tuple of str
         Paths of what the drive does not say.
     """
@@ -87,6 +89,7 @@ class Calm:
     history: tuple[Array, ...]
     converged: bool
     cancelled: bool
+    play: bool
     assumed: tuple[str, ...]
 
     @property
@@ -251,6 +254,7 @@ def calm(
         history=found.history,
         converged=found.converged,
         cancelled=stopped,
+        play=designs.built.play,
         assumed=designs.built.trains[0].assumed,
     )
 
