@@ -116,6 +116,17 @@ def test_with_open_backlash_the_motion_closes(backlash: float, load: float, spee
     assert found.residual < 1e-6
 
 
+def test_two_elements_with_backlash_rattle_in_turn() -> None:
+    model = replace(drive(36.0, load=12.0, bend=0.4), backlash=np.asarray([0.02, 0.0, 0.0, 0.015]))
+    found = periodic_response(model)
+    assert found.status == Status.CONVERGED
+    sides = found.orbit.pieces[0].sides
+    assert set(sides[:, 0]) == set(sides[:, 3]) == {-1, 0, 1}
+    state, _model = begin(found, model)
+    after = flow(model, 36.0, np.pi / 36.0, state)
+    np.testing.assert_allclose(after - state, np.pi * (np.arange(len(state)) < len(state) // 2), atol=1e-6)
+
+
 def test_backlash_that_stays_closed_only_shifts_angles() -> None:
     one, other = periodic_response(drive(load=400.0)), periodic_response(drive(load=400.0, backlash=0.01))
     assert not other.orbit.pieces

@@ -20,8 +20,11 @@ from .torsional_model import TorsionalModel
 STEP = 0.25
 """First step of the bends on the way from a straight drive, as a share of them."""
 
-SMALLEST = 1.0 / 64.0
-"""Smallest such step."""
+TRIALS = 6
+"""Steps tried."""
+
+SLACKS = (1.0, 0.5, 0.2, 0.05, 0.0)
+"""Shares of its damping that an element keeps amid its play, on the way to none."""
 
 INSIDE = 32
 """Places of a step at which extremes are looked for."""
@@ -34,10 +37,12 @@ class Backlashed:
     ----------
     turning : Turning
         With one drive.
+    slack : float
+        Share of its damping that an element keeps amid its play; 0 by the equations.
     """
 
-    def __init__(self, turning: Turning) -> None:
-        self.turning = turning
+    def __init__(self, turning: Turning, slack: float = 0.0) -> None:
+        self.turning, self.slack = turning, slack
         self.model: TorsionalModel = turning.drives(np.zeros(1, dtype=int))
         self.first = turning.first
         self.scale = turning.period / (2.0 * np.pi)
@@ -74,7 +79,7 @@ class Backlashed:
         return replace(
             model,
             stiffness=model.stiffness * touching,
-            damping=model.damping * touching,
+            damping=model.damping * (touching + self.slack * (1.0 - touching)),
             backlash=0.0 * touching,
             rest=rest + sides * self.play,
         )
@@ -132,21 +137,39 @@ def pieces_of(
     torques, and each motion begins the search for the next.
     """
     omega, free = float(turning.frequency[0]), turning.model.free
+    curve: Pieces | None = None
     if start is not None and np.isfinite(start).all():
-        found = periodic_pieces(Backlashed(turning), omega, _Sum(start, force), free=free, method=method)
-        if found.status == Status.CONVERGED:
-            return found
-    curve: _Sum | Pieces = _Sum(at_rest(turning)[0], 0.0)
+        curve = _damped_first(turning, _Sum(start, force), method)
+    if curve is not None:
+        return curve
+    walk: _Sum | Pieces = _Sum(at_rest(turning)[0], 0.0)
     share, step = 0.0, STEP
-    while share < 1.0 and step >= SMALLEST:
+    for _trial in range(TRIALS):
         trial = min(share + step, 1.0)
         part = Turning(turning.model, turning.lead, turning.speed, turning.period, np.asarray([trial]))
-        found = periodic_pieces(Backlashed(part), omega, curve, free=free, method=method)
+        found = periodic_pieces(Backlashed(part), omega, walk, free=free, method=method)
         if found.status == Status.CONVERGED:
-            share, step, curve = trial, 1.5 * step, found
+            share, step, walk = trial, 1.5 * step, found
+            if share == 1.0:
+                return found
         else:
             step *= 0.5
-    return curve if isinstance(curve, Pieces) and share == 1.0 else None
+    return None
+
+
+def _damped_first(turning: Turning, start: _Sum, method: Shooting | None) -> Pieces | None:
+    """Return the motion near a Fourier sum, if need be by way of dampers that act amid the play as well, or None."""
+    omega, free = float(turning.frequency[0]), turning.model.free
+    found = periodic_pieces(Backlashed(turning), omega, start, free=free, method=method)
+    if found.status == Status.CONVERGED:
+        return found
+    curve: _Sum | Pieces = start
+    for slack in SLACKS:
+        found = periodic_pieces(Backlashed(turning, slack), omega, curve, free=free, method=method)
+        if found.status != Status.CONVERGED:
+            return None
+        curve = found
+    return found
 
 
 class _Sum:

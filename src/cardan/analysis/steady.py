@@ -32,6 +32,9 @@ HARMONICS = 6
 KINKED = 16
 """The same where backlash may open: enough to read off where."""
 
+WAY = ((0.33, 1.0), (0.66, 1.0), (1.0, 1.0), (1.0, 0.55), (1.0, 0.3), (1.0, 0.17), (1.0, 0.09), (1.0, 0.05))
+"""Shares of the bends, and radii of corners over half the backlash, on the way to a motion with open backlash."""
+
 CHUNK = 256
 """Drives solved at once: their matrices stay in the caches, and progress is told after each chunk."""
 
@@ -139,8 +142,9 @@ def _solved(
             parts.append(_nothing(len(rows), turning.coordinates, Status.CANCELLED))
             continue
         waves = _nothing(len(rows), turning.coordinates, Status.NO_CONVERGENCE)
+        near = waves.coefficient
         if not isinstance(method, Shooting):
-            waves = _by_waves(turning.part(rows), method)
+            waves, near = _by_waves(turning.part(rows), method)
         for k, row in enumerate(rows):
             if stopped or (waves.status[k] == Status.CONVERGED and not _switches(turning, int(row), waves, k)):
                 continue
@@ -148,7 +152,7 @@ def _solved(
             if isinstance(method, Shooting):
                 found = pieces_of(alone, method=method)
             else:
-                found = pieces_of(alone, waves.coefficient[k], float(waves.force[k]))
+                found = pieces_of(alone, near[k], float(waves.force[k]))
             if found is not None:
                 pieces[int(row)] = found
             stopped = progress is not None and progress((int(row) + 1) / count) == "stop"
@@ -198,30 +202,45 @@ def _nothing(count: int, coordinates: int, status: Status) -> Waves:
     )
 
 
-def _by_waves(part: Turning, method: HarmonicBalance | None) -> Waves:
-    """Return the motions of some drives as Fourier sums; those without one are nan."""
+def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Array]:
+    """Return the motions of some drives as Fourier sums, those without one nan, and sums to begin a search with."""
     free, half_turns = part.model.free, round(part.period / np.pi)
-    start = rested = at_rest(part)
-    how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
-    if method is None and np.any(part.model.backlash > 0.0):
+    rested = at_rest(part)
+    start, how = rested, method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
+    kinked = method is None and bool(np.any(part.model.backlash > 0.0))
+    if kinked:
         how = HarmonicBalance(harmonics=KINKED * half_turns, most=2 * KINKED * half_turns)
-        few = replace(how, most=how.harmonics)
-        for share in (0.25, 0.5, 0.75):
-            shares = np.full(len(part.speed), share)
-            bent = Turning(part.model, part.lead, part.speed, part.period, shares)
-            start = harmonic_balance(
-                bent, bent.frequency, bent.coordinates, free=free, start=start, method=few
-            ).coefficient
+        start = _along_bends(part, rested, replace(how, most=how.harmonics))
     found = harmonic_balance(part, part.frequency, part.coordinates, free=free, start=start, method=how)
     lost = found.status == Status.NO_CONVERGENCE
-    if start is not rested and np.any(lost):  # the way from the straight drive turned back
+    if kinked and np.any(lost):  # the way from the straight drive may have turned back
         again = harmonic_balance(part, part.frequency, part.coordinates, free=free, start=rested, method=how)
         found = _either(found, again, lost)
         lost = found.status == Status.NO_CONVERGENCE
+    near = np.where(lost[:, None, None], _widened(start, found.coefficient.shape[-1]), found.coefficient)
     coefficient = np.where(lost[:, None, None], np.nan, found.coefficient)
     if free:
-        coefficient = started(coefficient, part.period)
-    return replace(found, coefficient=coefficient, force=np.where(lost, np.nan, found.force))
+        coefficient, near = started(coefficient, part.period), started(near, part.period)
+    return replace(found, coefficient=coefficient, force=np.where(lost, 0.0, found.force)), near
+
+
+def _along_bends(part: Turning, start: Array, how: HarmonicBalance) -> Array:
+    """Return the motions of drives with rounded corners of backlash, along growing bends and ever sharper corners."""
+    for share, rounding in WAY:
+        shares = np.full(len(part.speed), share)
+        bent = Turning(part.model, part.lead, part.speed, part.period, shares, rounding)
+        found = harmonic_balance(
+            bent, bent.frequency, bent.coordinates, free=part.model.free, start=start, method=how
+        ).coefficient
+        kept = _widened(start, found.shape[-1])
+        start = np.where(np.isfinite(found).all(axis=(1, 2), keepdims=True), found, kept)
+    return start
+
+
+def _widened(coefficient: Array, width: int) -> Array:
+    """Return sums of a given number of coefficients."""
+    kept = min(width, coefficient.shape[-1])
+    return np.pad(coefficient[..., :kept], ((0, 0), (0, 0), (0, width - kept)))
 
 
 def _either(one: Waves, other: Waves, chosen: Array) -> Waves:

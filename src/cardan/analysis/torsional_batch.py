@@ -12,7 +12,7 @@ from cardan.maths.periodic import Linearised
 from cardan.texts import _
 
 from .torques import Law, base_period
-from .torsional_balance import linearised
+from .torsional_balance import linearised, places
 from .torsional_model import Torque, TorsionalModel
 
 ARRAYS = ("inertia", "stiffness", "damping", "backlash", "bend", "phase", "ground_damping", "loss_factor", "rest")
@@ -151,12 +151,21 @@ class Turning:
         Shaft angle of a period.
     share : array (B,), optional
         Bends are these shares of their own.
+    rounding : float
+        Radius of the corners of backlash over its half; elements then keep their damping amid it. 0 by the equations.
     """
 
     def __init__(
-        self, model: TorsionalModel, lead: tuple[int, ...], speed: Array, period: float, share: Array | None = None
+        self,
+        model: TorsionalModel,
+        lead: tuple[int, ...],
+        speed: Array,
+        period: float,
+        share: Array | None = None,
+        rounding: float = 0.0,
     ) -> None:
-        self.model, self.lead, self.speed, self.period, self.share = model, lead, speed, period, share
+        self.model, self.lead, self.speed, self.period = model, lead, speed, period
+        self.share, self.rounding = share, rounding
         self.first = 0 if model.free else 1
         self.coordinates = model.coordinates - self.first
         self._taken: tuple[Array, TorsionalModel] | None = None
@@ -190,7 +199,8 @@ class Turning:
 
     def __call__(self, rows: Array, phase: Array, x: Array, v: Array, a: Array) -> Linearised:
         """Return the balance of the coordinates that are not forced, and its slopes."""
-        left, slopes = linearised(self.drives(rows), *self.motion(rows, phase, x, v, a))
+        drives, motion = self.drives(rows), self.motion(rows, phase, x, v, a)
+        left, slopes = linearised(_rounded(drives, motion[0], self.rounding) if self.rounding else drives, *motion)
         k = self.first
         return Linearised(
             balance=left[..., k:],
@@ -198,3 +208,25 @@ class Turning:
             damping=slopes.damping[..., k:, k:],
             stiffness=slopes.stiffness[..., k:, k:],
         )
+
+
+def _rounded(drives: TorsionalModel, q: Array, rounding: float) -> TorsionalModel:
+    """Return drives without backlash whose elements have, at each of these moments, torque and slope of rounded ones.
+
+    With h half the backlash and ε the radius the torque is c (x + ½√((x-h)² + ε²) - ½√((x+h)² + ε²)).
+    """
+    angle = places(drives, q).angle
+    twist = angle[..., [a for a, _b in drives.elements]] - angle[..., [b for _a, b in drives.elements]]
+    rest = 0.0 if drives.rest is None else drives.rest[:, None]
+    half = 0.5 * drives.backlash[:, None]
+    before, after = twist - rest - half, twist - rest + half
+    near, far = np.hypot(before, rounding * half), np.hypot(after, rounding * half)
+    near, far = np.where(near > 0.0, near, 1.0), np.where(far > 0.0, far, 1.0)
+    over = np.where(half > 0.0, twist - rest + 0.5 * (near - far), twist - rest)
+    slope = np.where(half > 0.0, 1.0 + 0.5 * (before / near - after / far), 1.0)
+    return replace(
+        drives,
+        stiffness=drives.stiffness[:, None] * slope,
+        backlash=np.zeros_like(drives.backlash),
+        rest=twist - over / slope,
+    )

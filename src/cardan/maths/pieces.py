@@ -24,6 +24,12 @@ from .piece_chain import Chain, Guess, Plan, Switching, stages
 WITHIN = 1024
 """Places of a period at which switches are looked for, at least."""
 
+BRIEF = 1e-8
+"""Pieces shorter than this share of the period have vanished: the order of the switches is another one."""
+
+GRAZING = 1e-6
+"""An element that switches for less than this share of the period only grazes."""
+
 NEAR = 1e-9
 """Overlap of sides that rounding explains, over the play."""
 
@@ -229,14 +235,14 @@ def _plan(system: Switching, omega: float, curve: Curve, reach: float) -> Plan:
             old, new = int(sides[k, e]), int(sides[k + 1, e])
             for a, b in [(old, new)] if abs(new - old) == 1 else [(old, 0), (0, new)]:
                 events.append((_crossing(twists, time[k], time[k + 1], int(e), (a or b) * play[e]), int(e), a, b))
-    events.sort()
+    events = _lasting(sorted(events), duration)
     here = sides[0].copy()
     all_sides = [here.copy()]
     for event in events:
         here[event[1]] = event[3]
         all_sides.append(here.copy())
     times = np.asarray([0.0, *[event[0] for event in events], duration])
-    lengths = np.maximum(np.diff(times), 1e-9 * duration)
+    lengths = np.maximum(np.diff(times), 2.0 * BRIEF * duration)
     times = np.concatenate([[0.0], np.cumsum(lengths)])
     times *= duration / times[-1]
     return Plan(
@@ -246,6 +252,18 @@ def _plan(system: Switching, omega: float, curve: Curve, reach: float) -> Plan:
         sides=np.asarray(all_sides),
         counts=np.maximum(np.ceil(np.diff(times) * system.fastest / reach).astype(int), 3),
     )
+
+
+def _lasting(events: list[tuple[float, int, int, int]], duration: float) -> list[tuple[float, int, int, int]]:
+    """Return the switches without those that are taken back at once."""
+    kept: list[tuple[float, int, int, int]] = []
+    for event in events:
+        last = next((k for k in range(len(kept) - 1, -1, -1) if kept[k][1] == event[1]), None)
+        if last is not None and event[0] - kept[last][0] < GRAZING * duration and event[3] == kept[last][2]:
+            del kept[last]
+        else:
+            kept.append(event)
+    return kept
 
 
 def _crossing(twists: Callable[[Array], Array], low: float, high: float, element: int, level: float) -> float:
@@ -308,7 +326,7 @@ def _newton(
             inner=guess.inner + share * inner,
             force=guess.force + share * force,
         )
-        if not np.isfinite(size):
+        if not np.isfinite(size) or float(np.min(np.diff(guess.times))) < BRIEF * guess.times[-1]:
             return guess, False, whole
         if share == 1.0 and size <= 1e-10 * float(np.max(np.abs(guess.x), initial=0.0)) + 1e-13:
             return guess, True, whole
