@@ -27,8 +27,9 @@ from .marching import (
     twists,
 )
 from .simulation import Progress, Record, Simulation, Status, reported
+from .static_balance import LOOSE, SNAP, hold, settled
 from .swiftness import contact_period, forced_rate, own_rates
-from .torsional_balance import linearised, places
+from .torsional_balance import energy, places
 from .torsional_model import TorsionalModel
 
 RESTLESS = 200
@@ -40,11 +41,11 @@ IMPLICIT_COST = 6.0
 CONTACT_STEPS = 4.0
 """Steps in the period of an element in contact, at least: within each, eight places are looked at."""
 
+SETTLING = 20
+"""How often contacts may follow from a balance and the balance from contacts, before it is left as it is."""
+
 HALVINGS = 30
 """How often the distance to the start is halved in search of a contact that lasts a moment."""
-
-SNAP = 1e-9
-"""A static stiffness below this share of the stiffest element's holds no joint."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -83,18 +84,14 @@ def march(task: Task, progress: Progress | None) -> Simulation:
     model, motion = task.model, task.motion
     freedom = freedom_of(model, motion)
     record = Record(model, task.times)
-    settled = _settled(model, freedom, task.q, task.rate, task.span[0])
-    status, ended, steps = Status.SNAPPED, task.span[0], 0
-    implicit = _implicit(task, freedom)
-    if settled is not None:
-        walk = _Walk(task, freedom, settled, implicit)
-        for piece, now in walk.pieces():
-            record.add(piece, now)
-            ended, steps = piece.end, steps + 1
-            if progress is not None and progress(_share(task.span, ended)) == "stop" and ended < task.span[1]:
-                walk.status = Status.CANCELLED
-                break
-        status = walk.status
+    ended, steps = task.span[0], 0
+    walk = _Walk(task, freedom, implicit=_implicit(task, freedom))
+    for piece, now in walk.pieces():
+        record.add(piece, now)
+        ended, steps = piece.end, steps + 1
+        if progress is not None and progress(_share(task.span, ended)) == "stop" and ended < task.span[1]:
+            walk.status = Status.CANCELLED
+            break
     acceleration = None if motion is None else _accelerations(motion, task.times)
     return reported(
         model,
@@ -104,10 +101,10 @@ def march(task: Task, progress: Progress | None) -> Simulation:
         record.work,
         forced_acceleration=acceleration,
         extremes=record.extremes(),
-        status=np.asarray(int(status)),
+        status=np.asarray(int(walk.status)),
         ended=np.asarray(ended),
         steps=steps,
-        method="implicit" if implicit else "explicit",
+        method="implicit" if walk.implicit else "explicit",
     )
 
 
@@ -122,13 +119,44 @@ def _accelerations(motion: InputMotion, times: Array) -> Array:
 class _Walk:
     """The way through time: pieces of steps, and how it ended."""
 
-    def __init__(self, task: Task, freedom: Freedom, q: Array, implicit: bool) -> None:
+    def __init__(self, task: Task, freedom: Freedom, *, implicit: bool) -> None:
         self.task, self.freedom, self.implicit = task, freedom, implicit
-        self.state = (task.span[0], q[freedom.free], task.rate[freedom.free], 0.0)
+        self.light = len(freedom.heavy) < len(freedom.free)
+        self.state = (task.span[0], task.q[freedom.free], task.rate[freedom.free], 0.0)
         self.status = Status.DONE
         self.sides = self._sides()
+        self._settle(None)
+        self.state = (*self.state[:3], 0.0)
         self.longest = float(contact_period(task.model, freedom.free, task.q)) / CONTACT_STEPS
         self.first: float | None = None
+
+    def _held(self) -> TorsionalModel:
+        return held(self.task.model, self.sides, loose=LOOSE if self.light else 0.0)
+
+    def _settle(self, changed: int | None) -> None:
+        """Bring what has neither inertia nor damper to its balance; what a spring loses thereby counts as taken.
+
+        The element that changed its contact has its side; the others get theirs from where this leads.
+        """
+        if not self.light:
+            return
+        time, q, rate, work = self.state
+        angles, rates = (one[0] for one in self.freedom.whole(np.asarray([time]), q[None], rate[None]))
+        stored = float(energy(self.task.model, angles, rates))
+        for _round in range(SETTLING):
+            found = settled(self._held(), self.freedom, angles, rates, time)
+            if found is None:
+                self.status = Status.SNAPPED
+                return
+            angles = found
+            self.state = (time, angles[self.freedom.free], rate, work)
+            before, self.sides = self.sides, self._sides()
+            if changed is not None:
+                self.sides[changed] = before[changed]
+            if np.array_equal(before, self.sides):
+                break
+        lost = stored - float(energy(self.task.model, angles, rates))
+        self.state = (*self.state[:3], work - lost)
 
     def _whole(self, piece: Piece, times: Array) -> tuple[Array, Array]:
         return self.freedom.whole(times, *piece.dense(times)[:2])
@@ -145,6 +173,8 @@ class _Walk:
     def pieces(self) -> Iterator[tuple[Piece, Freedom]]:
         """Yield the pieces to the end of the span, or to where the motion ends."""
         task = self.task
+        if self.status is not Status.DONE:
+            return
         restless = 0
         for end in breaks_of(task.model, task.motion, *task.span):
             if task.motion is not None:
@@ -163,7 +193,7 @@ class _Walk:
     def _smooth(self, end: float) -> Iterator[Piece]:
         """Yield pieces up to the next change of a contact or to the end."""
         task = self.task
-        model = held(task.model, self.sides)
+        model = self._held()
         kind = Implicit if self.implicit else Explicit
         stepper: Stepper = kind(model, self.freedom, task.tolerance, self.state, end, self.longest, self.first)
         while stepper.time < end:
@@ -185,6 +215,7 @@ class _Walk:
                 return
             if change is not None:
                 self.sides[change[1]] = change[2]
+                self._settle(change[1])
                 self.first = min(stepper.length, self.longest)
                 return
 
@@ -220,16 +251,16 @@ class _Walk:
 
     def _cause(self, model: TorsionalModel) -> Status:
         """Return why no step was short enough."""
-        if len(self.freedom.heavy) < len(self.freedom.free):
-            least = _hold(model, self.freedom, *self.state[:3])
-            if least < 1e-2 * float(np.max(model.stiffness, initial=0.0)):
-                return Status.SNAPPED
+        if self.light and hold(model, self.freedom, *self.state[:3]) < 1e-2 * _stiffest(model):
+            return Status.SNAPPED
         return Status.STALLED
 
     def _snapped(self, model: TorsionalModel) -> bool:
-        if len(self.freedom.heavy) == len(self.freedom.free):
-            return False
-        return _hold(model, self.freedom, *self.state[:3]) <= SNAP * float(np.max(model.stiffness, initial=0.0))
+        return self.light and hold(model, self.freedom, *self.state[:3]) <= SNAP * _stiffest(model)
+
+
+def _stiffest(model: TorsionalModel) -> float:
+    return float(np.max(model.stiffness, initial=0.0))
 
 
 def _first_zero(past: Callable[[float], float], before: float, after: float) -> float:
@@ -248,48 +279,6 @@ def _first_zero(past: Callable[[float], float], before: float, after: float) -> 
         if low == before:
             return before
     return float(brentq(past, low, after, xtol=1e-15))
-
-
-def _light(
-    model: TorsionalModel, freedom: Freedom, time: float, q: Array, rate: Array
-) -> tuple[Array, Array, Array, Array]:
-    """Return coordinates without inertia, their undamped directions, and balance and stiffness along these."""
-    moment = np.asarray([time])
-    angles, rates = freedom.whole(moment, q[None], rate[None])
-    left, by = linearised(model, angles, rates, np.zeros_like(angles), moment)
-    light = np.setdiff1d(freedom.free, freedom.heavy)
-    damping = by.damping[0][np.ix_(light, light)]
-    sizes, ways = np.linalg.eigh(0.5 * (damping + damping.T))
-    still = ways[:, np.abs(sizes) <= 1e-12 * max(1e-300, float(np.max(np.abs(sizes), initial=0.0)))]
-    stiffness = still.T @ by.stiffness[0][np.ix_(light, light)] @ still
-    return light, still, still.T @ left[0, light], stiffness
-
-
-def _hold(model: TorsionalModel, freedom: Freedom, time: float, q: Array, rate: Array) -> float:
-    """Return the least static stiffness of what has neither inertia nor damper [N·m/rad]."""
-    stiffness = _light(model, freedom, time, q, rate)[3]
-    return float(np.min(np.linalg.eigvalsh(0.5 * (stiffness + stiffness.T)), initial=math.inf))
-
-
-def _settled(model: TorsionalModel, freedom: Freedom, q: Array, rate: Array, time: float) -> Array | None:
-    """Return the angles with what has neither inertia nor damper in balance; None where torque snaps it through."""
-    if len(freedom.heavy) == len(freedom.free):
-        return q
-    found, rank = q.copy(), freedom.free
-    for _round in range(100):
-        light, still, left, stiffness = _light(model, freedom, time, found[rank], rate[rank])
-        if not len(left):
-            return found
-        try:
-            change = np.linalg.solve(stiffness, left)
-        except np.linalg.LinAlgError:
-            return None
-        change *= min(1.0, 0.5 / max(float(np.max(np.abs(change))), 1e-300))
-        found[light] -= still @ change
-        if float(np.max(np.abs(change))) <= 1e-14 * max(1.0, float(np.max(np.abs(found)))):
-            least = _hold(model, freedom, time, found[rank], rate[rank])
-            return found if least > SNAP * float(np.max(model.stiffness, initial=0.0)) else None
-    return None
 
 
 def _implicit(task: Task, freedom: Freedom) -> bool:

@@ -308,7 +308,7 @@ def _energy_size(model: TorsionalModel, freedom: Freedom, time: float, q: Array,
     return float(0.5 * np.sum(model.inertia) * max(1.0, float(np.max(np.abs(speeds)))) ** 2)
 
 
-def held(model: TorsionalModel, sides: Array) -> TorsionalModel:
+def held(model: TorsionalModel, sides: Array, *, loose: float = 0.0) -> TorsionalModel:
     """Return the drive without backlash that moves like this one while the sides of its contacts stay.
 
     Parameters
@@ -316,11 +316,13 @@ def held(model: TorsionalModel, sides: Array) -> TorsionalModel:
     model : TorsionalModel
     sides : array of int (E,)
         1 or -1 where an element touches, 0 within its play; 1 without play.
+    loose : float
+        Share of its stiffness that an element keeps within its play, drawn to the middle of it.
     """
     touching = np.abs(sides).astype(float)
     return replace(
         model,
-        stiffness=model.stiffness * touching,
+        stiffness=model.stiffness * np.maximum(touching, loose),
         damping=model.damping * touching,
         backlash=np.zeros_like(model.backlash),
         rest=0.5 * sides * model.backlash,

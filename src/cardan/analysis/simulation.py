@@ -117,8 +117,13 @@ class Simulation:
     @property
     def imbalance(self) -> Array:
         """Greatest `residual` over the greatest energy or work, array (...)."""
-        size = np.fmax(np.nanmax(self.energy, axis=-1), np.nanmax(np.abs(self.work), axis=-1))
-        return np.nanmax(np.abs(self.residual), axis=-1) / np.where(size > 0.0, size, 1.0)
+        largest = np.maximum(_largest(self.energy), _largest(self.work))
+        return _largest(self.residual) / np.where(largest > 0.0, largest, 1.0)
+
+
+def _largest(values: Array) -> Array:
+    """Return the greatest size along the last axis, of what is finite."""
+    return np.max(np.where(np.isfinite(values), np.abs(values), 0.0), axis=-1, initial=0.0)
 
 
 def reported(
