@@ -123,3 +123,27 @@ def test_the_longest_shaft_for_a_speed():
     assert found["longest_length_mm"] == pytest.approx(1e3 * (12.1e4 * (0.076**2 + 0.072**2) ** 0.5 / 4800) ** 0.5)
     assert found["half_critical_inside"] is False
     assert found["violated"] == []
+
+
+@pytest.mark.parametrize("most", [500.0, 1300.0, 3700.0, 5000.0])
+@pytest.mark.parametrize(("share", "rule"), [(1.6, "article_1.6"), (1 / 0.7, "catalogue"), (1.0, "supercritical")])
+def test_speeds_on_the_edge_of_a_rule_are_judged_as_they_are_given(most, share, rule):
+    """Only "supercritical" counts the edge itself as broken; turning rpm into rad/s must not move it."""
+    broken = {
+        sign: calc("critical_speed_margin", {"n_critical_rpm": share * most * (1 + sign * 1e-9), "n_max_rpm": most})
+        for sign in (-1, 0, 1)
+    }
+    assert [rule in broken[sign]["violated"] for sign in (-1, 0, 1)] == [True, rule == "supercritical", False]
+    at = {"k_n": 0.75, "outer_diameter_m": 0.03, "length_m": 1.0, "max_engine_speed_rpm": 3630.0 / 1.6}
+    assert calc("critical_speed_book", at)["rule_60_percent_met"] is True
+    assert calc("critical_speed_book", at | {"max_engine_speed_rpm": 2268.76})["rule_60_percent_met"] is False
+
+
+@pytest.mark.parametrize("critical", [700.0, 4900.0, 6000.0, 8000.0])
+def test_the_edges_of_the_half_critical_band_belong_to_it(critical):
+    for edge, out in ((0.46 * critical, -1e-9), (0.54 * critical, 1e-9)):
+        asked = {"n_critical_rpm": critical, "n_max_rpm": critical / 2}
+        assert calc("critical_speed_margin", asked | {"operating_rpm": edge})["half_critical_inside"] is True
+        assert (
+            calc("critical_speed_margin", asked | {"operating_rpm": edge * (1 + out)})["half_critical_inside"] is False
+        )

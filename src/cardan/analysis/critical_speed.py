@@ -38,6 +38,9 @@ CATALOGUE = {"automotive": 0.70, "industrial": 0.65}
 HALF_BAND = 0.08
 """Half the width of the band about half the critical speed to keep out of, over its middle."""
 
+EDGE = 1e-12
+"""Speeds that differ by less than this share are the same: turning units into each other rounds them."""
+
 
 def end_roots(ends: Ends, modes: int) -> Array:
     """Return λ_1 … of a uniform beam, with ω = (λ/L)² √(EI/(ρA)).
@@ -291,7 +294,7 @@ class Margin:
     @property
     def rule_60_percent(self) -> bool:
         """Whether the computed critical speed is 60 percent above the greatest speed."""
-        return self.computed_ratio >= ARTICLE
+        return self.computed_ratio >= ARTICLE * (1.0 - EDGE)
 
 
 def speed_margin(
@@ -334,17 +337,18 @@ def speed_margin(
     ('article_1.6', 'catalogue')
     """
     actual = wear * critical
+    more, less = 1.0 + EDGE, 1.0 - EDGE
     rules = (
-        ("article_1.6", actual < ARTICLE * most),
-        ("catalogue", most > CATALOGUE[application] * critical),
-        ("supercritical", most >= actual),
+        ("article_1.6", actual < ARTICLE * most * less),
+        ("catalogue", most > CATALOGUE[application] * critical * more),
+        ("supercritical", most >= actual * less),
     )
     band = 0.5 * actual * (1.0 - HALF_BAND), 0.5 * actual * (1.0 + HALF_BAND)
     speeds = operating or (most,)
     if through:
-        inside = min(speeds) <= band[1] and max(speeds) >= band[0]
+        inside = min(speeds) <= band[1] * more and max(speeds) >= band[0] * less
     else:
-        inside = any(band[0] <= speed <= band[1] for speed in speeds)
+        inside = any(band[0] * less <= speed <= band[1] * more for speed in speeds)
     return Margin(
         critical=critical,
         actual=actual,
