@@ -13,8 +13,10 @@ from cardan.analysis.speed_range import unstable_speeds
 from cardan.analysis.stability import Kind, Verdict, floquet, nearest_zone
 from cardan.analysis.steady import periodic_response
 from cardan.analysis.torques import Asynchronous, Constant
+from cardan.analysis.torsional_balance import slopes
 from cardan.analysis.torsional_model import Torque, torsional_line
 from cardan.errors import InputError
+from cardan.maths.floquet import hill_multipliers
 from tests.builders.torsion_in_time import drive, flow
 
 
@@ -47,6 +49,17 @@ def test_multipliers_are_those_of_the_flow(how: dict) -> None:
         wanted = np.delete(wanted, np.argmin(np.abs(wanted - 1.0)))
     # Differences of 1e-5 rad err by their square times the bend of the flow.
     np.testing.assert_allclose(floquet(steady).modulus, np.sort(np.abs(wanted))[::-1], atol=2e-6)
+
+
+def test_hills_matrix_of_the_linearised_drive_has_the_same_multipliers() -> None:
+    steady = periodic_response(drive(90.0, damping=0.3))
+
+    def coefficients(share):
+        found = slopes(steady.model, *steady.orbit.at(np.pi * share))
+        return found.mass[None, :, 1:], found.damping[None, :, 1:, 1:], found.stiffness[None, :, 1:, 1:]
+
+    wanted = hill_multipliers(coefficients, float(steady.orbit.time), harmonics=10)
+    np.testing.assert_allclose(floquet(steady).modulus, np.abs(wanted), atol=1e-8)
 
 
 def test_with_open_backlash_jumps_at_contacts_count() -> None:

@@ -26,9 +26,6 @@ TRIALS = 6
 SLACKS = (1.0, 0.5, 0.2, 0.05, 0.0)
 """Shares of its damping that an element keeps amid its play, on the way to none."""
 
-INSIDE = 32
-"""Places of a step at which extremes are looked for."""
-
 
 class Backlashed:
     """One drive as an oscillator that switches; see `cardan.maths.pieces.Switching`.
