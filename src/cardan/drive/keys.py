@@ -13,10 +13,14 @@ from cardan.units import DIMENSIONS, KEY, Key, preferred
 
 from .drive import Drive
 from .joints import JOINTS, Joint
+from .material import Material
 from .movement import MOVEMENTS, Movement
 
 KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {Joint: (JOINTS, "hooke"), Movement: (MOVEMENTS, None)}
 """Base class -> its kinds by the value of the key ``kind``, and the default kind."""
+
+NAMED: dict[type, str] = {Material: "grade"}
+"""Class of a table that may be given by a name alone -> field that holds the name."""
 
 WORD_OR_FLAG: Any = bool | str
 """Type of a field that is true, false or one of its words."""

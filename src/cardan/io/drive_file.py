@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check, refuse
 from cardan.files import write_text
@@ -88,7 +89,26 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
     0.3490658503988659
     """
-    return drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
+    drive = drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
+    return completed(drive, known_to(drive, folder))
+
+
+def known_to(drive: Drive, folder: str | Path = ".") -> Catalogue:
+    """Return the catalogue of a drive: the shipped one and the files that its settings name.
+
+    Parameters
+    ----------
+    drive : Drive
+    folder : str or Path
+        Where the files are looked for.
+
+    Raises
+    ------
+    InputError
+        What is wrong with the files.
+    """
+    names = drive.settings.catalogues
+    return with_files(catalogue(), [Path(folder) / name for name in names]) if names else catalogue()
 
 
 def dumps(drive: Drive, *, form: str = "toml") -> str:
@@ -101,7 +121,7 @@ def dumps(drive: Drive, *, form: str = "toml") -> str:
     form : str
         ``"toml"`` or ``"json"``.
     """
-    tree = tree_of(drive)
+    tree = tree_of(shortened(drive))
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
 
 

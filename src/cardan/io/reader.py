@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
+from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
 from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
 from cardan.drive.validity import MAX_JOINTS, in_range, out_of_range
@@ -171,6 +171,8 @@ def _value(one: Field, kind: Any, value: Any, key: str, factor: float, written: 
     if kind in KINDS:
         return _kind(kind, value, written, path, found)
     if is_dataclass(kind):
+        if kind in NAMED and isinstance(value, str):
+            return kind(**{NAMED[kind]: value})
         if not _is_table(value, written, path, found):
             return _blank(kind)
         return kind(**_values(kind, value, written, path, found))  # type: ignore[arg-type, operator]
