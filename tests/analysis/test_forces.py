@@ -259,14 +259,38 @@ def test_friction_costs_what_it_takes_over_a_turn() -> None:
     assert lost == pytest.approx((work - 100.0) * 100.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("drag", [0.0, 0.05])
-def test_torque_may_be_given_at_the_input(drag: float) -> None:
-    drive = trains(np.random.default_rng(8), 4, (3,), drag=drag)
-    found = kinetostatics(drive, ANGLE, torque=200.0, torque_at="input", speed=100.0)
-    np.testing.assert_allclose(found.input_torque, 200.0, rtol=1e-12)
-    again = kinetostatics(drive, ANGLE, torque=found.output_torque, speed=100.0)
-    np.testing.assert_allclose(again.input_torque, 200.0, rtol=1e-12)
+@pytest.mark.parametrize("n", [1, 4])
+@pytest.mark.parametrize("drag", [0.0, 0.05, 1.5])
+@pytest.mark.parametrize("torque", [200.0, 0.0, -3.0])
+def test_torque_may_be_given_at_the_input(n: int, drag: float, torque: float) -> None:
+    drive = trains(np.random.default_rng(8), n, (3,), drag=drag)
+    with np.errstate(all="raise"):
+        found = kinetostatics(drive, ANGLE, torque=torque, torque_at="input", speed=100.0, acceleration=30.0)
+    size = np.abs(found.shaft_torque).max()
+    # there and back again through four joints, each within some roundings
+    np.testing.assert_allclose(found.input_torque, torque, rtol=0, atol=1e-13 * size)
+    again = kinetostatics(drive, ANGLE, torque=found.output_torque, speed=100.0, acceleration=30.0)
+    np.testing.assert_allclose(again.input_torque, torque, rtol=0, atol=1e-13 * size)
     assert np.ptp(found.output_torque) > 1.0
+
+
+@pytest.mark.parametrize("bends", [(0.0, 0.5), (0.0, 0.0, 0.4, 0.3), (0.3, 0.0, 0.4)])
+def test_straight_joints_keep_the_planes_they_are_given(bends: tuple[float, ...]) -> None:
+    """Forces turn as motion says, and as where the joint is all but straight; points alone do not tell its plane."""
+    twists = [0.7, -1.1, 0.4][: len(bends) - 1]
+    drive, near = (
+        replace(
+            Drive.from_angles([bend or least for bend in bends], plane_twists=twists, start_phase=0.2),
+            shafts=tuple(Shaft(number=k + 1, length=0.5, inertia=0.02) for k in range(len(bends) + 1)),
+        )
+        for least in (0.0, 1e-7)
+    )
+    duty = Duty(speed=50.0, torque=30.0)
+    found, almost = forces(drive, duty, ANGLE), forces(near, duty, ANGLE)
+    np.testing.assert_allclose(found.speed, 50.0 * motion(drive, ANGLE).shaft_ratio, rtol=1e-13)
+    for name in ("shaft_torque", "secondary_couple"):
+        # a bend of 1e-7 shows to the first order in couples of 30 N·m
+        np.testing.assert_allclose(getattr(found, name), getattr(almost, name), rtol=0, atol=1e-4)
 
 
 def test_torque_may_swing_with_its_shaft() -> None:
@@ -372,3 +396,22 @@ def test_a_loose_drive_in_a_batch_has_a_status() -> None:
     assert np.isnan(found.reaction[1]).all()
     assert np.isfinite(found.reaction[[0, 2]]).all()
     assert np.isfinite(found.shaft_torque).all()
+
+
+def test_a_joint_that_friction_locks_is_refused() -> None:
+    # Beyond κ tan α = 1 no torque drives the joint: its equations still have a solution, which no drive obeys.
+    def held(bend: float) -> Drive:
+        joint = Hooke(bend=bend, friction=4.0, cross=Cross(span=0.1, journal=0.025))
+        return Drive(joints=(Hooke(bend=0.1), joint), duty=Duty(torque=10.0))
+
+    assert np.max(forces(held(44.0 * deg)).power_left) < 1e-12
+    with pytest.raises(InputError, match="locks joint 2") as caught:
+        forces(held(46.0 * deg))
+    assert [one.field for one in caught.value.problems] == ["joints[1].friction"]
+
+
+def test_friction_has_no_sense_at_standstill() -> None:
+    joint = Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02))
+    with pytest.raises(InputError, match=r"duty\.speed"):
+        forces(Drive(joints=(joint,)), Duty(torque=100.0, speed=0.0))
+    assert forces(Drive(joints=(replace(joint, friction=None),)), Duty(torque=100.0, speed=0.0)).power_left.max() == 0.0

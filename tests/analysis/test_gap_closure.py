@@ -50,3 +50,15 @@ def test_the_load_needed_just_closes_all_joints(share: float, closed: bool) -> N
     found = gap_closure(drive, load=share * needed, speed=100.0)
     assert found.closed is closed
     assert (max(angles.size for angles in found.openings) == 0) == closed
+
+
+def test_a_load_the_other_way_mirrors_the_drive() -> None:
+    """A load that resists turning backwards presses all joints the other way, and as firmly at the mirrored inertia."""
+    drive = one(trains(np.random.default_rng(7), 3, (1,)), 0)
+    drive = replace(drive, resisting_torque=None)
+    needed = gap_closure(replace(drive, inertia=-drive.inertia), load=0.0, speed=100.0).load_needed
+    for share, closed in ((1.0001, True), (0.9999, False)):
+        found = gap_closure(drive, load=-share * needed, speed=100.0)
+        assert found.closed is closed
+        assert (float(np.max(found.open_share)) == 0.0) == closed
+        assert np.all(found.least_couple < 0.0)

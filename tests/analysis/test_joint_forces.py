@@ -72,6 +72,18 @@ def test_couples_on_the_middle_shaft_add_as_signed_vectors() -> None:
     np.testing.assert_allclose(found.across_arm * 0.9, two * np.abs(np.sin(gamma)), atol=1e-9)
 
 
+@pytest.mark.parametrize("bends", [(0.0, 0.4), (0.4, 0.0), (0.0, 0.0)])
+def test_a_straight_joint_of_a_double_joint_keeps_its_plane(bends: tuple[float, float]) -> None:
+    """θ_1 counts from the plane that the twist stands from: the limit of ever smaller bends."""
+    angle = np.linspace(0.0, 3.0, 7)
+    placed = {"plane_twist": 0.7, "yoke_angle": 0.3, "torque": 100.0, "length": 0.5}
+    found = double_joint_forces(*bends, angle, **placed)
+    near = double_joint_forces(*(bend or 1e-8 for bend in bends), angle, **placed)
+    for name in ("driving_torque", "middle_couple", "pair_force", "last_couple", "last_axial"):
+        # a bend of 1e-8 shows to the first order in 100 N·m and in the forces at half a metre
+        np.testing.assert_allclose(getattr(found, name), getattr(near, name), rtol=0, atol=1e-5)
+
+
 @pytest.mark.parametrize("bend", [20 * deg, 44 * deg, 55 * deg])
 def test_largest_couple_of_the_v_arrangement(bend: float) -> None:
     most, _at = largest_middle_couple(bend, bend, torque=50.0)

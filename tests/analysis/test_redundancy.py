@@ -61,3 +61,21 @@ def test_a_fixed_slope_is_let_go_first():
 def test_a_spline_that_nothing_else_holds_is_loose():
     with pytest.raises(InputError, match="shaft 3 from moving along its axis"):
         found([(0, FIXED), (0, FLOATING), (2, FLOATING), (2, FLOATING)], [0.1, 0.8, 0.3, 0.7], joints=2, splines=(1,))
+
+
+def test_letting_go_turns_back_from_a_dead_end():
+    # Two too many: the thrust bearing alone would go most readily, but then only radial bearings are left, of two each.
+    many = found([(0, FIXED), (0, FLOATING), (1, FLOATING), (1, FLOATING)], [0.1, 0.8, 0.3, 0.7])
+    assert many.degree == 2
+    ((number, hold),) = many.spare
+    assert hold == "radial"
+    bearings = [(0, FIXED), (0, FLOATING), (1, FLOATING), (1, FLOATING)]
+    places = [0.1, 0.8, 0.3, 0.7]
+    assert number > 0
+    assert found(bearings[:number] + bearings[number + 1 :], places[:number] + places[number + 1 :]).degree == 0
+
+
+def test_where_no_hold_can_go_none_is_named():
+    # One too many, and only radial bearings: letting one go frees a shaft.
+    many = found([(0, FLOATING), (0, FLOATING), (1, FLOATING), (1, FLOATING)], [0.1, 0.8, 0.3, 0.7])
+    assert (many.degree, many.spare) == (1, ())

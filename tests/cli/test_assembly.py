@@ -96,3 +96,26 @@ def test_missing_stiffness_names_its_keys(cardan, drive_file):
 def test_a_figure_is_drawn(cardan, tmp_path):
     assert cardan("assembly", PUMP, "--plot", "strain.svg").code == 0
     assert (tmp_path / "strain.svg").stat().st_size > 1000
+
+
+def without(text, *names):
+    """Return a drive file without some supports."""
+    first, *blocks = text.split("[[supports]]")
+    last = blocks[-1].partition("[duty]")
+    blocks[-1] = last[0]
+    kept = [block for block in blocks if not any(f'name = "{name}"' in block for name in names)]
+    return first + "".join(f"[[supports]]{block}" for block in kept) + last[1] + last[2]
+
+
+def test_nothing_is_promised_that_letting_go_does_not_hold(cardan, drive_file):
+    # Both axial holds gone, one force stays too many and no bearing can go without freeing a shaft.
+    text = PUMP.read_text().replace("axial = true\n", "").replace("axial_stiffness_N_per_um = 100\n", "")
+    text = text.replace("axial_stiffness_N_per_um = 80\n", "")
+    path = drive_file(text)
+    out = " ".join(plain(cardan("assembly", path).out).split())
+    assert "held by 1 force too many" in out
+    assert "No support can be let go without freeing a shaft" in out
+    assert "Nothing can bind" not in out
+    said = cardan("assembly", path, "--json").content
+    assert (said["let_go"], said["degree_left"]) == ([], 1)
+    assert cardan("assembly", PUMP, "--json").content["degree_left"] == 0

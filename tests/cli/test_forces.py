@@ -135,6 +135,7 @@ def test_missing_stiffness_names_its_keys(cardan, drive_file):
     ("options", "said"),
     [
         (("--torque-Nm", "nan"), "--torque-Nm: nan is not a finite number"),
+        (("--torque-Nm", "1e300"), "--torque-Nm: 1e+300 is not allowed"),
         (("--speed-rpm", "inf"), "--speed-rpm: inf is not a finite number"),
         (("--angle", "3", "--angle-step", "4"), "choose --angle-deg or --angle-step-deg"),
         (("--json", "--csv"), "choose --json or --csv"),
@@ -149,3 +150,20 @@ def test_bad_options_are_refused(cardan, options, said):
 def test_a_figure_is_drawn(cardan, tmp_path):
     assert cardan("forces", TRUCK, "--plot", "forces.svg").code == 0
     assert (tmp_path / "forces.svg").read_text().lstrip().startswith("<?xml")
+
+
+def test_locked_joints_are_refused_by_name(cardan, drive_file):
+    # κ tan α with κ = 40 · 24/98: 0.67 in joint 1, which bends half as much as the others.
+    done = cardan("forces", drive_file(TRUCK.read_text().replace("friction = 0.02\n", "friction = 40\n")), "--json")
+    assert (done.code, done.out) == (2, "")
+    assert [one["field"] for one in done.complaint["problems"]] == ["joints[1].friction", "joints[2].friction"]
+
+
+def test_friction_without_a_journal_is_told_not_to_count(cardan, drive_file):
+    text = TRUCK.read_text().replace(", journal_mm = 24", "", 1)
+    done = cardan("forces", drive_file(text))
+    assert "Warning: friction of joint 1 does not count: cross.span_mm or cross.journal_mm" in plain(done.out)
+    assert "does not count" not in cardan("forces", TRUCK).out
+    rows = cardan("forces", drive_file(text), "--json").content["joints"]
+    assert rows[0]["heat_mean_W"] is None
+    assert rows[1]["heat_mean_W"] > 0.0

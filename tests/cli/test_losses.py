@@ -102,6 +102,12 @@ def test_a_span_is_asked_for_with_its_unit(cardan, drive_file):
     assert {"duty.speed_rpm", "joints[0].cross.span_mm"} <= set(fields)
 
 
+def test_a_map_around_no_torque_is_refused(cardan):
+    done = cardan("losses", TRUCK, "--map", "--torque-Nm", 0)
+    assert (done.code, done.out) == (2, "")
+    assert "--map: spans a tenth to one and a half of the torque, and that is 0" in done.err
+
+
 @pytest.mark.parametrize("options", [(), ("--map",)], ids=["parts", "map"])
 def test_a_figure_is_drawn(cardan, tmp_path, options):
     assert cardan("losses", TRUCK, *options, "--plot", "heat.svg").code == 0

@@ -142,7 +142,9 @@ def test_targets_without_sense_are_refused(text):
         (("-o", "x.toml"), "--out: belongs to --allocate"),
         (("--allocate", "2arcmin", "--method", "samples"), "--method: --allocate adds errors up"),
         (("--allocate", "2"), "--allocate: 2 is no error with a unit"),
-        (("--allocate=-2deg",), "--allocate: "),
+        (("--allocate=-2deg",), "--allocate: -2deg is not allowed; the error must be above 0"),
+        (("--allocate", "0arcmin"), "--allocate: 0arcmin is not allowed"),
+        (("--method", "samples", "--samples", 10**12), "--samples: 1000000000000 drives asked for; the limit is"),
         (("--allocate", "2arcmin", "--keep", "wrong"), "--keep: no joint has a tolerance wrong"),
         (("--allocate", "0.1arcmin", "--keep", "phase"), "--allocate: known errors and the tolerances"),
     ],
@@ -165,3 +167,11 @@ def test_missing_tolerances_are_named(cardan):
 def test_a_figure_is_drawn(cardan, tmp_path, options):
     assert cardan("tolerance", INSTRUMENT, *options, "--plot", "band.svg").code == 0
     assert (tmp_path / "band.svg").stat().st_size > 1000
+
+
+def test_errors_beyond_first_order_are_told_to_be_so(cardan, drive_file):
+    # sin α/(2 cos α) of the bend multiplies a minute of alpha2 by 3 000 at 89.99°.
+    text = "format = 1\n[[joints]]\nbend_deg = 89.99\ntolerance = { alpha2_arcmin = 1 }\n"
+    out = plain(cardan("tolerance", drive_file(text)).out)
+    assert "▲ Warning: errors this large are beyond first order" in out
+    assert "beyond first order" not in cardan("tolerance", INSTRUMENT).out

@@ -1,5 +1,7 @@
 """Parts of the report under load: present where the file says enough, with the numbers of the analyses."""
 
+import html
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +12,7 @@ from cardan.analysis.forces import forces
 from cardan.analysis.losses import losses
 from cardan.analysis.tolerance import Linear, WorstCase, tolerance
 from cardan.drive.accuracy import Error
+from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.figures.losses import watts
 from cardan.figures.wording import percent, significant
@@ -66,7 +69,7 @@ def test_forces_says_what_the_worst_support_takes():
     top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
     text = words(drive)
     assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
-    assert significant(float(np.max(found.journals.size[1]))) in text
+    assert significant(max(float(np.max(one.journals.size[1])) for one in (found, found.reverse))) in text
 
 
 def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
@@ -169,3 +172,56 @@ def test_errors_that_cannot_be_assembled_are_called_so():
     single = Drive.from_angles([0.4])
     drive = replace(single, joints=(replace(single.joints[0], error=Error(alpha2=1.3)),))
     assert "cannot be assembled" in words(drive)
+
+
+def plain(text):
+    return " ".join(text.split())
+
+
+def front(drive):
+    """Return the words before the second part, blanks made single."""
+    before = page(drive).partition('id="summary"')[2].partition("<section")[0]
+    text = re.sub(r"<svg.*?</svg>|<[^>]*>", " ", before, flags=re.DOTALL)
+    return " ".join(html.unescape(text).split())
+
+
+def test_the_first_page_has_the_key_figures_of_forces_and_losses():
+    drive = example("truck-supports")
+    text = front(drive)
+    found = forces(drive)
+    top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
+    assert f"largest force on a support, 4 (pinion, front) {plain(significant(top))} N" in text
+    assert f"efficiency {percent(losses(drive).efficiency, 4)}" in text
+    assert "some heat not counted" in text
+    assert "largest load of a journal, joint 2" in text
+
+
+def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
+    instrument = example("instrument-joint")
+    most = tolerance(instrument).output.largest / arcmin
+    assert f"error of the output angle, root of squares {significant(most, 3)} ′" in front(instrument)
+    pump = example("overconstrained-pump")
+    text = front(pump)
+    assert f"{plain(significant(assembly(pump).joint_peak[0].value))} N" in text
+    assert "binds" in text
+    assert "Its parts do not fit" in text
+
+
+def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
+    drive = example("z-arrangement")
+    joints = tuple(replace(one, friction=40.0, cross=Cross(span=0.1, journal=0.03)) for one in drive.joints)
+    locked = replace(drive, joints=joints, duty=replace(drive.duty, torque=100.0, speed=100.0))
+    whole = page(locked)
+    assert 'class="judgement failed"' in whole
+    assert "Friction holds joint 1, 2" in front(locked)
+    assert 'class="judgement good"' in page(drive)
+
+
+def test_what_could_not_be_reckoned_is_told_on_the_first_page():
+    drive = example("truck-supports")
+    assert "Forces not reckoned" not in front(drive)
+    rigid = example("overconstrained-pump")
+    supports = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in rigid.supports)
+    text = front(replace(rigid, supports=supports))
+    assert "more than statics can tell" in text
+    assert "Assembly not reckoned: supports[0].stiffness" in text

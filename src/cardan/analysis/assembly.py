@@ -19,7 +19,7 @@ from cardan.maths.peaks import peaks
 from cardan.texts import _
 
 from .elastic import compliance, gaps, housing_gap, refuse_soft
-from .held import Hold
+from .held import WIDTH, Hold
 from .kinetostatics import standing
 from .misfit import Misfit, crosses, misfit
 from .motion import positions
@@ -74,7 +74,8 @@ class AssemblyForces:
     degree : int
         Degree of statical indeterminacy; at 0 no misfit causes any force.
     strained, spare : tuple of str
-        Keys of what misfit can load, and of what could be let go, all at once, to make the drive determinate.
+        Keys of what misfit can load, and of what could be let go, all at once, to make the drive determinate; see
+        `kept` for what stays too many where no more can go.
     rigid : tuple of int
         Numbers of the shafts taken as rigid, as their outer diameter is not given.
     residual : float
@@ -101,6 +102,11 @@ class AssemblyForces:
     spare: tuple[str, ...]
     rigid: tuple[int, ...]
     residual: float
+
+    @property
+    def kept(self) -> int:
+        """Degree that stays when all of `spare` is let go; nought where nothing can bind then."""
+        return self.degree - sum(width for hold, width in WIDTH.items() for key in self.spare if key.endswith(hold))
 
     @property
     def axial(self) -> Array:

@@ -165,7 +165,9 @@ def _state(
     place = geometry_from_points(points)
     train = Train(points=points, chain=chain)
     phi = np.atleast_1d(real(angle, np))
-    moved = standing(chain, place.axis, place.normal, phi, speed=1.0)
+    # Joint 1 bends about y; where it is straight its points do not say so.
+    level = np.broadcast_to([[0.0, 1.0, 0.0]], (*one.shape, 1, 3))
+    moved = standing(chain, place.axis, level, phi, speed=1.0)
     load = real(torque, np)
     load = load[..., None] if load.ndim else load
     return moved, couples(train, moved, load + np.zeros((*one.shape, phi.size)))

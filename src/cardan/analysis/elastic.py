@@ -71,7 +71,8 @@ def gaps(whole: Train, held: Frame, arms: Crosses) -> tuple[Array, Array]:
     if whole.error is None:
         none = xp.zeros_like(arms.driving)
         return none, none
-    normal = geometry_from_points(held.points).normal
+    known = whole.normal
+    normal = geometry_from_points(held.points).normal if known is None else known[..., None, :, :]
     return joint_gap(held.acting.axis, normal, arms, whole.error[..., None, :, :])
 
 

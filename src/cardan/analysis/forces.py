@@ -9,10 +9,10 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import geometry, geometry_from_points
+from cardan.drive.geometry import geometry
 from cardan.drive.movement import Movement
-from cardan.drive.train import Train, mass_problems, train
-from cardan.errors import check, refuse
+from cardan.drive.train import Train, mass_problems, place_of, train
+from cardan.errors import Problem, check, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.paths import Path
@@ -20,21 +20,12 @@ from cardan.texts import _
 
 from .cross_loads import JournalLoads, journal_loads
 from .elastic import elastic, refuse_soft
-from .kinetostatics import Couples, Stand, couples, standing, swinging
+from .kinetostatics import Couples, Stand, couples, resisted, standing, swinging
 from .motion import positions
 from .moving_chain import moving_centres
 from .moving_points import moving_path, start_time
 from .reactions import Frame, Held, Load, forces_of, frame, right_side, solved, thrusts, weights, whole_balance
 from .redundancy import redundancy
-
-CONVERGED = 1e-14
-"""The torque at the input is met to this share of the torques in the drive."""
-
-NUDGE = 1e-3
-"""Step from which the slope of the input torque by the load is taken: it changes only where friction turns about."""
-
-ROUNDS = 12
-"""Steps of Newton's method at most; without friction one is enough."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -176,8 +167,8 @@ def forces(
     Raises
     ------
     InputError
-        No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, or something
-        that would need a speed.
+        No torque, a shaft that is not held, more supports than statics can tell and no stiffness given, a joint that
+        friction locks, or something that would need a speed.
 
     Notes
     -----
@@ -203,8 +194,12 @@ def forces(
         used, whole = Duty() if duty is None else duty, drive
     if used.torque is None:
         raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"))
+    if used.speed == 0.0 and whole.drag is not None:
+        raise refuse("duty.speed", _("at standstill the sense of friction is open; give the speed of running, or none"))
     xp = namespace(whole.points, angle)
     phi = positions(angle, xp)
+    if isinstance(drive, Drive) and movement is None:
+        _refuse_locked(whole, np.asarray(whole.chain.bend))
     if movement is None:
 
         def asked(one: Train) -> Forces:
@@ -270,7 +265,7 @@ def kinetostatics(
            [1.11803399]])
     """
     xp = namespace(whole.points, angle)
-    place = geometry_from_points(whole.points)
+    place = place_of(whole)
     still = speed is None
     moved = standing(
         whole.chain,
@@ -288,6 +283,19 @@ def kinetostatics(
     wave = _harmonics(harmonics, torque_at, whole, angle)
     carried = _carried(used, moved, given + wave + xp.zeros((*lead, angle.shape[0]), dtype=xp.float64), torque_at)
     return _answer(used, moved, whole.points[..., None, :, :], None, angle, carried, still=still, field=field)
+
+
+def _refuse_locked(whole: Train, bend: Array) -> None:
+    """Refuse a drive that does not turn, as the friction of a joint reaches what turns it; bends (..., n)."""
+    if whole.drag is None:
+        return
+    steepest = np.max(np.reshape(bend, (-1, whole.joints)), axis=0)
+    hold = np.asarray(whole.drag) * np.tan(steepest)
+    text = _("friction locks joint {number}: over the journals it reaches {share:.3g} of what turns it")
+    check(
+        Problem(f"joints[{i}].friction", text.format(number=i + 1, share=float(hold[i])))
+        for i in np.flatnonzero(hold >= 1.0)
+    )
 
 
 def _slid_back(drive: Drive, whole: Train) -> Train | None:
@@ -314,19 +322,8 @@ def _carried(whole: Train, stand: Stand, given: Array, torque_at: str) -> tuple[
     """Return the couples for a torque at either end, and the torque that resists the output."""
     if torque_at == "output":
         return couples(whole, stand, given), given
-    xp = namespace(given)
-    load = given * stand.speed[..., 0] / stand.speed[..., -1]
-    found = couples(whole, stand, load)
-    for _round in range(ROUNDS):
-        gap = given - found.shaft_torque[..., 0]
-        size = xp.abs(given) + xp.max(xp.abs(found.shaft_torque), axis=-1)
-        if not bool(xp.any(xp.abs(gap) > CONVERGED * size)):
-            break
-        nudge = xp.where(gap < 0.0, -NUDGE, NUDGE) * xp.where(size > 0.0, size, 1.0)
-        other = couples(whole, stand, load + nudge)
-        load = load + gap * nudge / (other.shaft_torque[..., 0] - found.shaft_torque[..., 0])
-        found = couples(whole, stand, load)
-    return found, load
+    load = resisted(whole, stand, given)
+    return couples(whole, stand, load), load
 
 
 def _moving(
@@ -352,12 +349,14 @@ def _moving(
         start=start,
         normal=place.normal[0],
     )
+    _refuse_locked(whole, np.asarray(found.shafts.bend))
     stand = swinging(found.axes, found.spins)
     points = np.asarray(found.points[0]).copy()
     points[:, 0] = points[:, 1] - place.length[0] * found.shafts.axis[:, 0]
     sense = -np.sign(np.asarray(found.shafts.length_rate)[:, list(whole.splines)])
     torque = np.zeros(angle.shape) + (duty.torque or 0.0)
     carried = _carried(whole, stand, torque, duty.torque_at)
+    whole = replace(whole, normal=None)
     return _answer(whole, stand, points, found.points[2], angle, carried, still=False, field="supports", sense=sense)
 
 

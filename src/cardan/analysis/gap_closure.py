@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.drive.geometry import geometry_from_points
-from cardan.drive.train import Train
+from cardan.drive.train import Train, place_of
 from cardan.maths.arrays import Array
 from cardan.maths.peaks import peaks
 
@@ -25,7 +24,7 @@ class GapClosure:
     Attributes
     ----------
     closed : bool
-        Whether every joint keeps the sign of its couple over the turn.
+        Whether every joint keeps the sign of its couple over the turn, whichever it is.
     least_couple : array (n,) [N·m]
         Smallest T_i over the turn.
     least_angle : array (n,) [rad]
@@ -33,7 +32,7 @@ class GapClosure:
     load_needed : float [N·m]
         Least constant torque at the output that keeps all joints closed.
     open_share : array (n,)
-        Share of the turn in which T_i is negative.
+        Share of the turn in which T_i is against the load: negative, or positive where the load is negative.
     openings : tuple of array [rad]
         Per joint, the input angles in [0, 2π) at which T_i changes its sign, rising.
     """
@@ -54,7 +53,7 @@ def gap_closure(train: Train, *, load: float, speed: float, acceleration: float 
     train : Train
         One drive with the inertias of its shafts; the inertia of its crosses and friction are left out.
     load : float [N·m]
-        Torque that resists the output, positive.
+        Torque that resists the output; negative where it resists turning the other way.
     speed, acceleration : float [rad/s, rad/s²]
         ω_1, ε_1.
 
@@ -75,7 +74,7 @@ def gap_closure(train: Train, *, load: float, speed: float, acceleration: float 
     """
     bare = replace(train, cross_inertia=None, drag=None)
     light = replace(bare, inertia=None, resisting_torque=None)
-    place = geometry_from_points(train.points)
+    place = place_of(train)
 
     def torques(angle: Array) -> tuple[Array, Array]:
         moved = standing(train.chain, place.axis, place.normal, angle, speed=speed, acceleration=acceleration)
@@ -87,20 +86,25 @@ def gap_closure(train: Train, *, load: float, speed: float, acceleration: float 
         heavy, unit = torques(angle)
         return -(heavy + load * unit)
 
+    def against(angle: Array) -> Array:
+        return -least(angle) if load < 0.0 else least(angle)
+
     def need(angle: Array) -> Array:
         heavy, unit = torques(angle)
         return -heavy / unit
 
     places = np.linspace(0.0, 2.0 * np.pi, COARSE)
     at, most = peaks(least, places, least(places))
+    other, lowest = peaks(lambda angle: -least(angle), places, -least(places))
     _where, needs = peaks(need, places, need(places))
-    openings = tuple(_crossings(least, places, k) for k in range(train.joints))
+    extremes = np.stack((at, other), axis=-1)
+    openings = tuple(_crossings(least, np.union1d(places, extremes[k]), k) for k in range(train.joints))
     return GapClosure(
-        closed=bool(np.all(most < 0.0)),
+        closed=bool(np.all((most < 0.0) | (lowest < 0.0))),
         least_couple=-most,
         least_angle=at,
         load_needed=float(np.max(needs)),
-        open_share=np.asarray([_share(least, angles, k) for k, angles in enumerate(openings)]),
+        open_share=np.asarray([_share(against, angles, k) for k, angles in enumerate(openings)]),
         openings=openings,
     )
 

@@ -169,19 +169,10 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     """
     xp = namespace(stand.speed, load)
     n = train.joints
-    crossed = train.cross_inertia
     e, w = stand.axis, stand.speed
     zero = xp.zeros_like(w[..., 0])
-
-    def each(table: Array | None, i: int) -> Array | float:
-        return 0.0 if table is None else table[..., None, i]
-
-    def own(i: int) -> Array:
-        """Return what resists shaft i besides the next one: torque and inertia."""
-        return each(train.resisting_torque, i) + each(train.inertia, i) * stand.acceleration[..., i]
-
-    tau = load + own(n) + zero
-    work = load * w[..., n] + own(n) * w[..., n]
+    tau = load + _own(train, stand, n) + zero
+    work = tau * w[..., n]
     flow = xp.abs(load * w[..., n])
     rows: list[list[Array]] = [[], [], [], [], []]
     torque, pushed, driving, driven, losses = rows
@@ -191,7 +182,7 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
         normal = frames.cross(u, v)
         lean = frames.dot(u, e[..., i + 1, :])
         into = frames.dot(normal, e[..., i + 1, :])
-        swing = None if crossed is None else _cross_swing(stand, crossed[..., None, i, :], i, (u, v, normal))
+        swing = _cross_swing(train, stand, i, (u, v, normal))
         top = tau if swing is None else tau + swing.rate[0] * lean
         if train.drag is not None:
             p, q = _journal_rates(stand, i, u, v, lean)
@@ -212,8 +203,9 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
             given = out + hn[..., None] * normal + hv[..., None] * v
             out = out - hu[..., None] * u
             work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
-        tau = frames.dot(given, e[..., i, :]) + own(i)
-        work = work + own(i) * w[..., i] + lost
+        own = _own(train, stand, i)
+        tau = frames.dot(given, e[..., i, :]) + own
+        work = work + own * w[..., i] + lost
         flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
         for row, value in zip(
             (torque, pushed, driving, driven, losses, entering), (t, back, given, out, lost, tau), strict=True
@@ -237,6 +229,57 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     )
 
 
+def resisted(train: Train, stand: Stand, drive: Array) -> Array:
+    """Return the torque at the output that a torque at the input holds, array (..., p) [N·m].
+
+    Parameters
+    ----------
+    train : Train (...)
+        Masses and friction, no joint locked.
+    stand : Stand (..., p)
+        How shafts and crosses stand and turn.
+    drive : array (..., p) [N·m]
+        Torque that drives the input shaft.
+
+    Notes
+    -----
+    The equations of `couples` from their other end: friction leaves the couple of each cross the sign of the torque
+    that its driving shaft passes on.
+    """
+    xp = namespace(stand.speed, drive)
+    e = stand.axis
+    tau = drive + 0.0 * stand.speed[..., 0]
+    for i in range(train.joints):
+        u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
+        normal = frames.cross(u, v)
+        lean, back = frames.dot(u, e[..., i + 1, :]), frames.dot(v, e[..., i, :])
+        out, into = frames.dot(normal, e[..., i, :]), frames.dot(normal, e[..., i + 1, :])
+        swing = _cross_swing(train, stand, i, (u, v, normal))
+        left = tau - _own(train, stand, i)
+        if swing is not None:
+            left = left - swing.rate[2] * out - swing.rate[1] * back
+        if train.drag is not None:
+            p, q = _journal_rates(stand, i, u, v, lean)
+            kappa = train.drag[..., None, i]
+            t = left / (out + kappa * xp.sign(left) * xp.sign(q) * back)
+            tau = t * into - kappa * xp.abs(t) * xp.sign(p) * lean
+        else:
+            tau = left / out * into
+        if swing is not None:
+            tau = tau - swing.rate[0] * lean
+    return tau - _own(train, stand, train.joints)
+
+
+def _own(train: Train, stand: Stand, i: int) -> Array:
+    """Return what resists shaft i besides the next one, torque and inertia, array (..., p) [N·m]."""
+    rest = 0.0 * stand.speed[..., i]
+    if train.resisting_torque is not None:
+        rest = rest + train.resisting_torque[..., None, i]
+    if train.inertia is not None:
+        rest = rest + train.inertia[..., None, i] * stand.acceleration[..., i]
+    return rest
+
+
 @dataclass(frozen=True, eq=False)
 class _CrossSwing:
     """Angular velocity of a cross and the rate of its angular momentum, along u, v and n, each (..., p)."""
@@ -245,14 +288,17 @@ class _CrossSwing:
     rate: tuple[Array, Array, Array]
 
 
-def _cross_swing(stand: Stand, inertia: Array, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing:
-    """Return how cross i turns and what that takes.
+def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing | None:
+    """Return how cross i turns and what that takes; None where its inertia does not count.
 
     Notes
     -----
     Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn with
     the cross, so Euler's equations give Ḣ.
     """
+    if train.cross_inertia is None:
+        return None
+    inertia = train.cross_inertia[..., None, i, :]
     u, v, normal = arms
     one, two = stand.turning(i), stand.turning(i + 1)
     gain_one = stand.turning_rate(i)

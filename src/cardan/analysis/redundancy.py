@@ -20,6 +20,9 @@ TAKES_PART = 1e-7
 READY: dict[Hold, float] = {"tilt": 4.0, "axial": 2.0, "radial": 1.0}
 """How readily each hold is let go: a self-aligning bearing and a floating one are cheap, one bearing less is not."""
 
+MOST_TRIALS = 1024
+"""Layouts looked at when searching for what to let go; in the order of search the first is nearly always the answer."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Redundancy:
@@ -106,19 +109,39 @@ def _strained(rows: Array, layout: Layout) -> tuple[tuple[int, Hold], ...]:
 def _spare(
     rows: Array, layout: Layout, strained: tuple[tuple[int, Hold], ...], degree: int
 ) -> tuple[tuple[int, Hold], ...]:
-    """Return what can be let go, one after the other: that without which the drive is still held best."""
-    kept = np.ones(rows.shape[-1], dtype=bool)
-    left, found = list(strained), []
-    while degree > 0:
-        scores = {one: READY[one[1]] * _firm(rows, kept, layout, one) for one in left if WIDTH[one[1]] <= degree}
-        best = max(scores, key=scores.__getitem__, default=None)
-        if best is None or scores[best] <= RANK:
-            break
-        kept[layout.columns(*best)] = False
-        degree -= WIDTH[best[1]]
-        left.remove(best)
-        found.append(best)
-    return tuple(found)
+    """Return what can be let go: first that without which the drive is still held best; turned back from dead ends.
+
+    A hold that goes first may leave one degree over where every other hold counts two; another order then lets all go.
+    Where no order does, as few degrees as can be stay open.
+    """
+    trials = MOST_TRIALS
+
+    def search(kept: Array, left: list[tuple[int, Hold]], open_: int) -> list[tuple[int, Hold]]:
+        nonlocal trials
+        most: list[tuple[int, Hold]] = []
+        if open_ <= 0:
+            return most
+        scores = {one: READY[one[1]] * _firm(rows, kept, layout, one) for one in left if WIDTH[one[1]] <= open_}
+        trials -= len(scores)
+        ranked = sorted((one for one in scores if scores[one] > RANK), key=scores.__getitem__, reverse=True)
+        for k, one in enumerate(ranked):
+            fewer = kept.copy()
+            fewer[layout.columns(*one)] = False
+            # What was tried first here led nowhere in any order, so it is not tried again behind this one.
+            rest = [other for other in left if other != one and other not in ranked[:k]]
+            found = [one, *search(fewer, rest, open_ - WIDTH[one[1]])]
+            if _width(found) > _width(most):
+                most = found
+            if _width(most) == open_ or trials <= 0:
+                break
+        return most
+
+    return tuple(search(np.ones(rows.shape[-1], dtype=bool), list(strained), degree))
+
+
+def _width(holds: list[tuple[int, Hold]]) -> int:
+    """Return how many forces and couples some holds take together."""
+    return sum(WIDTH[hold] for _k, hold in holds)
 
 
 def _firm(rows: Array, kept: Array, layout: Layout, one: tuple[int, Hold]) -> float:

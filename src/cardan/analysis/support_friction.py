@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.geometry import geometry_from_points
-from cardan.drive.train import Train
+from cardan.drive.train import Train, place_of
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -106,7 +105,7 @@ def response(train: Train, drag: Array, angle: Array) -> Response:
 
 def _held(train: Train, angle: Array) -> tuple[Stand, Frame]:
     """Return how the drive stands at input angles (p,), and how it is held."""
-    place = geometry_from_points(train.points)
+    place = place_of(train)
     stand = standing(train.chain, place.axis, place.normal, angle, speed=1.0)
     return stand, frame(train, stand, train.points[None])
 

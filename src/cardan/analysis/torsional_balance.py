@@ -125,6 +125,8 @@ def _twist(model: TorsionalModel, values: Array) -> Array:
 def _contact(model: TorsionalModel, twist: Array, like: Array) -> tuple[Array, Array]:
     """Return elastic twist of the elements and 1 where they touch."""
     xp = namespace(twist)
+    if model.rest is not None:
+        twist = twist - _each(model.rest, like)
     half = 0.5 * _each(model.backlash, like)
     over = xp.where(twist > half, twist - half, xp.where(twist < -half, twist + half, 0.0 * twist))
     touching = xp.where((xp.abs(twist) > half) | (half == 0.0), 1.0, 0.0)
@@ -205,7 +207,7 @@ def balance(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, t
 
 
 def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.0) -> Array:
-    """Return the accelerations of the coordinates; that of a forced one is zero.
+    """Return the accelerations of the coordinates; that of a forced one is the one forced on it.
 
     Parameters
     ----------
@@ -227,7 +229,10 @@ def accelerations(model: TorsionalModel, q: Array, rate: Array, time: Array = 0.
     ) / gathered(model, inertia * place.first**2)
     if model.free:
         return found
-    return xp.concat([0.0 * found[..., :1], found[..., 1:]], axis=-1)
+    forced = 0.0 * found[..., :1]
+    if model.input_motion is not None:
+        forced = forced + xp.asarray(model.input_motion.at(time)[2])[..., None]
+    return xp.concat([forced, found[..., 1:]], axis=-1)
 
 
 def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0) -> Slopes:
@@ -248,6 +253,24 @@ def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, ti
     -----
     The term F'' τ holds the torque that the drive carries: a parametric stiffness that the book leaves out.
     """
+    return linearised(model, q, rate, acceleration, time)[1]
+
+
+def linearised(
+    model: TorsionalModel, q: Array, rate: Array, acceleration: Array, time: Array = 0.0
+) -> tuple[Array, Slopes]:
+    """Return `balance` and `slopes` of a motion in one go.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    q, rate, acceleration : array (..., R) [rad, rad/s, rad/s²]
+    time : array (...) [s]
+
+    Returns
+    -------
+    array (..., R) [N·m], Slopes
+    """
     xp = namespace(q)
     like = q[..., 0]
     place = places(model, q)
@@ -257,7 +280,9 @@ def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, ti
     inertia, ground = _each(model.inertia, like), _each(model.ground_damping, like)
     own, own_rate = rate[..., wide], acceleration[..., wide]
     f1, f2, f3 = place.first, place.second, place.third
-    damping = gathered(model, 2.0 * own * inertia * f1 * f2 + ground * f1**2 - f1**2 * across)
+    mass, turning = gathered(model, inertia * f1**2), gathered(model, inertia * f1 * f2)
+    left = mass * acceleration + turning * rate**2 - gathered(model, f1 * acting)
+    damping = 2.0 * rate * turning + gathered(model, f1**2 * (ground - across))
     stiffness = gathered(
         model,
         2.0 * inertia * f1 * f2 * own_rate
@@ -283,8 +308,8 @@ def slopes(model: TorsionalModel, q: Array, rate: Array, acceleration: Array, ti
             for s, along_g, along_h in ends:
                 c[r][s] = c[r][s] + damper[..., e] * g * along_g
                 k[r][s] = k[r][s] + spring[..., e] * g * along_g + damper[..., e] * g * along_h
-    return Slopes(
-        mass=gathered(model, inertia * f1**2),
+    return left, Slopes(
+        mass=mass,
         damping=xp.stack([xp.stack(row, axis=-1) for row in c], axis=-2),
         stiffness=xp.stack([xp.stack(row, axis=-1) for row in k], axis=-2),
     )

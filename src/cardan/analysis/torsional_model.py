@@ -18,6 +18,7 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
+from .input_motion import InputMotion
 from .torques import Law
 
 
@@ -52,6 +53,10 @@ class TorsionalModel:
     torques : tuple of Torque
     input_speed : array (...) [rad/s] or None
         Speed that is forced on the first station; None where the drive is free and torques turn it.
+    input_motion : InputMotion or None
+        Motion that is forced on the first station instead, where its speed changes.
+    rest : array (..., E) [rad] or None
+        Twist of every element at which it carries nothing; 0 where not given.
     shaft : tuple of N int
         Shaft of every station from 0.
     names : tuple of N str
@@ -70,6 +75,8 @@ class TorsionalModel:
     loss_factor: Array
     torques: tuple[Torque, ...] = ()
     input_speed: Array | None = None
+    input_motion: InputMotion | None = None
+    rest: Array | None = None
     shaft: tuple[int, ...] = ()
     names: tuple[str, ...] = ()
 
@@ -96,7 +103,7 @@ class TorsionalModel:
     @property
     def free(self) -> bool:
         """Whether torques turn the drive and no speed is forced on it."""
-        return self.input_speed is None
+        return self.input_speed is None and self.input_motion is None
 
 
 def torsional_line(

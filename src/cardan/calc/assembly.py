@@ -20,6 +20,7 @@ from cardan.texts import _
 from cardan.units import mm
 
 from .calculation import Calculation, Values, given, gives, rows
+from .forces import SHAFT, unknown_shafts
 from .kinematics import RIGHT, START, YOKES, between, points
 
 SLIDES = ("pin_B", "pin_C", "shaft_2")
@@ -28,7 +29,7 @@ TURN = np.linspace(0.0, 2.0 * np.pi, 361)
 BEARINGS = rows(
     "bearings",
     _("bearings in any order"),
-    given("shaft", _("number of the shaft"), kind="whole", low=1),
+    SHAFT,
     given("x_from_shaft_start_m", _("place along the power flow from the point before"), "length"),
     given("radial", _("whether it holds across"), kind="flag", default=True),
     given("axial", _("whether it holds along the shaft"), kind="flag", default=False),
@@ -100,10 +101,8 @@ def _bearings(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     shafts = len(values["points"]) - 1
     if not values["bearings"]:
         yield Problem(key("bearings"), _("an empty list holds no shaft"))
+    yield from unknown_shafts(values["bearings"], shafts, key("bearings"))
     for k, bearing in enumerate(values["bearings"]):
-        if bearing.get("shaft", 0) > shafts:
-            text = _("there is no shaft {number}; the shafts are 1 to {last}")
-            yield Problem(f"bearings[{k}].shaft", text.format(number=bearing["shaft"], last=shafts))
         if not bearing.get("radial", True) and not bearing.get("axial", True):
             yield Problem(f"bearings[{k}].radial", _("a bearing that holds neither across nor along is none"))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -55,6 +55,10 @@ class Given:
         Value in SI where the input is not given; `REQUIRED` where it must be.
     columns : tuple of Given
         Keys of each table of rows.
+    kinds : mapping
+        Word under ``kind`` -> further keys of a table of rows of that kind; empty where all tables are alike.
+    entries : bool
+        Whether what is wrong with one number of a list is told under its own place: ``key[2]``.
     """
 
     key: str
@@ -64,6 +68,8 @@ class Given:
     width: int | None = None
     default: Any = REQUIRED
     columns: tuple[Given, ...] = ()
+    kinds: Mapping[str, tuple[Given, ...]] = field(default_factory=dict, hash=False)
+    entries: bool = False
 
     @property
     def name(self) -> str:
@@ -88,7 +94,9 @@ class Given:
         if self.kind == "flag":
             return _("true or false")
         if self.kind == "rows":
-            return _("list of tables with {keys}").format(keys=", ".join(column.key for column in self.columns))
+            keys = [", ".join(column.key for column in self.columns)]
+            keys += [f"{kind}: {', '.join(column.key for column in more)}" for kind, more in self.kinds.items()]
+            return _("list of tables with {keys}").format(keys="; ".join(keys))
         if self.kind == "word" and not self.meaning.choices:
             return _("name")
         if self.kind == "word":
@@ -139,15 +147,26 @@ def given(
     axes: tuple[int, ...] = (0,),
     width: int | None = None,
     default: Any = REQUIRED,
+    entries: bool = False,
     **limits: Any,
 ) -> Given:
     """Declare an input; ``limits`` are those of `cardan.units.Key`, in SI."""
-    return Given(key=key, meaning=Key(doc, dimension, **limits), kind=kind, axes=axes, width=width, default=default)
+    meaning = Key(doc, dimension, **limits)
+    return Given(key=key, meaning=meaning, kind=kind, axes=axes, width=width, default=default, entries=entries)
 
 
-def rows(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Given:
-    """Declare an input that is a list of tables, each with the keys of ``columns``."""
-    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default)
+def rows(
+    key: str,
+    doc: str,
+    *columns: Given,
+    default: Any = REQUIRED,
+    kinds: Mapping[str, tuple[Given, ...]] | None = None,
+) -> Given:
+    """Declare an input that is a list of tables, each with the keys of ``columns`` and those of its ``kind``."""
+    more = {} if kinds is None else dict(kinds)
+    if more:
+        columns += (given("kind", _("of which kind"), kind="word", choices=tuple(more)),)
+    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=more)
 
 
 def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
@@ -246,7 +265,8 @@ def _read(
             continue
         key = keys[item.name]
         if item.kind == "rows":
-            wrong, value = _rows(item, found[item.name], before + key)
+            wrong, value, inner = _rows(item, found[item.name], before + key)
+            keys |= {item.name + place: name for place, name in inner.items()}
         else:
             wrong, value = list(_problems(item, found[item.name], key)), None
             wrong = [Problem(before + problem.field, problem.message) for problem in wrong]
@@ -276,17 +296,24 @@ def _sort(
     return found, keys, problems
 
 
-def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values]]:
-    """Return what is wrong with a list of tables, and the tables in SI by name."""
+def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values], dict[str, str]]:
+    """Return what is wrong with a list of tables, the tables in SI by name, and each key by its place and name."""
     if not isinstance(value, list | tuple) or not all(isinstance(row, Mapping) for row in value):
-        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], []
+        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], [], {}
     problems: list[Problem] = []
     tables: list[Values] = []
+    keys: dict[str, str] = {}
     for k, row in enumerate(value):
-        values, _keys, wrong = _read(item.columns, row, f"{key}[{k}].")
+        takes, given = item.columns, row
+        if item.kinds:
+            takes += item.kinds.get(str(row.get("kind")), ())
+            if takes == item.columns:  # which other keys it needs cannot be said
+                given = {name: entry for name, entry in row.items() if name == "kind" or _sort(takes, {name: 0}, "")[0]}
+        values, own, wrong = _read(takes, given, f"{key}[{k}].")
         problems += wrong
         tables.append(values)
-    return problems, tables
+        keys |= {f"[{k}].{name}": f"{key}[{k}].{given_as}" for name, given_as in own.items()}
+    return problems, tables, keys
 
 
 def _unknown(key: str, known: Iterable[str]) -> str:
@@ -350,8 +377,8 @@ def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
     if depth not in item.axes or (item.width is None and not _even(value)):
         yield Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))
     elif item.width is None:
-        for entry in _flat(value):
-            yield from _number(item, entry, key, key)
+        for k, entry in enumerate(_flat(value)):
+            yield from _number(item, entry, f"{key}[{k}]" if item.entries and depth == 1 else key, key)
     else:
         rows = [(key, value)] if depth == 1 else [(f"{key}[{k}]", row) for k, row in enumerate(value)]
         for field, row in rows:
@@ -423,6 +450,9 @@ def _si(item: Given, value: Any, key: str) -> Any:
 
 def _named(field: str, keys: Mapping[str, str]) -> str:
     """Return a field named in Python as the key it was given under."""
+    inside = [name for name in keys if "." in name and (field == name or field.startswith(f"{name}["))]
+    if inside:
+        return keys[inside[0]] + field.removeprefix(inside[0])
     name, bracket, rest = field.partition("[")
     own = [keys[one] for one in (name, *PYTHON.get(name, ())) if one in keys]
     return (own[0] if own else name) + bracket + rest

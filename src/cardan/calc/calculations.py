@@ -10,7 +10,7 @@ from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import accuracy, assembly, book, forces, joint_forces, kinematics, losses, moving, synthesis
+from . import accuracy, assembly, book, forces, joint_forces, kinematics, losses, moving, steady, synthesis
 from .calculation import Calculation, given
 
 
@@ -35,7 +35,7 @@ ERRORS = Call(
 
 CALCULATIONS: dict[str, Calculation] = {
     calculation.name: calculation
-    for part in (kinematics, synthesis, moving, forces, joint_forces, losses, assembly, accuracy, book)
+    for part in (kinematics, synthesis, moving, forces, joint_forces, losses, assembly, accuracy, steady, book)
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from cardan.texts import _
 from .calculation import Calculation, Given, Values, given, gives, rows
 from .kinematics import ACCELERATION, ANGLE, START, between, points
 
-SHAFT = given("shaft", _("number of the shaft"), kind="whole", low=1)
+SHAFT = given("shaft", _("number of the shaft"), kind="whole")
 
 BEARING = (
     SHAFT,
@@ -57,18 +57,47 @@ def chain_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
         if value is not None and len(value) != joints + more:
             text = _("{given} values given, {wanted} needed")
             yield Problem(key(name), text.format(given=len(value), wanted=joints + more))
-    seen: set[int] = set()
     for name in ("bearings", "splines"):
-        for k, row in enumerate(values.get(name) or ()):
-            if row["shaft"] > joints + 1:
-                text = _("row {row}: there is no shaft {number}; the shafts are 1 to {last}")
-                yield Problem(key(name), text.format(row=k + 1, number=row["shaft"], last=joints + 1))
-            elif name == "splines" and row["shaft"] in seen:
-                yield Problem(key(name), _("row {row}: shaft {number} has two").format(row=k + 1, number=row["shaft"]))
-            elif name == "bearings" and not (row["radial"] or row["axial"]):
-                yield Problem(key(name), _("row {row} holds nothing").format(row=k + 1))
-            if name == "splines":
-                seen.add(row["shaft"])
+        if values.get(name):
+            yield from unknown_shafts(values[name], joints + 1, key(name))
+    yield from _bearing_problems(values, key)
+    yield from _spline_problems(values, key)
+
+
+def unknown_shafts(given_rows: Sequence[Values], last: int, field: str) -> Iterator[Problem]:
+    """Yield the rows of a list that stand on a shaft that is not there."""
+    for k, row in enumerate(given_rows):
+        if not 1 <= row.get("shaft", 1) <= last:
+            text = _("row {row}: there is no shaft {number}; the shafts are 1 to {last}")
+            yield Problem(field, text.format(row=k + 1, number=row["shaft"], last=last))
+
+
+def _bearing_problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield bearings that hold nothing, and a list without any."""
+    if "bearings" not in values:
+        return
+    if not values["bearings"]:
+        yield Problem(key("bearings"), _("an empty list holds no shaft"))
+    for k, row in enumerate(values["bearings"]):
+        if not (row.get("radial", True) or row.get("axial", True)):
+            yield Problem(key("bearings"), _("row {row} holds nothing").format(row=k + 1))
+
+
+def _spline_problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield shafts with two splines, and friction of a spline whose thrust has no size or no sense."""
+    seen: set[int] = set()
+    for k, row in enumerate(values.get("splines") or ()):
+        if row.get("shaft") in seen:
+            yield Problem(key("splines"), _("row {row}: shaft {number} has two").format(row=k + 1, number=row["shaft"]))
+        seen.add(row.get("shaft", 0))
+        if not row.get("mu"):
+            continue
+        if row.get("d", 1.0) is None:
+            yield Problem(f"{key('splines')}[{k}].d_m", _("missing; {other} needs it").format(other="mu"))
+        if row.get("direction") not in (None, -1.0, 1.0):
+            yield Problem(
+                f"{key('splines')}[{k}].direction", _("{value} is neither 1 nor -1").format(value=row["direction"])
+            )
 
 
 def held(row: Values) -> tuple[int, tuple[Hold, ...]]:
@@ -119,7 +148,7 @@ def _kinetostatics(values: Values) -> Values:
         slides=((slide, slide),) * joints,
         splines=tuple(row["shaft"] - 1 for row in splines),
         cut=np.asarray([row["x_from_shaft_start"] for row in splines]),
-        grip=np.asarray([spline_grip(row["mu"], row["d"]) for row in splines]),
+        grip=np.asarray([spline_grip(row["mu"], row["d"]) if row["mu"] else 0.0 for row in splines]),
         sliding=np.asarray([float(row["direction"]) for row in splines]),
     )
     found = kinetostatics(
@@ -180,7 +209,7 @@ CALCULATIONS = (
             ANGLE,
             SPEED,
             ACCELERATION,
-            LOAD,
+            given(LOAD.key, LOAD.doc, "torque", default=0.0),
             given("extra_resisting_torque_Nm", _("torque that resists each shaft"), "torque", **_FREE),
             given("J_kg_m2", _("inertia of each shaft about its axis"), "inertia", low=0.0, **_FREE),
             given("mass_kg", _("mass of each shaft"), "mass", low=0.0, **_FREE),
@@ -206,10 +235,8 @@ CALCULATIONS = (
                 SHAFT,
                 given("x_from_shaft_start_m", _("place from the beginning of the shaft along it"), "length"),
                 given("mu", _("coefficient of friction"), low=0.0, default=0.0),
-                size("d_m", _("mean diameter")),
-                given(
-                    "direction", _("+1 where friction pushes the parts apart, -1 where it pulls"), low=-1.0, high=1.0
-                ),
+                size("d_m", _("mean diameter, with friction"), default=None),
+                given("direction", _("+1 where friction pushes the parts apart, -1 where it pulls"), default=1.0),
                 default=(),
             ),
         ),

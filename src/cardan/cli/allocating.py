@@ -36,6 +36,8 @@ def target(text: str) -> tuple[float, bool]:
     >>> target("0.01mm")
     (1e-05, True)
     """
+    from math import inf
+
     from cardan.units import DIMENSIONS
 
     match = re.fullmatch(r"\s*([-+0-9.eE]+?)\s*([a-z]+|°|′|')?\s*", text)
@@ -44,9 +46,12 @@ def target(text: str) -> tuple[float, bool]:
         units = DIMENSIONS[dimension] if dimension == "angle" else DIMENSIONS[dimension] | {"um": 1e-6}
         if match and word in units:
             try:
-                return float(match[1]) * units[word], dimension == "length"
+                value = float(match[1])
             except ValueError:
                 break
+            if not 0.0 < value < inf:
+                raise refuse("--allocate", _("{text} is not allowed; the error must be above 0").format(text=text))
+            return value * units[word], dimension == "length"
     raise refuse("--allocate", _("{text} is no error with a unit: 2arcmin, 0.05deg, or 0.01mm").format(text=text))
 
 

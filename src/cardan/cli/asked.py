@@ -71,13 +71,20 @@ ROUNDING = 1e-9
 
 
 def check_torque(torque: float | None) -> None:
-    """Refuse a torque that is not a finite number."""
+    """Refuse a torque that is not a finite number, or one that no drive has."""
     from math import isfinite
 
     from cardan.errors import refuse
 
-    if torque is not None and not isfinite(torque):
+    if torque is None:
+        return
+    if not isfinite(torque):
         raise refuse("--torque-Nm", _("{value} is not a finite number").format(value=torque))
+
+    from cardan.drive.validity import HUGE
+
+    if abs(torque) > HUGE:
+        raise refuse("--torque-Nm", _("{value} is not allowed; no drive has such a number").format(value=torque))
 
 
 def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Drive:

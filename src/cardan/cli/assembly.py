@@ -170,12 +170,26 @@ def _remarks(drive: Drive, file: Path, found: AssemblyForces) -> Iterator[Remark
                 len(found.rigid),
             )
             yield Remark(text=text.format(numbers=listed([number - 1 for number in found.rigid])))
-        if found.spare:
-            text = _("Nothing can bind with {keys}.")
-            keys = _(" and ").join(f"{key} = false" for key in found.spare)
-            yield Remark(text=text.format(keys=keys), tone="next")
+        yield _let_go(found)
     if drive.duty.torque:
         yield Remark(text=_("What the torque itself loads:"), command=("cardan", "forces", str(file)), tone="next")
+
+
+def _let_go(found: AssemblyForces) -> Remark:
+    """Return what to let go, or that nothing can be."""
+    from .answer import Remark
+
+    keys = _(" and ").join(f"{key} = false" for key in found.spare)
+    if not found.kept:
+        return Remark(text=_("Nothing can bind with {keys}.").format(keys=keys), tone="next")
+    if not found.spare:
+        text = _(
+            "No support can be let go without freeing a shaft; another joint, or parts that fit closer, would help."
+        )
+        return Remark(text=text)
+    many = plural("{n} force", "{n} forces", found.kept).format(n=found.kept)
+    text = _("With {keys} there are {many} too many still, and no other support can be let go without freeing a shaft.")
+    return Remark(text=text.format(keys=keys, many=many), tone="next")
 
 
 def _trace(found: AssemblyForces) -> Table:
@@ -218,6 +232,7 @@ def _content(drive: Drive, file: Path, found: AssemblyForces, curves: AssemblyFo
         "degree": found.degree,
         "strained": found.strained,
         "let_go": found.spare,
+        "degree_left": found.kept,
         "supports": supports,
         "joints": records(_joint_table(drive, found), [(i, one.name) for i, one in enumerate(drive.joints, 1)]),
         "energy_max_J": found.energy_peak.value,

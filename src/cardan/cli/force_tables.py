@@ -9,6 +9,7 @@ from cardan.texts import _
 if TYPE_CHECKING:
     from cardan.analysis.forces import Forces
     from cardan.drive.drive import Drive
+    from cardan.drive.joints.joint import Joint
 
     from .answer import Cell, Table
 
@@ -78,7 +79,7 @@ def joint_table(drive: Drive, found: Forces) -> Table:
         scale = np.max([_journal(one) for one in both(found)])
         force = np.where(force <= ROUNDING * scale, 0.0, force)
     largest = [np.max([_journal(one)[k] for one in both(found)], axis=0) for k in (0, 1)]
-    heat = _mean_heat(found)
+    heat = _mean_heat(drive, found)
     rows = [
         (
             named(i + 1, joint.name),
@@ -107,13 +108,19 @@ def _journal(found: Forces) -> tuple[Any, Any]:
     return np.max(size[..., :2], axis=(-1, -2)), np.max(size[..., 2:], axis=(-1, -2))
 
 
-def _mean_heat(found: Forces) -> list[float | None]:
+def rubs(joint: Joint) -> bool:
+    """Return whether friction in the journals of a joint counts."""
+    given = joint.friction is not None or joint.material_friction is not None
+    return given and joint.cross is not None and None not in (joint.cross.span, joint.cross.journal)
+
+
+def _mean_heat(drive: Drive, found: Forces) -> list[float | None]:
     """Return the mean heat of each joint [W]; None where the drive does not say how fast it turns or how it rubs."""
     import numpy as np
 
     mean = np.mean(found.loss[:, :-1], axis=-1)
     known = "duty.speed" not in found.assumed
-    return [float(one) if known and one > 0.0 else None for one in mean]
+    return [float(one) if known and rubs(joint) else None for one, joint in zip(mean, drive.joints, strict=True)]
 
 
 def support_table(drive: Drive, found: Forces) -> Table:

@@ -55,8 +55,12 @@ def forces(
 
 def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
     from .answer import Answer
-    from .asked import figures
     from .force_tables import tables
+
+    def drawn() -> Any:
+        from cardan.figures.forces import forces_figures
+
+        return forces_figures(found, drive)
 
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -64,7 +68,7 @@ def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
         remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found, curves),
         csv=lambda: _trace(curves),
-        figure=lambda: figures(found),
+        figure=drawn,
     )
 
 
@@ -166,6 +170,7 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
 
     from .answer import Remark
     from .asked import listed
+    from .force_tables import rubs
 
     bare = [i for i in range(len(drive.joints)) if not np.isfinite(found.journals.size[i]).all()]
     if bare:
@@ -179,6 +184,16 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
         )
+    loose = [
+        i for i, joint in enumerate(drive.joints) if not rubs(joint) and (joint.friction or joint.material_friction)
+    ]
+    if loose:
+        text = plural(
+            "Warning: friction of joint {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
+            "Warning: friction of joints {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
+            len(loose),
+        )
+        yield Remark(text=text.format(numbers=listed(loose)), tone="warning")
     if "duty.speed" in found.assumed:
         yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))
         return

@@ -50,10 +50,13 @@ def losses(
 
     from cardan.analysis.losses import loss_map
     from cardan.analysis.losses import losses as question
+    from cardan.errors import refuse
 
     from .source import read
 
     drive = on_duty(read(file), speed_rpm, torque)
+    if over and drive.duty.torque == 0.0:
+        raise refuse("--map", _("spans a tenth to one and a half of the torque, and that is 0; say --torque-Nm"))
     with keys_of(file):
         found = question(drive)
         table = loss_map(drive) if over and not found.locked else None

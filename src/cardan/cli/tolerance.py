@@ -24,6 +24,12 @@ What: TypeAlias = Literal["angle", "change"]
 UM = 1e-6
 """Shifts are told in µm."""
 
+MOST_SAMPLES = 10_000_000
+"""More drives than this are refused: they fill the memory and show nothing that fewer do not."""
+
+FIRST_ORDER = 5.0
+"""Errors of the output [°] beyond which the influence of an error, a tangent, is no longer to be trusted."""
+
 
 def tolerance(
     file: DriveFile,
@@ -146,6 +152,9 @@ def _check(
             problems.append(Problem(option, _("belongs to --allocate TARGET")))
     if allocate is not None and method == "samples":
         problems.append(Problem("--method", _("--allocate adds errors up by squares or worst")))
+    if samples is not None and samples > MOST_SAMPLES:
+        text = _("{count} drives asked for; the limit is {limit}")
+        problems.append(Problem("--samples", text.format(count=samples, limit=MOST_SAMPLES)))
     check(problems)
     if out is not None:
         check_target(out, "--out")
@@ -235,12 +244,13 @@ def part(field: str) -> str:
 
 def _band_table(found: ToleranceBand) -> Table:
     from .answer import Cell, Column, Table
+    from .asked import tidy
 
     rows: list[list[Cell]] = []
     for band, length in _bands(found):
         unit = _scale(length=length)
         inner = max(abs(band.lower_95).max(), abs(band.upper_95).max())
-        values = (band.largest, inner, band.peak_to_peak, band.mean, band.first, band.second)
+        values = tidy([band.largest, inner, band.peak_to_peak, band.mean, band.first, band.second])
         rows.append([_("shift, µm") if length else _("angle, ′"), *(float(value) / unit for value in values)])
     columns = (
         Column(key="output", heading=_("output"), left=True),
@@ -289,6 +299,7 @@ def _part_table(band: Band, *, length: bool) -> Table:
 
 def _remarks(drive: Drive, file: Path, found: ToleranceBand) -> Iterator[Remark]:
     from cardan.analysis.sampling import MonteCarlo
+    from cardan.units import deg
 
     from .answer import Remark, significant
     from .source import STDIN
@@ -300,6 +311,9 @@ def _remarks(drive: Drive, file: Path, found: ToleranceBand) -> Iterator[Remark]
             text = _("Known errors shift the {what} by {low} to {high}; the bounds hold that.")
             what = _("output, µm,") if length else _("angle, ′,")
             yield Remark(text=text.format(what=what, low=significant(low, 3), high=significant(high, 3)))
+    if found.output.largest > FIRST_ORDER * deg and not isinstance(found.method, MonteCarlo):
+        text = _("Warning: errors this large are beyond first order; --method samples counts the exact loops.")
+        yield Remark(text=text, tone="warning")
     yield Remark(text=_("Shares are of the variance over a turn; what stays, setting the output up takes away."))
     if found.convergence is not None and isinstance(found.method, MonteCarlo):
         text = _("{count} drives drawn, seed {seed}: the standard deviation is known to {error}.")

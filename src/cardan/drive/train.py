@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -16,7 +16,7 @@ from cardan.texts import _
 from .accuracy import Error
 from .chain import Chain, chain
 from .drive import Drive
-from .geometry import geometry, geometry_from_points
+from .geometry import Geometry, geometry, geometry_from_points
 from .joints import Joint
 from .material import Material
 from .parts import known_lengths
@@ -46,6 +46,9 @@ class Train:
         B_0 … B_{n+1}.
     chain : Chain
         Kinematic half of the drives.
+    normal : array (..., n, 3)
+        Normals N_i of the joints' planes, for drives given by angles: points do not tell those of straight joints. From
+        the points when not given.
     inertia : array (..., n+1) [kg m²]
         J_i of each shaft about its axis.
     transverse_inertia : array (..., n+1) [kg m²]
@@ -96,6 +99,7 @@ class Train:
 
     points: Array
     chain: Chain
+    normal: Array | None = None
     inertia: Array | None = None
     transverse_inertia: Array | None = None
     mass: Array | None = None
@@ -159,6 +163,26 @@ def train_of_points(
     return Train(points=points, chain=whole, **parts)  # type: ignore[arg-type]
 
 
+def place_of(whole: Train) -> Geometry:
+    """Return where the shafts of a train lie, with the planes from which its angles count.
+
+    Parameters
+    ----------
+    whole : Train (...)
+        One drive or many.
+
+    Examples
+    --------
+    A straight joint has a plane where the drive is given by angles; its points say nothing of it:
+
+    >>> straight = train(Drive.from_angles([0.0, 0.5], plane_twists=[0.7]))
+    >>> place_of(straight).normal[0], geometry_from_points(straight.points).normal[0].round(3) + 0.0
+    (array([0., 1., 0.]), array([0.   , 0.765, 0.644]))
+    """
+    found = geometry_from_points(whole.points)
+    return found if whole.normal is None else replace(found, normal=whole.normal)
+
+
 def train(drive: Drive) -> Train:
     """Return the machine half of a drive.
 
@@ -201,6 +225,7 @@ def train(drive: Drive) -> Train:
     return Train(
         points=place.points,
         chain=chain(drive),
+        normal=place.normal,
         inertia=_unless_zero(inertia),
         transverse_inertia=_unless_zero(across),
         mass=mass if heavy else None,

@@ -42,6 +42,8 @@ class Curve:
         Diameter of a dot at every point, in points.
     arrow : bool
         Put an arrowhead at its last point.
+    text : str
+        What it is, for whoever points at it in a view that can be turned.
     """
 
     x: Array
@@ -53,6 +55,7 @@ class Curve:
     dash: Dash = "solid"
     marker: float = 0.0
     arrow: bool = False
+    text: str = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -95,6 +98,8 @@ class Mesh:
         Do not draw the edges of the faces.
     shade : float
         Share of white mixed into the colour.
+    opacity : float
+        How much it hides of what is inside it, in a view that can be turned.
     text : str
         What it is, for whoever points at it.
     """
@@ -105,6 +110,7 @@ class Mesh:
     role: str = "muted"
     smooth: bool = False
     shade: float = 0.0
+    opacity: float = 1.0
     text: str = ""
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from . import palette
 from .figure import Axis, Band, Bars, Curve, Mesh, Note, Panel, Rule, Series, Shape
 from .page import Box, Page
+from .plotly_scene import in_space, reach, scene
 from .projection import facets, onto
 
 Spec: TypeAlias = dict[str, Any]
@@ -48,11 +49,12 @@ class PanelWriter:
         self.across = [box.left / page.width, (box.left + box.width) / page.width]
         self.upright = [1.0 - (box.top + box.height) / page.height, 1.0 - box.top / page.height]
         self.space = panel.view is not None and panel.view.turnable
+        self.reach = reach(panel) if self.space else 1.0
 
     def draw(self) -> None:
         """Draw frame, heading and series."""
         if self.space:
-            self._scene()
+            self.layout[f"scene{self.tail}"] = scene(self.panel, self.box, self.across, self.upright)
         else:
             self._axes()
         if self.panel.heading:
@@ -74,7 +76,9 @@ class PanelWriter:
             self._faces(meshes)
         for item in self.panel.series:
             if self.space:
-                self._spatial(item)
+                traces, words = in_space(item, f"scene{self.tail}", self.reach)
+                self.data.extend(traces)
+                self.layout[f"scene{self.tail}"]["annotations"].extend(words)
             else:
                 self._flat(item)
 
@@ -83,78 +87,6 @@ class PanelWriter:
         x, y = _widened(panel, self.box)
         self.layout[f"xaxis{self.tail}"] = _axis(panel.x, x, panel.bare, self.across, f"y{self.tail}", panel.x.title)
         self.layout[f"yaxis{self.tail}"] = _axis(panel.y, y, panel.bare, self.upright, f"x{self.tail}", "")
-
-    def _scene(self) -> None:
-        view = self.panel.view
-        assert view is not None
-        hidden = {"visible": False}
-        toward = view.toward
-        self.layout[f"scene{self.tail}"] = {
-            "domain": {"x": self.across, "y": self.upright},
-            "xaxis": hidden,
-            "yaxis": hidden,
-            "zaxis": hidden,
-            "aspectmode": "manual",
-            "aspectratio": _proportions(self.panel, self.box),
-            "camera": {
-                "projection": {"type": "orthographic"},
-                "eye": dict(zip("xyz", (1.1 * v for v in toward), strict=True)),
-                "up": {"x": 0.0, "y": 0.0, "z": 1.0},
-            },
-            "annotations": [],
-        }
-
-    def _spatial(self, item: Series) -> None:
-        if isinstance(item, Mesh):
-            i, j, k = np.asarray(item.triangles).T
-            x, y, z = item.corners.T
-            tint = palette.mixed(palette.colour(item.role), "#ffffff", item.shade)
-            self.data.append(
-                {
-                    "type": "mesh3d",
-                    "x": _list(x),
-                    "y": _list(y),
-                    "z": _list(z),
-                    "i": i.tolist(),
-                    "j": j.tolist(),
-                    "k": k.tolist(),
-                    "color": tint,
-                    "flatshading": not item.smooth,
-                    "text": item.text,
-                    "hoverinfo": "text",
-                    "lighting": {"ambient": 0.75, "diffuse": 0.55, "specular": 0.05},
-                    "scene": f"scene{self.tail}",
-                }
-            )
-        elif isinstance(item, Note) and item.z is not None:
-            self.layout[f"scene{self.tail}"]["annotations"].append(
-                {
-                    "text": escape(item.text),
-                    "x": item.x,
-                    "y": item.y,
-                    "z": item.z,
-                    "showarrow": False,
-                    "xshift": item.shift[0] * 1.5,
-                    "yshift": item.shift[1] * 1.5,
-                    "font": {"color": palette.colour(item.role), "size": 12},
-                    "bgcolor": "rgba(255,255,255,0.6)",
-                }
-            )
-        elif isinstance(item, Curve) and item.z is not None:
-            x, y, z = np.broadcast_arrays(item.x, item.y, item.z)
-            self.data.append(
-                {
-                    "type": "scatter3d",
-                    "mode": "lines",
-                    "x": _list(x),
-                    "y": _list(y),
-                    "z": _list(z),
-                    "line": {"color": palette.colour(item.role), "width": 2.0 * item.width},
-                    "hoverinfo": "skip",
-                    "showlegend": False,
-                    "scene": f"scene{self.tail}",
-                }
-            )
 
     def _flat(self, item: Series) -> None:
         if isinstance(item, Curve):
@@ -340,6 +272,7 @@ class PanelWriter:
                     "path": f"M{path}Z",
                     "fillcolor": facet.fill,
                     "line": {"color": facet.edge, "width": 0.6},
+                    "layer": "between",
                     "xref": f"x{self.tail}",
                     "yref": f"y{self.tail}",
                 }
@@ -396,21 +329,6 @@ def _widened(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, 
         (0.5 * (low + high) - 0.5 * size / scale, 0.5 * (low + high) + 0.5 * size / scale)
         for (low, high), size in ((x, box.width), (y, box.height))
     )
-
-
-SCENE = 0.58
-"""Share of a scene's height that a side of 1 of its box takes, seen without perspective."""
-
-
-def _proportions(panel: Panel, box: Box) -> Spec:
-    """Return the sides of the box around the solids, as large as fills the panel when seen from `View`."""
-    found = [item.corners for item in panel.series if isinstance(item, Mesh)]
-    if not found or panel.view is None:
-        return {"x": 1.0, "y": 1.0, "z": 1.0}
-    corners = np.concatenate(found)
-    sides, seen = np.ptp(corners, axis=0), np.ptp(onto(panel.view, corners), axis=0)
-    scale = min(0.9 * box.width / box.height / float(seen[0]), 0.72 / float(seen[1])) / SCENE
-    return dict(zip("xyz", (max(float(side) * scale, 1e-3) for side in sides), strict=True))
 
 
 def _list(values: Any) -> list[float | None]:

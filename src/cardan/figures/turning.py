@@ -12,6 +12,9 @@ from cardan.texts import _
 from .figure import Axis, angle_axis, axis
 from .palette import DASHES
 
+LONG = 24
+"""Letters of a name in a legend."""
+
 
 def across(angle: Array, *, named: bool = False) -> Axis:
     """Return the axis of the input angle [°]; without name and unit where a panel below carries them.
@@ -47,14 +50,16 @@ def shaft_name(number: int, count: int) -> str:
     return _("shaft {number}").format(number=number)
 
 
-def support_name(number: int, shaft: int) -> str:
+def support_name(number: int, shaft: int, name: str = "") -> str:
     """Return what a support is called in a legend.
 
     Examples
     --------
-    >>> support_name(3, 2)
-    'support 3 on shaft 2'
+    >>> support_name(3, 2), support_name(3, 2, "centre bearing")
+    ('support 3 on shaft 2', '3 centre bearing')
     """
+    if name:
+        return f"{number} {name if len(name) <= LONG else name[: LONG - 1] + '…'}"
     return _("support {number} on shaft {shaft}").format(number=number, shaft=shaft)
 
 

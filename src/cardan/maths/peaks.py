@@ -15,6 +15,9 @@ ROUNDS = 3
 """Times that the places get closer. From steps of a degree three rounds lead to 2e-6 rad: at a smooth peak the value
 is then right to the square of that."""
 
+TIE = 1e-9
+"""Places whose values differ by less than this share are equally high: the first counts, whatever rounding says."""
+
 
 def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> tuple[Array, Array]:
     """Return where each of several curves is highest, and how high.
@@ -40,7 +43,8 @@ def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> t
     >>> place.round(4)
     array([1.5708, 1.2346])
     """
-    best = np.argmax(values, axis=-1)
+    top = np.max(values, axis=-1, keepdims=True)
+    best = np.argmax(values >= top - TIE * np.abs(top), axis=-1)
     place = places[best]
     value = np.take_along_axis(values, best[:, None], axis=-1)[:, 0]
     step = float(places[1] - places[0]) if places.size > 1 else 0.0

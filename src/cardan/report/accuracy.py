@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from cardan.texts import _
 from cardan.units import arcmin
 
 from .balance import checks, refused
-from .block import Block, Cell, Column, Page, Picture, Table, Words, number, words
+from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, words
 from .subject import Subject
 
 CURVED = 0.02
@@ -40,8 +40,9 @@ def erring(on: Subject) -> Page | None:
     blocks: list[Block] = []
     if not bool(np.all(known.closes)):
         figure = error_figure(known)
-        blocks.append(Words(text=figure.sentence, tone="failed"))
-        return Page(name="accuracy", title=title, answer=figure.sentence, blocks=blocks)
+        failed = Words(text=figure.sentence, tone="failed")
+        blocks.append(failed)
+        return Page(name="accuracy", title=title, answer=figure.sentence, blocks=blocks, alarms=[failed])
     if bands is None and not _errs(known, shifts):
         return None
     figure = error_figure(known, shifts=shifts) if bands is None else band_figure(bands[0], shifts=shifts)
@@ -56,7 +57,17 @@ def erring(on: Subject) -> Page | None:
             worst=significant(bands[1].output.largest / arcmin, 3),
             name=tolerance_name(bands[0].output.contributions[0].field)[0],
         )
-    return Page(name="accuracy", title=title, answer=answer, blocks=blocks)
+    return Page(name="accuracy", title=title, answer=answer, blocks=blocks, keys=list(_keys(known, bands)))
+
+
+def _keys(known: TransmissionError, bands: tuple[ToleranceBand, ToleranceBand] | None) -> Iterator[list[Cell]]:
+    if bands is None:
+        yield key(_("error of the output angle"), float(np.max(np.abs(np.asarray(known.error)))) / arcmin, "′")
+        return
+    for name, band in zip((_("root of squares"), _("worst case")), bands, strict=True):
+        if band.output.largest > 0.0:
+            text = _("error of the output angle, {way}").format(way=name)
+            yield key(text, band.output.largest / arcmin, "′", None, significant(band.output.largest / arcmin, 3))
 
 
 def _errs(known: TransmissionError, shifts: bool) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from cardan.texts import _
 from cardan.units import deg
 
 from .balance import ROUNDING, checks, refused
-from .block import Block, Cell, Column, Page, Picture, Table, Words, number
+from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, words
 from .subject import Subject
 
 NOTHING = 1e-9
@@ -42,9 +42,17 @@ def straining(on: Subject) -> Page | None:
         blocks.append(Words(text=_release(on.drive, found), tone="warning" if loaded else "plain"))
     if loaded:
         blocks.append(_checks(found))
-    return Page(
-        name="assembly", title=_("Assembly"), answer=_answer(found) if loaded else figure.sentence, blocks=blocks
-    )
+    answer = _answer(found) if loaded else figure.sentence
+    alarms = [Words(text=answer, tone="warning")] if loaded else []
+    keys = list(_keys(found)) if loaded else []
+    return Page(name="assembly", title=_("Assembly"), answer=answer, blocks=blocks, keys=keys, alarms=alarms)
+
+
+def _keys(found: AssemblyForces) -> Iterator[list[Cell]]:
+    joint = max(range(len(found.joint_peak)), key=lambda k: found.joint_peak[k].value)
+    name = _("force of misfit without load, joint {number}").format(number=joint + 1)
+    yield key(name, found.joint_peak[joint].value, "N", words(_("binds"), "warning"))
+    yield key(_("forces held too many"), float(found.degree), "", None, str(found.degree))
 
 
 def _answer(found: AssemblyForces) -> str:
@@ -68,19 +76,18 @@ def _top(found: AssemblyForces) -> float:
 def _release(drive: Drive, found: AssemblyForces) -> str:
     holds = {"radial": _("sideways"), "axial": _("lengthwise"), "tilt": _("against tilting")}
     named = []
-    for key in found.spare:
-        place, _dot, hold = key.partition("].")
+    for spare in found.spare:
+        place, _dot, hold = spare.partition("].")
         k = int(place.removeprefix("supports["))
         name = drive.supports[k].name
         named.append(f"{k + 1}{f' ({name})' if name else ''} {holds[hold]}")
     text = _("The drive is held by {degree} more than statics needs.").format(degree=found.degree)
     if not named:
-        return text
-    return (
-        text
-        + " "
-        + _("Nothing would strain it if these supports did not hold: {names}.").format(names=", ".join(named))
-    )
+        return f"{text} {_('No support can be let go without freeing a shaft.')}"
+    more = _("Nothing would strain it if these supports did not hold: {names}.")
+    if found.kept:
+        more = _("Without these holds {kept} would be left: {names}; no other can go without freeing a shaft.")
+    return f"{text} {more.format(names=', '.join(named), kept=found.kept)}"
 
 
 def _table(drive: Drive, found: AssemblyForces) -> Table:

@@ -52,9 +52,12 @@ def _small(value: float) -> str:
 
 def refused(name: str, title: str, error: InputError) -> Page:
     """Return the page of a question that the drive file does not answer, with what is missing."""
+    left = [f"{one.field}: {one.message}" for one in error.problems]
+    alarm = _("{part} not reckoned: {first}").format(part=title, first=left[0])
     return Page(
         name=name,
         title=title,
         answer=_("Not reckoned; the drive file leaves open:"),
-        blocks=[Words(text=f"{one.field}: {one.message}", tone="warning") for one in error.problems],
+        blocks=[Words(text=text, tone="warning") for text in left],
+        alarms=[Words(text=alarm, tone="warning")],
     )

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 
 from cardan.figures import Figure
 from cardan.figures.palette import colour, shaft
+from cardan.figures.wording import significant
 
 Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
 
@@ -115,12 +116,18 @@ class Page:
         What it comes to, in a sentence.
     blocks : sequence of block
         From the top.
+    keys : sequence of row
+        What of it stands on the first page, see `key`.
+    alarms : sequence of Words
+        What of it the reader of the first page must not overlook.
     """
 
     name: str
     title: str
     answer: str
     blocks: Sequence[Block]
+    keys: Sequence[Sequence[Cell]] = ()
+    alarms: Sequence[Words] = ()
 
 
 def words(text: str, tone: Tone = "plain") -> Cell:
@@ -131,6 +138,26 @@ def words(text: str, tone: Tone = "plain") -> Cell:
 def number(text: str, value: float | None = None, tone: Tone = "plain") -> Cell:
     """Return a cell with a number, and the same in full precision."""
     return Cell(text=text, tone=tone, full="" if value is None else repr(float(value)))
+
+
+def key(name: str, value: float, unit: str, verdict: Cell | None = None, text: str = "") -> list[Cell]:
+    """Return a row of the table of key figures, of a figure without a limit.
+
+    Parameters
+    ----------
+    name : str
+        What it is.
+    value : float
+        In its unit.
+    unit : str
+        That unit.
+    verdict : Cell, optional
+        How good that is.
+    text : str
+        The number as it is to be written.
+    """
+    shown = text or ("0" if abs(value) < 1e-5 else significant(value))
+    return [words(name), number(shown, value), words(unit), words("–"), words("–"), verdict or words("")]
 
 
 def of_shaft(k: int, name: str = "", *, end: str = "") -> Cell:

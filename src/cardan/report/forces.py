@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from cardan.analysis.forces import Forces, forces
 from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
+from cardan.figures.force_arrows import loads_figures, senses, worst
 from cardan.figures.forces import reactions_figure, torques_figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
@@ -20,7 +21,7 @@ from cardan.texts import _
 from cardan.units import deg
 
 from .balance import ROUNDING, checks, refused
-from .block import Block, Cell, Column, Page, Picture, Table, Words, number, of_shaft
+from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, of_shaft
 from .subject import Subject
 
 NOTHING = 1e-9
@@ -43,8 +44,10 @@ def carrying(on: Subject) -> Page | None:
     turned = torques_figure(found)
     if found.reaction is None:
         blocks: list[Block] = [*remark, Picture(figure=turned), _shafts(on.drive, found), _checks(found)]
-        return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks)
-    held = reactions_figure(found, on.drive)
+        alarms = [one for one in remark if isinstance(one, Words)][:1]
+        keys = list(_keys(on.drive, found))
+        return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks, keys=keys, alarms=alarms)
+    held = reactions_figure(found, [one.name for one in on.drive.supports])
     if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
         text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
         remark = [Words(text=text, tone="warning")]
@@ -52,28 +55,50 @@ def carrying(on: Subject) -> Page | None:
         *remark,
         Picture(figure=turned),
         _shafts(on.drive, found),
+        *(Picture(figure=drawn) for drawn in loads_figures(found, on.drive)),
         Picture(figure=held),
         _supports(on.drive, found),
         _checks(found),
     ]
-    return Page(name="forces", title=_("Forces"), answer=_answer(on.drive, found), blocks=blocks)
+    return Page(
+        name="forces",
+        title=_("Forces"),
+        answer=_answer(on.drive, found),
+        blocks=blocks,
+        keys=list(_keys(on.drive, found)),
+    )
 
 
-def _senses(found: Forces) -> tuple[Forces, ...]:
-    return (found,) if found.reverse is None else (found, found.reverse)
+def _keys(drive: Drive, found: Forces) -> Iterator[list[Cell]]:
+    """Yield the largest couple, journal load and reaction, for the first page."""
+    couple = np.max(np.asarray(found.bending_couple), axis=-1)
+    bent = int(np.argmax(couple))
+    if couple[bent] > NOTHING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
+        yield key(_("largest secondary couple, shaft {k}").format(k=bent + 1), float(couple[bent]), "N·m")
+    journal = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(found)], axis=0)
+    if np.any(np.isfinite(journal)):
+        most = int(np.nanargmax(journal))
+        yield key(_("largest load of a journal, joint {k}").format(k=most + 1), float(journal[most]), "N")
+    if found.reaction is not None:
+        top = worst(found)
+        name = _("largest force on a support, {name}").format(name=_called(drive, top.support))
+        yield key(name, top.size, "N")
 
 
 def _answer(drive: Drive, found: Forces) -> str:
-    size = np.max([frames.norm(np.asarray(one.reaction)).max(axis=-1) for one in _senses(found)], axis=0)
-    worst = int(np.argmax(size))
+    top = worst(found)
     entering = np.asarray(found.input_torque)
-    name = drive.supports[worst].name
     return _("To carry its torque the drive takes {low} to {high} N·m; support {name} takes most, {most} N.").format(
         low=significant(float(np.min(entering))),
         high=significant(float(np.max(entering))),
-        name=f"{worst + 1} ({name})" if name else str(worst + 1),
-        most=significant(float(size[worst])),
+        name=_called(drive, top.support),
+        most=significant(top.size),
     )
+
+
+def _called(drive: Drive, support: int) -> str:
+    name = drive.supports[support].name
+    return f"{support + 1} ({name})" if name else str(support + 1)
 
 
 def _peak(row: Array) -> tuple[float, int]:
@@ -83,8 +108,8 @@ def _peak(row: Array) -> tuple[float, int]:
 
 def _shafts(drive: Drive, found: Forces) -> Table:
     torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
-    journal = np.asarray(found.journals.size).max(axis=-1)
-    known = np.all(np.isfinite(journal), axis=-1)
+    journal = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(found)], axis=0)
+    known = np.isfinite(journal)
     rows = []
     for k, one in enumerate(drive.shafts):
         row = [
@@ -95,7 +120,7 @@ def _shafts(drive: Drive, found: Forces) -> Table:
         ]
         if np.any(known):
             last = k + 1 == len(drive.shafts)
-            row.append(Cell(text="–") if last or not known[k] else _amount(float(np.max(journal[k]))))
+            row.append(Cell(text="–") if last or not known[k] else _amount(float(journal[k])))
         rows.append(row)
     note = _("Least and greatest over a turn in steps of a degree.")
     if found.assumed:
@@ -117,10 +142,10 @@ def _shafts(drive: Drive, found: Forces) -> Table:
 
 def _supports(drive: Drive, found: Forces) -> Table:
     angle = np.asarray(found.angle) / deg
-    senses = _senses(found)
+    ways = senses(found)
     # One sense of sliding behind the other along the angle: the table takes the worse.
     radial, axial, turn = (
-        np.concatenate([part(one) for one in senses], axis=-1)
+        np.concatenate([part(one) for one in ways], axis=-1)
         for part in (
             lambda one: np.asarray(one.radial),
             lambda one: np.asarray(one.axial),
@@ -155,7 +180,7 @@ def _supports(drive: Drive, found: Forces) -> Table:
             *((Column(heading=_("greatest couple"), unit="N·m"),) if tilts else ()),
         ),
         rows=rows,
-        note=_("The worse of both ways that the splines slide.") if len(senses) > 1 else "",
+        note=_("The worse of both ways that the splines slide.") if len(ways) > 1 else "",
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from cardan.analysis.losses import Losses, losses
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
@@ -11,7 +13,7 @@ from cardan.figures.wording import percent, significant
 from cardan.texts import _
 
 from .balance import ROUNDING, checks, refused
-from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, number
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
 from .subject import Subject
 
 
@@ -36,7 +38,20 @@ def rubbing(on: Subject) -> Page | None:
         blocks.append(Points(title=_("Not counted"), items=items))
     if not found.locked:
         blocks.append(_checks(found))
-    return Page(name="losses", title=title, answer=figure.sentence, blocks=blocks)
+    alarms = [Words(text=figure.sentence, tone="failed")] if found.locked else []
+    return Page(
+        name="losses", title=title, answer=figure.sentence, blocks=blocks, keys=list(_keys(found)), alarms=alarms
+    )
+
+
+def _keys(found: Losses) -> Iterator[list[Cell]]:
+    if found.locked:
+        return
+    part = words(_("some heat not counted"), "warning") if found.uncounted else words("")
+    if found.efficiency > 0.0:
+        text = percent(found.efficiency, 4).removesuffix(" %")
+        yield key(_("efficiency"), 100.0 * found.efficiency, "%", part, text)
+    yield key(_("heat of all parts"), found.heat, "W", part if not found.efficiency > 0.0 else None)
 
 
 def _rubs(drive: Drive) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
 
-from .block import Cell, Column, Table, Tone, Words, number, words
+from .block import Cell, Column, Page, Table, Tone, Words, key, number, words
 from .subject import Subject
 
 ILL = 80.0
@@ -29,8 +29,16 @@ SAME = 1e-6
 """Yokes that differ by less than this [rad] are one and the same setting."""
 
 
-def judgement(on: Subject) -> Words:
-    """Return the one sentence the reader came for."""
+def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
+    """Return the one sentence the reader came for.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    pages : sequence of Page
+        Parts of the report; one that failed is not hidden behind an even motion.
+    """
     name = on.drive.name or _("The drive")
     share = percent(float(on.whole.irregularity))
     best = on.best
@@ -70,8 +78,11 @@ def judgement(on: Subject) -> Words:
     if on.moving is not None and any(one.flags for one in on.moving.splines):
         text += " " + _("A spline does not follow the movement.")
         tone = "failed"
-    if steep:
+    alarms = [alarm.tone for page in pages for alarm in page.alarms]
+    if steep or "failed" in alarms:
         tone = "failed"
+    elif "warning" in alarms and tone == "good":
+        tone = "warning"
     return Words(text=text, tone=tone)
 
 
@@ -81,8 +92,17 @@ def _while_moving(on: Subject) -> float:
     return float(found.get("moving_irregularity", found.get("irregularity", 0.0)))
 
 
-def warnings(on: Subject) -> Iterator[Words]:
-    """Yield what the reader must not overlook."""
+def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
+    """Yield what the reader must not overlook.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    pages : sequence of Page
+        Parts of the report that may have such of their own.
+    """
+    yield from (alarm for page in pages for alarm in page.alarms)
     for k, bend in enumerate(np.asarray(on.train.bend) / deg, start=1):
         if bend > ILL:
             yield Words(
@@ -115,20 +135,27 @@ def warnings(on: Subject) -> Iterator[Words]:
         yield Words(text=_("A self-check failed; see the last part."), tone="failed")
 
 
-def key_figures(on: Subject) -> Table:
-    """Return the figures a reader compares drives by, with their limits where there are any."""
+def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
+    """Return the figures a reader compares drives by, with their limits where there are any.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    pages : sequence of Page
+        Parts of the report whose own key figures stand below.
+    """
     share = float(on.whole.irregularity)
     rows = [
-        _figure(
-            _("irregularity δ of the output"), 100.0 * share, "%", _evenness(on), percent(share, 4).removesuffix(" %")
-        ),
-        _figure(_("the same as one joint bent by"), float(on.whole.bend) / deg, "°", words("")),
-        _figure(_("output ahead and back by"), float(on.whole.max_lead) / deg, "°", words("")),
+        key(_("irregularity δ of the output"), 100.0 * share, "%", _evenness(on), percent(share, 4).removesuffix(" %")),
+        key(_("the same as one joint bent by"), float(on.whole.bend) / deg, "°", words("")),
+        key(_("output ahead and back by"), float(on.whole.max_lead) / deg, "°", words("")),
         _acceleration(on),
         _bend(on),
     ]
     if on.moving is not None:
         rows += list(_moving(on))
+    rows += [list(row) for page in pages for row in page.keys]
     return Table(
         columns=(
             Column(heading=_("what"), left=True),
@@ -140,18 +167,6 @@ def key_figures(on: Subject) -> Table:
         ),
         rows=rows,
     )
-
-
-def _figure(name: str, value: float, unit: str, verdict: Cell, text: str = "") -> list[Cell]:
-    small = abs(value) < 1e-5
-    return [
-        words(name),
-        number(text or ("0" if small else significant(value)), value),
-        words(unit),
-        words("–"),
-        words("–"),
-        verdict,
-    ]
 
 
 def _bend(on: Subject) -> list[Cell]:
@@ -180,10 +195,10 @@ def _acceleration(on: Subject) -> list[Cell]:
     speed = on.drive.duty.speed
     even = on.even
     if speed is None:
-        return _figure(_("largest acceleration of the output over ω₁²"), 0.0 if even else relative, "–", words(""))
+        return key(_("largest acceleration of the output over ω₁²"), 0.0 if even else relative, "–", words(""))
     value = 0.0 if even else relative * speed**2
     name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
-    return _figure(name, value, "rad/s²", words(""))
+    return key(name, value, "rad/s²", words(""))
 
 
 def _evenness(on: Subject) -> Cell:
@@ -204,7 +219,7 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
                 "irregularity": _("largest irregularity while moving, standing still at {time} s"),
                 "moving_irregularity": _("largest irregularity while moving, movement counted, at {time} s"),
             }[one.what].format(time=significant(one.time, 3))
-            yield _figure(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
+            yield key(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
     overlap = on.drive.limits.spline_overlap
     for spline in on.moving.splines:
         failed = {flag.field.rpartition(".")[2] for flag in spline.flags}

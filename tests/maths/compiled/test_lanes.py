@@ -45,6 +45,19 @@ def test_a_formula_gives_the_same_on_lanes_and_on_numpy(formula, past_caches):
     np.testing.assert_allclose(out.reshape(results, LANES), wanted, rtol=3e-16)
 
 
+def test_pairs_of_lanes_are_written_as_complex_numbers():
+    run = step(lambda x, y: (y, (x, x * y)))
+    out, pairs = np.zeros(LANES), np.zeros(LANES, dtype=complex)
+
+    @njit
+    def kernel(x, y, out, pairs):
+        run((address(x), address(y)), (), (address(out), address(pairs)))
+
+    kernel(X, Y, out, pairs.view(float))
+    assert out.tolist() == Y.tolist()
+    assert pairs.tolist() == (X + 1j * (X * Y)).tolist()
+
+
 def test_kernels_need_no_disk(monkeypatch):
     asked = []
 

@@ -31,6 +31,7 @@ SOURCES = zlib.crc32(b"".join(path.read_bytes() for path in sorted(Path(__file__
 
 _DOUBLE = ir.DoubleType()
 _VECTOR = ir.VectorType(_DOUBLE, LANES)
+_PAIRS = ir.VectorType(_DOUBLE, 2 * LANES)
 _INDEX = ir.IntType(32)
 _FLAGS = ("contract", "nsz")
 
@@ -122,20 +123,29 @@ def _load(builder: Any, address: Any) -> Lanes:
     return Lanes(builder, builder.load(builder.inttoptr(address, _VECTOR.as_pointer()), align=8))
 
 
-def _store(builder: Any, lanes: Lanes, address: Any, past_caches: bool) -> None:
+def _store(builder: Any, lanes: Lanes | tuple[Lanes, Lanes], address: Any, past_caches: bool) -> None:
+    if isinstance(lanes, tuple):
+        real, imaginary = lanes
+        in_turns = [part * LANES + k for k in range(LANES) for part in (0, 1)]
+        pairs = builder.shuffle_vector(
+            real.value, imaginary.value, ir.Constant(ir.VectorType(_INDEX, 2 * LANES), in_turns)
+        )
+        builder.store(pairs, builder.inttoptr(address, _PAIRS.as_pointer()), align=8)
+        return
     pointer = builder.inttoptr(address, _VECTOR.as_pointer())
     written = builder.store(lanes.value, pointer, align=BYTES if past_caches else 8)
     if past_caches:
         written.set_metadata("nontemporal", builder.module.add_metadata([ir.Constant(_INDEX, 1)]))
 
 
-def step(formula: Callable[..., tuple[Lanes, ...]], *, past_caches: bool = False) -> Any:
+def step(formula: Callable[..., tuple[Any, ...]], *, past_caches: bool = False) -> Any:
     """Return a kernel function that applies a formula to eight lanes.
 
     Parameters
     ----------
     formula : function of Lanes
-        Takes the loaded lanes, then the numbers; returns a tuple of lanes.
+        Takes the loaded lanes, then the numbers; returns a tuple of lanes, or of pairs of lanes: real and imaginary
+        parts, which are written in turns as complex numbers.
     past_caches : bool
         Write to memory without reading the line first; the addresses must then be multiples of 64.
 

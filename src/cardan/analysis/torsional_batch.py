@@ -1,0 +1,167 @@
+"""Many torsional models in one leading axis, and their steady running as an oscillator about even rotation."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.periodic import Linearised
+from cardan.texts import _
+
+from .torques import Law, base_period
+from .torsional_balance import linearised
+from .torsional_model import Torque, TorsionalModel
+
+ARRAYS = ("inertia", "stiffness", "damping", "backlash", "bend", "phase", "ground_damping", "loss_factor", "rest")
+"""Fields of a model whose last axis is stations, elements or joints."""
+
+_TABLES = frozenset({"speeds", "torques", "times", "frequency"})
+"""Fields of laws that all drives share."""
+
+
+def leading(model: TorsionalModel) -> tuple[int, ...]:
+    """Return the leading axes of a model: those of its arrays, of its torques and of its speed, spread over each other.
+
+    Examples
+    --------
+    >>> from .torsional_model import torsional_line
+    >>> leading(torsional_line([[1.0, 1.0]], stiffness=[[[5.0], [6.0]]], input_speed=[[1.0], [2.0], [3.0]]))
+    (3, 2)
+    """
+    shapes = [np.shape(value)[:-1] for value in _arrays(model).values()]
+    shapes += [np.shape(value) for torque in model.torques for value in _own(torque.law).values()]
+    shapes += [] if model.input_speed is None else [np.shape(model.input_speed)]
+    return np.broadcast_shapes(*shapes)
+
+
+def _arrays(model: TorsionalModel) -> dict[str, Array]:
+    return {name: getattr(model, name) for name in ARRAYS if getattr(model, name) is not None}
+
+
+def _own(law: Law) -> dict[str, Array]:
+    return {
+        one.name: getattr(law, one.name)
+        for one in fields(law)  # type: ignore[arg-type]
+        if one.name not in _TABLES
+    }
+
+
+def chosen(model: TorsionalModel, lead: tuple[int, ...], rows: Array, *, moments: bool = True) -> TorsionalModel:
+    """Return some of the drives of a model in one leading axis.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    lead : tuple of int
+        Leading axes that those of the model spread over.
+    rows : array of int (b,)
+        Which drives, counted through the axes.
+    moments : bool
+        Make their torques ready for moments in a second axis.
+    """
+    place = np.unravel_index(rows, lead) if lead else ()
+
+    def taken(values: Array, width: tuple[int, ...]) -> Array:
+        whole = np.broadcast_to(np.asarray(values, dtype=float), (*lead, *width))
+        return whole[place] if lead else np.broadcast_to(whole, (len(rows), *width))
+
+    def taken_law(law: Law) -> Law:
+        own = {name: taken(value, ()) for name, value in _own(law).items()}
+        wide = {name: value[:, None] if moments else value for name, value in own.items()}
+        return replace(law, **wide)  # type: ignore[type-var]
+
+    parts = {name: taken(value, np.shape(value)[-1:]) for name, value in _arrays(model).items()}
+    speed = None if model.input_speed is None else taken(model.input_speed, ())
+    torques = tuple(Torque(station=torque.station, law=taken_law(torque.law)) for torque in model.torques)
+    return replace(model, torques=torques, input_speed=speed, **parts)
+
+
+def period_of(model: TorsionalModel) -> float:
+    """Return the shaft angle after which the drive and all its torques repeat: π, 2π or 4π.
+
+    Raises
+    ------
+    InputError
+        Torques that run in time, or orders that no two turns hold a whole number of.
+    """
+    orders: list[float] = []
+    problems: list[Problem] = []
+    for k, torque in enumerate(model.torques):
+        order = torque.law.order
+        if order is None:
+            text = _("runs in time; steady running needs torques that repeat with the angle or follow the speed")
+            problems.append(Problem(f"torques[{k}].kind", text))
+        elif base_period((order,)) is None:
+            text = _("order {order:g} does not repeat within two turns; steady running needs multiples of 0.5")
+            problems.append(Problem(f"torques[{k}].order", text.format(order=order)))
+        else:
+            orders.append(order)
+    check(problems)
+    found = base_period(tuple(orders))
+    assert found is not None
+    return found
+
+
+class Turning:
+    """The drives as oscillators: how far each coordinate is off even rotation; see `cardan.maths.periodic.Equation`.
+
+    Parameters
+    ----------
+    model : TorsionalModel (...)
+    lead : tuple of int
+    speed : array (B,) [rad/s]
+        Of the input, or mean speed of free drives.
+    period : float [rad]
+        Shaft angle of a period.
+    share : array (B,), optional
+        Bends are these shares of their own.
+    """
+
+    def __init__(
+        self, model: TorsionalModel, lead: tuple[int, ...], speed: Array, period: float, share: Array | None = None
+    ) -> None:
+        self.model, self.lead, self.speed, self.period, self.share = model, lead, speed, period, share
+        self.first = 0 if model.free else 1
+        self.coordinates = model.coordinates - self.first
+        self._taken: tuple[Array, TorsionalModel] | None = None
+
+    @property
+    def frequency(self) -> Array:
+        """Rate of the phase of the period, array (B,) [rad/s]."""
+        return self.speed * (2.0 * np.pi / self.period)
+
+    def part(self, rows: Array) -> Turning:
+        """Return some of the drives alone."""
+        model = chosen(self.model, self.lead, rows, moments=False)
+        share = None if self.share is None else self.share[rows]
+        return Turning(model, (len(rows),), self.speed[rows], self.period, share)
+
+    def drives(self, rows: Array) -> TorsionalModel:
+        """Return the drives of some rows."""
+        if self._taken is None or not np.array_equal(self._taken[0], rows):
+            found = chosen(self.model, self.lead, rows)
+            if self.share is not None:
+                found = replace(found, bend=found.bend * self.share[rows][:, None])
+            self._taken = (rows, found)
+        return self._taken[1]
+
+    def motion(self, rows: Array, phase: Array, x: Array, v: Array, a: Array) -> tuple[Array, Array, Array]:
+        """Return q, q̇ and q̈ of all coordinates, arrays (b, S, R), from what is off even rotation."""
+        if self.first:
+            x, v, a = (np.concatenate([np.zeros((*one.shape[:-1], 1)), one], axis=-1) for one in (x, v, a))
+        even = (phase * (self.period / (2.0 * np.pi)))[..., :, None]
+        return even + x, self.speed[rows][:, None, None] + v, a
+
+    def __call__(self, rows: Array, phase: Array, x: Array, v: Array, a: Array) -> Linearised:
+        """Return the balance of the coordinates that are not forced, and its slopes."""
+        left, slopes = linearised(self.drives(rows), *self.motion(rows, phase, x, v, a))
+        k = self.first
+        return Linearised(
+            balance=left[..., k:],
+            mass=slopes.mass[..., k:],
+            damping=slopes.damping[..., k:, k:],
+            stiffness=slopes.stiffness[..., k:, k:],
+        )
