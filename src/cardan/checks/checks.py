@@ -1,0 +1,74 @@
+"""All checks, and asking them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.errors import Problem
+from cardan.errors import check as refuse_all
+from cardan.maths.arrays import ArrayLike
+from cardan.texts import _
+from cardan.units import nearest
+
+from . import bend
+from .check import Check
+from .design import design
+from .verdict import Verdict
+
+CHECKS: dict[str, Check] = {module.CHECK.name: module.CHECK for module in (bend,)}
+"""Name of a check -> the check; its code is the file of the same name."""
+
+
+def check(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    only: Sequence[str] = (),
+    vary: Mapping[str, ArrayLike] | None = None,
+    known: Catalogue | None = None,
+) -> tuple[Verdict, ...]:
+    """Return the verdicts of the checks on a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+    duty : Duty, optional
+        The drive's own when not given.
+    only : sequence of str
+        Names of checks; all when empty.
+    vary : mapping of str to array (...), optional
+        Path with unit -> values over many drives; the verdicts then hold arrays.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    tuple of Verdict
+        A verdict that could not be reached names what is missing.
+
+    Raises
+    ------
+    InputError
+        A check that is not known, a path that leads nowhere.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.duty import Limits
+    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(bend=0.4))
+    >>> [verdict.state for verdict in check(drive, only=["bend"])]
+    ['passed', 'failed']
+    """
+    unknown = [name for name in only if name not in CHECKS]
+    refuse_all(Problem("only", _unknown(name)) for name in unknown)
+    subject = design(drive, duty, vary=vary, known=known)
+    return tuple(verdict for name, one in CHECKS.items() if not only or name in only for verdict in one.judge(subject))
+
+
+def _unknown(name: str) -> str:
+    near = nearest(name, CHECKS)
+    text = _("{name} is no check; the checks are {known}").format(name=repr(name), known=", ".join(CHECKS))
+    return text + (_("; the nearest is {near}").format(near=near) if near else "")
