@@ -6,7 +6,16 @@ import argparse
 import importlib
 import sys
 
-NAMES = ("stored_traces", "without_positions", "single_drive", "forces", "synthesis", "tolerance", "start_up")
+NAMES = (
+    "stored_traces",
+    "without_positions",
+    "single_drive",
+    "forces",
+    "synthesis",
+    "tolerance",
+    "mathieu_map",
+    "start_up",
+)
 
 
 def main(arguments: list[str] | None = None) -> int:

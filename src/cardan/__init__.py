@@ -41,6 +41,8 @@ _HOMES = {
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
     "MonteCarlo": "analysis.sampling",
+    "MovingForces": "analysis.moving_forces",
+    "moving_forces": "analysis.moving_forces",
     "Linear": "analysis.tolerance",
     "ToleranceBand": "analysis.tolerance",
     "WorstCase": "analysis.tolerance",
@@ -91,6 +93,8 @@ if TYPE_CHECKING:
     from .analysis.losses import losses as losses
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
+    from .analysis.moving_forces import MovingForces as MovingForces
+    from .analysis.moving_forces import moving_forces as moving_forces
     from .analysis.sampling import MonteCarlo as MonteCarlo
     from .analysis.tolerance import Linear as Linear
     from .analysis.tolerance import ToleranceBand as ToleranceBand

@@ -23,7 +23,8 @@ from cardan.drive.joints import Hooke
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
-from cardan.drive.train import Train, spline_grip, train_of_points
+from cardan.drive.train import Train, spline_grip, train, train_of_points
+from cardan.maths import frames
 from cardan.units import deg
 from tests.builders.trains import one, shaft_rests, trains
 from tests.builders.vector_model import VectorModel
@@ -415,3 +416,59 @@ def test_friction_has_no_sense_at_standstill() -> None:
     with pytest.raises(InputError, match=r"duty\.speed"):
         forces(Drive(joints=(joint,)), Duty(torque=100.0, speed=0.0))
     assert forces(Drive(joints=(replace(joint, friction=None),)), Duty(torque=100.0, speed=0.0)).power_left.max() == 0.0
+
+
+@pytest.mark.parametrize("bends", [(85, 0, 60), (0, 0, 70, 20), (89, 45), (30, 0, 0, 80, 10, 40)])
+@pytest.mark.parametrize("at", ["output", "input"])
+def test_steep_and_straight_joints_balance_too(bends: tuple[float, ...], at: str) -> None:
+    """With inertia, weight, friction near locking and a shaft clamped at its end; running the other way."""
+    n = len(bends)
+    random = np.random.default_rng(n)
+    cross = Cross(span=0.08, journal=0.02, mass=0.5, inertia=(0.001, 0.001, 0.002))
+    drag = [min(1.0, 2.0 / np.tan(max(bend, 1.0) * deg)) for bend in bends]
+    drive = replace(
+        Drive.from_angles([bend * deg for bend in bends], plane_twists=list(random.uniform(-3, 3, n - 1))),
+        joints=tuple(
+            Hooke(bend=bend * deg, plane_twist=twist, friction=mu, cross=cross)
+            for bend, twist, mu in zip(bends, random.uniform(-3, 3, n), drag, strict=True)
+        ),
+        shafts=tuple(
+            Shaft(number=k + 1, length=0.5, inertia=0.02, mass=4.0, centre_of_mass=0.1 * k, resisting_torque=k - 2.0)
+            for k in range(n + 1)
+        ),
+        supports=(
+            Support(shaft=1, position=-0.3, axial=True, tilt=True),
+            *(Support(shaft=k, position=0.2) for k in range(2, n)),
+            Support(shaft=n + 1, position=0.3, tilt=True),
+        ),
+    )
+    found = forces(drive, Duty(torque=-80.0, torque_at=at, speed=-40.0, acceleration=20.0), ANGLE)
+    force, moment = shaft_rests(train(drive), found, found.output_torque)
+    size = max(np.abs(found.reaction).max(), np.abs(found.driving_couple).max())
+    # 1/cos 89° takes two more digits than the chains of 25° above
+    assert max(found.power_left.max(), force / size, moment / size) < 1e-10
+
+
+def test_ten_thousand_drives_are_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As many steps of Python as for three drives, and each drive's extremes those of the drive by itself."""
+    calls, plain = [0], frames.cross
+
+    def counted(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        calls[0] += 1
+        return plain(one, other)
+
+    monkeypatch.setattr(frames, "cross", counted)
+    places = np.linspace(0.0, 2 * np.pi, 73)[:-1]
+    steps = []
+    for count in (3, 10_000):
+        calls[0] = 0
+        many = trains(np.random.default_rng(6), 1, (count,), heavy=False)
+        found = kinetostatics(many, places, torque=100.0)
+        steps.append(calls[0])
+    assert steps[0] == steps[1] > 0
+    assert found.reaction.shape == (10_000, 3, 72, 3)
+    assert found.power_left.max() < 1e-12
+    for k in (0, 4321, 9999):
+        single = kinetostatics(one(many, k), places, torque=100.0)
+        for name in ("bending_couple", "radial"):
+            np.testing.assert_allclose(getattr(found, name)[k].max(-1), getattr(single, name).max(-1), rtol=1e-10)

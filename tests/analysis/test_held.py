@@ -72,11 +72,11 @@ def test_batches_equal_single_drives(acting):
     np.testing.assert_array_equal(balance(both)[0], balance(acting))
     single = actions(AXIS @ turn.T, LENGTH, LAYOUT, PLACE, CUT)
     np.testing.assert_allclose(balance(both)[1], balance(single), atol=1e-15)
-    soft = np.asarray([1e-4, 0.0, 2e-4])
+    soft = np.asarray([[1e-4], [0.0], [2e-4]])
     np.testing.assert_allclose(
         shaft_flexibility(both, soft, soft)[1], shaft_flexibility(single, soft, soft), atol=1e-18
     )
 
 
 def test_rigid_shafts_do_not_give_way(acting):
-    assert not np.any(shaft_flexibility(acting, np.zeros(3), np.zeros(3)))
+    assert not np.any(shaft_flexibility(acting, np.zeros((3, 1)), np.zeros((3, 1))))

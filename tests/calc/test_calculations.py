@@ -52,7 +52,7 @@ def test_every_calculation_says_what_it_takes_and_gives(one):
 
 CASES = [
     case
-    for name in ("kinematics.json", "statics.json")
+    for name in ("kinematics.json", "statics.json", "dynamics.json")
     for case in json.loads((Path(__file__).parents[1] / "reference" / name).read_text("utf8"))["cases"]
     if case["capability"] != "errors" and "error_field" not in case["expected"]
 ]
@@ -88,6 +88,8 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
     required = {item.key for item in CALCULATIONS[name].takes if item.required}
     if name == "efficiency_spline_branches_factors":
         required = {"mu_spline"}  # or any other of its parts
+    if name in ("periodic_response", "floquet_stability"):
+        required |= {"input_speed_rad_s"}  # or a mean speed
     either = {"alpha_deg"} if "alpha_deg" in {i.key for i in CALCULATIONS[name].takes if not i.required} else set()
     assert set(found) == {"colour"} | required | either
 
@@ -185,7 +187,7 @@ def test_an_unknown_capability_is_met_with_the_nearest():
     assert problems("single_join", {}) == {
         "capability": "there is no calculation named 'single_join'; did you mean single_joint?"
     }
-    assert "there are assembly_forces, blokh, " in problems("xyz", {})["capability"]
+    assert "there are absorber_optimum, absorber_response, " in problems("xyz", {})["capability"]
     assert problems("errors", {"call": "chian"}) == {
         "call": "there is no calculation named 'chian'; did you mean chain?"
     }

@@ -57,6 +57,14 @@ def test_json_is_the_forces(cardan):
     assert said["status"] == "determinate"
 
 
+def test_the_order_of_reckoning_by_hand_is_told(cardan):
+    assert "the reactions follow from shaft 3, then 4, then 2, then 1." in plain(cardan("forces", TRUCK).out)
+    assert cardan("forces", TRUCK, "--json").content["solving_order"] == [[3], [4], [2], [1]]
+    pump = EXAMPLES / "overconstrained-pump.toml"
+    assert "By hand" not in cardan("forces", pump).out
+    assert cardan("forces", pump, "--json").content["solving_order"] == []
+
+
 def test_extremes_of_the_supports_hold_both_ways_of_sliding(cardan):
     """The table bounds every curve, of both senses of friction in the spline."""
     said = cardan("forces", TRUCK, "--json").content

@@ -12,14 +12,25 @@ from hypothesis import strategies as st
 
 from cardan import Drive
 from cardan.catalogue import completed, material
+from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.joints import Hooke
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
+from cardan.drive.machine import (
+    LAWS,
+    AsynchronousMachine,
+    Engine,
+    EngineHarmonic,
+    RunUp,
+    SpeedTorque,
+    TorqueHistory,
+)
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Random, Spectrum, Table
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.io import dumps, loads
 from cardan.units import DIMENSIONS
@@ -103,9 +114,24 @@ def test_movements(kind: type, data: st.DataObject) -> None:
 
 
 bodies = st.sampled_from([{}, {"outer": 0.07}, {"outer": 0.07, "wall": 0.002}, {"outer": 1 / 3, "inner": 0.1}])
-splines = things(Spline, mean_diameter=st.just(0.04), friction=st.floats(0.0, 0.3), position=st.just(0.25))
-ranges = st.tuples(*[st.floats(0.0, 1e4, allow_subnormal=False)] * 2).map(lambda ends: tuple(sorted(ends)))
-duties = things(Duty, torque=st.floats(-1e5, 1e5, allow_subnormal=False), speed_range=st.none() | ranges)
+splines = things(
+    Spline,
+    mean_diameter=st.just(0.04),
+    friction=st.floats(0.0, 0.3),
+    position=st.just(0.25),
+    stiffness=st.none(),
+)
+ends = st.lists(st.floats(0.0, 1e4, allow_subnormal=False), min_size=2, max_size=2, unique=True)
+ranges = ends.map(lambda two: tuple(sorted(two)))
+run_ups = things(RunUp, start=st.just(0.0), end=st.floats(1.0, 1e3))
+duties = things(
+    Duty,
+    torque=st.floats(-1e5, 1e5, allow_subnormal=False),
+    speed_range=st.none() | ranges,
+    run_up=st.none() | run_ups,
+    **dict.fromkeys(("engine", "motor", "load"), st.none()),
+    torques=st.just(()),
+)
 
 
 @st.composite
@@ -115,7 +141,11 @@ def shafts(draw: st.DrawFn) -> Shaft:
         things(
             Shaft,
             number=st.just(2),
+            stiffness=st.floats(1.0, 1e6),
             spline=st.none() | splines,
+            segments=st.just(()),
+            masses=st.lists(things(Lump, position=st.just(0.0)), max_size=2).map(tuple),
+            wear_factor=st.none(),
             **{name: st.none() for name in none},
         )
     )
@@ -164,7 +194,63 @@ def test_joints_and_supports(joint: Hooke, supports: list[Support]) -> None:
         )
         for one in supports
     )
-    drive = replace(DRIVE, joints=(joint, *DRIVE.joints[1:]), supports=held)
+    elastic = (Shaft(number=1, stiffness=1e4),)
+    drive = replace(DRIVE, joints=(joint, *DRIVE.joints[1:]), supports=held, shafts=elastic)
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+rising = st.lists(st.floats(-1e4, 1e4, allow_subnormal=False), min_size=2, max_size=4, unique=True).map(
+    lambda row: tuple(sorted(row))
+)
+
+
+@pytest.mark.parametrize("kind", [cls for cls in LAWS.values() if cls is not TorqueHistory])
+@given(data=st.data())
+@settings(max_examples=30, deadline=None)
+def test_torques(kind: type, data: st.DataObject) -> None:
+    """A torque of every kind, as motor, as load and on a station."""
+    known = {"station": st.just("disc")}
+    if kind is SpeedTorque:
+        speeds = data.draw(rising)
+        size = len(speeds)
+        known |= {
+            "speeds": st.just(speeds),
+            "torques": st.lists(st.floats(-1e4, 1e4), min_size=size, max_size=size).map(tuple),
+        }
+    if kind is AsynchronousMachine:
+        known["synchronous_speed"] = st.floats(1.0, 1e3)
+    law = data.draw(things(kind, **known))
+    disc = Station(name="disc", shaft=1, end="start", inertia=1.0)
+    drive = replace(DRIVE, stations=(disc,), duty=Duty(motor=law, load=law, torques=(law, law)))
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+elements = st.none() | things(ToNext)
+hung = st.tuples(st.none() | things(Absorber), st.none()) | st.tuples(st.none(), st.none() | things(Pendulum))
+
+
+@given(st.data(), elements, hung)
+@settings(max_examples=50, deadline=None)
+def test_stations(data: st.DataObject, element: ToNext | None, parts: tuple[Absorber | None, Pendulum | None]) -> None:
+    known = {"shaft": st.just(1), "end": st.just("start"), "position": st.none(), "name": st.just("disc")}
+    known |= {"to_next": st.just(element), "absorber": st.just(parts[0]), "pendulum": st.just(parts[1])}
+    drive = replace(DRIVE, stations=(data.draw(things(Station, **known)),))
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive
+
+
+@pytest.mark.parametrize(
+    "engine",
+    [
+        Engine(cylinders=6, speed_ratio=1.7),
+        Engine(mean_torque=300.0, harmonics=(EngineHarmonic(order=1.5, torque=90.0, phase=0.3),)),
+        Engine(strokes=2, cylinders=3, bore=0.1, stroke=0.12, mean_pressure=1e6, piston_mass=1.4),
+    ],
+)
+def test_engines(engine: Engine) -> None:
+    drive = replace(DRIVE, duty=Duty(engine=engine))
     for form in ("toml", "json"):
         assert loads(dumps(drive, form=form), form=form) == drive
 

@@ -47,6 +47,26 @@ def test_stretching_is_the_integral_of_the_pulls(cut):
     np.testing.assert_allclose(found, direct, atol=1e-14)
 
 
+@pytest.mark.parametrize("cut", [None, 0.35])
+def test_a_stepped_beam_is_what_each_step_adds_from_there_on(cut):
+    """Gauss's rule over 1/EI(x) = 2, from 0.3 on 5, from 0.6 on 1; the first stretch reaches back without end."""
+    steps = [(None, 2.0), (np.asarray(0.3), 3.0), (np.asarray(0.6), -4.0)]
+    points = sorted([*PLACE, 0.3, 0.6, *([] if cut is None else [cut])])
+
+    def soft(x):
+        return 2.0 if x < 0.3 else 5.0 if x < 0.6 else 1.0
+
+    def pull(x):
+        other = 0.0 if cut is None else (cut > PLACE) != (x < cut)
+        return (x > PLACE) * (FORCE @ AXIS) * (1.0 - other)
+
+    bent = sum(more * beams.bending(AXIS, PLACE, FORCE, COUPLE, END, since) for since, more in steps)
+    np.testing.assert_allclose(bent, gauss(lambda x: soft(x) * moment(x) @ moment(x).T, points), atol=1e-13)
+    place = None if cut is None else np.asarray(cut)
+    pulled = sum(more * beams.stretching(AXIS, PLACE, FORCE, END, place, since) for since, more in steps)
+    np.testing.assert_allclose(pulled, gauss(lambda x: soft(x) * np.outer(pull(x), pull(x)), points), atol=1e-13)
+
+
 def test_loads_in_balance_do_not_care_where_the_beam_ends():
     # Three forces and a couple: chosen so that force and moment vanish.
     across = np.asarray([0.0, 0.0, 1.0])

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvals, expm
 
+from cardan.maths.beam_elements import matrices
 from cardan.maths.modes import lowest, synchronous
 from cardan.maths.rotor_beams import (
     divided,
     layout,
     line,
-    matrices,
     rigid_motions,
     round_section,
 )

@@ -10,10 +10,12 @@ import pytest
 from cardan.analysis.assembly import assembly
 from cardan.analysis.forces import forces
 from cardan.analysis.losses import losses
+from cardan.analysis.moving_forces import moving_forces
 from cardan.analysis.tolerance import Linear, WorstCase, tolerance
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
+from cardan.drive.movement import Hitch
 from cardan.figures.losses import watts
 from cardan.figures.wording import percent, significant
 from cardan.io import example, example_names
@@ -27,8 +29,8 @@ from .test_report import parsed
 WITH = {
     "truck-supports": {"forces", "losses"},
     "pto-spline-thrust": {"forces", "losses"},
-    "instrument-joint": {"forces", "accuracy"},
-    "overconstrained-pump": {"forces", "assembly"},
+    "instrument-joint": {"forces", "losses", "accuracy"},
+    "overconstrained-pump": {"forces", "losses", "assembly"},
 }
 """Examples with parts of their own."""
 
@@ -225,3 +227,14 @@ def test_what_could_not_be_reckoned_is_told_on_the_first_page():
     text = front(replace(rigid, supports=supports))
     assert "more than statics can tell" in text
     assert "Assembly not reckoned: supports[0].stiffness" in text
+
+
+def test_a_moving_drive_tells_its_forces_over_the_movement():
+    drive = example("pto-spline-thrust")
+    swing = Hitch(moves=("joints[1]", "output"), pivot=(0.47, 0.0, -0.3), yaw=0.3, frequency=3.0)
+    moved = replace(drive, movements=(swing,))
+    found = moving_forces(moved)
+    text = words(moved)
+    assert "What the supports take while the drive moves" in text
+    assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
+    assert "while moving, 3 (implement, near)" in text

@@ -193,7 +193,7 @@ def assembly(
         degree=question.redundancy.degree,
         strained=_keys(question.redundancy.strained),
         spare=_keys(question.redundancy.spare),
-        rigid=tuple(shaft.number for shaft in drive.shafts if shaft.outer is None),
+        rigid=tuple(shaft.number for shaft in drive.shafts if not shaft.has_body),
         residual=question.residual(joint_force, reaction, couple),
     )
 

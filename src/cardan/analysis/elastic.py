@@ -12,7 +12,7 @@ from cardan.maths.arrays import Array, namespace
 from cardan.maths.redundant import least_energy
 from cardan.texts import _
 
-from .held import HOLDS, Hold, shaft_flexibility
+from .held import HOLDS, Hold, shaft_flexibility, stretches
 from .kinetostatics import Couples, Stand
 from .misfit import Crosses, crosses, joint_gap
 from .reactions import Frame, Load
@@ -39,7 +39,9 @@ def compliance(whole: Train, held: Frame) -> Array:
     whole_soft = soft[..., None] * xp.eye(soft.shape[-1], dtype=xp.float64)
     if whole.bending is None or whole.stretching is None or not bool(xp.any(whole.bending > 0.0)):
         return whole_soft
-    return whole_soft + shaft_flexibility(held.acting, whole.bending[..., None, :], whole.stretching[..., None, :])
+    bending, stretching = whole.bending[..., None, :, :], whole.stretching[..., None, :, :]
+    start = None if whole.stretch_start is None else whole.stretch_start[..., None, :, :]
+    return whole_soft + shaft_flexibility(held.acting, bending, stretching, start)
 
 
 def missing_stiffness(whole: Train, found: Redundancy) -> tuple[tuple[int, Hold], ...]:
@@ -115,10 +117,12 @@ def bent_by_loads(whole: Train, held: Frame, found: Couples, loads: list[Load], 
         given = where, xp.stack(force, axis=-2), xp.stack([one + none for one in couple], axis=-2)
         own = acting.place[..., s, :], acting.force[..., s, :, :], acting.couple[..., s, :, :]
         end = xp.maximum(xp.max(own[0], axis=-1), xp.max(where, axis=-1))
-        bent = beams.bending_between(e, own, given, end)
-        pulled = beams.stretching_between(e, own[:2], given[:2], end, acting.cut.get(s))
-        soft = whole.bending[..., None, s, None], whole.stretching[..., None, s, None]
-        total = total + soft[0] * xp.sum(bent, axis=-1) + soft[1] * xp.sum(pulled, axis=-1)
+        for since, bending, stretching in stretches(whole.bending, whole.stretching, whole.stretch_start, s):
+            from_here = None if since is None else since[..., None]
+            bent = beams.bending_between(e, own, given, end, from_here)
+            pulled = beams.stretching_between(e, own[:2], given[:2], end, acting.cut.get(s), from_here)
+            total = total + bending[..., None, None] * xp.sum(bent, axis=-1)
+            total = total + stretching[..., None, None] * xp.sum(pulled, axis=-1)
     return total
 
 

@@ -6,6 +6,7 @@ couples across. Each is an action: a force and a couple on one shaft or, in a jo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -169,24 +170,41 @@ def balance(acting: Actions) -> Array:
     return xp.concat((rows, *behind), axis=-2)
 
 
-def shaft_flexibility(acting: Actions, bending: Array, stretching: Array) -> Array:
+def shaft_flexibility(acting: Actions, bending: Array, stretching: Array, stretch_start: Array | None = None) -> Array:
     """Return how shafts give way to the unknowns, array (..., u, u) [m/N].
 
     Parameters
     ----------
     acting : Actions
         The unknowns.
-    bending : array (..., n+1) [1/(N m²)]
-        1/EI of each shaft; 0 where it is rigid.
-    stretching : array (..., n+1) [1/N]
-        1/EA of each shaft; 0 where it is rigid.
+    bending : array (..., n+1, s) [1/(N m²)]
+        1/EI of each stretch of each shaft; 0 where it is rigid.
+    stretching : array (..., n+1, s) [1/N]
+        1/EA of each stretch of each shaft; 0 where it is rigid.
+    stretch_start : array (..., n+1, s) [m], optional
+        Where each stretch begins, from the beginning of its shaft.
     """
     xp = namespace(acting.force)
     total = 0.0
     for s in range(acting.axis.shape[-2]):
         parts = acting.axis[..., s, :], acting.place[..., s, :], acting.force[..., s, :, :]
         end = xp.max(acting.place[..., s, :], axis=-1)
-        bent = beams.bending(*parts, acting.couple[..., s, :, :], end)
-        pulled = beams.stretching(*parts, end, acting.cut.get(s))
-        total = total + bending[..., s, None, None] * bent + stretching[..., s, None, None] * pulled
+        for since, soft, slack in stretches(bending, stretching, stretch_start, s):
+            bent = beams.bending(*parts, acting.couple[..., s, :, :], end, since)
+            pulled = beams.stretching(*parts, end, acting.cut.get(s), since)
+            total = total + soft[..., None, None] * bent + slack[..., None, None] * pulled
     return total
+
+
+def stretches(
+    bending: Array, stretching: Array, stretch_start: Array | None, shaft: int
+) -> Iterator[tuple[Array | None, Array, Array]]:
+    """Yield from where on a shaft gives way by how much more than before: place, 1/EI and 1/EA, arrays (...).
+
+    A stepped shaft is a uniform one with the stiffness of its first stretch, plus what each step adds from there on.
+    """
+    yield None, bending[..., shaft, 0], stretching[..., shaft, 0]
+    for k in range(1, bending.shape[-1]):
+        assert stretch_start is not None
+        more = (values[..., shaft, k] - values[..., shaft, k - 1] for values in (bending, stretching))
+        yield stretch_start[..., shaft, k], *more

@@ -79,6 +79,29 @@ def chosen(model: TorsionalModel, lead: tuple[int, ...], rows: Array, *, moments
     return replace(model, torques=torques, input_speed=speed, **parts)
 
 
+def single(model: TorsionalModel, lead: tuple[int, ...], row: int) -> TorsionalModel:
+    """Return one drive of a model by itself, without leading axes; rows are counted through the axes.
+
+    Examples
+    --------
+    >>> from .torsional_model import torsional_line
+    >>> two = torsional_line([[1.0, 1.0]], stiffness=[[[5.0], [6.0]]])
+    >>> single(two, (2,), 1).stiffness
+    array([6.])
+    """
+    part = chosen(model, lead, np.asarray([row]), moments=False)
+
+    def bare(law: Law) -> Law:
+        return replace(law, **{name: value[0] for name, value in _own(law).items()})  # type: ignore[type-var]
+
+    return replace(
+        part,
+        torques=tuple(Torque(station=torque.station, law=bare(torque.law)) for torque in part.torques),
+        input_speed=None if part.input_speed is None else part.input_speed[0],
+        **{name: value[0] for name, value in _arrays(part).items()},
+    )
+
+
 def period_of(model: TorsionalModel) -> float:
     """Return the shaft angle after which the drive and all its torques repeat: π, 2π or 4π.
 

@@ -60,7 +60,7 @@ def _blocked(values: Values) -> Values:
     soft = [0.0, 0.0, 0.0, far, far, 1.0 / one["k_axial_far_N_m"], near, near]
     soft += [1.0 / two["k_radial_near_N_m"]] * 2 + [1.0 / two["k_radial_far_N_m"]] * 2 + [1.0 / two["k_axial_far_N_m"]]
     count = len(layout.unknowns)
-    body = [np.asarray([1.0 / shaft[key] for shaft in (one, two)]) for key in ("EI_Nm2", "EA")]
+    body = [np.asarray([[1.0 / shaft[key]] for shaft in (one, two)]) for key in ("EI_Nm2", "EA")]
     compliance = np.diag(soft[:count]) + shaft_flexibility(acting, *body)
     error = values["errors_mm_s1_a1_a2_a3_a4"][None] * mm
 

@@ -10,7 +10,23 @@ from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import accuracy, assembly, book, forces, joint_forces, kinematics, losses, moving, steady, synthesis
+from . import (
+    absorbers,
+    accuracy,
+    assembly,
+    book,
+    forces,
+    joint_forces,
+    kinematics,
+    losses,
+    moving,
+    run_up,
+    simulation,
+    steady,
+    straight_line,
+    synthesis,
+    varying,
+)
 from .calculation import Calculation, given
 
 
@@ -35,7 +51,23 @@ ERRORS = Call(
 
 CALCULATIONS: dict[str, Calculation] = {
     calculation.name: calculation
-    for part in (kinematics, synthesis, moving, forces, joint_forces, losses, assembly, accuracy, steady, book)
+    for part in (
+        kinematics,
+        synthesis,
+        varying,
+        moving,
+        forces,
+        joint_forces,
+        losses,
+        assembly,
+        accuracy,
+        straight_line,
+        steady,
+        absorbers,
+        run_up,
+        simulation,
+        book,
+    )
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
 """Name of the capability -> its calculation."""

@@ -36,7 +36,7 @@ class Grade(Row):
     density: float = quantity("density", 7850.0, doc="density", above=0.0)
     youngs: float = quantity("stress", 2.06e11, doc="Young's modulus", above=0.0)
     shear: float = quantity("stress", 7.92e10, doc="shear modulus", above=0.0)
-    poisson: float = plain(0.3, doc="Poisson's ratio", above=-1.0, below=0.5)
+    poisson: float = plain(0.3, doc="Poisson's ratio", low=0.0, below=0.5)
     yield_strength: float | None = quantity("stress", None, doc="yield strength or 0.2 % proof stress", above=0.0)
     ultimate_strength: float | None = quantity("stress", None, doc="tensile strength", above=0.0)
 

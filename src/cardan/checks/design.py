@@ -83,7 +83,7 @@ class Design:
         bend, twist = base.bend, base.plane_twist
         if self.drive.form == "points":
             points = np.broadcast_to(
-                np.asarray(geometry(self.drive).points), (*self.shape, len(self.drive.joints) + 2, 3)
+                np.asarray(geometry(self.drive).points, dtype=float), (*self.shape, len(self.drive.joints) + 2, 3)
             ).copy()
             for path, values in moved.items():
                 row = _row(path, len(self.drive.joints))
@@ -96,7 +96,7 @@ class Design:
             bend=self._over(bend, moved, r"joints\[(\d+)\]\.bend$", 0),
             plane_twist=self._over(twist, moved, r"joints\[(\d+)\]\.plane_twist$", 1),
             yoke_angle=self._over(base.yoke_angle, moved, r"shafts\[(\d+)\]\.yoke_angle$", 1),
-            start_phase=np.broadcast_to(moved.get("input.start_phase", base.start_phase), self.shape),
+            start_phase=np.broadcast_to(np.asarray(moved.get("input.start_phase", base.start_phase)), self.shape),
         )
 
     def _over(self, values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:

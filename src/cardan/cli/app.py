@@ -48,6 +48,7 @@ COMMANDS = {
         (
             "cardan forces truck.toml",
             "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
+            "cardan forces tractor.toml --movement all",
             "cardan forces truck.toml --plot forces.svg",
         ),
     ),

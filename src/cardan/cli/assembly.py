@@ -170,16 +170,16 @@ def _remarks(drive: Drive, file: Path, found: AssemblyForces) -> Iterator[Remark
                 len(found.rigid),
             )
             yield Remark(text=text.format(numbers=listed([number - 1 for number in found.rigid])))
-        yield _let_go(found)
+        yield _let_go(drive, found)
     if drive.duty.torque:
         yield Remark(text=_("What the torque itself loads:"), command=("cardan", "forces", str(file)), tone="next")
 
 
-def _let_go(found: AssemblyForces) -> Remark:
+def _let_go(drive: Drive, found: AssemblyForces) -> Remark:
     """Return what to let go, or that nothing can be."""
     from .answer import Remark
 
-    keys = _(" and ").join(f"{key} = false" for key in found.spare)
+    keys = _(" and ").join(_changes(drive, found.spare))
     if not found.kept:
         return Remark(text=_("Nothing can bind with {keys}.").format(keys=keys), tone="next")
     if not found.spare:
@@ -190,6 +190,17 @@ def _let_go(found: AssemblyForces) -> Remark:
     many = plural("{n} force", "{n} forces", found.kept).format(n=found.kept)
     text = _("With {keys} there are {many} too many still, and no other support can be let go without freeing a shaft.")
     return Remark(text=text.format(keys=keys, many=many), tone="next")
+
+
+def _changes(drive: Drive, spare: Sequence[str]) -> Iterator[str]:
+    """Yield what to write for holds to let go; a support that then holds nothing is taken away."""
+    for k, support in enumerate(drive.supports):
+        own = [hold for hold in ("radial", "axial", "tilt") if getattr(support, hold)]
+        gone = [hold for hold in own if f"supports[{k}].{hold}" in spare]
+        if gone and gone == own:
+            yield _("{support} taken away").format(support=f"supports[{k}]")
+        else:
+            yield from (f"supports[{k}].{hold} = false" for hold in gone)
 
 
 def _trace(found: AssemblyForces) -> Table:

@@ -41,7 +41,7 @@ def shaft_table(drive: Drive, found: Forces) -> Table:
     twice = harmonics(found.angle, tidy(found.shaft_torque)).amplitude[:, 2]
     rows = [
         (
-            named(shaft.number, shaft.name or _end(shaft.number, len(drive.shafts))),
+            named(shaft.number, shaft.name or end(shaft.number, len(drive.shafts))),
             float(torque.low[k]),
             float(torque.high[k]),
             float(tidy([twice[k], torque.high[k]])[0]),
@@ -61,7 +61,8 @@ def shaft_table(drive: Drive, found: Forces) -> Table:
     return Table(columns=columns, rows=rows)
 
 
-def _end(number: int, shafts: int) -> str:
+def end(number: int, shafts: int) -> str:
+    """Return what a shaft without a name is called."""
     return _("input") if number == 1 else _("output") if number == shafts else ""
 
 
@@ -132,7 +133,7 @@ def support_table(drive: Drive, found: Forces) -> Table:
 
     ways = both(found)
     across = [turn(one.angle, one.radial) for one in ways]
-    along = [turn(one.angle, _axial(one)) for one in ways]
+    along = [turn(one.angle, along_axis(one)) for one in ways]
     high = np.max([one.high for one in across], axis=0)
     low = np.min([one.low for one in across], axis=0)
     low = np.where(low <= ROUNDING * high, 0.0, low)
@@ -166,7 +167,7 @@ def support_table(drive: Drive, found: Forces) -> Table:
     return Table(columns=tuple(columns), rows=rows)
 
 
-def _axial(found: Forces) -> Any:
+def along_axis(found: Forces) -> Any:
     """Return the axial reactions; beside the radial ones, what is nothing but rounding is zero."""
     import numpy as np
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
+import typer
+
+from cardan.errors import refuse
 from cardan.texts import _
 
 from .asked import CurveAngle, CurveStep, TorqueNm
@@ -27,6 +30,15 @@ def forces(
     step: CurveStep = None,
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
+    movement: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--movement",
+            metavar="NAME",
+            help=_("Movement of the file that runs meanwhile: its name or number, or all; may be repeated."),
+            show_default=False,
+        ),
+    ] = None,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,
@@ -41,12 +53,19 @@ def forces(
     check_positions(angle, step)
     check_speed(speed_rpm)
     check_torque(torque)
-
-    from cardan.analysis.forces import forces as question
+    if movement and (angle or step is not None):
+        raise refuse("--movement", _("is followed in time; --angle-deg and --angle-step-deg are of a standing drive"))
 
     from .source import read
 
     drive = on_duty(read(file), speed_rpm, torque)
+    if movement:
+        from .moving_forces import answer as moving
+
+        return show(moving(drive, file, movement), json=json, csv=csv, plot=plot)
+
+    from cardan.analysis.forces import forces as question
+
     with keys_of(file):
         found = question(drive)
     curves = question(drive, angle=positions(angle, step or 1.0)) if angle or step else found
@@ -123,6 +142,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     import numpy as np
 
     from cardan.analysis.reactions import Held
+    from cardan.analysis.solving_order import reaction_groups
     from cardan.texts import plural
 
     from .answer import Remark, significant
@@ -136,6 +156,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
         yield Remark(text=text.format(held=held), tone="warning")
     if found.reaction is not None:
         yield Remark(text=_("Axial force is positive along the power flow; all forces act on the shaft."))
+        yield from _by_hand(reaction_groups(drive))
     thrust = float(np.max(np.abs(found.spline_thrust), initial=0.0))
     if thrust > 0.0:
         text = _("Friction in the spline thrusts with up to {size} N").format(size=significant(thrust))
@@ -160,6 +181,15 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
         yield Remark(text=text.format(file=file), tone="next")
     elif found.loss.any() and drive.duty.speed:
         yield Remark(text=_("Where the power goes:"), command=("cardan", "losses", str(file)), tone="next")
+
+
+def _by_hand(groups: Sequence[Sequence[int]]) -> Iterator[Remark]:
+    """Yield in which order the balances of the shafts can be solved, where they part."""
+    from .answer import Remark
+
+    if len(groups) > 1:
+        order = _(", then ").join(_(" and ").join(map(str, group)) for group in groups)
+        yield Remark(text=_("By hand the reactions follow from shaft {order}.").format(order=order))
 
 
 def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
@@ -248,6 +278,7 @@ def _trace(found: Forces) -> Table:
 def _content(drive: Drive, file: Path, found: Forces, curves: Forces) -> dict[str, Any]:
     from cardan.analysis.over_turn import harmonics
     from cardan.analysis.reactions import Held
+    from cardan.analysis.solving_order import reaction_groups
     from cardan.units import rpm
 
     from .asked import columns_of, tidy
@@ -268,6 +299,7 @@ def _content(drive: Drive, file: Path, found: Forces, curves: Forces) -> dict[st
         "status": Held(int(found.status)).name.lower(),
         "equations": found.equations,
         "unknowns": found.unknowns,
+        "solving_order": [list(group) for group in reaction_groups(drive)],
         "shafts": records(shaft_table(drive, found), [(one.number, one.name) for one in drive.shafts]),
         "torque_orders_Nm": [tidy(row) for row in torque.amplitude],
         "joints": records(joint_table(drive, found), [(i, one.name) for i, one in enumerate(drive.joints, 1)]),

@@ -16,6 +16,7 @@ from .movement import Movement
 from .pose import Pose
 from .settings import Settings
 from .shaft import Shaft
+from .station import Station
 from .support import Support
 
 Form: TypeAlias = Literal["points", "angles", "slopes"]
@@ -66,6 +67,7 @@ class Drive:
     joints: tuple[Joint, ...] = plain(doc="the joints in the order of the power flow")
     shafts: tuple[Shaft, ...] = plain((), doc="the shafts, any of them, by their number")
     supports: tuple[Support, ...] = plain((), doc="bearings that hold the shafts in the housing")
+    stations: tuple[Station, ...] = plain((), doc="masses that turn with the shafts, beside those of the shafts")
     duty: Duty = plain(Duty(), doc="what the drive does")
     limits: Limits = plain(Limits(), doc="limits over the built-in ones")
     movements: tuple[Movement, ...] = plain((), doc="how the points of the drive move")

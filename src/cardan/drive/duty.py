@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
+from .machine import Engine, MachineTorque, RunUp
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Harmonic:
@@ -67,6 +69,9 @@ class Duty:
         "angular_speed", None, doc="lowest and highest input speed in use [low, high], either way round", low=0.0
     )
     acceleration: float = quantity("angular_acceleration", 0.0, doc="input angular acceleration")
+    application: str = plain(
+        "automotive", doc="trade whose rules hold, where makers have two", choices=("automotive", "industrial")
+    )
     torque: float | None = quantity(
         "torque",
         None,
@@ -80,13 +85,25 @@ class Duty:
     reliability: float = quantity("share", 0.9, doc="share of parts that reach the life", low=0.5, high=0.99999)
     continuous: bool = plain(True, doc="whether the drive runs for long at a time")
     synchronous: bool = plain(False, doc="whether the output must turn evenly")
-    application: str = plain("industrial", doc="trade whose rules hold", choices=("automotive", "industrial"))
     blocks: tuple[Block, ...] = plain((), doc="duty cycle, in parts that make up the whole time")
     torque_history: str = plain("", doc="CSV file with the columns time_s and torque_Nm, measured at the output")
     vehicle: Vehicle | None = plain(None, doc="what drives the shaft of a vehicle, and what its wheels can pass on")
     upkeep: Upkeep | None = plain(None, doc="use since the last service")
     balance_grade: str = plain("", doc="balance grade that the shafts are to keep, as G16")
     balance_class: str = plain("", doc="vehicle of the book's balance norms, as gaz_66")
+    input: str | None = plain(
+        None,
+        doc="whether the input turns evenly at its speed, or freely as torques make it; free when not given and an "
+        "engine, a motor or a torque on the input drives it",
+        choices=("uniform", "free"),
+    )
+    engine: Engine | None = plain(None, doc="piston engine on the input shaft")
+    motor: MachineTorque | None = plain(None, doc="motor on the input shaft; its torque drives")
+    load: MachineTorque | None = plain(
+        None, doc="machine on the output shaft, for torsional vibration in place of `torque`; positive when it resists"
+    )
+    torques: tuple[MachineTorque, ...] = plain((), doc="further torques on stations, positive with the rotation")
+    run_up: RunUp | None = plain(None, doc="change of the input speed at a steady rate")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -81,7 +81,8 @@ def _with_vectors(other: Drive, old: Geometry) -> Drive:
         return x, y, z
 
     supports = tuple(replace(s, offset=turned(s.offset)) if any(s.offset) else s for s in other.supports)
-    if not any(s.mass or s.outer for s in other.shafts) and not any(j.cross and j.cross.mass for j in other.joints):
+    heavy = any(s.mass or s.has_body or s.masses for s in other.shafts)
+    if not heavy and not any(j.cross and j.cross.mass for j in other.joints):
         return replace(other, supports=supports)
     return replace(other, supports=supports, settings=replace(other.settings, gravity=turned(other.settings.gravity)))
 

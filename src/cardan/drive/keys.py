@@ -13,10 +13,15 @@ from cardan.units import DIMENSIONS, KEY, Key, preferred
 
 from .drive import Drive
 from .joints import JOINTS, Joint
+from .machine import LAWS, MachineTorque
 from .material import Material
 from .movement import MOVEMENTS, Movement
 
-KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {Joint: (JOINTS, "hooke"), Movement: (MOVEMENTS, None)}
+KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {
+    Joint: (JOINTS, "hooke"),
+    Movement: (MOVEMENTS, None),
+    MachineTorque: (LAWS, None),
+}
 """Base class -> its kinds by the value of the key ``kind``, and the default kind."""
 
 NAMED: dict[type, str] = {Material: "grade"}

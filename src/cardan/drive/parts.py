@@ -10,6 +10,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import mm, rpm
 
+from .body import body_problems
 from .joints import Joint
 from .shaft import Shaft
 from .support import Support
@@ -28,13 +29,17 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
     length = known_lengths(drive)
     for shaft in drive.shafts:
         if shaft.number <= len(drive.joints) + 1:
-            yield from _body(shaft, f"shafts[{shaft.number - 1}]")
-            yield from _spline(shaft, length.get(shaft.number), f"shafts[{shaft.number - 1}].spline")
+            path = f"shafts[{shaft.number - 1}]"
+            yield from _body(shaft, path)
+            yield from body_problems(shaft, length.get(shaft.number), path)
+            for k, lump in enumerate(shaft.masses):
+                yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
+            yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
     between = drive.duty.speed_range
-    if between is not None and between[0] > between[1]:
-        text = _("its first speed, {low:.6g} rpm, is above its second, {high:.6g} rpm")
+    if between is not None and between[0] >= between[1]:
+        text = _("its first speed, {low:.6g} rpm, is not below its second, {high:.6g} rpm")
         yield Problem("duty.speed_range", text.format(low=between[0] / rpm, high=between[1] / rpm))
     if drive.duty.torque is None:
         for name, there in (("harmonics", drive.duty.harmonics), ("torque_at", drive.duty.torque_at != "output")):
@@ -78,7 +83,7 @@ def _body(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.inner", _("is not less than the outer diameter"))
     elif shaft.wall is not None and 2.0 * shaft.wall > shaft.outer:
         yield Problem(f"{path}.wall", _("is more than half the outer diameter"))
-    if shaft.centre_of_mass is not None and shaft.mass is None and shaft.outer is None:
+    if shaft.centre_of_mass is not None and shaft.mass is None and not shaft.has_body:
         yield Problem(f"{path}.centre_of_mass", _("the shaft has no mass: give its mass or its body"))
 
 
@@ -92,21 +97,12 @@ def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:
         for name, there in (("sliding", spline.sliding != "both"), ("pressure_angle", spline.pressure_angle != 0.0)):
             if there:
                 yield Problem(f"{path}.{name}", _("counts only with friction, which is not given"))
-    if spline.position is not None and not _inside(spline.position, length):
-        yield Problem(f"{path}.position", _outside(spline.position, shaft.number, length))
+    if spline.position is not None and not inside(spline.position, length):
+        yield Problem(f"{path}.position", outside(spline.position, shaft.number, length))
 
 
 def _support(support: Support, joints: int, length: dict[int, float], path: str) -> Iterator[Problem]:
-    number, position = support.shaft, support.position
-    if number > joints + 1:
-        text = _("there is no shaft {number}; the shafts are 1 to {last}")
-        yield Problem(f"{path}.shaft", text.format(number=number, last=joints + 1))
-    elif number == 1:
-        if position > 0.0:
-            text = _("{position:.6g} mm lies behind joint 1; on the input shaft positions are zero or negative")
-            yield Problem(f"{path}.position", text.format(position=position / mm))
-    elif not _inside(position, length.get(number)):
-        yield Problem(f"{path}.position", _outside(position, number, length.get(number)))
+    yield from place_problems(support.shaft, support.position, joints, length, path)
     if not (support.radial or support.axial or support.tilt):
         yield Problem(f"{path}.radial", _("a support that holds neither radial nor axial nor tilt is none"))
     for name, needs, there in (
@@ -120,13 +116,32 @@ def _support(support: Support, joints: int, length: dict[int, float], path: str)
         yield Problem(f"{path}.bore", _("missing: friction acts at the bore"))
 
 
-def _inside(position: float, length: float | None) -> bool:
+def place_problems(
+    number: int, position: float | None, joints: int, length: dict[int, float], path: str
+) -> Iterator[Problem]:
+    """Yield a shaft that is not there, and a place that is not on it."""
+    if number > joints + 1:
+        text = _("there is no shaft {number}; the shafts are 1 to {last}")
+        yield Problem(f"{path}.shaft", text.format(number=number, last=joints + 1))
+    elif position is None:
+        return
+    elif number == 1:
+        if position > 0.0:
+            text = _("{position:.6g} mm lies behind joint 1; on the input shaft positions are zero or negative")
+            yield Problem(f"{path}.position", text.format(position=position / mm))
+    elif not inside(position, length.get(number)):
+        yield Problem(f"{path}.position", outside(position, number, length.get(number)))
+
+
+def inside(position: float, length: float | None) -> bool:
+    """Tell whether a place lies on a shaft behind a joint, whose length may not be known."""
     if length is None:
         return not position < 0.0
     return not (position < 0.0 or position > length * (1.0 + ROUNDING))
 
 
-def _outside(position: float, number: int, length: float | None) -> str:
+def outside(position: float, number: int, length: float | None) -> str:
+    """Return what to say of a place that does not lie on its shaft."""
     if length is None:
         text = _("{position:.6g} mm is outside shaft {number}, which begins at 0")
         return text.format(position=position / mm, number=number)

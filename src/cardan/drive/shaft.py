@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
+from .body import Lump, Segment
 from .material import Material
 
 
@@ -33,6 +34,10 @@ class Spline:
         doc="pressure angle of the teeth where `friction` is that of the materials; 0 where it is a reduced one",
         low=0.0,
         below=1.57,
+    )
+    backlash: float = quantity("angle", 0.0, doc="whole angular play of the teeth", low=0.0)
+    stiffness: float | None = quantity(
+        "turning_stiffness", None, doc="torsional stiffness of the teeth; rigid when not given", above=0.0
     )
     sliding: str = plain(
         "both",
@@ -113,6 +118,16 @@ class Shaft:
     inner: float | None = quantity("length", None, doc="inner diameter of a tube", low=0.0)
     wall: float | None = quantity("length", None, doc="thickness of the wall of a tube", above=0.0)
     material: Material | None = plain(None, doc="material; steel when not given")
+    segments: tuple[Segment, ...] = plain(
+        (), doc="stretches of a stepped body from start to end, in place of `outer`; they add up to the shaft's length"
+    )
+    masses: tuple[Lump, ...] = plain((), doc="yokes, flanges and other parts on the shaft, beside its body")
+    wear_factor: float | None = plain(
+        None,
+        doc="critical speed of the real shaft over the computed one; 0.9 with a spline and 1 without when not given",
+        above=0.0,
+        high=1.0,
+    )
     mass: float | None = quantity("mass", None, doc="mass, in place of that of the body", low=0.0)
     centre_of_mass: float | None = quantity(
         "length",
@@ -128,6 +143,16 @@ class Shaft:
         doc="moment of inertia about an axis across through the centre of mass, in place of that of the body",
         low=0.0,
     )
+    stiffness: float | None = quantity(
+        "turning_stiffness",
+        None,
+        doc="torsional stiffness from end to end, its spline included, in place of that of the body",
+        above=0.0,
+    )
+    damping: float | None = quantity("turning_damping", None, doc="torsional damping from end to end", low=0.0)
+    loss_factor: float | None = plain(
+        None, doc="structural damping η: the energy lost in a radian of vibration over the greatest stored", low=0.0
+    )
     resisting_torque: float = quantity(
         "torque", 0.0, doc="torque that resists the turning of this shaft beside the load of the drive"
     )
@@ -141,3 +166,8 @@ class Shaft:
     layup: Layup | None = plain(None, doc="plies of a tube of fibre composite, in place of its material")
     unbalance: tuple[Unbalance, ...] = plain((), doc="unbalances measured or allowed on the shaft")
     runout: float | None = quantity("length", None, doc="run-out of the tube", low=0.0)
+
+    @property
+    def has_body(self) -> bool:
+        """Whether the drive says what the shaft looks like between its ends."""
+        return self.outer is not None or bool(self.segments)

@@ -14,11 +14,11 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .accuracy import Error
+from .body import body_length, softness, weight
 from .chain import Chain, chain
 from .drive import Drive
 from .geometry import Geometry, geometry, geometry_from_points
 from .joints import Joint
-from .material import Material
 from .parts import known_lengths
 from .shaft import Shaft
 from .support import Support
@@ -87,10 +87,12 @@ class Train:
         Of each support: radial, axial, against tilting; nan where it is not given.
     offset : array (..., k, 3) [m]
         How far the housing of each support is off.
-    bending : array (..., n+1) [1/(N m²)]
-        1/EI of each shaft; zero where it counts as rigid.
-    stretching : array (..., n+1) [1/N]
-        1/EA of each shaft; zero where it counts as rigid.
+    stretch_start : array (..., n+1, s) [m]
+        Where each stretch of the shafts begins, from the beginning of the shaft; the first reaches back beyond it.
+    bending : array (..., n+1, s) [1/(N m²)]
+        1/EI of each stretch; zero where it counts as rigid.
+    stretching : array (..., n+1, s) [1/N]
+        1/EA of each stretch; zero where it counts as rigid.
     error : array (..., n, 5) [m]
         Errors of length of each joint: s_1, a_1, a_2, a_3, a_4.
     assumed : tuple of str
@@ -119,6 +121,7 @@ class Train:
     sliding: Array | None = None
     stiffness: Array | None = None
     offset: Array | None = None
+    stretch_start: Array | None = None
     bending: Array | None = None
     stretching: Array | None = None
     error: Array | None = None
@@ -209,7 +212,7 @@ def train(drive: Drive) -> Train:
         )
     length = [float(one) for one in place.length]
     assumed = [*place.assumed]
-    bodies = [_body(shaft, _body_length(shaft, known)) for shaft in drive.shafts]
+    bodies = [weight(shaft, body_length(shaft, known.get(shaft.number))) for shaft in drive.shafts]
     for shaft, (_mass, inertia, _across, _centre) in zip(drive.shafts, bodies, strict=True):
         if inertia is None:
             assumed.append(f"shafts[{shaft.number - 1}].inertia")
@@ -245,8 +248,7 @@ def train(drive: Drive) -> Train:
         sliding=np.asarray([SLIDING[shaft.spline.sliding] for shaft in splined if shaft.spline is not None]),
         stiffness=np.asarray([_stiffness(support) for support in drive.supports]),
         offset=np.asarray([support.offset for support in drive.supports]),
-        bending=np.asarray([soft[0] for soft in map(_softness, drive.shafts)]),
-        stretching=np.asarray([soft[1] for soft in map(_softness, drive.shafts)]),
+        **_stretches(drive, known, length),
         error=lengths_off([joint.error for joint in drive.joints]),
         assumed=tuple(assumed),
     )
@@ -269,20 +271,19 @@ def _stiffness(support: Support) -> list[float]:
     return [math.nan if one is None else one for one in given]
 
 
-def _inner(shaft: Shaft) -> float:
-    """Return the inner diameter of a body [m]."""
-    if shaft.outer is None or shaft.inner is not None:
-        return shaft.inner or 0.0
-    return shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
-
-
-def _softness(shaft: Shaft) -> tuple[float, float]:
-    """Return 1/EI and 1/EA of a shaft, zero where its body is not given."""
-    if shaft.outer is None:
-        return 0.0, 0.0
-    youngs, inner = (shaft.material or Material()).youngs, _inner(shaft)
-    area = 0.25 * math.pi * (shaft.outer**2 - inner**2)
-    return 64.0 / (math.pi * youngs * (shaft.outer**4 - inner**4)), 1.0 / (youngs * area)
+def _stretches(drive: Drive, known: dict[int, float], length: Sequence[float]) -> dict[str, Array]:
+    """Return how the shafts give way, all with as many stretches as the one with most: its last stands for the rest."""
+    soft = []
+    for shaft in drive.shafts:
+        body = body_length(shaft, known.get(shaft.number))
+        one = softness(shaft, body)
+        origin = length[0] - body if shaft.number == 1 and body is not None else 0.0
+        soft.append((tuple(start + origin for start in one.start), one.bending, one.stretching))
+    most = max(len(one[0]) for one in soft)
+    names = ("stretch_start", "bending", "stretching")
+    return {
+        name: np.asarray([one[k] + one[k][-1:] * (most - len(one[k])) for one in soft]) for k, name in enumerate(names)
+    }
 
 
 def _numbers(values: list[float | None]) -> Array:
@@ -331,34 +332,11 @@ def _drag(joint: Joint) -> float:
     return reduced * cross.journal / cross.span
 
 
-def _body_length(shaft: Shaft, known: dict[int, float]) -> float | None:
-    return known.get(shaft.number, shaft.length)
-
-
-def _body(shaft: Shaft, length: float | None) -> tuple[float | None, float | None, float | None, float | None]:
-    """Return mass, inertia about the axis, inertia across and centre of mass; None where neither given nor derived."""
-    mass = inertia = across = centre = None
-    if shaft.outer is not None and length is not None:
-        inner = _inner(shaft)
-        density = (shaft.material or Material()).density
-        mass = 0.25 * math.pi * density * (shaft.outer**2 - inner**2) * length
-        square = shaft.outer**2 + inner**2
-        inertia = mass * square / 8.0
-        across = mass * (square / 16.0 + length**2 / 12.0)
-        centre = -0.5 * length if shaft.number == 1 else 0.5 * length
-    given = shaft.mass, shaft.inertia, shaft.transverse_inertia, shaft.centre_of_mass
-    derived = mass, inertia, across, centre
-    mass, inertia, across, centre = (two if one is None else one for one, two in zip(given, derived, strict=True))
-    if mass and centre is None and length is not None:
-        centre = -0.5 * length if shaft.number == 1 else 0.5 * length
-    return mass, inertia, across, centre
-
-
 def mass_problems(drive: Drive) -> Iterator[Problem]:
     """Yield end shafts whose weight stands nowhere: their mass is given and its place is not."""
     known = known_lengths(drive)
     for shaft in drive.shafts:
-        if shaft.mass and shaft.centre_of_mass is None and _body_length(shaft, known) is None:
+        if shaft.mass and shaft.centre_of_mass is None and body_length(shaft, known.get(shaft.number)) is None:
             yield Problem(
                 f"shafts[{shaft.number - 1}].centre_of_mass",
                 _("missing; the shaft has a mass, and the balance of moments needs its place"),

@@ -13,6 +13,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import KEY, Key, factor, label, preferred
 
+from .line_validity import line_problems
 from .parts import part_problems
 from .shaft import Shaft
 
@@ -209,6 +210,7 @@ def problems(drive: Drive) -> Iterator[Problem]:
         *_place_problems(drive),
         *movement_problems(drive.movements, n),
         *part_problems(drive),
+        *line_problems(drive),
         *_unused(drive),
     ]
     yield from found

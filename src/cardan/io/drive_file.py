@@ -14,7 +14,7 @@ from cardan.files import write_text
 from cardan.texts import _
 
 from .reader import drive_from_tree
-from .shifts import keep_shifts
+from .shifts import keep_rows
 from .writer import toml_text, tree_of
 
 MAX_BYTES = 20_000_000
@@ -131,8 +131,8 @@ def save(thing: Any, path: str | Path) -> None:
     Parameters
     ----------
     thing : Drive or result
-        A drive is written as ``.toml`` or ``.json``, with the CSV files of its table movements beside it where there
-        are none yet; a result in one of the formats of `cardan.io.formats`.
+        A drive is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where there are none
+        yet; a result in one of the formats of `cardan.io.formats`.
     path : str or Path
         Replaced as a whole or not at all.
 
@@ -159,7 +159,7 @@ def save(thing: Any, path: str | Path) -> None:
     if form not in ("toml", "json"):
         raise refuse(str(where), _("a drive is saved as .toml or .json"))
     text = dumps(thing, form=form)
-    keep_shifts(thing.movements, where.parent)
+    keep_rows(thing, where.parent)
     write_text(where, text)
 
 

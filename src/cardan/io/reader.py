@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, is_dataclass
+from dataclasses import dataclass, field, is_dataclass, replace
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
 from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
+from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
 from cardan.drive.validity import MAX_JOINTS, in_range, out_of_range
@@ -18,7 +19,7 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from .hints import meant, unknown
-from .shifts import read_shifts
+from .shifts import read_shifts, read_torques
 
 _MISSING = object()
 
@@ -85,7 +86,7 @@ def drive_from_tree(tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Dri
     tree : mapping
         The file as nested tables.
     folder : Path
-        Where the CSV files of table movements are looked for.
+        Where the CSV files that it names are looked for.
 
     Raises
     ------
@@ -245,7 +246,7 @@ def _shaft_index(item: Any, k: int) -> int:
 
 
 def _kind(base: Any, value: Any, written: str, path: str, found: Findings) -> Any:
-    """Return a joint or movement of the class that its key ``kind`` names; of the base class if it names none."""
+    """Return a joint, movement or torque of the class that its ``kind`` names; of the base class if it names none."""
     kinds, default = KINDS[base]
     if not _is_table(value, written, path, found):
         return _blank(base)
@@ -253,7 +254,7 @@ def _kind(base: Any, value: Any, written: str, path: str, found: Findings) -> An
     rest = {key: item for key, item in value.items() if key != "kind"}
     if isinstance(name, str) and name in kinds:
         thing = kinds[name](**_values(kinds[name], rest, written, path, found))
-        return _with_rows(thing, written, path, found) if isinstance(thing, Table) else thing
+        return _with_rows(thing, written, path, found) if isinstance(thing, Table | TorqueHistory) else thing
     if name is None:
         message = _("missing; one of {kinds}").format(kinds=", ".join(kinds))
     else:
@@ -268,17 +269,20 @@ def _kind(base: Any, value: Any, written: str, path: str, found: Findings) -> An
     return base(**_values(base, owned, written, path, found))
 
 
-def _with_rows(movement: Table, written: str, path: str, found: Findings) -> Table:
-    """Return a table movement with the rows of its CSV file."""
+def _with_rows(thing: Table | TorqueHistory, written: str, path: str, found: Findings) -> Table | TorqueHistory:
+    """Return a movement or a torque with the rows of its CSV file."""
     if f"{path}.file" in found.doubtful:
-        return movement
+        return thing
     try:
-        times, shifts = read_shifts(found.folder / movement.file)
+        if isinstance(thing, TorqueHistory):
+            times, torques = read_torques(found.folder / thing.file)
+            return replace(thing, times=times, torques=torques)
+        times, shifts = read_shifts(found.folder / thing.file)
+        return replace(thing, times=times, shifts=shifts)
     except InputError as error:
         for problem in error.problems:
             found.refuse(f"{written}.file", f"{problem.field} {problem.message}", f"{path}.file")
-        return movement
-    return Table(name=movement.name, moves=movement.moves, file=movement.file, times=times, shifts=shifts)
+        return thing
 
 
 def _changes(value: Any, written: str, path: str, found: Findings) -> Any:

@@ -7,6 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.accuracy import Cost, Error, Tolerance
+from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Block, Duty, Harmonic, Limits, Upkeep, Vehicle
@@ -14,11 +15,13 @@ from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS
 from cardan.drive.keys import NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
+from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.drive.validity import allowed
 from cardan.units import DIMENSIONS
@@ -42,17 +45,27 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`cost` of tolerances", Cost),
     ("`[[shafts]]`", Shaft),
     ("`material`", Material),
+    ("`segments` of a shaft", Segment),
+    ("`masses` of a shaft", Lump),
     ("`spline` of a shaft", Spline),
     ("`notch` of a shaft", Notch),
     ("`layup` of a shaft", Layup),
     ("`ply` of a layup", Ply),
     ("`unbalance` of a shaft", Unbalance),
     ("`[[supports]]`", Support),
+    ("`[[stations]]`", Station),
+    ("`to_next` of a station", ToNext),
+    ("`absorber` of a station", Absorber),
+    ("`pendulum` of a station", Pendulum),
     ("`[duty]`", Duty),
     ("`harmonics` of the duty", Harmonic),
     ("`blocks` of the duty", Block),
     ("`vehicle` of the duty", Vehicle),
     ("`upkeep` of the duty", Upkeep),
+    ("`engine` of the duty", Engine),
+    ("`harmonics` of an engine", EngineHarmonic),
+    *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
+    ("`run_up` of the duty", RunUp),
     ("`[limits]`", Limits),
     *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
     ("`spectrum` of a random movement", Spectrum),

@@ -10,6 +10,7 @@ from typing import Any
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.keys import NAMED, Field, exact_in_unit, fields_of, in_unit
+from cardan.drive.machine import MachineTorque
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.units import DIMENSIONS
@@ -38,7 +39,7 @@ def written(value: float, dimension: str) -> tuple[str, float]:
 
 def _table(thing: Any) -> dict[str, Any]:
     table: dict[str, Any] = {}
-    if isinstance(thing, Movement) or (isinstance(thing, Joint) and thing.kind != "hooke"):
+    if isinstance(thing, Movement | MachineTorque) or (isinstance(thing, Joint) and thing.kind != "hooke"):
         table["kind"] = thing.kind
     for one in fields_of(type(thing)).values():
         value = getattr(thing, one.name)

@@ -6,7 +6,7 @@ from .arrays import Array, namespace
 from .frames import cross
 
 
-def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array) -> Array:
+def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array, since: Array | None = None) -> Array:
     """Return the bending flexibilities of a beam of unit stiffness between its loads.
 
     Parameters
@@ -19,6 +19,8 @@ def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array) 
         Force and couple of each load for a unit of its amount; what lies along the axis does not bend.
     end : array (...) [m]
         Any place behind all loads.
+    since : array (...) [m], optional
+        Only what lies behind this place bends.
 
     Returns
     -------
@@ -42,11 +44,15 @@ def bending(axis: Array, place: Array, force: Array, couple: Array, end: Array) 
     8.0
     """
     loads = place, force, couple
-    return bending_between(axis, loads, loads, end)
+    return bending_between(axis, loads, loads, end, since)
 
 
 def bending_between(
-    axis: Array, one: tuple[Array, Array, Array], other: tuple[Array, Array, Array], end: Array
+    axis: Array,
+    one: tuple[Array, Array, Array],
+    other: tuple[Array, Array, Array],
+    end: Array,
+    since: Array | None = None,
 ) -> Array:
     """Return the bending flexibilities between two sets of loads, array (..., u, w); see `bending`.
 
@@ -58,6 +64,8 @@ def bending_between(
         Places, forces and couples of each set.
     end : array (...) [m]
         Any place behind all loads.
+    since : array (...) [m], optional
+        Only what lies behind this place bends.
     """
     xp = namespace(axis, *one, *other)
     e = axis[..., None, :]
@@ -70,19 +78,29 @@ def bending_between(
     t1, m1, turned1 = parts(one[1], one[2])
     t2, m2, turned2 = parts(other[1], other[2])
     first, second = one[0][..., :, None], other[0][..., None, :]
-    start = xp.maximum(first, second)
-    h = end[..., None, None] - start
+    start = _from(xp.maximum(first, second), since)
+    h = xp.maximum(end[..., None, None] - start, 0.0 * start)
 
     def products(a: Array, b: Array) -> Array:
         return xp.matmul(a, xp.matrix_transpose(b))
 
-    forces = products(t1, t2) * (h**3 / 3.0 + xp.abs(first - second) * h**2 / 2.0)
-    mixed = products(m1, turned2) * (h**2 / 2.0 + (start - second) * h)
-    mixed = mixed + products(turned1, m2) * (h**2 / 2.0 + (start - first) * h)
+    before = start - first, start - second
+    forces = products(t1, t2) * (h**3 / 3.0 + (before[0] + before[1]) * h**2 / 2.0 + before[0] * before[1] * h)
+    mixed = products(m1, turned2) * (h**2 / 2.0 + before[1] * h)
+    mixed = mixed + products(turned1, m2) * (h**2 / 2.0 + before[0] * h)
     return forces - mixed + products(m1, m2) * h
 
 
-def stretching(axis: Array, place: Array, force: Array, end: Array, cut: Array | None = None) -> Array:
+def _from(start: Array, since: Array | None) -> Array:
+    """Return where two loads act together, array (..., u, w), no earlier than a place."""
+    if since is None:
+        return start
+    return namespace(start).maximum(start, since[..., None, None] + 0.0 * start)
+
+
+def stretching(
+    axis: Array, place: Array, force: Array, end: Array, cut: Array | None = None, since: Array | None = None
+) -> Array:
     """Return the axial flexibilities of a beam of unit stiffness between its loads.
 
     Parameters
@@ -97,6 +115,8 @@ def stretching(axis: Array, place: Array, force: Array, end: Array, cut: Array |
         Any place behind all loads.
     cut : array (...) [m], optional
         Place of a joint that slides freely: no axial force passes it.
+    since : array (...) [m], optional
+        Only what lies behind this place stretches.
 
     Returns
     -------
@@ -112,11 +132,16 @@ def stretching(axis: Array, place: Array, force: Array, end: Array, cut: Array |
     1.5
     """
     loads = place, force
-    return stretching_between(axis, loads, loads, end, cut)
+    return stretching_between(axis, loads, loads, end, cut, since)
 
 
 def stretching_between(
-    axis: Array, one: tuple[Array, Array], other: tuple[Array, Array], end: Array, cut: Array | None = None
+    axis: Array,
+    one: tuple[Array, Array],
+    other: tuple[Array, Array],
+    end: Array,
+    cut: Array | None = None,
+    since: Array | None = None,
 ) -> Array:
     """Return the axial flexibilities between two sets of loads, array (..., u, w); see `stretching`.
 
@@ -130,16 +155,19 @@ def stretching_between(
         Any place behind all loads.
     cut : array (...) [m], optional
         Place of a joint that slides freely.
+    since : array (...) [m], optional
+        Only what lies behind this place stretches.
     """
     xp = namespace(axis, *one, *other)
     along = [xp.sum(force * axis[..., None, :], axis=-1) for _place, force in (one, other)]
-    start = xp.maximum(one[0][..., :, None], other[0][..., None, :])
+    start = _from(xp.maximum(one[0][..., :, None], other[0][..., None, :]), since)
     last = end[..., None, None]
     if cut is None:
-        length = last - start
+        length = xp.maximum(last - start, 0.0 * start)
     else:
         divide = cut[..., None, None]
         before = [place < cut[..., None] for place, _force in (one, other)]
         same = before[0][..., :, None] == before[1][..., None, :]
         length = xp.where(same, xp.where(before[0][..., :, None], divide, last) - start, 0.0)
+        length = xp.maximum(length, 0.0 * length)
     return along[0][..., :, None] * along[1][..., None, :] * length

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Array
-from .rotor_beams import Line, layout, matrices
+from .beam_elements import beam_stiffness, matrices
+from .rotor_beams import Line, layout
 
 
 def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
@@ -118,3 +119,54 @@ def synchronous(whole: Line, count: int, *, spinning: bool = True) -> Modes:
     largest = np.take_along_axis(deflection, place, axis=-1)
     largest = np.where(largest == 0.0, 1.0, largest)
     return Modes(speed=np.sqrt(roots), deflection=deflection / largest, slope=slope / largest)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Strain:
+    """Where the energy of modes sits while they are bent most; all parts of a mode add up to 1.
+
+    Attributes
+    ----------
+    beams : array (..., m, e)
+        In each beam.
+    springs : array (..., m, e+1)
+        In the spring of each node.
+    tilt_springs : array (..., m, s)
+        In the spring of each slope.
+    """
+
+    beams: Array
+    springs: Array
+    tilt_springs: Array
+
+
+def strain(whole: Line, modes: Modes) -> Strain:
+    """Return where the energy of modes sits.
+
+    Parameters
+    ----------
+    whole : Line
+        The line of the modes.
+    modes : Modes
+        As `synchronous` found them.
+
+    Returns
+    -------
+    Strain
+
+    Examples
+    --------
+    >>> from cardan.maths.rotor_beams import divided, line
+    >>> beam = divided(line(1.0, 1e6, 1.0, spring=[3.0, 1.0]), [8])
+    >>> print(strain(beam, synchronous(beam, 1)).springs.sum().round(3))
+    1.0
+    """
+    at = layout(whole)
+    full = np.empty((*modes.deflection.shape[:-1], len(at.deflection) + len(at.slope)))
+    full[..., at.deflection], full[..., at.slope] = modes.deflection, modes.slope
+    ends = full[..., at.element]
+    beams = np.einsum("...mei,...eij,...mej->...me", ends, beam_stiffness(whole), ends)
+    springs = whole.spring[..., None, :] * modes.deflection**2
+    tilts = whole.tilt_spring[..., None, :] * modes.slope**2
+    total = (np.sum(beams, axis=-1) + np.sum(springs, axis=-1) + np.sum(tilts, axis=-1))[..., None]
+    return Strain(beams=beams / total, springs=springs / total, tilt_springs=tilts / total)

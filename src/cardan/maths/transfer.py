@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from .arrays import Array, ArrayLike
-from .rotor_beams import Line, assembled, divided, matrices, rigid_motions
+from .beam_elements import assembled, matrices
+from .rotor_beams import Line, divided, rigid_motions
 
 CLAMPED = 0.5
 """Pieces are so short that (speed over lowest frequency with both ends clamped)² stays below this."""

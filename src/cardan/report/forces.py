@@ -8,11 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.analysis.forces import Forces, forces
+from cardan.analysis.moving_forces import moving_forces
 from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.force_arrows import loads_figures, senses, worst
 from cardan.figures.forces import reactions_figure, torques_figure
+from cardan.figures.moving_forces import moving_forces_figures
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.maths import frames
@@ -51,6 +53,7 @@ def carrying(on: Subject) -> Page | None:
     if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
         text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
         remark = [Words(text=text, tone="warning")]
+    moved = _moving(on.drive)
     blocks = [
         *remark,
         Picture(figure=turned),
@@ -58,6 +61,7 @@ def carrying(on: Subject) -> Page | None:
         *(Picture(figure=drawn) for drawn in loads_figures(found, on.drive)),
         Picture(figure=held),
         _supports(on.drive, found),
+        *moved[0],
         _checks(found),
     ]
     return Page(
@@ -65,8 +69,25 @@ def carrying(on: Subject) -> Page | None:
         title=_("Forces"),
         answer=_answer(on.drive, found),
         blocks=blocks,
-        keys=list(_keys(on.drive, found)),
+        keys=[*_keys(on.drive, found), *moved[1]],
     )
+
+
+def _moving(drive: Drive) -> tuple[list[Block], list[list[Cell]]]:
+    """Return what the supports take while the drive moves, and its row of the first page; nothing where it stands."""
+    if not drive.movements or not drive.duty.speed:
+        return [], []
+    try:
+        found = moving_forces(drive)
+    except InputError as error:
+        text = _("Forces while the drive moves are not reckoned: {first}")
+        problem = error.problems[0]
+        return [Words(text=text.format(first=f"{problem.field}: {problem.message}"), tone="warning")], []
+    most = found.extreme(found.reaction_size)
+    k = int(np.argmax(most.high))
+    figures = moving_forces_figures(found, [one.name for one in drive.supports])
+    name = _("the same while moving, {name}").format(name=_called(drive, k))
+    return [Picture(figure=figure) for figure in figures], [key(name, float(most.high[k]), "N")]
 
 
 def _keys(drive: Drive, found: Forces) -> Iterator[list[Cell]]:

@@ -50,6 +50,7 @@ class Joint:
         doc="how plain journals bear: new (evenly pressed) or run in (pressed as a cosine)",
         choices=("new", "run_in"),
     )
+    backlash: float = quantity("angle", 0.0, doc="whole angular play, as its driving shaft feels it", low=0.0)
     cross: Cross | None = plain(None, doc="cross of the joint")
     needles: Needles | None = plain(None, doc="needle bearings of the cross")
     yoke: Yoke | None = plain(None, doc="yokes of the joint")

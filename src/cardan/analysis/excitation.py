@@ -1,0 +1,241 @@
+"""What excites a drive: the torque of a piston engine by its harmonics, and the laws of motors and loads."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from cardan.drive.machine import (
+    AsynchronousMachine,
+    ConstantTorque,
+    Engine,
+    HarmonicTorque,
+    LinearTorque,
+    MachineTorque,
+    SpeedTorque,
+    TorqueHistory,
+)
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+
+from .torques import Asynchronous, Constant, Falling, History, Law, SpeedTable, Swinging
+
+HIGHEST = 12.0
+"""Highest order of the crank that a crank drive is asked for; higher ones are small."""
+
+SMALL = 1e-3
+"""Harmonics of a crank drive below this share of the largest are left out."""
+
+AMBIENT = 101325.0
+"""Pressure of the surroundings [Pa]."""
+
+POLYTROPIC = 1.3
+"""Exponent of compression and expansion."""
+
+NODES = 64
+"""Points of integration in a stroke; pressure and crank drive are smooth within it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EngineTorque:
+    """Torque of an engine on the input shaft: mean + Σ amplitude sin(order·angle of the crank + phase).
+
+    Attributes
+    ----------
+    mean : float or None [N·m]
+        None where the engine does not say.
+    order : array (h,)
+        k, swings in one turn of the crank, rising.
+    amplitude : array (h,) [N·m]
+        M_k.
+    phase : array (h,) [rad]
+        δ_k, cylinder 1 at its top dead centre in the start position.
+    speed_ratio : float
+        ξ: a harmonic has the order kξ of the input shaft.
+    """
+
+    mean: float | None
+    order: Array
+    amplitude: Array
+    phase: Array
+    speed_ratio: float
+
+    @property
+    def laws(self) -> tuple[Law, ...]:
+        """Laws of the torque on the input shaft, its mean first where there is one."""
+        mean: tuple[Law, ...] = () if self.mean is None else (Constant(value=self.mean),)
+        return mean + tuple(
+            Swinging(amplitude=float(a), frequency=float(k) * self.speed_ratio, phase=float(p))
+            for k, a, p in zip(self.order, self.amplitude, self.phase, strict=True)
+        )
+
+
+def engine_torque(engine: Engine, speed: float | None = None) -> EngineTorque:
+    """Return the torque of an engine on the input shaft by its harmonics, as given or from its crank drive.
+
+    Parameters
+    ----------
+    engine : Engine
+    speed : float, optional [rad/s]
+        Of the input shaft; the oscillating masses need it.
+
+    Raises
+    ------
+    InputError
+        The speed is missing.
+
+    Notes
+    -----
+    Crank drive: p A s' - m s' s'' ω² with the way of the piston s/r = 1 - cos φ + (1 - √(1 - λ² sin²φ))/λ; p between
+    polytropic compression and expansion with the mean pressure given, combustion at the dead centre. Cylinders that
+    fire evenly spaced add up where k times the spacing is a whole number of turns and cancel elsewhere.
+
+    Examples
+    --------
+    >>> four = Engine(cylinders=4, bore=0.085, stroke=0.09, mean_pressure=1e6)
+    >>> found = engine_torque(four)
+    >>> found.order[:3], round(found.mean)
+    (array([2., 4., 6.]), 163)
+    """
+    given = engine.harmonics
+    if engine.mean_pressure is None and engine.piston_mass is None:
+        rank = sorted(given, key=lambda one: one.order)
+        return EngineTorque(
+            mean=engine.mean_torque,
+            order=np.asarray([one.order for one in rank]),
+            amplitude=np.asarray([one.torque for one in rank]),
+            phase=np.asarray([one.phase for one in rank]),
+            speed_ratio=engine.speed_ratio,
+        )
+    if engine.piston_mass and speed is None:
+        raise refuse("duty.speed", _("missing; the oscillating masses of the engine need it"))
+    stroke, cylinders = float(engine.stroke or 0.0), int(engine.cylinders or 1)  # given, by Engine.problems
+    step = 2.0 / engine.strokes
+    order = np.arange(1, round(HIGHEST / step) + 1) * step
+    gas, inertia = _gas_harmonics(engine, order), np.zeros_like(order) + 0.0j
+    if engine.piston_mass:
+        whole = np.abs(order - np.round(order)) < 1e-9
+        crank_speed = engine.speed_ratio * float(speed or 0.0)
+        inertia[whole] = engine.piston_mass * crank_speed**2 * _inertia_harmonics(engine, order[whole])
+    together = order * engine.strokes / (2.0 * cylinders)
+    adds = np.abs(together - np.round(together)) < 1e-9
+    one = np.where(adds, cylinders * (gas + inertia) * engine.speed_ratio, 0.0)
+    kept = np.abs(one) > SMALL * np.max(np.abs(one), initial=0.0)
+    mean = engine.mean_torque
+    if engine.mean_pressure is not None:
+        volume = 0.25 * math.pi * float(engine.bore or 0.0) ** 2 * stroke
+        mean = engine.speed_ratio * cylinders * engine.mean_pressure * volume / (engine.strokes * math.pi)
+    return EngineTorque(
+        mean=mean,
+        order=order[kept],
+        amplitude=np.abs(one[kept]),
+        phase=np.angle(one[kept]) + 0.5 * math.pi,
+        speed_ratio=engine.speed_ratio,
+    )
+
+
+def piston(angle: ArrayLike, radius: float, rod_ratio: float) -> tuple[Array, Array, Array]:
+    """Return the way of a piston from its top dead centre and its first two derivatives by the crank's angle.
+
+    Parameters
+    ----------
+    angle : array (p,) [rad]
+        φ from the top dead centre.
+    radius : float [m]
+        r of the crank.
+    rod_ratio : float
+        λ = r/l.
+
+    Returns
+    -------
+    tuple of arrays (p,) [m]
+        s, s', s''.
+
+    Examples
+    --------
+    >>> [float(one.round(6)) for one in piston(math.pi, 0.05, 0.3)]
+    [0.1, 0.0, -0.035]
+    """
+    phi = np.asarray(angle, dtype=float)
+    sine, cosine = np.sin(phi), np.cos(phi)
+    root = np.sqrt(1.0 - (rod_ratio * sine) ** 2)
+    way = radius * (1.0 - cosine + (1.0 - root) / rod_ratio)
+    first = radius * sine * (1.0 + rod_ratio * cosine / root)
+    bent = rod_ratio * (cosine**2 - sine**2 + rod_ratio**2 * sine**4) / root**3
+    return way, first, radius * (cosine + bent)
+
+
+def _inertia_harmonics(engine: Engine, order: Array) -> Array:
+    """Return coefficients of e^(ikφ), doubled, of -s' s'' over a turn of the crank, complex array (h,) [m²]."""
+    assert engine.stroke is not None
+
+    def torque(angle: Array, _stroke: int) -> Array:
+        _way, first, second = piston(angle, 0.5 * float(engine.stroke or 0.0), engine.rod_ratio)
+        return -first * second
+
+    return _coefficients(torque, 2, order)
+
+
+def _gas_harmonics(engine: Engine, order: Array) -> Array:
+    """Return coefficients of e^(ikφ), doubled, of the gas torque of a cylinder over its cycle, complex (h,) [N·m]."""
+    if engine.mean_pressure is None or engine.bore is None or engine.stroke is None:
+        return np.zeros_like(order) + 0.0j
+    area, squeeze = 0.25 * math.pi * engine.bore**2, engine.compression_ratio
+    expansion, compression = 0, engine.strokes - 1
+    top = AMBIENT * squeeze**POLYTROPIC
+    fired = top + engine.mean_pressure * (squeeze - 1.0) * (POLYTROPIC - 1.0) / (1.0 - squeeze ** (1.0 - POLYTROPIC))
+
+    def torque(angle: Array, stroke: int) -> Array:
+        way, first, _second = piston(angle, 0.5 * float(engine.stroke or 0.0), engine.rod_ratio)
+        volume = 1.0 + (squeeze - 1.0) * way / float(engine.stroke or 1.0)  # over the dead space
+        highest = {expansion: fired, compression: top}.get(stroke)
+        pressure = 0.0 * way if highest is None else highest * volume**-POLYTROPIC - AMBIENT
+        return pressure * area * first
+
+    return _coefficients(torque, engine.strokes, order)
+
+
+def _coefficients(torque: Any, strokes: int, order: Array) -> Array:
+    """Return (2/P) ∫ torque e^(-ikφ) over a period of so many strokes, each integrated by itself; complex (h,)."""
+    place, weight = np.polynomial.legendre.leggauss(NODES)
+    whole = np.zeros_like(order) + 0.0j
+    for stroke in range(strokes):
+        angle = math.pi * (stroke + 0.5 * (place + 1.0))
+        values = torque(angle, stroke) * weight * 0.5 * math.pi
+        whole += np.exp(-1j * np.multiply.outer(order, angle)) @ values
+    return 2.0 * whole / (strokes * math.pi)
+
+
+def law_of(machine: MachineTorque, *, resists: bool = False) -> Law:
+    """Return the law of a torque on a station, positive with the rotation.
+
+    Parameters
+    ----------
+    machine : MachineTorque
+        As the drive gives it.
+    resists : bool
+        Whether it is a load, positive when it resists.
+
+    Examples
+    --------
+    >>> load = law_of(LinearTorque(standstill=5.0, slope=0.1), resists=True)
+    >>> float(load.at(0.0, np.asarray(0.0), np.asarray(100.0))[0])
+    -15.0
+    """
+    sign = -1.0 if resists else 1.0
+    if isinstance(machine, ConstantTorque):
+        return Constant(value=sign * machine.torque)
+    if isinstance(machine, LinearTorque):  # a load that rises falls with the speed when it is counted as driving
+        return Falling(standstill=sign * machine.standstill, slope=machine.slope)
+    if isinstance(machine, SpeedTorque):
+        return SpeedTable(speeds=np.asarray(machine.speeds), torques=sign * np.asarray(machine.torques))
+    if isinstance(machine, TorqueHistory):
+        return History(times=np.asarray(machine.times), torques=sign * np.asarray(machine.torques))
+    if isinstance(machine, AsynchronousMachine):
+        return Asynchronous(**{one.name: getattr(machine, one.name) for one in fields(Asynchronous)})
+    assert isinstance(machine, HarmonicTorque)
+    return Swinging(amplitude=sign * machine.amplitude, frequency=machine.order, phase=machine.phase)

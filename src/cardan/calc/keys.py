@@ -1,0 +1,180 @@
+"""Keys of calculations: what an input and an output is called, means, and may be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+from cardan.texts import _
+from cardan.units import DIMENSIONS, Key, factor
+
+Values: TypeAlias = dict[str, Any]
+"""Name without unit -> value in SI."""
+
+Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows"]
+
+REQUIRED: Any = object()
+"""Default of an input that must be given."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Given:
+    """One input of a calculation.
+
+    Attributes
+    ----------
+    key : str
+        As in the reference cases, unit included; any other unit of its dimension is read as well.
+    meaning : Key
+        Sentence, dimension and allowed range in SI.
+    kind : "numbers", "whole", "table", "word", "flag" or "rows"
+        Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
+        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``.
+    axes : tuple of int
+        How deep the lists may be nested; 0 is a bare number.
+    width : int or None
+        Length of the innermost lists, where it is fixed.
+    default : object
+        Value in SI where the input is not given; `REQUIRED` where it must be.
+    columns : tuple of Given
+        Keys of each table of rows.
+    kinds : mapping
+        Word under ``kind`` -> further keys of a table of rows of that kind; empty where all tables are alike.
+    entries : bool
+        Whether what is wrong with one number of a list is told under its own place: ``key[2]``.
+    """
+
+    key: str
+    meaning: Key
+    kind: Kind = "numbers"
+    axes: tuple[int, ...] = (0,)
+    width: int | None = None
+    default: Any = REQUIRED
+    columns: tuple[Given, ...] = ()
+    kinds: Mapping[str, tuple[Given, ...]] = field(default_factory=dict, hash=False)
+    entries: bool = False
+
+    @property
+    def name(self) -> str:
+        """Key without its unit."""
+        return without_unit(self.key, self.meaning.dimension)
+
+    @property
+    def doc(self) -> str:
+        """What it means."""
+        return self.meaning.doc
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return self.default is REQUIRED
+
+    @property
+    def shape(self) -> str:
+        """What form the value has, in words."""
+        if self.kind == "table":
+            return _("table from shaft number to value")
+        if self.kind == "flag":
+            return _("true or false")
+        if self.kind == "rows":
+            keys = [", ".join(column.key for column in self.columns)]
+            keys += [f"{kind}: {', '.join(column.key for column in more)}" for kind, more in self.kinds.items()]
+            return _("list of tables with {keys}").format(keys="; ".join(keys))
+        if self.kind == "word" and not self.meaning.choices:
+            return _("name")
+        if self.kind == "word":
+            text = _("one of {choices}") if self.axes == (0,) else _("list of some of {choices}")
+            return text.format(choices=", ".join(self.meaning.choices))
+        wide = "" if self.width is None else f" × {self.width}"
+        names = {
+            0: _("number") if self.kind == "numbers" else _("whole number"),
+            1: _("list") + wide,
+            2: _("list of lists") + wide,
+        }
+        return _(" or ").join(names[axis] for axis in self.axes)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Gives:
+    """One output of a calculation.
+
+    Attributes
+    ----------
+    key : str
+        As in the reference cases, unit included.
+    doc : str
+        What it means.
+    dimension : str or None
+        A key of `cardan.units.DIMENSIONS`.
+    unit : str
+        Unit the value is given in; "" without a dimension.
+    """
+
+    key: str
+    doc: str
+    dimension: str | None = None
+    unit: str = ""
+
+    @property
+    def factor(self) -> float:
+        """How many SI units one unit of the output is."""
+        return factor(self.dimension, self.unit) if self.dimension else 1.0
+
+
+def given(
+    key: str,
+    doc: str,
+    dimension: str | None = None,
+    *,
+    kind: Kind = "numbers",
+    axes: tuple[int, ...] = (0,),
+    width: int | None = None,
+    default: Any = REQUIRED,
+    entries: bool = False,
+    **limits: Any,
+) -> Given:
+    """Declare an input; ``limits`` are those of `cardan.units.Key`, in SI."""
+    meaning = Key(doc, dimension, **limits)
+    return Given(key=key, meaning=meaning, kind=kind, axes=axes, width=width, default=default, entries=entries)
+
+
+def rows(
+    key: str,
+    doc: str,
+    *columns: Given,
+    default: Any = REQUIRED,
+    kinds: Mapping[str, tuple[Given, ...]] | None = None,
+) -> Given:
+    """Declare an input that is a list of tables, each with the keys of ``columns`` and those of its ``kind``."""
+    more = {} if kinds is None else dict(kinds)
+    if more:
+        columns += (given("kind", _("of which kind"), kind="word", choices=tuple(more)),)
+    return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=more)
+
+
+def gives(key: str, doc: str, dimension: str | None = None) -> Gives:
+    """Declare an output; its unit is read off the key."""
+    if dimension is None:
+        return Gives(key=key, doc=doc)
+    units = [unit for unit in DIMENSIONS[dimension] if f"_{unit}_" in f"{key}_"]
+    return Gives(key=key, doc=doc, dimension=dimension, unit=max(units, key=len))
+
+
+def without_unit(key: str, dimension: str | None) -> str:
+    """Return a key without its unit: the one it ends in, else one amid it.
+
+    Examples
+    --------
+    >>> without_unit("alpha_deg", "angle"), without_unit("delta_min", None), without_unit("tol_mm_a1", "length")
+    ('alpha', 'delta_min', 'tol_a1')
+    """
+    unit = unit_of(key, dimension)
+    return f"{key}_".replace(f"_{unit}_", "_").removesuffix("_") if unit else key
+
+
+def unit_of(key: str, dimension: str | None) -> str:
+    """Return the unit in a key, the longest it ends in, else the longest amid it; empty where there is none."""
+    units = sorted(DIMENSIONS[dimension], key=len, reverse=True) if dimension else []
+    last = [unit for unit in units if key.endswith(f"_{unit}")]
+    return next(iter(last + [unit for unit in units if f"_{unit}_" in key]), "")

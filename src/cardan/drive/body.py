@@ -1,0 +1,255 @@
+"""The body of a shaft: stretches of one cross section each, and the parts it carries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from cardan.errors import Problem
+from cardan.texts import _
+from cardan.units import mm, plain, quantity
+
+from .material import Material
+
+if TYPE_CHECKING:
+    from .shaft import Shaft
+
+FITS = 1e-3
+"""Stretches may miss the length of their shaft by this share; they are stretched to fit."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Segment:
+    """Stretch of a shaft with one cross section."""
+
+    length: float = quantity("length", doc="length of the stretch", above=0.0)
+    outer: float = quantity("length", doc="outer diameter", above=0.0)
+    inner: float = quantity("length", 0.0, doc="inner diameter of a tube", low=0.0)
+    material: Material | None = plain(None, doc="material; steel when not given")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Lump:
+    """Yoke, flange or other part that a shaft carries, beside its body."""
+
+    position: float = quantity(
+        "length", doc="place along the power flow from the joint before; on shaft 1 from joint 1, so zero or negative"
+    )
+    mass: float = quantity("mass", doc="mass", low=0.0)
+    polar_inertia: float = quantity("inertia", 0.0, doc="moment of inertia about the shaft's axis", low=0.0)
+    diametral_inertia: float = quantity(
+        "inertia", 0.0, doc="moment of inertia about an axis across through its own centre of mass", low=0.0
+    )
+
+
+class Piece(NamedTuple):
+    """A stretch of a shaft, in its place."""
+
+    start: float
+    """From the beginning of the shaft [m]."""
+    length: float
+    """[m]"""
+    outer: float
+    """[m]"""
+    inner: float
+    """[m]"""
+    material: Material
+
+    @property
+    def area(self) -> float:
+        """Cross section [m²]."""
+        return 0.25 * np.pi * (self.outer**2 - self.inner**2)
+
+    @property
+    def second_moment(self) -> float:
+        """I [m⁴]."""
+        return np.pi * (self.outer**4 - self.inner**4) / 64.0
+
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+        return self.material.density * self.area * self.length
+
+
+def body_problems(shaft: Shaft, known: float | None, path: str) -> Iterator[Problem]:
+    """Yield what contradicts itself in a stepped body.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    known : float or None [m]
+        Distance of the joints at its ends; None where it is not known, and for an end shaft.
+    path : str
+        Of the shaft.
+    """
+    if shaft.segments and shaft.outer is not None:
+        yield Problem(f"{path}.segments", _("outer describes the body already"))
+    for k, one in enumerate(shaft.segments):
+        if 0.0 < one.outer <= one.inner:
+            yield Problem(f"{path}.segments[{k}].inner", _("is not less than the outer diameter"))
+    whole, length = sum(one.length for one in shaft.segments), shaft.length if known is None else known
+    if shaft.segments and length is not None and abs(whole - length) > FITS * length:
+        text = _("their lengths add up to {whole:.6g} mm; the shaft is {length:.6g} mm long")
+        yield Problem(f"{path}.segments", text.format(whole=whole / mm, length=length / mm))
+    if shaft.wear_factor is not None and not shaft.has_body:
+        yield Problem(f"{path}.wear_factor", _("belongs to a body: give its outer diameter or its segments"))
+
+
+def body_length(shaft: Shaft, known: float | None) -> float | None:
+    """Return how long the body of a shaft is [m]: between its joints, else as its stretches or itself say.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    known : float or None [m]
+        Distance of the joints at its ends; None for an end shaft.
+    """
+    if known is not None:
+        return known
+    return sum(one.length for one in shaft.segments) if shaft.segments else shaft.length
+
+
+def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
+    """Return the stretches of a shaft from its beginning on, none where its body or its length is not known.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    length : float or None [m]
+        Length of its body; stretches are drawn to fit it.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> stub, tube = Segment(length=0.2, outer=0.05), Segment(length=0.8, outer=0.07, inner=0.066)
+    >>> [(one.start, one.outer) for one in pieces(Shaft(number=2, segments=(stub, tube)), 1.0)]
+    [(0.0, 0.05), (0.2, 0.07)]
+    """
+    if length is None:
+        return ()
+    if shaft.outer is not None:
+        return (Piece(0.0, length, shaft.outer, inner_diameter(shaft), shaft.material or Material()),)
+    found: list[Piece] = []
+    fit = length / sum(one.length for one in shaft.segments) if shaft.segments else 1.0
+    for one in shaft.segments:
+        start = found[-1].start + found[-1].length if found else 0.0
+        found.append(Piece(start, fit * one.length, one.outer, one.inner, one.material or Material()))
+    return tuple(found)
+
+
+def inner_diameter(shaft: Shaft) -> float:
+    """Return the inner diameter of a uniform body [m].
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> inner_diameter(Shaft(number=2, outer=0.07, wall=0.002))
+    0.066
+    """
+    if shaft.outer is None or shaft.inner is not None:
+        return shaft.inner or 0.0
+    return shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
+
+
+class Weight(NamedTuple):
+    """What a shaft weighs; None where it is neither given nor follows from its body."""
+
+    mass: float | None
+    """[kg]"""
+    inertia: float | None
+    """About its axis [kg m²]."""
+    across: float | None
+    """About an axis across through its centre of mass [kg m²]."""
+    centre: float | None
+    """Place of the centre of mass from joint 1 on shaft 1, else from the joint before [m]."""
+
+
+def weight(shaft: Shaft, length: float | None) -> Weight:
+    """Return mass and inertia of a shaft: what is given, else those of its body; the parts it carries come on top.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    length : float or None [m]
+        Length of its body.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> bar = Shaft(number=2, mass=2.0, masses=(Lump(position=0.0, mass=1.0), Lump(position=1.0, mass=3.0)))
+    >>> weight(bar, 1.0)
+    Weight(mass=6.0, inertia=0.0, across=0.8333333, centre=0.6666667)
+    """
+    mass, inertia, across, centre = _bare(shaft, length)
+    if not shaft.masses:
+        return Weight(mass, inertia, across, centre)
+    parts = [(mass or 0.0, centre or 0.0, across or 0.0)]
+    parts += [(one.mass, one.position, one.diametral_inertia) for one in shaft.masses]
+    whole = sum(m for m, _place, _own in parts)
+    middle = sum(m * place for m, place, _own in parts) / whole if whole else centre
+    spread = sum(own + m * (place - (middle or 0.0)) ** 2 for m, place, own in parts)
+    turning = (inertia or 0.0) + sum(one.polar_inertia for one in shaft.masses)
+    return Weight(whole, turning, spread, None if mass and centre is None else middle)
+
+
+def _bare(shaft: Shaft, length: float | None) -> Weight:
+    """Return what a shaft weighs without the parts it carries."""
+    mass = inertia = across = centre = None
+    # On shaft 1 positions count from its end.
+    origin = length if shaft.number == 1 and length is not None else 0.0
+    body = pieces(shaft, length)
+    if body:
+        mass = sum(one.mass for one in body)
+        middle = sum(one.mass * (one.start + 0.5 * one.length) for one in body) / mass
+        square = [one.outer**2 + one.inner**2 for one in body]
+        inertia = sum(one.mass * size / 8.0 for one, size in zip(body, square, strict=True))
+        across = sum(
+            one.mass * (size / 16.0 + one.length**2 / 12.0 + (one.start + 0.5 * one.length - middle) ** 2)
+            for one, size in zip(body, square, strict=True)
+        )
+        centre = middle - origin
+    given = shaft.mass, shaft.inertia, shaft.transverse_inertia, shaft.centre_of_mass
+    derived = mass, inertia, across, centre
+    mass, inertia, across, centre = (two if one is None else one for one, two in zip(given, derived, strict=True))
+    if mass and centre is None and length is not None:
+        centre = 0.5 * length - origin
+    return Weight(mass, inertia, across, centre)
+
+
+class Softness(NamedTuple):
+    """How the stretches of a shaft give way, in order."""
+
+    start: tuple[float, ...]
+    """Where each begins, from the beginning of the shaft [m]; the first reaches beyond it."""
+    bending: tuple[float, ...]
+    """1/EI [1/(N m²)]; zero where the body is not given."""
+    stretching: tuple[float, ...]
+    """1/EA [1/N]; zero where the body is not given."""
+
+
+def softness(shaft: Shaft, length: float | None) -> Softness:
+    """Return how a shaft gives way along its length.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    length : float or None [m]
+        Length of its body; one without stretches needs none.
+    """
+    body = pieces(shaft, 1.0 if length is None and shaft.outer is not None else length)
+    if not body:
+        return Softness((-np.inf,), (0.0,), (0.0,))
+    youngs = [one.material.youngs for one in body]
+    return Softness(
+        (-np.inf, *(one.start for one in body[1:])),
+        tuple(1.0 / (e * one.second_moment) for e, one in zip(youngs, body, strict=True)),
+        tuple(1.0 / (e * one.area) for e, one in zip(youngs, body, strict=True)),
+    )
