@@ -122,7 +122,7 @@ def shaft_twist(
 
     Examples
     --------
-    >>> round(float(np.degrees(shaft_twist(2000.0, 80e9, [1.5], [0.075], [0.070]))), 4)
+    >>> round(math.degrees(shaft_twist(2000.0, 80e9, [1.5], [0.075], [0.070])), 4)
     2.8681
     """
     torque, shear_modulus, length = floats(torque, shear_modulus, length)
