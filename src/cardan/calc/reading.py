@@ -30,15 +30,15 @@ def read(
                 values[item.name] = item.default
             continue
         key = keys[item.name]
-        if item.kind == "rows":
-            wrong, value, inner = _rows(item, found[item.name], before + key)
+        if item.columns:
+            wrong, value, inner = _inner(item, found[item.name], before + key)
             keys |= {item.name + place: name for place, name in inner.items()}
         else:
             wrong, value = list(_problems(item, found[item.name], key)), None
             wrong = [Problem(before + problem.field, problem.message) for problem in wrong]
         problems += wrong
         if not wrong:
-            values[item.name] = value if item.kind == "rows" else _si(item, found[item.name], key)
+            values[item.name] = value if item.columns else _si(item, found[item.name], key)
     return values, keys, problems
 
 
@@ -60,6 +60,16 @@ def _sort(
             found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
             keys[item.name] = key
     return found, keys, problems
+
+
+def _inner(item: Given, value: Any, key: str) -> tuple[list[Problem], Any, dict[str, str]]:
+    """Return what is wrong with tables, the tables in SI by name, and each key by its place and name."""
+    if item.kind == "rows":
+        return _rows(item, value, key)
+    if not isinstance(value, Mapping):
+        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], {}, {}
+    values, own, wrong = read(item.columns, value, f"{key}.")
+    return wrong, values, {f".{name}": f"{key}.{given_as}" for name, given_as in own.items()}
 
 
 def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values], dict[str, str]]:
