@@ -75,12 +75,12 @@ class Catalogue:
         '20'
         """
         rows = self.rows(Grade)
-        by_name = {other.casefold(): row for row in rows.values() for other in reversed((row.id, *row.names))}
+        by_name = {other.casefold(): row for row in rows.values() for other in row.every_name}
         by_name |= {row.id.casefold(): row for row in rows.values()}
         found = by_name.get(name.casefold())
         if found is not None:
             return found
-        spelled = {other.casefold(): other for row in rows.values() for other in (row.id, *row.names)}
+        spelled = {other.casefold(): other for row in rows.values() for other in row.every_name}
         near = nearest(name.casefold(), spelled)
         text = _("{name} is not in the catalogue").format(name=repr(name))
         text += _("; the nearest is {near}").format(near=spelled[near]) if near else ""

@@ -28,7 +28,10 @@ class Row:
 class Grade(Row):
     """A material and the state it is delivered in."""
 
-    names: tuple[str, ...] = plain((), doc="the same or the nearest grade in other standards")
+    russian: str = plain("", doc="name in Cyrillic")
+    european: str = plain("", doc="the same or the nearest European grade")
+    american: str = plain("", doc="the same or the nearest AISI grade")
+    names: tuple[str, ...] = plain((), doc="further names")
     parts: tuple[str, ...] = plain((), doc="parts it is used for")
     treatment: str = plain("", doc="heat treatment")
     hardness_brinell: tuple[float, float] | None = plain(None, doc="Brinell hardness, from and to", above=0.0)
@@ -39,6 +42,12 @@ class Grade(Row):
     poisson: float = plain(0.3, doc="Poisson's ratio", low=0.0, below=0.5)
     yield_strength: float | None = quantity("stress", None, doc="yield strength or 0.2 % proof stress", above=0.0)
     ultimate_strength: float | None = quantity("stress", None, doc="tensile strength", above=0.0)
+
+    @property
+    def every_name(self) -> tuple[str, ...]:
+        """Its names in all standards, its own first."""
+        named = (self.id, self.european, self.american, self.russian, *self.names)
+        return tuple(dict.fromkeys(name.partition(" (")[0] for name in named if name))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
