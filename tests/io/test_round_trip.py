@@ -14,7 +14,7 @@ from cardan import Drive
 from cardan.catalogue import completed, material
 from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
-from cardan.drive.duty import Duty, Limits
+from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joints import Hooke
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.machine import (
@@ -131,6 +131,9 @@ duties = things(
     run_up=st.none() | run_ups,
     **dict.fromkeys(("engine", "motor", "load"), st.none()),
     torques=st.just(()),
+    blocks=st.just(())
+    | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
+    torque_history=st.none(),
 )
 
 

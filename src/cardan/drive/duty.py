@@ -31,6 +31,15 @@ class Block:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class History:
+    """Measured torque over time from a CSV file, straight between its rows."""
+
+    file: str = plain(doc="CSV file beside the drive file with the columns time_s and torque_Nm")
+    times: tuple[float, ...] = ()
+    torques: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Vehicle:
     """What drives the shaft of a vehicle, and what its wheels can pass on."""
 
@@ -86,7 +95,9 @@ class Duty:
     continuous: bool = plain(True, doc="whether the drive runs for long at a time")
     synchronous: bool = plain(False, doc="whether the output must turn evenly")
     blocks: tuple[Block, ...] = plain((), doc="duty cycle, in parts that make up the whole time")
-    torque_history: str = plain("", doc="CSV file with the columns time_s and torque_Nm, measured at the output")
+    torque_history: History | None = plain(
+        None, doc="CSV file with the columns time_s and torque_Nm, measured at the output: a duty cycle"
+    )
     vehicle: Vehicle | None = plain(None, doc="what drives the shaft of a vehicle, and what its wheels can pass on")
     upkeep: Upkeep | None = plain(None, doc="use since the last service")
     balance_grade: str = plain("", doc="balance grade that the shafts are to keep, as G16")

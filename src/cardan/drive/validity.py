@@ -13,6 +13,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import KEY, Key, factor, label, preferred
 
+from .duty_validity import duty_problems
 from .line_validity import line_problems
 from .parts import part_problems
 from .shaft import Shaft
@@ -230,6 +231,7 @@ def problems(drive: Drive) -> Iterator[Problem]:
         *movement_problems(drive.movements, n),
         *part_problems(drive),
         *line_problems(drive),
+        *duty_problems(drive),
         *_unused(drive),
     ]
     yield from found

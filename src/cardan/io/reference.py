@@ -10,7 +10,7 @@ from cardan.drive.accuracy import Cost, Error, Tolerance
 from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
-from cardan.drive.duty import Block, Duty, Harmonic, Limits, Upkeep, Vehicle
+from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS
@@ -60,6 +60,7 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`[duty]`", Duty),
     ("`harmonics` of the duty", Harmonic),
     ("`blocks` of the duty", Block),
+    ("`torque_history` of the duty", History),
     ("`vehicle` of the duty", Vehicle),
     ("`upkeep` of the duty", Upkeep),
     ("`engine` of the duty", Engine),

@@ -69,8 +69,11 @@ def _entry(one: Field, value: Any) -> Iterator[tuple[str, Any]]:
 def _name_alone(thing: Any) -> str:
     """Return the name of a thing that says nothing else, empty where it says more."""
     cls = type(thing)
-    name = getattr(thing, NAMED[cls]) if cls in NAMED else ""
-    return name if name and thing == cls(**{NAMED[cls]: name}) else ""
+    if cls not in NAMED:
+        return ""
+    name: str = getattr(thing, NAMED[cls])
+    bare = cls(**{NAMED[cls]: name})
+    return name if all(getattr(thing, one) == getattr(bare, one) for one in fields_of(cls)) else ""
 
 
 def _in_units(one: Field, value: Any) -> tuple[str, Any]:
