@@ -68,7 +68,7 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
     running = found.share > 0.0
     bend = found.bend[running]
     speed = np.abs(np.asarray([part.speed for part in found.parts]))[running, None]
-    loaded = found.torque[running] != 0.0
+    book = found.of("book")
     for i in range(bend.shape[1]):
         least = float(np.min(bend[:, i]))
         own = found.bearings
@@ -87,8 +87,8 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             text = _("joint {number} bends {bend:.3g}°; book and makers count it as 3°")
             said = text.format(number=i + 1, bend=least / deg)
             yield Caution(code="angle_clamped_3deg", joint=i + 1, message=said)
-        book = found.book[running, i]
-        if np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), book)[~np.isnan(book) & loaded[:, i]]):
+        whole = book[i]
+        if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), whole)):
             text = _("joint {number} is outside the book's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")
             yield Caution(code="extrapolated", joint=i + 1, message=text.format(number=i + 1))
         most = float(np.max(found.journal_force[running, i]))

@@ -58,6 +58,12 @@ COMMANDS = {
         _("How much of the power turns to heat, and where."),
         ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
     ),
+    "life": Entry(
+        "life",
+        QUESTIONS,
+        _("How long the joints last, steadily or in a duty cycle."),
+        ("cardan life truck.toml", "cardan life truck.toml --torque-Nm 900 --plot life.svg"),
+    ),
     "tolerance": Entry(
         "tolerance",
         QUESTIONS,

@@ -18,6 +18,7 @@ _MAKERS = {
     "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
     "cardan.analysis.losses.Losses": "losses.losses_figures",
     "cardan.analysis.losses.LossMap": "losses.map_figures",
+    "cardan.analysis.life.Life": "life.life_figures",
     "cardan.analysis.tolerance.ToleranceBand": "tolerance.tolerance_figures",
     "cardan.analysis.accuracy.TransmissionError": "tolerance.error_figures",
     "cardan.analysis.book.BookComparison": "book.book_figures",
