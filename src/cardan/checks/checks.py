@@ -13,12 +13,83 @@ from cardan.maths.arrays import ArrayLike
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import bend
+from . import (
+    acceleration,
+    angle_rule,
+    angle_table,
+    balance,
+    bend,
+    bend_at_speed,
+    contact_pressure,
+    critical_speed,
+    design_torque,
+    half_critical,
+    irregularity,
+    joint_torque,
+    journal_strength,
+    layout,
+    length,
+    lubrication,
+    max_speed,
+    needle_static,
+    output_error,
+    part_accuracy,
+    rated_torque,
+    rim_speed,
+    runout,
+    small_oscillation,
+    speed_angle,
+    spline_overlap,
+    spline_pressure,
+    spline_strength,
+    tube_buckling,
+    tube_fatigue,
+    tube_strength,
+    twist,
+    yoke_strength,
+)
 from .check import Check
 from .design import design
 from .verdict import Verdict
 
-CHECKS: dict[str, Check] = {module.CHECK.name: module.CHECK for module in (bend,)}
+CHECKS: dict[str, Check] = {
+    module.CHECK.name: module.CHECK
+    for module in (
+        bend,
+        acceleration,
+        irregularity,
+        output_error,
+        joint_torque,
+        rated_torque,
+        max_speed,
+        speed_angle,
+        rim_speed,
+        journal_strength,
+        yoke_strength,
+        needle_static,
+        tube_strength,
+        tube_fatigue,
+        tube_buckling,
+        twist,
+        spline_strength,
+        spline_pressure,
+        spline_overlap,
+        critical_speed,
+        half_critical,
+        balance,
+        design_torque,
+        part_accuracy,
+        lubrication,
+        angle_rule,
+        angle_table,
+        bend_at_speed,
+        contact_pressure,
+        small_oscillation,
+        runout,
+        length,
+        layout,
+    )
+}
 """Name of a check -> the check; its code is the file of the same name."""
 
 

@@ -102,7 +102,8 @@ def utilisation(value: Array | float, limit: Array | float | tuple[float, float]
     -------
     float or array (...)
         At most: value/limit; at least: limit/value; within a…b: the larger of value/b and a/value; outside: the
-        smaller of value/a and b/value. At most 1 exactly when the value keeps the limit.
+        smaller of value/a and b/value. At most 1 exactly when the value keeps the limit; what must be at least
+        something uses all of it, and more, where nothing is left.
 
     Examples
     --------
@@ -115,7 +116,7 @@ def utilisation(value: Array | float, limit: Array | float | tuple[float, float]
         if sense == "at_most":
             used = np.divide(value, limit)
         elif sense == "at_least":
-            used = np.divide(limit, value)
+            used = np.where(np.asarray(value) > 0.0, np.divide(limit, value), np.inf)
         else:
             low, high = limit  # type: ignore[misc]
             above, below = np.divide(value, high), np.divide(low, value)
