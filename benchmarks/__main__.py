@@ -13,6 +13,7 @@ NAMES = (
     "forces",
     "synthesis",
     "tolerance",
+    "torsional_response",
     "mathieu_map",
     "start_up",
 )

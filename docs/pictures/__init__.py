@@ -7,7 +7,7 @@ from pathlib import Path
 
 import matplotlib
 
-MODULES = ("conventions", "theory", "movements", "gallery")
+MODULES = ("conventions", "theory", "movements", "absorbers", "parametric", "gallery")
 
 
 def build(folder: Path, only: str = "") -> list[Path]:

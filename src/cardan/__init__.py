@@ -47,8 +47,19 @@ _HOMES = {
     "ToleranceBand": "analysis.tolerance",
     "WorstCase": "analysis.tolerance",
     "tolerance": "analysis.tolerance",
+    "TorsionModes": "analysis.torsion",
+    "torsion_modes": "analysis.torsion",
+    "TorsionResponse": "analysis.torsion_response",
+    "torsion_response": "analysis.torsion_response",
+    "Stability": "analysis.torsion_stability",
+    "stability": "analysis.torsion_stability",
+    "Transient": "analysis.torsion_transient",
+    "transient": "analysis.torsion_transient",
     "Traces": "analysis.traces",
     "traces": "analysis.traces",
+    "HarmonicBalance": "maths.periodic",
+    "Shooting": "maths.pieces",
+    "Adaptive": "analysis.transient",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
     "Allocation": "synthesis.allocation",
@@ -100,8 +111,17 @@ if TYPE_CHECKING:
     from .analysis.tolerance import ToleranceBand as ToleranceBand
     from .analysis.tolerance import WorstCase as WorstCase
     from .analysis.tolerance import tolerance as tolerance
+    from .analysis.torsion import TorsionModes as TorsionModes
+    from .analysis.torsion import torsion_modes as torsion_modes
+    from .analysis.torsion_response import TorsionResponse as TorsionResponse
+    from .analysis.torsion_response import torsion_response as torsion_response
+    from .analysis.torsion_stability import Stability as Stability
+    from .analysis.torsion_stability import stability as stability
+    from .analysis.torsion_transient import Transient as Transient
+    from .analysis.torsion_transient import transient as transient
     from .analysis.traces import Traces as Traces
     from .analysis.traces import traces as traces
+    from .analysis.transient import Adaptive as Adaptive
     from .calc.calculations import calc as calc
     from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
@@ -114,6 +134,8 @@ if TYPE_CHECKING:
     from .io.examples import example as example
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
+    from .maths.periodic import HarmonicBalance as HarmonicBalance
+    from .maths.pieces import Shooting as Shooting
     from .report.report import report as report
     from .synthesis.allocation import Allocation as Allocation
     from .synthesis.allocation import allocate as allocate

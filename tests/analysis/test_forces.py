@@ -472,3 +472,17 @@ def test_ten_thousand_drives_are_one_call(monkeypatch: pytest.MonkeyPatch) -> No
         single = kinetostatics(one(many, k), places, torque=100.0)
         for name in ("bending_couple", "radial"):
             np.testing.assert_allclose(getattr(found, name)[k].max(-1), getattr(single, name).max(-1), rtol=1e-10)
+
+
+@pytest.mark.parametrize("at", ["output", "input"])
+def test_a_locked_drive_has_no_torques_and_leaves_its_batch_alone(at: str) -> None:
+    many = trains(np.random.default_rng(5), 2, (3,), drag=0.02)
+    bend = many.chain.bend[1, 0]
+    drag = many.drag.copy()
+    drag[1, 0] = 1.0 / np.tan(bend)
+    found = kinetostatics(replace(many, drag=drag), ANGLE, torque=100.0, torque_at=at, speed=50.0)
+    freely = kinetostatics(many, ANGLE, torque=100.0, torque_at=at, speed=50.0)
+    assert np.isnan(found.output_torque[1] if at == "input" else found.input_torque[1]).all()
+    for k in (0, 2):
+        np.testing.assert_array_equal(found.input_torque[k], freely.input_torque[k])
+        np.testing.assert_allclose(found.reaction[k], freely.reaction[k], rtol=1e-12)

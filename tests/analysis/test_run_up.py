@@ -113,6 +113,7 @@ def test_the_torque_behind_a_joint_agrees_with_direct_integration(bend, accelera
     times = np.linspace(0.0, end, 301)
     wanted = integrated(bend * deg, 2000.0, 0.5, acceleration, end, damping, times)
     found = joint_run_up(bend * deg, 2000.0, 0.5, acceleration, end, damping=damping, time=times)
+    np.testing.assert_array_equal(found.time, times)
     # Integration leaves 1e-11 of angles up to 150 rad, times the stiffness.
     np.testing.assert_allclose(found.torque, wanted, atol=1e-5)
     assert found.residual < 1e-12

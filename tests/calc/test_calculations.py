@@ -90,6 +90,8 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
         required = {"mu_spline"}  # or any other of its parts
     if name in ("periodic_response", "floquet_stability"):
         required |= {"input_speed_rad_s"}  # or a mean speed
+    if name == "mathieu_stability":
+        required |= {"a"}  # or one of its other questions
     either = {"alpha_deg"} if "alpha_deg" in {i.key for i in CALCULATIONS[name].takes if not i.required} else set()
     assert set(found) == {"colour"} | required | either
 

@@ -59,6 +59,14 @@ def test_a_resonance_without_damping_is_none_among_numbers():
     assert found[1] is None
 
 
+def test_many_inertias_equal_single_ones():
+    many, one = (calc("absorber_optimum", {"inertia_ratio": ratio}) for ratio in ([0.05, 0.3], 0.3))
+    for setting, values in one.items():
+        for key, value in values.items():
+            assert many[setting][key][1] == pytest.approx(value, rel=1e-9)
+    assert fields("absorber_optimum", {"inertia_ratio": [0.1, 0.0]}) == ["inertia_ratio"]
+
+
 def test_damping_of_the_fixed_points_is_that_of_fig_83():
     """Drawn from 0.168 at 1/α_J = 10 down to 0.140, to the digits that can be read off; there it has reached 16."""
     low, high = (calc("absorber_optimum", {"inertia_ratio": 1 / n})["den_hartog"]["xi"] for n in (10, 16))

@@ -74,7 +74,8 @@ def test_speed_and_torque_of_the_command_line_count(cardan):
 
 def test_what_is_not_counted_is_told_in_one_line(cardan):
     out = plain(cardan("losses", PTO).out)
-    assert "some heat is not counted; the file lacks friction of supports 1 to 4, [[movements]]" in out
+    assert "some heat is not counted; the file lacks friction of supports 1 to 4." in out
+    assert "heat of splines is not counted: they slide while the drive moves, and [[movements]] tell how" in out
 
 
 def test_a_joint_that_locks_fails(cardan, drive_file):

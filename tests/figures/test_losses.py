@@ -86,3 +86,11 @@ def test_a_map_shows_a_curve_for_every_speed_by_rising_torque():
         np.testing.assert_allclose(share[k].y, 100.0 * found.efficiency[k, [1, 0, 2]])
     drawn(map_figure(loss_map(TRUCK, [10.0], [5.0])))
     drawn(map_figure(loss_map(TRUCK)))
+
+
+def test_parts_are_called_by_their_names():
+    found = losses(TRUCK)
+    names = [name for name, _heat, _role in heat_parts(found, TRUCK)]
+    assert "support 3 centre bearing" in names
+    assert names[0] == "joint 2 centre"
+    assert [row[1:] for row in heat_parts(found, TRUCK)] == [row[1:] for row in heat_parts(found)]

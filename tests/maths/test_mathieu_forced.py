@@ -64,6 +64,17 @@ def test_a_high_order_reaches_down_to_the_mean():
     assert a * np.mean(y) == pytest.approx(np.mean(2 * q * np.cos(2 * z) * y), rel=1e-7)
 
 
+@pytest.mark.parametrize("q", [0.0, 0.3])
+def test_a_side_band_without_stiffness_is_no_resonance(q):
+    """At a = 16 the fourth order stands still in the sweeps; the answer goes on smoothly all the same."""
+    left, middle, right = (
+        forced(16.0 + shift, q, order=[0.0, 6.0], amplitude=1.0, phase=1.0).coefficient[:8]
+        for shift in (-1e-6, 0, 1e-6)
+    )
+    # With q = 0.3 the response is steep there: the mean of two neighbours misses by the square of their distance.
+    assert middle == pytest.approx(0.5 * (left + right), rel=1e-6, abs=1e-12)
+
+
 def test_a_resonance_is_named():
     with pytest.raises(InputError) as caught:
         forced(4.0, 0.0, order=[1.0, 2.0], amplitude=1.0)

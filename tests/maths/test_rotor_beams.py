@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvals, expm
 
+from cardan.maths import transfer
 from cardan.maths.beam_elements import matrices
 from cardan.maths.modes import lowest, synchronous
 from cardan.maths.rotor_beams import (
@@ -152,7 +153,7 @@ def test_no_root_of_the_boundary_determinant_is_missed():
             total = expm(section * whole.length[k]) @ node @ total
         return np.linalg.det(total[np.ix_([0, 2], [1, 3])])
 
-    grid = np.linspace(50.0, 20000.0, 4001)
+    grid = np.linspace(50.0, 20000.0, 1201)
     sign = np.sign([determinant(speed) for speed in grid])
     at = np.flatnonzero(np.diff(sign))
     found = speeds(whole, len(at) + 1)
@@ -167,6 +168,34 @@ def test_two_beams_between_four_pins_have_every_root_twice():
     pair = of(TUBE, [1.2, 1.2], held=(0, 1, 2), hinged=(1,))
     alone = speeds(of(TUBE, 1.2, held=(0, 1)), 2)
     np.testing.assert_allclose(speeds(pair, 4), np.repeat(alone, 2), rtol=1e-10)
+
+
+def test_pieces_may_be_taken_together_or_not(monkeypatch):
+    """All of a line between its hinges in one transfer matrix each: roots within it are counted, none is lost."""
+    whole = some_line(3)
+    apart = speeds(whole, 8)
+    monkeypatch.setattr(transfer, "SHORT", 2.0)
+    np.testing.assert_allclose(speeds(whole, 8), apart, rtol=1e-9)
+    assert modes_below(whole, 1.001 * apart[-1]) == 8
+
+
+@pytest.mark.parametrize("short", [1e-3, 1e-5, 1e-7])
+def test_short_beams_cost_no_digits(short):
+    """A mass just in front of a free tip, and one just before a hinge: as at the tip and at the hinge."""
+    tip = of(THIN, 1.5, held=(0,), clamped=(0,), lump=[0, 3.0])
+    near = of(THIN, [1.5 - short, short], held=(0,), clamped=(0,), lump=[0, 3.0, 0])
+    hinge = of(THIN, [0.5, 0.7], held=(0, 2), hinged=(1,), diametral=[0, 0.02, 0, 0], spring=[0, 1e5, 0])
+    before = of(
+        THIN,
+        [0.5 - short, short, 0.7],
+        held=(0, 3),
+        hinged=(2,),
+        diametral=[0, 0.02, 0, 0, 0],
+        spring=[0, 0, 1e5, 0],
+    )
+    for one, other in ((tip, near), (hinge, before)):
+        # What moved by a share of the length changes the speed by some of it; rounding has no part in that.
+        np.testing.assert_allclose(speeds(other, 3), speeds(one, 3), rtol=20 * short)
 
 
 def test_guesses_only_save_time():

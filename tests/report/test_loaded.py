@@ -88,6 +88,14 @@ def test_a_loose_shaft_is_named():
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
 
 
+def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
+    drive = example("truck-supports")
+    centre = replace(drive.supports[2], stiffness=2.5e5)
+    text = page(replace(drive, supports=(centre,), duty=replace(drive.duty, torque=None)))
+    assert "assembly" not in parsed(text).ids
+    assert "not reckoned" not in text
+
+
 def test_shared_forces_are_called_so():
     assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
     assert "share the forces" not in words(example("truck-supports"))
@@ -238,3 +246,10 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     assert "What the supports take while the drive moves" in text
     assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
     assert "while moving, 3 (implement, near)" in text
+
+
+def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
+    text = front(example("pto-spline-thrust"))  # bends equal to 0.0001°
+    assert "cannot be made synchronous" not in text
+    assert "instead of" not in text
+    assert "Nothing needs to be changed for an even output" in text

@@ -14,7 +14,7 @@ from cardan.errors import check
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.polynomials import added, derivative, polynomial, product, roots
 
-from .absorbers import amplification, arrays, natural_frequencies, ratio_problems
+from .absorbers import absorber_response, amplification, arrays, natural_frequencies, ratio_problems
 
 
 def peak(inertia_ratio: ArrayLike, frequency_ratio: ArrayLike, damping: ArrayLike) -> tuple[Array, Array]:
@@ -235,3 +235,93 @@ def _ratio(inertia_ratio: ArrayLike) -> tuple[Any, Array]:
     xp, (alpha,) = arrays(inertia_ratio)
     check(ratio_problems(inertia_ratio=alpha))
     return xp, alpha
+
+
+KINDS = ("none", "undamped", "viscous", "den_hartog", "h_infinity")
+"""What hangs on the system: nothing, an absorber of its own frequency without damping, and the three settings."""
+
+LOWEST = 0.02
+"""Smallest frequency ratio of the curves."""
+
+PLACES = 1201
+"""Frequencies of the curves."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Variants:
+    """What absorbers and dampers of one inertia make of the same vibration.
+
+    Attributes
+    ----------
+    inertia_ratio : float
+        α_J.
+    beta : array (p,)
+        Frequency of the torque over ω_0.
+    kinds : tuple of str
+        Names of the variants, of `KINDS`.
+    amplification : array (v, p)
+        Amplitude of each over the static angle; infinite at a resonance without damping.
+    frequency_ratio, damping : arrays (v,)
+        f, ξ of each; nan where nothing hangs on the system.
+    peak, peak_beta : arrays (v,)
+        Largest amplification over all frequencies, and where.
+    """
+
+    inertia_ratio: float
+    beta: Array
+    kinds: tuple[str, ...]
+    amplification: Array
+    frequency_ratio: Array
+    damping: Array
+    peak: Array
+    peak_beta: Array
+
+
+def absorber_variants(inertia_ratio: float, beta: ArrayLike | None = None) -> Variants:
+    """Return what absorbers and dampers of one inertia make of the same vibration.
+
+    Parameters
+    ----------
+    inertia_ratio : float
+        α_J, positive.
+    beta : array (p,), optional
+        Frequencies over ω_0, none negative; about the resonance by default.
+
+    Returns
+    -------
+    Variants
+
+    Raises
+    ------
+    InputError
+        α_J ≤ 0 or a negative frequency.
+
+    Examples
+    --------
+    >>> found = absorber_variants(0.1)
+    >>> for kind, peak in zip(found.kinds, found.peak, strict=True):
+    ...     print(f"{kind:10s} {peak:.2f}")
+    none       inf
+    undamped   inf
+    viscous    21.00
+    den_hartog 4.59
+    h_infinity 4.59
+    """
+    alpha = float(inertia_ratio)
+    check(ratio_problems(inertia_ratio=np.asarray(alpha)))
+    wide = float(np.clip(3.0 * np.sqrt(alpha), 0.25, 1.0))
+    places = np.linspace(max(LOWEST, 1.0 - wide), 1.0 + wide, PLACES) if beta is None else np.asarray(beta, dtype=float)
+    settings = [viscous_optimum(alpha), den_hartog(alpha), h_infinity(alpha)]
+    tuned = np.asarray([1.0, *(float(one.frequency_ratio) for one in settings)])
+    xi = np.asarray([0.0, *(float(one.damping) for one in settings)])
+    found = absorber_response(places, alpha, tuned, xi)
+    return Variants(
+        inertia_ratio=alpha,
+        beta=places,
+        kinds=KINDS,
+        amplification=np.concatenate((found.bare[None], found.amplification)),
+        frequency_ratio=np.append(np.nan, tuned),
+        damping=np.append(np.nan, xi),
+        peak=np.asarray([np.inf, np.inf, *(float(one.peak) for one in settings)]),
+        peak_beta=np.asarray([1.0, float(peak(alpha, 1.0, 0.0)[0]), *(float(one.peak_beta) for one in settings)]),
+    )

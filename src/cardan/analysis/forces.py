@@ -142,6 +142,7 @@ def kinetostatics(
     Returns
     -------
     Forces
+        nan where friction locks a joint of a drive.
 
     Examples
     --------
@@ -167,6 +168,9 @@ def kinetostatics(
     if given.ndim and given.ndim == len(lead):
         given = given[..., None]
     used = replace(whole, inertia=None, cross_inertia=None) if still else whole
+    if used.drag is not None:
+        hold = used.drag * xp.tan(place.bend)
+        used = replace(used, drag=xp.where(hold < 1.0, used.drag + 0.0 * hold, xp.full_like(hold, xp.nan)))
     wave = _harmonics(harmonics, torque_at, whole, angle)
     carried = _carried(used, moved, given + wave + xp.zeros((*lead, angle.shape[0]), dtype=xp.float64), torque_at)
     return forces_from(used, moved, whole.points[..., None, :, :], None, angle, carried, still=still, field=field)

@@ -186,12 +186,12 @@ def joint_run_up(
         highest = int(np.argmax(height))
         if height[highest] > best:
             best, best_time = float(height[highest]), float(places[highest])
-        inside = at[(at >= t[0]) & ((at < t[-1]) | (t[-1] >= end))]
+        final = bool(end - t[-1] < 0.5 * end / steps)
+        inside = at[(at >= t[0]) & ((at < t[-1]) | final)]
         row = np.minimum(np.searchsorted(t, inside, side="right") - 1, t.size - 2)
         curves.append((inside, *advanced(force, t[row], inside - t[row], (x[row], v[row]), omega, zeta)))
-        done = float(t[-1])
-        if progress is not None and progress(done / end) == "stop":
-            cancelled = done < end
+        if progress is not None and progress(float(t[-1]) / end) == "stop":
+            cancelled = not final
             break
     moments, x, v = (np.concatenate(rows) for rows in zip(*curves, strict=True))
     closed = _closed_torque(bend, acceleration, best_time, omega, zeta) * inertia

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.pieces import Pieces
 from cardan.maths.waves import series_at
 
 from .torsional_batch import Turning, chosen
@@ -32,6 +34,9 @@ class Orbit:
         was found.
     force : array (...) [N·m]
         Constant torque on the first station of free drives that keeps the mean speed; 0 where the speed is forced.
+    pieces : mapping from int to Pieces
+        Motions found by shooting, exact at contacts, by their drive counted through the leading axes. They hold there
+        instead of the Fourier sum, which is then but their lower harmonics.
     """
 
     model: TorsionalModel
@@ -39,6 +44,7 @@ class Orbit:
     period: float
     coefficient: Array
     force: Array
+    pieces: Mapping[int, Pieces] = field(default_factory=dict)
 
     @property
     def lead(self) -> tuple[int, ...]:
@@ -78,5 +84,10 @@ class Orbit:
             self.coefficient.reshape(self.count, *self.coefficient.shape[-2:])[rows], places * scale
         )
         omega = self.speed.reshape(-1)[rows][:, None, None] * scale
+        first = 0 if self.model.free else 1
+        for k in range(len(rows) if self.pieces else 0):
+            if int(rows[k]) in self.pieces:
+                found = self.pieces[int(rows[k])].at(places * scale)
+                x[k, :, first:], rate[k, :, first:], bend[k, :, first:] = found
         even = self.speed.reshape(-1)[rows][:, None, None]
         return places[:, None] + x, even + omega * rate, omega**2 * bend

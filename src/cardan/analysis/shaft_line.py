@@ -85,7 +85,7 @@ def _rigid(drive: Drive, shaft: Shaft, place: Place, length: float | None) -> Sh
     stations = [drive.stations[k] for k in place.stations]
     path = f"shafts[{shaft.number - 1}]"
     assumed = [f"{path}.stiffness"]
-    if shaft.inertia is None and not shaft.has_body:
+    if not own and not any(station.inertia for station in stations):
         assumed.append(f"{path}.inertia")
     named = [station.name for station in stations if station.name]
     name = ", ".join(named) or shaft.name or _("shaft {number}").format(number=shaft.number)
@@ -164,8 +164,9 @@ class _Elastic:
                 play[self.spline[1]] += self.shaft.spline.backlash
             backlash += play
         share, names, held = self._stations()
+        inertia = self._inertia(share, held)
         return ShaftLine(
-            inertia=self._inertia(share, held),
+            inertia=inertia,
             ground_damping=[sum(self.drive.stations[j].ground_damping for j in here) for here in held],
             stiffness=stiffness,
             damping=damping,
@@ -174,7 +175,7 @@ class _Elastic:
             share=share,
             names=names,
             held=held,
-            assumed=self._assumed(any(damping) or any(loss)),
+            assumed=self._assumed(inertia, any(damping) or any(loss)),
         )
 
     def _leading(self, k: int) -> ToNext | None:
@@ -319,9 +320,9 @@ class _Elastic:
                 found += _turning(one) * reach / one.length
         return found
 
-    def _assumed(self, damped: bool) -> list[str]:
+    def _assumed(self, inertia: list[float], damped: bool) -> list[str]:
         found = []
-        if self.shaft.inertia is None and not self.body:
+        if not any(inertia):
             found.append(f"{self.path}.inertia")
         if self.shaft.outer is not None and self.shaft.material is None and self.shaft.stiffness is None:
             found.append(f"{self.path}.material")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from enum import IntEnum
 
 import numpy as np
@@ -61,9 +61,9 @@ class Zone:
     sign : array of int (...)
         1 for the sum of their frequencies, -1 for the difference.
     multiple : array of int (...)
-        m: how many swings of the parameters the frequency holds.
+        m: number of the zone, the principal one is 1.
     speed : array (...) [rad/s]
-        (ω_i ± ω_j)/m over the swings of the parameters in a radian of shaft angle.
+        (ω_i ± ω_j)/(2m).
     """
 
     modes: Array
@@ -170,20 +170,27 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     orbit = response.orbit if isinstance(response, SteadyResponse) else response
     lead, count = orbit.lead, orbit.count
     there = np.isfinite(orbit.coefficient).all(axis=(-1, -2)).reshape(-1)
-    order = np.argsort(-orbit.time.reshape(-1), kind="stable")
-    order = order[there[order]]
     free = orbit.model.free
+    smooth = np.asarray([there[k] and k not in orbit.pieces for k in range(count)])
+    order = np.argsort(-orbit.time.reshape(-1), kind="stable")
+    order = order[smooth[order]]
     parts: list[tuple[Array, Array, Array, Array]] = []
     for first in range(0, len(order), CHUNK):
         rows = order[first : first + CHUNK]
         parts.append((rows, *_multipliers(orbit, rows)))
+    for row, pieces in orbit.pieces.items():
+        whole, alone = pieces.monodromy[None], np.asarray([row])
+        parts.append((alone, *values_of(whole, _tangent(orbit, alone, pieces.heavy)), np.full(1, np.nan)))
     width = max((part[1].shape[-1] for part in parts), default=0)
     multipliers = np.full((count, width), np.nan + 0j)
     removed, residual = np.zeros(count, dtype=int), np.full(count, np.nan)
     frequencies = straight_frequencies(orbit.drives(np.arange(count)))
     for rows, values, gone, missed in parts:
         multipliers[rows], removed[rows], residual[rows] = values, gone, missed
-    return _judged(orbit, multipliers, removed, residual, frequencies[:, 1:] if free else frequencies, there, lead)
+    frequencies = frequencies[:, 1:] if free else frequencies
+    found = judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period)
+    verdict = np.where(there, found.verdict, Verdict.UNKNOWN)
+    return shaped(replace(found, verdict=verdict), lead)
 
 
 def _multipliers(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
@@ -206,22 +213,40 @@ def _multipliers(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
 
     matrix = monodromy(coefficients, duration)
     residual = _liouville(coefficients, duration, matrix)
-    removed = np.zeros(len(rows), dtype=int)
-    if drives.free:
-        _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
-        heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
-        matrix = without_direction(matrix, np.concatenate([rate, acceleration[:, heavy]], axis=-1))
+    heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
+    return *values_of(matrix, _tangent(orbit, rows, heavy)), residual
+
+
+def _tangent(orbit: Orbit, rows: Array, heavy: Array) -> Array | None:
+    """Return the disturbance that a shift in time makes of free drives."""
+    if not orbit.model.free:
+        return None
+    _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
+    return np.concatenate([rate, acceleration[:, heavy]], axis=-1)
+
+
+def values_of(matrix: Array, tangent: Array | None) -> tuple[Array, Array]:
+    """Return the multipliers of monodromy matrices, the largest first, and how many were left out.
+
+    Parameters
+    ----------
+    matrix : array (b, m, m)
+    tangent : array (b, m), optional
+        Disturbances by a shift in time, of free drives: they are left out, and a second multiplier of 1 becomes nan.
+    """
+    removed = np.zeros(len(matrix), dtype=int)
+    if tangent is not None:
+        matrix = without_direction(matrix, tangent)
         removed += 1
     values: Array = np.linalg.eigvals(matrix)
-    if drives.free:
+    if tangent is not None:
         near = np.abs(values - 1.0)
         best = np.argmin(near, axis=-1)
-        loose = near[np.arange(len(rows)), best] < LOOSE
+        loose = near[np.arange(len(matrix)), best] < LOOSE
         values[np.flatnonzero(loose), best[loose]] = np.nan
         removed += loose
     size = np.where(np.isfinite(values), np.abs(values), -1.0)
-    values = np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1)
-    return values, removed, residual
+    return np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1), removed
 
 
 def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
@@ -234,39 +259,44 @@ def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Ar
     return np.linalg.slogdet(matrix)[1] + lost
 
 
-def _judged(
-    orbit: Orbit,
-    multipliers: Array,
-    removed: Array,
-    residual: Array,
-    frequencies: Array,
-    there: Array,
-    lead: tuple[int, ...],
+def judged(
+    multipliers: Array, removed: Array, residual: Array, frequencies: Array, speed: Array, period: float
 ) -> Floquet:
-    """Return what the multipliers say."""
+    """Return what the multipliers (b, m) of drives say; see `Floquet`."""
     first = multipliers[:, 0] if multipliers.shape[-1] else np.zeros(len(multipliers), dtype=complex)
-    radius = np.abs(first)
+    radius, omega = np.abs(first), np.abs(speed)
     verdict = np.where(radius > 1.0 + NEUTRAL, Verdict.UNSTABLE, np.where(radius < 1.0 - NEUTRAL, 0, Verdict.NEUTRAL))
-    verdict = np.where(there, verdict, Verdict.UNKNOWN)
+    verdict = np.where(np.isfinite(radius), verdict, Verdict.UNKNOWN)
     plain = np.abs(first.imag) <= 1e-7 * radius
     kind = np.where(plain, np.where(first.real < 0.0, Kind.DOUBLING, Kind.REPEATING), Kind.COMBINATION)
     wanted = np.where(verdict == Verdict.UNSTABLE, kind, -1)
     with np.errstate(divide="ignore"):
-        growth = np.log(radius) / orbit.time.reshape(-1)
+        growth = np.log(radius) * omega / period
     return Floquet(
-        multipliers=multipliers.reshape(*lead, -1),
-        removed=removed.reshape(lead),
-        period=orbit.period,
-        growth_rate=growth.reshape(lead),
-        verdict=verdict.reshape(lead),
-        kind=kind.reshape(lead),
-        order=(np.abs(np.angle(first)) / orbit.period).reshape(lead),
-        zone=nearest_zone(frequencies, np.abs(orbit.speed.reshape(-1)), orbit.period, wanted, lead),
-        determinant_residual=residual.reshape(lead),
+        multipliers=multipliers,
+        removed=removed,
+        period=period,
+        growth_rate=growth,
+        verdict=verdict,
+        kind=kind,
+        order=np.abs(np.angle(first)) / period,
+        zone=nearest_zone(frequencies, omega, wanted),
+        determinant_residual=residual,
     )
 
 
-def nearest_zone(frequencies: Array, speed: Array, period: float, kind: Array, lead: tuple[int, ...]) -> Zone:
+def shaped(found: Floquet, lead: tuple[int, ...]) -> Floquet:
+    """Return the same with the axes ``lead`` in place of the first one."""
+
+    def whole(values: Array) -> Array:
+        return values.reshape((*lead, *values.shape[1:]))
+
+    zone = Zone(**{one.name: whole(getattr(found.zone, one.name)) for one in fields(Zone)})
+    rest = {one.name: getattr(found, one.name) for one in fields(Floquet) if one.name not in ("zone", "period")}
+    return Floquet(zone=zone, period=found.period, **{name: whole(values) for name, values in rest.items()})
+
+
+def nearest_zone(frequencies: Array, speed: Array, kind: Array) -> Zone:
     """Return the zone of parametric resonance nearest to each speed.
 
     Parameters
@@ -274,36 +304,33 @@ def nearest_zone(frequencies: Array, speed: Array, period: float, kind: Array, l
     frequencies : array (b, n) [rad/s]
         Natural ones of the straight drives.
     speed : array (b,) [rad/s]
-    period : float [rad]
-        Shaft angle after which the parameters repeat.
     kind : array of int (b,)
         `Kind` of the disturbance that grows: zones of one mode or combinations of two; -1 where none does, for zones
         of one mode and sums of two, none higher than the second.
-    lead : tuple of int
-        Axes of the result.
 
     Notes
     -----
-    Ω = (ω_i ± ω_j)/(m ν), ν = 2π/period the order of the parameters; i = j with the sum alone.
+    Joints swing twice a turn: Ω = (ω_i ± ω_j)/(2m), i = j with the sum alone.
     """
-    count = frequencies.shape[-1]
+    count, rows = frequencies.shape[-1], np.arange(len(speed))
     pairs = [(i, j, 1) for i in range(count) for j in range(i, count)]
     pairs += [(i, j, -1) for i in range(count) for j in range(i + 1, count)]
     choices = [(i, j, sign, m) for i, j, sign in pairs for m in range(1, ZONES + 1)]
     if not choices:
-        nothing = np.zeros(lead, dtype=int)
-        return Zone(modes=np.zeros((*lead, 2), dtype=int), sign=nothing, multiple=nothing, speed=np.full(lead, np.nan))
+        nothing = np.zeros(len(speed), dtype=int)
+        modes = np.zeros((len(speed), 2), dtype=int)
+        return Zone(modes=modes, sign=nothing, multiple=nothing, speed=np.full(len(speed), np.nan))
     table = np.asarray(choices)
     i, j, sign, m = table.T
-    where = np.abs(frequencies[:, i] + sign * frequencies[:, j]) * period / (2.0 * np.pi * m)
+    where = np.abs(frequencies[:, i] + sign * frequencies[:, j]) / (2.0 * m)
     grows = (kind == Kind.COMBINATION)[:, None] == (i != j)
     fitting = np.where((kind < 0)[:, None], (sign > 0) & (m <= 2), grows)
     far = np.where(fitting, np.abs(where - speed[:, None]), np.inf)
     best = np.argmin(far, axis=-1)
-    none = ~np.isfinite(far[np.arange(len(far)), best])
+    none = ~np.isfinite(far[rows, best])
     return Zone(
-        modes=np.where(none[:, None], 0, table[best][:, :2] + 1).reshape(*lead, 2),
-        sign=sign[best].reshape(lead),
-        multiple=m[best].reshape(lead),
-        speed=np.where(none, np.nan, where[np.arange(len(where)), best]).reshape(lead),
+        modes=np.where(none[:, None], 0, table[best][:, :2] + 1),
+        sign=sign[best],
+        multiple=m[best],
+        speed=np.where(none, np.nan, where[rows, best]),
     )

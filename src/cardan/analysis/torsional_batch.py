@@ -18,7 +18,7 @@ from .torsional_model import Torque, TorsionalModel
 ARRAYS = ("inertia", "stiffness", "damping", "backlash", "bend", "phase", "ground_damping", "loss_factor", "rest")
 """Fields of a model whose last axis is stations, elements or joints."""
 
-_TABLES = frozenset({"speeds", "torques", "times", "frequency"})
+SHARED = frozenset({"speeds", "torques", "times", "frequency"})
 """Fields of laws that all drives share."""
 
 
@@ -45,7 +45,7 @@ def _own(law: Law) -> dict[str, Array]:
     return {
         one.name: getattr(law, one.name)
         for one in fields(law)  # type: ignore[arg-type]
-        if one.name not in _TABLES
+        if one.name not in SHARED
     }
 
 

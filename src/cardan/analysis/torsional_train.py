@@ -6,7 +6,7 @@ it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -17,14 +17,14 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
 from cardan.errors import Problem, check, refuse
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
 from .machine_torques import machine_torques, turns_freely
 from .motion import phase_angles
 from .shaft_line import ShaftLine, shaft_line
 from .torques import Law
-from .torsional_batch import ARRAYS
+from .torsional_batch import ARRAYS, chosen, leading
 from .torsional_model import Torque, TorsionalModel
 
 
@@ -41,8 +41,8 @@ class TorsionalTrain:
         Stations of the driving and of the driven yoke of every joint.
     hangs : tuple of N (int or None)
         Station that an absorber or pendulum hangs on; None for one of the line itself.
-    played : tuple of int
-        Elements with backlash.
+    pendulums : tuple of int
+        Elements that hold pendulums: their stiffness goes with the square of the speed.
     assumed : tuple of str
         Paths of what the drive does not say and the model assumes.
     """
@@ -51,6 +51,7 @@ class TorsionalTrain:
     position: Array
     joints: tuple[tuple[int, int], ...]
     hangs: tuple[int | None, ...]
+    pendulums: tuple[int, ...]
     assumed: tuple[str, ...]
 
     @property
@@ -107,8 +108,8 @@ def torsional_train(
     >>> found.model.stiffness.round(), found.position
     (array([39167.]), array([1., 1., 2., 2.]))
     """
-    chosen = drive.duty if duty is None else duty
-    turning = chosen.speed if speed is None else speed
+    asked = drive.duty if duty is None else duty
+    turning = asked.speed if speed is None else speed
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
@@ -117,7 +118,7 @@ def torsional_train(
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
     check(problems)
-    free = turns_freely(drive, chosen)
+    free = turns_freely(drive, asked)
     if not free and turning is None and loaded:
         raise refuse("duty.speed", _("missing; torsional vibration needs it"))
     model = replace(base.model, input_speed=None if free else np.asarray(0.0 if turning is None else turning))
@@ -125,7 +126,7 @@ def torsional_train(
         named = {drive.stations[k].name: at for line, start in _starts(lines) for k, at in line.stations(start)}
         last = base.line[-1]
         ends = [start + len(line.inertia) - 1 for line, start in _starts(lines)]
-        model = replace(model, torques=machine_torques(drive, chosen, named, last, ends, speed=turning, free=free))
+        model = replace(model, torques=machine_torques(drive, asked, named, last, ends, speed=turning, free=free))
     return replace(base, model=model)
 
 
@@ -181,6 +182,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
         position=np.asarray(places, dtype=float),
         joints=tuple((start - 1, start) for start in starts[1:]),
         hangs=(None,) * len(driven),
+        pendulums=(),
         assumed=tuple(path for line in lines for path in line.assumed),
     )
 
@@ -196,6 +198,7 @@ def _with_branches(
     model = train.model
     inertia, stiffness, damping = list(model.inertia), list(model.stiffness), list(model.damping)
     elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
+    pendulums: list[int] = []
     for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
         station = drive.stations[k]
         if station.absorber is not None:
@@ -208,6 +211,7 @@ def _with_branches(
             mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
             spring, damper = mass * float(speed or 0.0) ** 2 * hung.radius / hung.length, 0.0
             name = _("pendulum on {name}")
+            pendulums.append(len(elements))
         else:
             continue
         elements.append((host, len(inertia)))
@@ -231,7 +235,7 @@ def _with_branches(
         names=tuple(names),
     )
     position = np.append(train.position, [train.position[host] for host in hangs if host is not None])
-    return replace(train, model=whole, position=position, hangs=tuple(hangs))
+    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums))
 
 
 def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
@@ -241,13 +245,13 @@ def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
         yield Problem("stations", text)
 
 
-def in_time(model: TorsionalModel, frequency: float) -> TorsionalModel:
+def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
     """Return a model whose structural damping is viscous, equal at one frequency: b = ηc/ω on top of its dampers.
 
     Parameters
     ----------
     model : TorsionalModel
-    frequency : float [rad/s]
+    frequency : array (...) [rad/s]
         ω at which both lose the same.
 
     Examples
@@ -258,7 +262,7 @@ def in_time(model: TorsionalModel, frequency: float) -> TorsionalModel:
     """
     if not np.any(model.loss_factor):
         return model
-    viscous = model.damping + model.loss_factor * model.stiffness / frequency
+    viscous = model.damping + model.loss_factor * model.stiffness / np.asarray(frequency, dtype=float)[..., None]
     return replace(model, damping=viscous, loss_factor=np.zeros_like(model.loss_factor))
 
 
@@ -281,6 +285,29 @@ def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
     >>> stacked([torsional_line([[1.0, 1.0]], stiffness=[[c]]) for c in (400.0, 500.0)]).stiffness.tolist()
     [[400.0], [500.0]]
     """
+    return _merged(models, np.stack)
+
+
+def chained(models: Sequence[TorsionalModel]) -> TorsionalModel:
+    """Return models with one leading axis each, that are built alike, as one: their drives one after the other.
+
+    Parameters
+    ----------
+    models : sequence of TorsionalModel (b,)
+
+    Raises
+    ------
+    InputError
+        They are not built alike.
+    """
+    leads = [leading(one) for one in models]
+    return _merged(
+        [chosen(one, lead, np.arange(lead[0]), moments=False) for one, lead in zip(models, leads, strict=True)],
+        np.concatenate,
+    )
+
+
+def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Array]) -> TorsionalModel:
     first = models[0]
     built = [
         (one.driven, one.elements, one.free, [(t.station, type(t.law), _shared(t.law)) for t in one.torques])
@@ -288,16 +315,14 @@ def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
     ]
     if any(one != built[0] for one in built):
         raise refuse("models", _("are not built alike: their stations, elements or torques differ"))
-    arrays = {
-        name: np.stack([getattr(one, name) for one in models]) for name in ARRAYS if getattr(first, name) is not None
-    }
-    torques = tuple(
-        Torque(station=torque.station, law=_stacked_law([one.torques[k].law for one in models]))
+    given = [name for name in ARRAYS if getattr(first, name) is not None]
+    parts: dict[str, Any] = {name: join([getattr(one, name) for one in models]) for name in given}
+    parts["torques"] = tuple(
+        Torque(station=torque.station, law=_merged_law([one.torques[k].law for one in models], join))
         for k, torque in enumerate(first.torques)
     )
-    speed = None if first.input_speed is None else np.stack([np.asarray(one.input_speed) for one in models])
-    parts: dict[str, Any] = {**arrays, "torques": torques, "input_speed": speed}
-    return replace(first, **parts)
+    speed = None if first.input_speed is None else join([np.asarray(one.input_speed) for one in models])
+    return replace(first, input_speed=speed, **parts)
 
 
 TABLES = frozenset({"speeds", "torques", "times", "frequency"})
@@ -308,6 +333,6 @@ def _shared(law: Law) -> list[object]:
     return [np.asarray(getattr(law, one.name)).tolist() for one in fields(law) if one.name in TABLES]  # type: ignore[arg-type]
 
 
-def _stacked_law(laws: Sequence[Law]) -> Law:
+def _merged_law(laws: Sequence[Law], join: Callable[[list[Array]], Array]) -> Law:
     own = [one.name for one in fields(laws[0]) if one.name not in TABLES]  # type: ignore[arg-type]
-    return replace(laws[0], **{name: np.stack([np.asarray(getattr(one, name)) for one in laws]) for name in own})  # type: ignore[type-var]
+    return replace(laws[0], **{name: join([np.asarray(getattr(one, name)) for one in laws]) for name in own})  # type: ignore[type-var]

@@ -44,7 +44,7 @@ def _setting(found: Tuning) -> Values:
 
 
 def _optimum(values: Values) -> Values:
-    alpha = values["inertia_ratio"]
+    alpha = np.asarray(values["inertia_ratio"])
     fixed, loose = den_hartog(alpha), viscous_optimum(alpha)
     return {
         "den_hartog": _setting(fixed)
@@ -102,7 +102,7 @@ CALCULATIONS = (
         name="absorber_optimum",
         doc=_("best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper"),
         source=_("Book (250), (251); exact H∞ optimum (Nishihara, Asami)"),
-        takes=(RATIO,),
+        takes=(given(RATIO.key, RATIO.doc, axes=(0, 1), above=0.0),),
         returns=(
             gives("den_hartog", _("setting by fixed points, with the true peak")),
             gives("h_infinity", _("setting with the smallest peak")),

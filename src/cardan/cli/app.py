@@ -13,6 +13,7 @@ from .lazy import Entry, Group
 QUESTIONS = _("Questions")
 FILES = _("Drive files")
 FORMULAS = _("Formulas")
+ASKED = _("Torsional vibration")
 
 COMMANDS = {
     "motion": Entry(
@@ -78,6 +79,44 @@ COMMANDS = {
         QUESTIONS,
         _("Whether the drive binds: forces of parts that do not fit, and what to let go."),
         ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
+    ),
+    "torsion": Entry(
+        "",
+        QUESTIONS,
+        _("Torsional vibration: natural frequencies, steady and in time, stability."),
+        ("cardan torsion modes truck.toml", "cardan torsion stability truck.toml --speeds 500:3000"),
+        {
+            "modes": Entry(
+                "torsion_modes",
+                ASKED,
+                _("Natural frequencies, and the speeds at which something excites them."),
+                ("cardan torsion modes truck.toml", "cardan torsion modes truck.toml --plot campbell.svg"),
+            ),
+            "response": Entry(
+                "torsion_response",
+                ASKED,
+                _("How the shafts vibrate in torsion at a speed or over many."),
+                (
+                    "cardan torsion response truck.toml",
+                    "cardan torsion response truck.toml --speeds 500:3000:200 --csv > sweep.csv",
+                ),
+            ),
+            "simulate": Entry(
+                "torsion_simulate",
+                ASKED,
+                _("Torques and speeds in time: load steps, histories, running up."),
+                ("cardan torsion simulate truck.toml", "cardan torsion simulate truck.toml --settled --span-s 2"),
+            ),
+            "stability": Entry(
+                "torsion_stability",
+                ASKED,
+                _("Whether vibration dies out, at a speed or over a map."),
+                (
+                    "cardan torsion stability truck.toml",
+                    "cardan torsion stability truck.toml --speeds 500:3000 --bends 2:25 --plot map.svg",
+                ),
+            ),
+        },
     ),
     "report": Entry(
         "report",

@@ -131,10 +131,12 @@ def key_of(field: str) -> str:
 
     Examples
     --------
-    >>> key_of("joints[0].cross.span"), key_of("supports")
-    ('joints[0].cross.span_mm', 'supports')
+    >>> key_of("joints[0].cross.span"), key_of("supports"), key_of("stations[0].to_next.stiffness")
+    ('joints[0].cross.span_mm', 'supports', 'stations[0].to_next.stiffness_Nm_per_rad')
     """
     unit = SUFFIX.get(field.rpartition(".")[2])
+    if field.endswith(".stiffness") and not field.startswith("supports"):
+        unit = "Nm_per_rad"  # a shaft or a station twists
     return f"{field}_{unit}" if unit else field
 
 

@@ -50,7 +50,11 @@ def assembly(
 
 def _answer(drive: Drive, file: Path, found: AssemblyForces, curves: AssemblyForces) -> Answer:
     from .answer import Answer
-    from .asked import figures
+
+    def drawn() -> Any:
+        from cardan.figures.assembly import assembly_figures
+
+        return assembly_figures(found, [one.name for one in drive.supports])
 
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -59,7 +63,7 @@ def _answer(drive: Drive, file: Path, found: AssemblyForces, curves: AssemblyFor
         remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found, curves),
         csv=lambda: _trace(curves),
-        figure=lambda: figures(found),
+        figure=drawn,
     )
 
 

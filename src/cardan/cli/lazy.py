@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
+
+HELP = {"help_option_names": ["-h", "--help"]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,17 +20,20 @@ class Entry:
     Parameters
     ----------
     module : str
-        File in this folder; its function of the same name is the command.
+        File in this folder; its function of the same name is the command. Empty for a group.
     panel, help : str
         Where and how the help lists it.
     examples : tuple of str
         Lines below its own help.
+    entries : mapping of str to Entry
+        Commands of a group.
     """
 
     module: str
     panel: str
     help: str
     examples: tuple[str, ...] = ()
+    entries: Mapping[str, Entry] = field(default_factory=dict)
 
 
 def _plain(parameters: list[Any]) -> list[Any]:
@@ -55,7 +60,7 @@ class Group(TyperGroup):
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
         for name, entry in self.entries.items():
-            self.add_command(Command(name, help=entry.help, rich_help_panel=entry.panel))
+            self.add_command(_listed(name, entry))
 
     def get_params(self, ctx: Any) -> list[Any]:
         """Return the parameters before the command."""
@@ -64,15 +69,41 @@ class Group(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Return the command itself, for a run or for completion."""
         name, listed, rest = super().resolve_command(ctx, args)
-        return name, load(listed.name, self.entries[listed.name]) if listed and listed.name else listed, rest
+        if listed is None or not listed.name or not self.entries[listed.name].module:
+            return name, listed, rest
+        return name, load(listed.name, self.entries[listed.name]), rest
+
+
+def _listed(name: str, entry: Entry) -> Any:
+    """Return what stands in a group for a command that is not imported yet, or a group within it."""
+    if not entry.entries:
+        return Command(name, help=entry.help, rich_help_panel=entry.panel)
+
+    class Inner(Group):
+        entries = entry.entries
+
+        def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+            return super().parse_args(ctx, args or ["--help"])
+
+    return Inner(
+        name=name,
+        help=entry.help,
+        rich_help_panel=entry.panel,
+        rich_markup_mode="rich",
+        epilog=_epilog(entry),
+        context_settings=HELP,
+    )
+
+
+def _epilog(entry: Entry) -> str | None:
+    lines = (("[bold]$[/bold] " + example).replace("…]", "…\\]") for example in entry.examples)
+    return "\n\n".join(lines) or None
 
 
 def load(name: str, entry: Entry) -> Any:
     """Import a command and build it."""
     module = import_module(f".{entry.module}", __package__)
     run = getattr(module, entry.module)
-    epilog = "\n\n".join(("[bold]$[/bold] " + example).replace("…]", "…\\]") for example in entry.examples)
     single = typer.Typer(rich_markup_mode="rich", pretty_exceptions_enable=False, add_completion=False)
-    settings = {"help_option_names": ["-h", "--help"]}
-    single.command(name, cls=Command, help=entry.help, epilog=epilog or None, context_settings=settings)(run)
+    single.command(name, cls=Command, help=entry.help, epilog=_epilog(entry), context_settings=HELP)(run)
     return typer.main.get_command(single)

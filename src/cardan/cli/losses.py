@@ -25,6 +25,10 @@ SHOWN = (0, 3, 6, 9, 14)
 """Speeds and torques of the map that stand in the terminal: a tenth to one and a half of the duty."""
 
 
+LONG = 26
+"""Letters of the name of a part, so that the table of a small instrument stays within the terminal too."""
+
+
 def losses(
     file: DriveFile,
     torque: TorqueNm = None,
@@ -65,7 +69,11 @@ def losses(
 
 def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> Answer:
     from .answer import Answer
-    from .asked import figures
+
+    def drawn() -> Any:
+        from cardan.figures.losses import losses_figures, map_figures
+
+        return (*losses_figures(found, drive), *(() if over is None else map_figures(over)))
 
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -74,7 +82,7 @@ def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> An
         remarks=tuple(_remarks(drive, file, found, over)),
         content=lambda: _content(drive, file, found, over),
         csv=lambda: _trace(found) if over is None else _map_rows(over),
-        figure=lambda: figures(found) if over is None else figures(found, over),
+        figure=drawn,
         code=1 if found.locked else 0,
     )
 
@@ -160,7 +168,7 @@ def _part_table(drive: Drive, found: Losses) -> Table:
 
 
 def _short(name: str) -> str:
-    return name if len(name) <= 32 else name[:31] + "…"
+    return name if len(name) <= LONG else name[: LONG - 1] + "…"
 
 
 def _lacking(drive: Drive, found: Losses) -> set[str]:
@@ -258,6 +266,12 @@ def _uncounted(parts: Sequence[Uncounted]) -> Iterator[Remark]:
     keys = []
     for group, numbers in groups.items():
         kind, rest = group.split("\0")
+        if kind == "movements":
+            text = _(
+                "Warning: heat of splines is not counted: they slide while the drive moves, and [[movements]] tell how."
+            )
+            yield Remark(text=text, tone="warning")
+            continue
         if not numbers:
             keys.append(f"[[{kind}]]")
             continue

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cardan.analysis.assembly import AssemblyForces
@@ -22,18 +24,20 @@ LEAST = 1e-6
 """Smallest range of an axis of forces [N]."""
 
 
-def assembly_figures(found: AssemblyForces) -> tuple[Figure, ...]:
-    """Return the figures of the forces of assembly."""
-    return (misfit_figure(found),)
+def assembly_figures(found: AssemblyForces, names: Sequence[str] = ()) -> tuple[Figure, ...]:
+    """Return the figures of the forces of assembly; names of the supports for the legend, where they are given."""
+    return (misfit_figure(found, names),)
 
 
-def misfit_figure(found: AssemblyForces) -> Figure:
+def misfit_figure(found: AssemblyForces, names: Sequence[str] = ()) -> Figure:
     """Return what misfit presses into supports and joints over the input angle.
 
     Parameters
     ----------
     found : AssemblyForces
         Of one drive.
+    names : sequence of str
+        Names of the supports, for the legend.
     """
     angle = np.asarray(found.angle) / deg
     radial, axial = np.asarray(found.radial), np.asarray(found.axial)
@@ -41,7 +45,7 @@ def misfit_figure(found: AssemblyForces) -> Figure:
     top = max(float(np.max(one, initial=0.0)) for one in (radial, np.abs(axial), joint))
     pushed = float(np.max(np.abs(axial), initial=0.0)) > NOTHING * top
     supports = [
-        (support_name(k + 1, number), shaft(number), dash)
+        (support_name(k + 1, number, names[k] if k < len(names) else ""), shaft(number), dash)
         for k, (number, dash) in enumerate(zip(found.support_shaft, support_dashes(found.support_shaft), strict=True))
     ]
     several = len(joint) > 1

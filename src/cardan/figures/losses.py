@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cardan.analysis.losses import Losses, LossMap
+from cardan.drive.drive import Drive
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -15,6 +16,9 @@ from .wording import percent, significant
 
 SHOWN = 12
 """Parts with a bar of their own; the smaller ones share the last."""
+
+LONG = 28
+"""Letters of the name of a part."""
 
 LINES = len(DASHES)
 """Speeds with a curve of their own in a map."""
@@ -33,37 +37,51 @@ def watts(power: float, digits: int) -> str:
     return f"{significant(1e-3 * power, digits)} kW"
 
 
-def losses_figures(found: Losses) -> tuple[Figure, ...]:
-    """Return the figures of the losses."""
-    return (heat_figure(found),)
+def losses_figures(found: Losses, drive: Drive | None = None) -> tuple[Figure, ...]:
+    """Return the figures of the losses, with the names of the parts where the drive is given."""
+    return (heat_figure(found, drive),)
 
 
-def heat_parts(found: Losses) -> list[tuple[str, float, str]]:
+def heat_parts(found: Losses, drive: Drive | None = None) -> list[tuple[str, float, str]]:
     """Return name, heat [W] and colour of every part that gets warm, the warmest first.
 
     Parameters
     ----------
     found : Losses
         Of one drive.
+    drive : Drive, optional
+        For the names of its parts.
     """
+    known = (drive.joints, drive.supports, drive.shafts) if drive is not None else ((), (), ())
+    names = [[one.name for one in parts] for parts in known]
     rows = [
-        *((_("joint {number}"), k, heat, shaft(k + 1)) for k, heat in enumerate(found.joints, start=1)),
-        *((_("support {number}"), k, heat, "muted") for k, heat in enumerate(found.supports, start=1)),
-        *((_("spline of shaft {number}"), k, heat, shaft(k)) for k, heat in enumerate(found.splines, start=1)),
+        *((_("joint {number}"), 0, k, heat, shaft(k + 1)) for k, heat in enumerate(found.joints, start=1)),
+        *((_("support {number}"), 1, k, heat, "muted") for k, heat in enumerate(found.supports, start=1)),
+        *((_("spline of shaft {number}"), 2, k, heat, shaft(k)) for k, heat in enumerate(found.splines, start=1)),
     ]
-    warm = [(name.format(number=k), float(heat), role) for name, k, heat, role in rows if heat > 0.0]
+    warm = [
+        (_short(" ".join((text.format(number=k), *names[kind][k - 1 : k])).strip()), float(heat), role)
+        for text, kind, k, heat, role in rows
+        if heat > 0.0
+    ]
     return sorted(warm, key=lambda row: -row[1])
 
 
-def heat_figure(found: Losses) -> Figure:
+def _short(name: str) -> str:
+    return name if len(name) <= LONG else name[: LONG - 1] + "…"
+
+
+def heat_figure(found: Losses, drive: Drive | None = None) -> Figure:
     """Return the heat of every part, the warmest first, and that of the joints over a turn.
 
     Parameters
     ----------
     found : Losses
         Of one drive.
+    drive : Drive, optional
+        For the names of its parts.
     """
-    parts = heat_parts(found)
+    parts = heat_parts(found, drive)
     if len(parts) > SHOWN:
         rest = parts[SHOWN - 1 :]
         name = _("{count} other parts").format(count=len(rest))
@@ -96,7 +114,7 @@ def heat_figure(found: Losses) -> Figure:
     return Figure(
         name="losses",
         title=_("Where power turns to heat"),
-        sentence=_sentence(found),
+        sentence=_sentence(found, drive),
         source=_(
             "Coulomb friction acting on itself, integrated between its turning points; instead of Book (136)–(139)"
         ),
@@ -123,12 +141,12 @@ def _bars(parts: list[tuple[str, float, str]]) -> Panel:
     return Panel(series=(bars,), x=along, y=upright, title=_("Mean heat [W]"))
 
 
-def _sentence(found: Losses) -> str:
+def _sentence(found: Losses, drive: Drive | None) -> str:
     if found.locked:
         return _("Friction holds joint {numbers}: the drive does not turn.").format(
             numbers=", ".join(map(str, found.locked))
         )
-    parts = heat_parts(found)
+    parts = heat_parts(found, drive)
     if not parts:
         return _("No part gets warm.")
     return _("{heat} of {power} turn to heat, most of it at {name}; efficiency {share}.").format(

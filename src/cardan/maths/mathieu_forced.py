@@ -16,6 +16,9 @@ from .mathieu import check_range
 TERMS = 15
 """Side bands on either side of a forcing order, beyond those that reach past nought and past √a."""
 
+NOUGHT = 1e-200
+"""Stiffness of a band that would be without any: its neighbour then rests, and the band answers in its stead."""
+
 SAME = 1e-9
 """Orders nearer to one another than this are one."""
 
@@ -149,7 +152,8 @@ def _bands(a: Array, q: Array, n: Array, omega: Array, middle: int) -> Array:
         for k in (*range(middle), *range(omega.size - 1, middle, -1)):
             outer = k - 1 if k < middle else k + 1
             beyond = share[..., outer] if 0 <= outer < omega.size else 0.0
-            share[..., k] = q / (direct[..., k] - q * beyond)
+            left = direct[..., k] - q * beyond
+            share[..., k] = q / np.where(left == 0.0, NOUGHT, left)
         y = np.empty(direct.shape, dtype=direct.dtype)
         y[..., middle] = 1.0 / (direct[..., middle] - q * (share[..., middle - 1] + share[..., middle + 1]))
         for k in range(middle - 1, -1, -1):

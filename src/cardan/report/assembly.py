@@ -28,14 +28,15 @@ EVEN_WORK = 1e-6
 
 def straining(on: Subject) -> Page | None:
     """Return the page of the forces of assembly; None where the file tells neither stiffness nor misalignment."""
-    told = any(any(one.offset) or one.stiffness or one.axial_stiffness for one in on.drive.supports)
-    if not told:
+    off = any(any(one.offset) for one in on.drive.supports)
+    if not off and not any(one.stiffness or one.axial_stiffness for one in on.drive.supports):
         return None
     try:
         found = assembly(on.drive)
     except InputError as error:
-        return refused("assembly", _("Assembly"), error)
-    figure = misfit_figure(found)
+        # A stiffness alone may be there for the bending of the shafts, in a file that leaves the other bearings out.
+        return refused("assembly", _("Assembly"), error) if off else None
+    figure = misfit_figure(found, [one.name for one in on.drive.supports])
     loaded = _top(found) > 0.0
     blocks: list[Block] = [Picture(figure=figure), _table(on.drive, found)] if loaded else []
     if found.degree:

@@ -27,12 +27,12 @@ def rubbing(on: Subject) -> Page | None:
         found = losses(on.drive)
     except InputError as error:
         return refused("losses", title, error)
-    figure = heat_figure(found)
+    figure = heat_figure(found, on.drive)
     blocks: list[Block] = []
     if found.locked:
         blocks.append(Words(text=figure.sentence, tone="failed"))
     elif heat_parts(found):
-        blocks += [Picture(figure=figure), _table(found)]
+        blocks += [Picture(figure=figure), _table(on.drive, found)]
     if found.uncounted:
         items = [f"{one.field}: {one.message}" for one in found.uncounted]
         blocks.append(Points(title=_("Not counted"), items=items))
@@ -61,14 +61,14 @@ def _rubs(drive: Drive) -> bool:
     return joints or supports or splines
 
 
-def _table(found: Losses) -> Table:
+def _table(drive: Drive, found: Losses) -> Table:
     rows = [
         [
             Cell(text=name, chip=colour(role)),
             number(significant(heat), heat),
             number(percent(heat / found.heat).removesuffix(" %"), 100.0 * heat / found.heat),
         ]
-        for name, heat, role in heat_parts(found)
+        for name, heat, role in heat_parts(found, drive)
     ]
     rows.append([Cell(text=_("all")), number(significant(found.heat), found.heat), number("100", 100.0)])
     return Table(

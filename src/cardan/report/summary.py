@@ -21,6 +21,9 @@ ILL = 80.0
 CALM = 1e-3
 """Irregularity below which a drive is called nearly even: some tenth of what one joint of 5° does."""
 
+SPECK = 1e-6
+"""Irregularity that comes from the last digits of coordinates: to call a drive uneven for it would mislead."""
+
 UTMOST = 1e-9
 """Changes of the irregularity smaller than this help nobody."""
 
@@ -119,7 +122,8 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
                 ),
                 tone="failed",
             )
-    if on.joints > 1 and not on.phasing.feasible and on.phasing.limiting_joint is not None:
+    uneven = float(on.whole.irregularity) > SPECK
+    if on.joints > 1 and uneven and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why = _("Joints tied by held yokes act as one that is too uneven for the others.")
         if len(on.phasing.limiting_joints) == 1:
             why = excess(on.phasing, on.joints, float(on.train.bend[on.phasing.limiting_joint - 1]))
@@ -257,6 +261,8 @@ def changes(on: Subject) -> Table | Words:
     now = float(on.whole.irregularity)
     found = sorted((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now))
     rows = [_change(text, now, after) for after, text in found[:3]]
+    if not rows and now < SPECK:
+        return Words(text=f"{_('Nothing needs to be changed for an even output.')} {drawn}".strip())
     if not rows:
         if on.joints == 1:
             return Words(
@@ -293,12 +299,11 @@ def _changes(on: Subject) -> Iterator[tuple[str, float]]:
         angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
         yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
     if on.joints > 1 and not on.phasing.feasible and not on.phasing.fixed:
-        text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew").format(
-            k=on.closing.longest,
-            bend=fixed(on.closing.bend_allowed / deg),
-            now=fixed(float(on.train.bend[on.closing.longest - 1]) / deg),
-        )
-        yield text, 0.0
+        bend = fixed(on.closing.bend_allowed / deg)
+        now = fixed(float(on.train.bend[on.closing.longest - 1]) / deg)
+        text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew")
+        if bend != now:
+            yield text.format(k=on.closing.longest, bend=bend, now=now), 0.0
 
 
 def _set_to(one: YokeSetting, label: str, on: Subject) -> str:

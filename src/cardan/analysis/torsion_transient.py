@@ -1,0 +1,182 @@
+"""How do torques and speeds of a drive run in time: load steps, torque histories, running up, from even or settled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.machine import TorqueHistory
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+
+from .input_motion import SpeedCourse
+from .simulation import Progress, Simulation, Status
+from .steady import periodic_response
+from .torsion_response import parted
+from .torsional_model import TorsionalModel
+from .torsional_modes import straight_modes
+from .torsional_train import TorsionalTrain, in_time, torsional_train
+from .transient import Method, simulate
+
+Start: TypeAlias = Literal["even", "settled"]
+
+TURNS = 20.0
+"""Turns that are simulated where nothing says how long."""
+
+SWINGS = 15.0
+"""Swings of the slowest mode that are simulated at least."""
+
+AFTER = 0.2
+"""Share of a run-up that is simulated behind it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Transient:
+    """Torsional motion of a drive in time.
+
+    Attributes
+    ----------
+    train : TorsionalTrain
+        The model, and where its stations are.
+    motion : Simulation
+        Angles and speeds of the stations, torques of the elements, extremes, account of energy.
+    start : str
+        "even" from even rotation with untwisted shafts, so that all torques come on at once; "settled" from the steady
+        motion.
+    """
+
+    train: TorsionalTrain
+    motion: Simulation
+    start: Start
+
+    @property
+    def complete(self) -> bool:
+        """Whether the simulation reached its end."""
+        return int(self.motion.status) == Status.DONE
+
+
+def transient(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    span: float | None = None,
+    times: int | ArrayLike = 2001,
+    start: Start = "even",
+    method: Method | None = None,
+    pieces: int = 1,
+    progress: Progress | None = None,
+) -> Transient:
+    """Return how torques and speeds of a drive run in time.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
+    duty : Duty, optional
+        What it does; that of the drive by default. A run-up takes the place of its speed.
+    span : float, optional [s]
+        How long; to behind the run-up or the end of the longest history, else some turns.
+    times : int or array (t,) [s]
+        How many samples, or when.
+    start : {"even", "settled"}
+        From even rotation with untwisted shafts, so that all torques come on at once, or from the steady motion.
+    method : Adaptive, optional
+        How to integrate.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+    progress : function, optional
+        Told the share done; when it answers "stop", what is done is kept.
+
+    Returns
+    -------
+    Transient
+
+    Raises
+    ------
+    InputError
+        What the model misses, each with the key to add; a settled start where nothing is steady.
+
+    Notes
+    -----
+    Exact equations of motion, see `cardan.analysis.transient.simulate`; structural damping counts as viscous, equal at
+    order 2 of the highest speed.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=4000.0, damping=2.0),),
+    ...     stations=(Station(shaft=2, inertia=0.4),))
+    >>> found = transient(drive, Duty(speed=50.0, torque=100.0), span=0.5)
+    >>> found.complete, bool(found.motion.imbalance < 1e-9)
+    (True, True)
+    """
+    chosen = drive.duty if duty is None else duty
+    first, fastest = _speeds(chosen)
+    train = torsional_train(drive, chosen, speed=first or fastest, pieces=pieces)
+    model = in_time(train.model, 2.0 * abs(fastest or 1.0))
+    if not model.free and chosen.run_up is not None:
+        course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
+        model = replace(model, input_speed=None, input_motion=course)
+    elif not model.free:
+        model = replace(model, input_speed=np.asarray(first))
+    angle: Array | None = None
+    rate: Array = np.asarray(first)
+    if start == "settled":
+        check(_unsettled(chosen, model))
+        steady = periodic_response(model, speed=first)
+        if not bool(steady.found):
+            raise refuse("start", _("no steady motion was found to start from; start even"))
+        angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
+        if model.free:  # the constant torque that keeps the speed
+            model = _held(model, float(steady.orbit.force))
+    length = _span(chosen, model, fastest) if span is None else span
+    motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=method, progress=progress)
+    return Transient(train=train, motion=motion, start=start)
+
+
+def _held(model: TorsionalModel, force: float) -> TorsionalModel:
+    from .torques import Constant
+    from .torsional_model import Torque
+
+    return replace(model, torques=(*model.torques, Torque(station=0, law=Constant(value=force))))
+
+
+def _speeds(duty: Duty) -> tuple[float, float]:
+    """Return the speed at the start and the highest one meant."""
+    if duty.run_up is not None:
+        ends = duty.run_up.start, duty.run_up.end
+        return ends[0], max(ends, key=abs)
+    return duty.speed or 0.0, duty.speed or 0.0
+
+
+def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
+    """Yield what keeps a drive from running steadily."""
+    if duty.run_up is not None:
+        yield Problem("duty.run_up", _("its speed changes; a settled start needs a steady speed"))
+    if duty.speed is None:
+        yield Problem("duty.speed", _("missing; a settled start needs it"))
+    if any(torque.law.order is None for torque in model.torques):
+        yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
+    elif parted(model)[1]:
+        yield Problem("duty", _("orders of the torques do not repeat within two turns; start even"))
+
+
+def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:
+    """Return how long to simulate where nothing says it [s]."""
+    found = 0.0 if duty.run_up is None else (1.0 + AFTER) * duty.run_up.duration
+    for machine in (duty.motor, duty.load, *duty.torques):
+        if isinstance(machine, TorqueHistory):
+            found = max(found, machine.times[-1])
+    if not found:
+        bare = replace(model, torques=(), input_speed=None if model.free else np.asarray(0.0), input_motion=None)
+        omega = straight_modes(bare).omega
+        slowest = 2.0 * np.pi / float(omega[0]) if len(omega) else 0.0
+        found = max(TURNS * 2.0 * np.pi / abs(fastest) if fastest else 1.0, SWINGS * slowest)
+    return found

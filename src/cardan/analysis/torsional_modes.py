@@ -1,0 +1,225 @@
+"""Natural modes of a torsional model with all joints straight: frequencies, shapes, damping, what joints do to them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+from .torsional_model import TorsionalModel
+
+STILL = 1e-9
+"""Singular values below this share of the largest are those of turning without twist."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StraightModes:
+    """Natural modes of a straight torsional line, the slowest first; turning without twist is left out.
+
+    Attributes
+    ----------
+    omega : array (m,) [rad/s]
+    shape : array (m, N)
+        Angles of the stations, u, with Σ J u² = 1 [1/√(kg m²)].
+    damping_ratio : array (m,)
+        ζ of dampers, structural damping, damping against the housing and machines whose torque changes with the speed.
+    joint_weight : array (m, n)
+        κ of every joint: its u times Σ J u of all stations behind it; 0 in a node of the mode. For two masses it is
+        the κ of Mathieu's reduction.
+    residual : array (m,)
+        What the balance of a mode misses, over its largest torque.
+    """
+
+    omega: Array
+    shape: Array
+    damping_ratio: Array
+    joint_weight: Array
+    residual: Array
+
+
+def straight_modes(model: TorsionalModel, *, speed: float = 0.0) -> StraightModes:
+    """Return the natural modes of a model, all joints straight and all backlash closed.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+        One drive, without leading axes. Where its input speed is forced, the first station stands still.
+    speed : float [rad/s]
+        At which torques are asked how they change with the speed.
+
+    Returns
+    -------
+    StraightModes
+
+    Notes
+    -----
+    K = BᵀB with a row √c (…, 1, -1, …) for each element, so ω are the singular values of B M^(-1/2): they keep their
+    digits where stiff elements stand beside soft ones. Coordinates without inertia follow the others statically.
+
+    Examples
+    --------
+    >>> from .torsional_model import torsional_line
+    >>> found = straight_modes(torsional_line([[2.0], [0.6]], stiffness=[[], []], bend=[0.3]))
+    >>> found.omega
+    array([], dtype=float64)
+    >>> straight_modes(torsional_line([[2.0, 0.6]], stiffness=[[900.0]])).omega
+    array([44.15880433])
+    """
+    first = 0 if model.free else 1
+    rank = model.coordinates - first
+    coordinate = np.asarray(model.coordinate) - first
+    mass = np.zeros(rank)
+    for r, inertia in zip(coordinate, model.inertia, strict=True):
+        if r >= 0:
+            mass[r] += inertia
+    rows = np.zeros((len(model.elements), rank))
+    for e, (a, b) in enumerate(model.elements):
+        for station, sign in ((a, 1.0), (b, -1.0)):
+            if coordinate[station] >= 0:
+                rows[e, coordinate[station]] += sign * np.sqrt(model.stiffness[e])
+    omega, vectors = _modes(rows, mass)
+    held = np.zeros((len(omega), 1))  # the place of a station whose speed is forced
+    shape = np.concatenate([vectors, held], axis=-1)[:, coordinate]
+    largest = np.take_along_axis(shape, np.argmax(np.abs(shape), axis=-1)[:, None], axis=-1) if len(shape) else 1.0
+    shape = shape * np.sign(largest)
+    return StraightModes(
+        omega=omega,
+        shape=shape,
+        damping_ratio=_damping(model, omega, shape, speed),
+        joint_weight=_weights(model, shape),
+        residual=_residual(model, omega, shape),
+    )
+
+
+def _modes(rows: Array, mass: Array) -> tuple[Array, Array]:
+    """Return ω (m,) and x (m, R) with x·M x = 1 of x(BᵀB - ω²M) = 0, without those of ω = 0."""
+    heavy = mass > 0.0
+    light = rows[:, ~heavy]
+    own = rows[:, heavy]
+    if light.size:
+        base, _upper = np.linalg.qr(light)
+        inner = own - base @ (base.T @ own)
+    else:
+        inner = own
+    scale = np.sqrt(mass[heavy])
+    if not inner.size:
+        return np.zeros(0), np.zeros((0, len(mass)))
+    _left, omega, right = np.linalg.svd(inner / scale, full_matrices=False)
+    kept = omega > STILL * omega[0] if len(omega) and omega[0] > 0.0 else np.zeros(len(omega), dtype=bool)
+    omega, right = omega[kept][::-1], right[kept][::-1]
+    vectors = np.zeros((len(omega), len(mass)))
+    vectors[:, heavy] = right / scale
+    if light.size:
+        vectors[:, ~heavy] = -np.linalg.lstsq(light, own @ vectors[:, heavy].T, rcond=None)[0].T
+    return omega, vectors
+
+
+def _twists(model: TorsionalModel, shape: Array) -> Array:
+    heads, tails = [a for a, _b in model.elements], [b for _a, b in model.elements]
+    return shape[:, heads] - shape[:, tails]
+
+
+def _damping(model: TorsionalModel, omega: Array, shape: Array, speed: float) -> Array:
+    """Return ζ of every mode from what a swing loses."""
+    twist = _twists(model, shape)
+    drag = np.asarray(model.ground_damping, dtype=float).copy()
+    for torque in model.torques:
+        drag[torque.station] -= float(torque.law.at(np.asarray(0.0), np.asarray(0.0), np.asarray(speed))[2])
+    viscous = np.sum(model.damping * twist**2, axis=-1) + np.sum(drag * shape**2, axis=-1)
+    return 0.5 * viscous / omega + 0.5 * np.sum(model.loss_factor * model.stiffness * twist**2, axis=-1) / omega**2
+
+
+def _weights(model: TorsionalModel, shape: Array) -> Array:
+    """Return κ of every joint in every mode, array (m, n)."""
+    shaft = np.asarray(model.shaft)
+    found = np.zeros((len(shape), model.bend.shape[-1]))
+    for station, source in enumerate(model.driven):
+        if source is not None:
+            driving, joint = source
+            behind = shaft >= shaft[station]
+            found[:, joint] = shape[:, driving] * np.sum((model.inertia * shape)[:, behind], axis=-1)
+    return found
+
+
+def _residual(model: TorsionalModel, omega: Array, shape: Array) -> Array:
+    """Return what is left of the balance of every coordinate, over the largest torque of an element."""
+    twist = _twists(model, shape)
+    torque = model.stiffness * twist
+    left = -(omega[:, None] ** 2) * model.inertia * shape
+    for e, (a, b) in enumerate(model.elements):
+        left[:, a] += torque[:, e]
+        left[:, b] -= torque[:, e]
+    whole = np.zeros((len(shape), model.coordinates))
+    for station, r in enumerate(model.coordinate):
+        whole[:, r] += left[:, station]
+    forced = 0 if model.free else 1
+    largest = np.max(np.abs(torque), axis=-1, initial=0.0)
+    return np.max(np.abs(whole[:, forced:]), axis=-1, initial=0.0) / np.where(largest > 0.0, largest, 1.0)
+
+
+def modulation(model: TorsionalModel, weight: Array) -> Array:
+    """Return by which share joints modulate the stiffness of every mode twice a turn, complex array (m,).
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    weight : array (m, n)
+        κ of the joints, `StraightModes.joint_weight`.
+
+    Notes
+    -----
+    q/a of Mathieu's equation y'' + (a - 2q cos 2φ) y: 2 Σ τ_k κ_k e^(2iψ̄_k), τ = tan²(α/2), ψ̄_k the phase of joint k
+    less the mean lead Σ τ_j sin 2ψ_j of the joints before it. Twice what the book gives, whose joints turn evenly.
+    A mode is excited in its principal zone where its modulus exceeds 2ζ.
+    """
+    tau = np.tan(0.5 * model.bend) ** 2
+    lead = np.cumsum(tau * np.sin(2.0 * model.phase))
+    phase = model.phase - np.append(0.0, lead[:-1])
+    return 2.0 * (weight * tau) @ np.exp(2j * phase) if len(tau) else np.zeros(len(weight), dtype=complex)
+
+
+def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ...], speed: float) -> Array:
+    """Return the speeds at which an order of the shaft meets the natural frequencies, rising, array (m,) [rad/s].
+
+    Parameters
+    ----------
+    model : TorsionalModel
+        One drive, all joints straight.
+    order : float
+        Swings in one turn of the input shaft, ν.
+    pendulums : tuple of int
+        Elements whose stiffness goes with the square of the speed.
+    speed : float [rad/s]
+        At which the model is.
+
+    Notes
+    -----
+    K + Ω²K' of pendulums: K u = Ω² (ν²M - K') u.
+    """
+    if not pendulums:
+        return straight_modes(model).omega / order
+    from scipy.linalg import eigvals
+
+    turning = np.zeros(len(model.elements))
+    turning[list(pendulums)] = model.stiffness[list(pendulums)] / speed**2
+    fixed = np.where(turning > 0.0, 0.0, model.stiffness)
+    first = 0 if model.free else 1
+    plain, more = (_stiffness(model, one)[first:, first:] for one in (fixed, turning))
+    mass = np.zeros(model.coordinates)
+    np.add.at(mass, list(model.coordinate), model.inertia)
+    values = eigvals(plain, order**2 * np.diag(mass[first:]) - more)
+    real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
+    squares = sorted(float(one) for one in values.real[real])
+    found: Array = np.sqrt([one for one in squares if one > STILL**2 * squares[-1]])
+    return found
+
+
+def _stiffness(model: TorsionalModel, springs: Array) -> Array:
+    found = np.zeros((model.coordinates, model.coordinates))
+    for (one, two), spring in zip(model.elements, springs, strict=True):
+        a, b = model.coordinate[one], model.coordinate[two]
+        found[[a, b], [a, b]] += spring
+        found[[a, b], [b, a]] -= spring
+    return found

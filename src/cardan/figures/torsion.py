@@ -1,0 +1,186 @@
+"""Torsional modes: where orders meet them, and how the stations swing along the line."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan.analysis.torsion import TorsionModes
+from cardan.maths.arrays import Array
+from cardan.texts import _, plural
+from cardan.units import mm, rpm
+
+from .figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series, axis, steps, written
+from .palette import DASHES, shaft
+from .wording import significant
+
+MODES = 4
+"""Modes with a curve of their own."""
+
+RAYS = 8
+"""Orders with a ray of their own."""
+
+POINTS = 61
+"""Speeds at which natural frequencies are drawn that change with the speed."""
+
+
+def modes_figures(found: TorsionModes) -> tuple[Figure, ...]:
+    """Return the figures of torsional modes."""
+    return campbell_figure(found), shapes_figure(found)
+
+
+def campbell_figure(found: TorsionModes) -> Figure:
+    """Return natural frequencies and orders over the input speed, with their meetings and zones of growth.
+
+    Parameters
+    ----------
+    found : TorsionModes
+        Of one drive.
+    """
+    low, top = _window(found)
+    high = _height(found, top)
+    ticks_x, ticks_y = steps(low, top, 8), steps(0.0, high, 6)
+    panel = Panel(
+        series=tuple(_campbell(found, top, high)),
+        x=Axis(label=_("input speed"), unit="rpm", low=low, high=top, ticks=ticks_x, texts=written(ticks_x)),
+        y=Axis(label=_("frequency"), unit="Hz", low=0.0, high=high, ticks=ticks_y, texts=written(ticks_y)),
+    )
+    return Figure(
+        name="campbell",
+        title=_("Where orders meet torsional modes"),
+        sentence=_campbell_sentence(found),
+        source=_("natural frequencies with straight joints; zones to first order, Book (221) with the corrected q"),
+        rows=(Row(panels=(panel,), height=3.0),),
+        legend=True,
+    )
+
+
+def _window(found: TorsionModes) -> tuple[float, float]:
+    """Return the speeds drawn [rpm]."""
+    wanted = [float(one.speed) for one in found.crossings if one.mode == 1] + [float(found.omega[0])]
+    if found.speed_range is not None:
+        wanted = [*found.speed_range, *(one for one in wanted if one < 1.5 * found.speed_range[1])]
+    wanted.append(found.speed)
+    return 0.0, 1.1 * max(wanted) / rpm
+
+
+def _height(found: TorsionModes, top: float) -> float:
+    seen = [float(one) / (2.0 * math.pi) for one in found.omega[:MODES]]
+    reach = 4.0 * top / 60.0
+    return 1.15 * max([seen[0], *(one for one in seen if one < reach)])
+
+
+def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
+    if found.speed_range is not None:
+        one, two = (end / rpm for end in found.speed_range)
+        yield Band(low=one, high=two, upright=True, role="accent", opacity=0.08)
+        yield Note(text=_("speeds in use"), x=one, y=0.03 * high, role="accent", side="left", shift=(4.0, 0.0))
+    for k, zone in enumerate(found.zone[:MODES] / rpm):
+        if np.all(np.isfinite(zone)) and zone[0] < top:
+            yield Band(low=float(zone[0]), high=float(zone[1]), upright=True, role="failed", opacity=0.25)
+            text = _("mode {number} grows").format(number=k + 1)
+            yield Note(
+                text=text, x=float(zone[0]), y=(0.1 + 0.06 * k) * high, role="failed", side="right", shift=(-4.0, 0.0)
+            )
+    if found.speed:
+        yield Rule(value=found.speed / rpm, upright=True, role="accent")
+        yield Note(text=_("runs"), x=found.speed / rpm, y=0.1 * high, role="accent", side="left", shift=(4.0, 0.0))
+    orders = sorted({one.order: one.cause for one in found.crossings}.items())[:RAYS]
+    for order, _cause in [(1.0, ""), *orders]:
+        end = min(top, 60.0 * high / order)
+        ends = np.asarray([0.0, end])
+        plain = order == 1.0 and not any(one == 1.0 for one, _why in orders)
+        yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.9, dash="dotted" if plain else "dashed")
+        word = _("order 1: parametric") if plain else f"{order:g}"
+        share = 0.72 if plain else 0.94
+        yield Note(text=word, x=share * end, y=share * order * end / 60.0, role="muted", side="left", shift=(5.0, -5.0))
+    speeds = np.linspace(0.0, top, POINTS if found.train.pendulums else 2)[1 if found.train.pendulums else 0 :]
+    curves = found.at(speeds * rpm) / (2.0 * math.pi)
+    for k in range(min(MODES, curves.shape[-1])):
+        if np.nanmin(curves[:, k]) <= high:
+            label = _("mode {number}").format(number=k + 1)
+            yield Curve(x=speeds, y=curves[:, k], role=shaft(k + 2), width=1.8, label=label)
+    for met in found.crossings:
+        place = met.order * met.speed / (2.0 * math.pi)
+        if met.speed / rpm <= top and met.mode <= MODES and place <= high:
+            role = "failed" if met.inside else "ink"
+            yield Curve(x=_at(met.speed / rpm), y=_at(place), role=role, width=0.0, marker=5.0)
+
+
+def _at(value: float) -> Array:
+    return np.asarray([value])
+
+
+def _campbell_sentence(found: TorsionModes) -> str:
+    inside = [one for one in found.crossings if one.inside]
+    if found.speed_range is not None and not inside:
+        return _("No order meets a mode at the speeds in use.")
+    if inside:
+        said = ", ".join(
+            _("order {order} at {speed} rpm").format(order=f"{one.order:g}", speed=significant(one.speed / rpm, 3))
+            for one in inside[:3]
+        )
+        text = plural(
+            "At a speed in use a mode is met: {said}.", "At speeds in use modes are met: {said}.", len(inside)
+        )
+        return text.format(said=said)
+    return _("Order 2 of the joints meets mode 1 at {speed} rpm; parametric resonance is at twice that speed.").format(
+        speed=significant(float(found.order2_speed[0]) / rpm, 3)
+    )
+
+
+def shapes_figure(found: TorsionModes) -> Figure:
+    """Return how the stations swing along the line in the slowest modes, with the joints and the nodes.
+
+    Parameters
+    ----------
+    found : TorsionModes
+        Of one drive.
+    """
+    train = found.train
+    line = list(train.line)
+    place = train.position[line] / mm
+    series: list[Series] = [Rule(value=0.0, role="muted", dash="solid")]
+    for number, (_driving, driven) in enumerate(train.joints, start=1):
+        series.append(Rule(value=float(train.position[driven]) / mm, upright=True, text=str(number)))
+    for k in range(min(MODES, len(found.omega))):
+        hertz = significant(float(found.omega[k]) / (2.0 * math.pi), 3)
+        series.append(
+            Curve(
+                x=place,
+                y=found.shape[k, line],
+                role=shaft(k + 2),
+                dash=DASHES[k % len(DASHES)],
+                marker=4.0,
+                label=_("mode {number}, {hertz} Hz").format(number=k + 1, hertz=hertz),
+            )
+        )
+        for node in found.nodes[k]:
+            series.append(Curve(x=_at(node.position / mm), y=_at(0.0), role=shaft(k + 2), width=0.0, marker=7.0))
+    for k, host in enumerate(train.hangs):
+        if host is not None:
+            shown = found.shape[0, k]
+            series.append(Curve(x=_at(train.position[k] / mm), y=_at(shown), role="accent", width=0.0, marker=4.0))
+            series.append(Note(text=_("hung"), x=float(train.position[k]) / mm, y=float(shown), side="left"))
+    ticks = (-1.0, -0.5, 0.0, 0.5, 1.0)
+    panel = Panel(
+        series=tuple(series),
+        x=axis(_("along the shafts from the input end; joints by their numbers"), "mm", [place], margin=0.04, count=8),
+        y=Axis(label=_("swing, largest 1"), low=-1.1, high=1.1, ticks=ticks, texts=written(ticks)),
+    )
+    return Figure(
+        name="torsion-shapes",
+        title=_("How the shafts twist as they swing"),
+        sentence=_shapes_sentence(found),
+        source=_("(K − ω²M) u = 0 with straight joints"),
+        rows=(Row(panels=(panel,), height=2.2),),
+    )
+
+
+def _shapes_sentence(found: TorsionModes) -> str:
+    if not found.nodes[0]:
+        return _("All masses swing the same way in mode 1; the input stands still.")
+    text = _("Mode 1 stands still at {place} mm: a joint there excites no parametric vibration of it.")
+    return text.format(place=significant(found.nodes[0][0].position / mm, 3))

@@ -1,0 +1,175 @@
+"""Where torsional vibration grows: multipliers at a point, growth over one quantity, a map over two."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cardan.analysis.stability import Verdict
+from cardan.analysis.torsion_stability import BEND, Stability
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .torsion_running import runs, unstable_bands
+from .wording import percent, significant
+
+CELLS = 160
+"""Rows of a map at most; finer ones are thinned."""
+
+
+def stability_figures(found: Stability) -> tuple[Figure, ...]:
+    """Return the figure of stability: multipliers at a point, the growth rate over one quantity, a map over two."""
+    if not found.over:
+        return (multipliers_figure(found),)
+    return (growth_figure(found),) if len(found.over) == 1 else (map_figure(found),)
+
+
+def _axis_words(path: str) -> tuple[str, str]:
+    return {"duty.speed_rpm": (_("input speed"), "rpm"), BEND: (_("bend of the most bent joint"), "°")}.get(
+        path, (path, "")
+    )
+
+
+def multipliers_figure(found: Stability) -> Figure:
+    """Return the multipliers in the complex plane, with the circle that they are to stay within.
+
+    Parameters
+    ----------
+    found : Stability
+        Of one drive at one speed.
+    """
+    turn = np.linspace(0.0, 2.0 * math.pi, 181)
+    values = found.multipliers[np.isfinite(found.multipliers)]
+    out = np.abs(values) > 1.0
+    reach = 1.1 * max(1.0, float(np.max(np.abs(values), initial=0.0)))
+    ticks = steps(-reach, reach, 4)
+    plane = Axis(label=_("real part"), low=-reach, high=reach, ticks=ticks, texts=written(ticks))
+    series = [
+        Curve(x=np.cos(turn), y=np.sin(turn), role="ink", width=0.9),
+        Curve(x=values[~out].real, y=values[~out].imag, role="good", width=0.0, marker=6.0),
+        Curve(x=values[out].real, y=values[out].imag, role="failed", width=0.0, marker=7.0),
+    ]
+    panel = Panel(
+        series=tuple(series),
+        x=plane,
+        y=Axis(label=_("imaginary part"), low=-reach, high=reach, ticks=ticks, texts=written(ticks)),
+        equal=True,
+    )
+    text = _("Outside the circle a disturbance grows: the farthest multiplier has the modulus {radius}.")
+    return Figure(
+        name="multipliers",
+        title=_("What each disturbance is multiplied by"),
+        sentence=text.format(radius=f"{float(found.spectral_radius):.4f}"),
+        source=_("Floquet multipliers of the exact equations"),
+        rows=(Row(panels=(panel,), height=3.0),),
+        legend=False,
+        width=4.2,
+    )
+
+
+def growth_figure(found: Stability) -> Figure:
+    """Return the growth rate over one quantity, unstable ranges shaded.
+
+    Parameters
+    ----------
+    found : Stability
+        Over one path.
+    """
+    path, values = found.over[0]
+    label, unit = _axis_words(path)
+    rate = np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)
+    panel = Panel(
+        series=(
+            *unstable_bands(values, found.verdict),
+            Rule(value=0.0, role="ink", dash="solid"),
+            Curve(x=values, y=rate, role="accent"),
+        ),
+        x=axis(label, unit, [values], margin=0.0, count=8),
+        y=axis(_("Growth rate of the slowest disturbance"), "1/s", [rate], include=(0.0,), count=5),
+    )
+    k = int(np.nanargmax(rate)) if np.any(np.isfinite(rate)) else 0
+    text = _("Above 0 vibration grows; it grows fastest, or dies out slowest, at {value} {unit}.")
+    return Figure(
+        name="growth",
+        title=_("Does torsional vibration die out?"),
+        sentence=text.format(value=significant(float(values[k]), 3), unit=unit or label),
+        source=_("Floquet multipliers of the exact equations"),
+        rows=(Row(panels=(panel,), height=2.0),),
+        legend=False,
+    )
+
+
+def map_figure(found: Stability) -> Figure:
+    """Return the unstable part of a map over two quantities, with where the drive stands.
+
+    Parameters
+    ----------
+    found : Stability
+        Over two paths.
+    """
+    turned = found.over[1][0] == "duty.speed_rpm"
+    (wide, x), (high, y) = found.over[::-1] if turned else found.over
+    verdict = found.verdict.T if not turned else found.verdict
+    rows = np.unique(np.linspace(0, len(y) - 1, min(len(y), CELLS)).round().astype(int))
+    series: list[Series] = []
+    for state, role, opacity, word in (
+        (Verdict.UNSTABLE, "failed", 0.55, _("unstable")),
+        (Verdict.NEUTRAL, "warning", 0.5, _("neutral")),
+        (Verdict.UNKNOWN, "faint", 0.8, _("not known")),
+    ):
+        series += _cells(x, y[rows], verdict[rows] == state, role, opacity, word)
+    here = _here(found, wide), _here(found, high)
+    if here[0] is not None and here[1] is not None:
+        series.append(
+            Curve(
+                x=np.asarray([here[0]]),
+                y=np.asarray([here[1]]),
+                role="ink",
+                width=0.0,
+                marker=7.0,
+                label=_("the drive"),
+            )
+        )
+    for value, upright in ((here[0], True), (here[1], False)):
+        if value is not None:
+            series.append(Rule(value=value, upright=upright, role="ink"))
+    panel = Panel(
+        series=tuple(series),
+        x=axis(*_axis_words(wide), [x], margin=0.0, count=8),
+        y=axis(*_axis_words(high), [y], margin=0.0, count=6),
+    )
+    return Figure(
+        name="stability-map",
+        title=_("Where torsional vibration grows"),
+        sentence=_("{share} of the map is unstable; the lines cross where the drive stands.").format(
+            share=percent(found.unstable_share)
+        ),
+        source=_("Floquet multipliers of the exact equations at every point"),
+        rows=(Row(panels=(panel,), height=3.0),),
+    )
+
+
+def _here(found: Stability, path: str) -> float | None:
+    """Return the value of the drive itself on an axis."""
+    return dict(found.here).get(path)
+
+
+def _cells(x: Array, y: Array, mask: Array, role: str, opacity: float, word: str) -> list[Series]:
+    """Return the cells of a map in which something holds, those of a row side by side as one."""
+    if not np.any(mask):
+        return []
+    edge_x, edge_y = _edges(x), _edges(y)
+    found: list[Series] = []
+    for i, row in enumerate(mask):
+        for one, two in runs(row):
+            left, right, low, high = edge_x[one], edge_x[two + 1], edge_y[i], edge_y[i + 1]
+            corners = np.asarray([left, right, right, left]), np.asarray([low, low, high, high])
+            found.append(Shape(x=corners[0], y=corners[1], role=role, opacity=opacity, label=word))
+    return found
+
+
+def _edges(values: Array) -> Array:
+    middle = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([values[:1], middle, values[-1:]])

@@ -1,0 +1,253 @@
+"""Torsional vibration of a running drive: torques over a turn, over speeds and in time, and where it is stable."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan.analysis.stability import Verdict
+from cardan.analysis.torsion_response import TorsionResponse
+from cardan.analysis.torsional_train import TorsionalTrain
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import deg, rpm
+
+from .figure import Axis, Band, Bars, Curve, Figure, Panel, Row, axis, steps, written
+from .palette import DASHES, shaft
+from .turning import across
+from .wording import significant
+
+CURVES = 4
+"""Elements with a curve of their own, those that swing most."""
+
+BARS = 12
+"""Orders with a bar of their own."""
+
+FALLS = 24
+"""Speeds of a waterfall."""
+
+
+def response_figures(found: TorsionResponse) -> tuple[Figure, ...]:
+    """Return the figures of steady torsional vibration, at one speed or over many."""
+    if found.speed.ndim:
+        return sweep_figure(found), waterfall_figure(found)
+    return (response_figure(found),) if bool(found.steady.found) else ()
+
+
+def element_names(train: TorsionalTrain) -> list[str]:
+    """Return what to call every element: the stations at its ends."""
+    model = train.model
+    return [f"{model.names[a]} – {model.names[b]}" for a, b in model.elements]
+
+
+def worst_elements(swing: Array) -> list[int]:
+    """Return the elements that swing most."""
+    return [int(e) for e in np.argsort(-np.nan_to_num(swing), kind="stable")[:CURVES]]
+
+
+def response_figure(found: TorsionResponse) -> Figure:
+    """Return the torques over a turn and the orders of the one that swings most.
+
+    Parameters
+    ----------
+    found : TorsionResponse
+        At one speed.
+    """
+    turn = max(2.0 * math.pi, found.steady.period)
+    angle = np.linspace(0.0, turn, 721)
+    traces = found.steady.at(angle)
+    names, worst = element_names(found.train), worst_elements(found.swing)
+    torque = np.asarray(traces.torque)
+    over = Panel(
+        series=tuple(
+            Curve(x=angle / deg, y=torque[:, e], role=shaft(k + 2), dash=DASHES[k % 4], label=names[e])
+            for k, e in enumerate(worst)
+        ),
+        x=across(angle / deg, named=True),
+        y=axis(_("Torque"), "N·m", [torque[:, worst]], count=5),
+    )
+    e = worst[0]
+    amplitude = found.steady.torque.amplitude[e]
+    kept = [k for k in np.argsort(-amplitude, kind="stable")[:BARS] if amplitude[k] > 1e-4 * np.max(amplitude)]
+    kept = sorted(int(k) for k in kept)
+    words = tuple(f"{found.steady.order[k]:g}" for k in kept)
+    at = np.arange(len(kept), dtype=float)
+    top = float(np.max(amplitude[kept], initial=0.0)) or 1.0
+    ticks = steps(0.0, top, 4)
+    bars = Panel(
+        series=(
+            Bars(
+                at=at, size=amplitude[kept], roles=(shaft(2),), texts=tuple(significant(amplitude[k], 3) for k in kept)
+            ),
+        ),
+        x=Axis(
+            label=_("order of the input shaft, in {name}").format(name=names[e]),
+            low=-0.6,
+            high=max(len(kept), 1) - 0.4,
+            ticks=tuple(at),
+            texts=words,
+            grid=False,
+        ),
+        y=Axis(label=_("amplitude"), unit="N·m", low=0.0, high=1.2 * top, ticks=ticks, texts=written(ticks)),
+    )
+    return Figure(
+        name="torsion-response",
+        title=_("Torques while it runs at {speed} rpm").format(speed=significant(abs(float(found.speed)) / rpm)),
+        sentence=_response_sentence(found, e, names[e]),
+        source=_("periodic solution of the exact equations of motion"),
+        rows=(Row(panels=(over,), height=2.0), Row(panels=(bars,), height=1.2)),
+    )
+
+
+def _response_sentence(found: TorsionResponse, e: int, name: str) -> str:
+    stable = {
+        Verdict.STABLE: _("small disturbances die out"),
+        Verdict.NEUTRAL: _("small disturbances neither grow nor die out"),
+        Verdict.UNSTABLE: _("small disturbances grow: this motion does not last"),
+    }.get(Verdict(int(found.floquet.verdict)), _("its stability is not known"))
+    text = _("The torque between {name} swings by ± {swing} N·m about {mean} N·m; {stable}.")
+    return text.format(
+        name=name,
+        swing=significant(float(found.swing[e]), 3),
+        mean=significant(float(found.steady.torque.mean[e]), 3),
+        stable=stable,
+    )
+
+
+def sweep_figure(found: TorsionResponse) -> Figure:
+    """Return highest and lowest torques and their orders over the input speed, unstable speeds shaded.
+
+    Parameters
+    ----------
+    found : TorsionResponse
+        Over speeds.
+    """
+    speed = np.abs(found.speed) / rpm
+    names = element_names(found.train)
+    peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
+    worst = worst_elements(peak)
+    shaded = tuple(unstable_bands(speed, found.floquet.verdict))
+    swings = Panel(
+        series=(
+            *shaded,
+            *(
+                Curve(x=speed, y=found.swing[:, e], role=shaft(k + 2), dash=DASHES[k % 4], label=names[e])
+                for k, e in enumerate(worst)
+            ),
+        ),
+        x=axis("", "", [speed], margin=0.0, count=8),
+        y=axis(_("Half of highest less lowest torque"), "N·m", [found.swing[:, worst]], include=(0.0,), count=5),
+    )
+    e = worst[0]
+    amplitude = found.steady.torque.amplitude[:, e]
+    strongest = sorted(int(k) for k in np.argsort(-np.nan_to_num(np.nanmax(amplitude, axis=0)))[:CURVES])
+    orders = Panel(
+        series=(
+            *shaded,
+            *(
+                Curve(
+                    x=speed,
+                    y=amplitude[:, k],
+                    role="accent",
+                    dash=DASHES[n % 4],
+                    label=_("order {order}").format(order=f"{found.steady.order[k]:g}"),
+                )
+                for n, k in enumerate(strongest)
+            ),
+        ),
+        x=axis(_("input speed"), "rpm", [speed], margin=0.0, count=8),
+        y=axis(_("Orders of {name}").format(name=names[e]), "N·m", [amplitude[:, strongest]], include=(0.0,), count=4),
+    )
+    return Figure(
+        name="torsion-sweep",
+        title=_("Torsional vibration over the speed"),
+        sentence=_sweep_sentence(found, speed, e, names[e]),
+        source=_("periodic solutions of the exact equations of motion, judged by their Floquet multipliers"),
+        rows=(Row(panels=(swings,), height=2.0), Row(panels=(orders,), height=1.6)),
+    )
+
+
+def unstable_bands(place: Array, verdict: Array) -> Iterator[Band]:
+    """Yield the ranges in which a motion is unstable."""
+    mask = np.asarray(verdict) == Verdict.UNSTABLE
+    half = 0.5 * np.gradient(place) if len(place) > 1 else np.ones(1)
+    for one, two in runs(mask):
+        yield Band(
+            low=float(place[one] - half[one]),
+            high=float(place[two] + half[two]),
+            upright=True,
+            role="failed",
+            opacity=0.18,
+        )
+
+
+def runs(mask: Array) -> Iterator[tuple[int, int]]:
+    """Yield first and last place of every run of True."""
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    for first, behind in zip(ends[::2], ends[1::2], strict=True):
+        yield int(first), int(behind) - 1
+
+
+def _sweep_sentence(found: TorsionResponse, speed: Array, e: int, name: str) -> str:
+    swing = found.swing[:, e]
+    k = int(np.nanargmax(np.where(np.isfinite(swing), swing, -1.0)))
+    text = _("The torque between {name} swings most at {speed} rpm, by ± {swing} N·m.")
+    said = text.format(name=name, speed=significant(float(speed[k]), 3), swing=significant(float(swing[k]), 3))
+    if np.any(found.floquet.verdict == Verdict.UNSTABLE):
+        said += " " + _("Shaded speeds are unstable.")
+    return said
+
+
+def waterfall_figure(found: TorsionResponse) -> Figure:
+    """Return the orders of the torque that swings most at some speeds, one behind the other.
+
+    Parameters
+    ----------
+    found : TorsionResponse
+        Over speeds.
+    """
+    speed = np.abs(found.speed) / rpm
+    peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
+    e = worst_elements(peak)[0]
+    amplitude = np.nan_to_num(found.steady.torque.amplitude[:, e])
+    order = found.steady.order
+    last = int(np.max(np.flatnonzero(np.max(amplitude, axis=0) > 2e-3 * np.max(amplitude)), initial=1))
+    order, amplitude = order[: last + 1], amplitude[:, : last + 1]
+    chosen = np.unique(np.linspace(0, len(speed) - 1, min(FALLS, len(speed))).round().astype(int))
+    gap = (speed[-1] - speed[0]) / max(len(chosen) - 1, 1) or 1.0
+    scale = 4.0 * abs(gap) / (float(np.max(amplitude)) or 1.0)
+    narrow = 0.1 * float(order[0])
+    curves = []
+    for k in chosen[::-1]:
+        x = np.concatenate([[0.0], *([v - narrow, v, v + narrow] for v in order), [order[-1] + 2 * narrow]])
+        y = np.zeros(len(x))
+        y[2::3][: len(order)] = scale * amplitude[k]
+        curves.append(Curve(x=x, y=speed[k] + y, role="accent", width=0.9))
+    ticks = tuple(float(v) for v in order if float(v).is_integer())
+    panel = Panel(
+        series=tuple(curves),
+        x=Axis(
+            label=_("order of the input shaft"),
+            low=0.0,
+            high=float(order[-1]) + 2 * narrow,
+            ticks=ticks,
+            texts=tuple(f"{v:g}" for v in ticks),
+        ),
+        y=axis(_("input speed"), "rpm", [speed], include=(float(np.max(speed)) + 4.2 * abs(gap),), count=8),
+    )
+    tallest = np.unravel_index(int(np.argmax(amplitude)), amplitude.shape)
+    text = _("The tallest peak is order {order} at {speed} rpm, ± {torque} N·m.")
+    return Figure(
+        name="torsion-waterfall",
+        title=_("Orders of the torque between {name}").format(name=element_names(found.train)[e]),
+        sentence=text.format(
+            order=f"{order[tallest[1]]:g}",
+            speed=significant(float(speed[tallest[0]]), 3),
+            torque=significant(float(amplitude[tallest]), 3),
+        ),
+        source=_("harmonics of the periodic solutions; heights to one scale"),
+        rows=(Row(panels=(panel,), height=3.0),),
+        legend=False,
+    )

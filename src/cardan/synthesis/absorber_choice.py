@@ -1,0 +1,133 @@
+"""What an absorber is to do and how it begins: which mode and order it is for, what is refused, the closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cardan.analysis.absorber_tuning import den_hartog, h_infinity, viscous_optimum
+from cardan.analysis.pendulum import tuned_length
+from cardan.analysis.steady import periodic_response
+from cardan.analysis.torsion_response import parted
+from cardan.analysis.torsional_modes import StraightModes
+from cardan.drive.duty import Duty
+from cardan.errors import Problem
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .absorber_search import Setting, rounded
+from .band import Lines, excited
+from .hosts import Host
+
+KINDS = ("h_infinity", "den_hartog", "viscous", "tuned", "pendulum")
+"""Smallest peak, by fixed points, damper without spring, absorber without damping for one speed, pendulums."""
+
+HOLDING = 1e-3
+"""Natural frequency of a damper without spring on what holds it in place, over that of the mode."""
+
+
+def problems(
+    kind: str,
+    inertia: float | None,
+    ratio: float | None,
+    radius: float | None,
+    count: int,
+    mode: int | None,
+    order: float | None,
+) -> Iterator[Problem]:
+    """Yield what is wrong with what is asked for."""
+    if kind not in KINDS:
+        yield Problem("kind", _("{given} given; one of {known}").format(given=repr(kind), known=", ".join(KINDS)))
+    if inertia is not None and ratio is not None:
+        yield Problem("inertia_ratio", _("the inertia itself is given already"))
+    for name, value in (("inertia", inertia), ("inertia_ratio", ratio), ("radius", radius), ("order", order)):
+        if value is not None and not (np.isfinite(value) and value > 0.0):
+            yield Problem(name, _("{value:.6g} given; more than 0 is needed").format(value=value))
+    if kind == "pendulum" and radius is None:
+        yield Problem("radius", _("missing; the distance of the pivots from the axis of the shaft"))
+    if count < 1:
+        yield Problem("count", _("{given} given; at least 1").format(given=count))
+    if mode is not None and mode < 1:
+        yield Problem("mode", _("{given} given; modes count from 1").format(given=mode))
+
+
+def mode_problems(modes: StraightModes, mode: int | None, count: int, elements: Sequence[int] | None) -> list[Problem]:
+    """Return what the drive does not have: a mode, elements."""
+    found = []
+    if mode is not None and mode > len(modes.omega):
+        text = _("{given} given; the drive has {count}")
+        found.append(Problem("mode", text.format(given=mode, count=len(modes.omega))))
+    for k in elements if elements is not None else ():
+        if not 0 <= k < count:
+            text = _("element {given} given; they count from 0 to {last}")
+            found.append(Problem("elements", text.format(given=k, last=count - 1)))
+    if elements is not None and not len(elements):
+        found.append(Problem("elements", _("empty; name one at least, or leave it out")))
+    return found
+
+
+def still(host: Host, modal: Array) -> list[Problem]:
+    """Return a problem where a station stands still in the mode."""
+    if np.isfinite(modal[host.station]) and modal[host.station] < 1e9 * np.min(modal):
+        return []
+    return [Problem("station", _("{name} stands still in this mode; nothing there reaches it").format(name=host.name))]
+
+
+def meeting(
+    found: Lines,
+    modes: StraightModes,
+    mode: int | None,
+    order: float | None,
+    band: tuple[float, float] | None,
+    near: float | None,
+) -> tuple[int, float]:
+    """Return mode from 0 and order of the strongest resonance in a band; the slowest, or the nearest, without one."""
+    drive = found.drives[0]
+    known = excited(drive, drive.duty) if order is None else (order,)
+    pairs = [(m, nu) for m in range(len(modes.omega)) for nu in known if mode in (None, m + 1)]
+    speed = np.asarray([modes.omega[m] / nu for m, nu in pairs])
+    if band is None:
+        return pairs[int(np.argmin(np.abs(speed - near)))] if near is not None else min(pairs, key=lambda one: one[0])
+    inside = np.flatnonzero((speed >= band[0]) & (speed <= band[1]))
+    if not inside.size:
+        return pairs[int(np.argmin(np.maximum(band[0] - speed, speed - band[1])))]
+    model = parted(found.at(speed[inside][None]))[0]
+    steady = periodic_response(model, speed=speed[inside], orders=max(known))
+    strength = []
+    for k, row in enumerate(inside):
+        at = np.flatnonzero(np.abs(steady.order - pairs[row][1]) < 1e-6)
+        own = steady.torque.amplitude[k, :, at[0]] if at.size else np.zeros(1)
+        strength.append(float(np.max(np.nan_to_num(own, nan=np.inf))))
+    return pairs[int(inside[int(np.argmax(strength))])]
+
+
+def served(kind: str, duty: Duty, band: tuple[float, float], single: float | None, peak: float) -> float | None:
+    """Return the one speed that an absorber without damping serves; None for the others."""
+    if kind != "tuned":
+        return None
+    own = single if single is not None else None if duty.speed is None else abs(duty.speed)
+    return own if own is not None and band[0] <= own <= band[1] else peak
+
+
+def closed_form(
+    kind: str,
+    inertia: float,
+    ratio: float,
+    omega: float,
+    order: float,
+    serves: float | None,
+    radius: float | None,
+    middle: float,
+) -> Setting:
+    """Return the setting by the formula for one mode."""
+    if kind == "pendulum":
+        assert radius is not None
+        arm = rounded(float(tuned_length(radius, order)))
+        return Setting(inertia=inertia, stiffness=inertia * middle**2 * radius / arm, damping=0.0, arm=arm)
+    if serves is not None:
+        return Setting(inertia=inertia, stiffness=rounded(inertia * (order * serves) ** 2), damping=0.0)
+    tuning = {"h_infinity": h_infinity, "den_hartog": den_hartog, "viscous": viscous_optimum}[kind](ratio)
+    _own, spring, damper = (float(one) for one in tuning.sized(inertia / ratio, omega))
+    spring = spring or inertia * (HOLDING * omega) ** 2
+    return Setting(inertia=inertia, stiffness=rounded(spring), damping=rounded(damper))

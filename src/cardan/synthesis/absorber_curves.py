@@ -1,0 +1,96 @@
+"""What a drive does over a band of speeds without an absorber, by its closed form, and in its best setting."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from cardan.analysis.stability import Verdict, floquet
+from cardan.analysis.torque_swing import TorqueSwings, some_motions
+from cardan.analysis.torsion_response import Progress
+from cardan.analysis.torsional_balance import places
+from cardan.maths.arrays import Array
+
+from .absorber_search import Setting, Task, highest
+from .band import FINER, Lines, about_peaks, band_speeds, excited, lines, zone_speeds
+
+FINE = 81
+"""Evenly spread speeds of the curves."""
+
+JUDGED = 25
+"""Evenly spread speeds at which stability is asked for, beside those amid the zones."""
+
+SAMPLES = 96
+"""Angles of a period at which the swing of an absorber is read off."""
+
+
+def named_elements(found: Lines) -> tuple[str, ...]:
+    """Return the elements of the line by the stations at their ends."""
+    model = found.trains[0].model
+    pairs = [model.elements[k] for k in found.elements]
+    return tuple(f"{model.names[a]} – {model.names[b]}" for a, b in pairs)
+
+
+def fine(bare: Lines, line: Lines, band: tuple[float, float]) -> Array:
+    """Return the speeds of the curves of a drive, rising: evenly, and close about the resonances of both."""
+    drive = bare.drives[0]
+    omega = np.concatenate([bare.omega, line.omega], axis=-1)
+    return band_speeds(*band, omega, excited(drive, drive.duty), count=FINE, beside=FINER)[0]
+
+
+class Curves:
+    """What a drive does over the band without an absorber, with the closed form, and with the best setting."""
+
+    def __init__(self, task: Task, best: Setting, band: tuple[float, float], watch: Progress) -> None:
+        bare = lines([task.drive], task.middle)
+        (first, _at), (last, element) = task.line(task.closed_form), task.line(best)
+        serves = task.speed if task.kind == "tuned" else []
+        self.task, judged = task, bare.elements
+        rough = np.unique(np.append(fine(bare, last, band), serves))
+        closer = [rough]
+        for k, line in enumerate((bare, first, last)):
+            peak = np.max(line.swings(rough[None]).swing[:, task.elements], axis=-1)
+            closer.append(about_peaks(rough, peak))
+            watch(0.1 * (k + 1))
+        self.speed = np.unique(np.concatenate(closer))
+        runs = []
+        for k, line in enumerate((bare, first, last)):
+            runs.append(line.swings(self.speed[None]))
+            watch(0.3 + 0.1 * (k + 1))
+        self.before, self.closed, self.after = (one.swing[:, judged] for one in runs)
+        self.torque = runs[2].swing[:, element]
+        self.twist, self.heat = self._swing(runs[2], last, element, best)
+        self.unstable = tuple(self._unstable(one, line) for one, line in ((runs[0], bare), (runs[2], last)))
+        watch(1.0)
+
+    def peaked(self, setting: Setting, swing: Array) -> Setting:
+        """Return a setting with its peak; where it serves one speed, that of this speed."""
+        rows = np.isin(self.speed, self.task.speed) if self.task.kind == "tuned" else slice(None)
+        peak, speed, element = highest(swing[rows], self.speed[rows], self.task.elements)
+        return replace(setting, peak=peak, peak_speed=speed, peak_element=element)
+
+    def _swing(self, found: TorqueSwings, line: Lines, element: int, setting: Setting) -> tuple[Array, Array]:
+        """Return how far the absorber swings against its station, and what its damper turns to heat, arrays (s,)."""
+        orbit, rows = found.orbit, np.arange(found.orbit.count)
+        q, rate, _acceleration = orbit.of(rows, orbit.period * np.arange(SAMPLES) / SAMPLES)
+        drives = orbit.drives(rows)
+        place = places(drives, q)
+        host, tail = drives.elements[element]
+        speed = place.first * rate[..., list(drives.coordinate)]
+        angle = place.angle[..., tail] - place.angle[..., host]
+        heat = np.mean(setting.damping * (speed[..., tail] - speed[..., host]) ** 2, axis=-1)
+        swing = 0.5 * np.ptp(angle, axis=-1)
+        if setting.arm is not None:
+            swing = swing * (self.task.radius + setting.arm) / setting.arm
+        return swing, heat
+
+    def _unstable(self, found: TorqueSwings, line: Lines) -> Array:
+        """Return the speeds at which a disturbance grows: looked at evenly, and amid the zones of resonance."""
+        zones = zone_speeds(line.omega)[0]
+        wanted = np.append(np.linspace(self.speed[0], self.speed[-1], JUDGED), zones[(zones > self.speed[0])])
+        rows = np.unique([int(np.argmin(np.abs(self.speed - one))) for one in wanted if one <= self.speed[-1]])
+        rows = rows[found.found[rows]]
+        verdict = floquet(some_motions(found.orbit, rows)).verdict if rows.size else np.zeros(0)
+        grown: Array = self.speed[rows][verdict == Verdict.UNSTABLE]
+        return grown
