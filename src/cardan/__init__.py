@@ -40,6 +40,12 @@ _HOMES = {
     "forces": "analysis.forces",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
+    "Life": "analysis.life",
+    "life": "analysis.life",
+    "Cycles": "analysis.rainflow",
+    "Levels": "analysis.rainflow",
+    "rainflow": "analysis.rainflow",
+    "time_at_level": "analysis.rainflow",
     "MonteCarlo": "analysis.sampling",
     "MovingForces": "analysis.moving_forces",
     "moving_forces": "analysis.moving_forces",
@@ -98,6 +104,8 @@ if TYPE_CHECKING:
     from .analysis.extremes import extremes as extremes
     from .analysis.forces import Forces as Forces
     from .analysis.forces import forces as forces
+    from .analysis.life import Life as Life
+    from .analysis.life import life as life
     from .analysis.losses import Losses as Losses
     from .analysis.losses import LossMap as LossMap
     from .analysis.losses import loss_map as loss_map
@@ -106,6 +114,10 @@ if TYPE_CHECKING:
     from .analysis.motion import motion as motion
     from .analysis.moving_forces import MovingForces as MovingForces
     from .analysis.moving_forces import moving_forces as moving_forces
+    from .analysis.rainflow import Cycles as Cycles
+    from .analysis.rainflow import Levels as Levels
+    from .analysis.rainflow import rainflow as rainflow
+    from .analysis.rainflow import time_at_level as time_at_level
     from .analysis.sampling import MonteCarlo as MonteCarlo
     from .analysis.tolerance import Linear as Linear
     from .analysis.tolerance import ToleranceBand as ToleranceBand
