@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -324,7 +324,7 @@ def design(
     (3, 2)
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = _whole(drive, drive.duty if duty is None else duty, rows)
     varied: dict[str, Array] = {}
     for path, values in (vary or {}).items():
         there = place(whole, path)
@@ -334,3 +334,9 @@ def design(
             raise refuse(path, _("not every value is finite"))
         varied[bare.removeprefix(".")] = given * there.factor
     return Design(drive=whole, duty=whole.duty, known=rows, varied=varied)
+
+
+@lru_cache(maxsize=64)
+def _whole(drive: Drive, duty: Duty, known: Catalogue) -> Drive:
+    """Return a drive in a duty with grades and sizes filled in."""
+    return completed(drive if duty is drive.duty else replace(drive, duty=duty), known)

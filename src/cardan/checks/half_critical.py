@@ -7,21 +7,19 @@ from functools import partial
 
 import numpy as np
 
+from cardan.analysis.critical_speed import HALF_BAND
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .check import Check
-from .critical_speed import wear, whirl
 from .design import Design
 from .verdict import Verdict
-
-BAND = 0.08
-"""Half the width of the band about half the critical speed, over its middle."""
+from .whirl import whirls
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    for k in range(1, design.joints):
-        speed, lacking, levers = whirl(design, k)
+    for one in whirls(design):
+        k, speed, lacking, levers = one.shaft, one.speed, one.missing, one.levers
         running = [case.speed for case in design.cases if case.speed is not None]
         between = design.duty.speed_range
         made = partial(
@@ -39,11 +37,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
             continue
         if speed is None:
             continue
-        middle = 0.5 * np.asarray(wear(design, k) * speed)
-        low, high = middle * (1.0 - BAND), middle * (1.0 + BAND)
+        middle = 0.5 * np.asarray(one.wear * speed)
+        low, high = middle * (1.0 - HALF_BAND), middle * (1.0 + HALF_BAND)
         if running:
             yield made(
-                value=_nearest([np.asarray(one, dtype=float) for one in running], np.sqrt(low * high)),
+                value=_nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
                 limit=(low, high),
                 levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from cardan.drive.body import body_material
 from cardan.drive.material import Material
 from cardan.maths.arrays import Array
 
@@ -63,9 +64,9 @@ def sections(design: Design, k: int) -> Iterator[Section]:
 
 def modulus(design: Design, section: Section, name: str) -> float | Array:
     """Return "youngs", "shear_modulus" or "density" of a stretch; those of steel where none is given."""
-    layup = design.value(f"{section.path}.layup") if "segments" not in section.path else None
-    if layup is not None and name == "density":
-        return float(layup.ply.density)
+    if "segments" not in section.path and design.value(f"{section.path}.layup") is not None:
+        tube = body_material(design.value(section.path))
+        return float(getattr(tube, name))
     path = f"{section.path}.material"
     if name != "shear_modulus":
         given = design.value(f"{path}.{name}")

@@ -22,10 +22,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
     soft: dict[int, Array | float] = {}
     levers: list[str] = []
     lacking = list(design.unloaded)
-    for k, shaft in enumerate(design.drive.shafts):
+    for k in range(design.joints + 1):
         between = 0 < k < design.joints
         given = design.value(f"shafts[{k}].stiffness")
-        found = [] if shaft.layup is not None else list(sections(design, k))
+        found = list(sections(design, k))
         if given is not None:
             soft[k] = 1.0 / np.asarray(given)
             levers.append(f"shafts[{k}].stiffness")
@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 for one in found
             )
             levers += [path for one in found for path in one.levers]
-        elif between and shaft.layup is None:
+        elif between:
             lacking.append(f"shafts[{k}].length" if found else f"shafts[{k}].outer")
     if lacking or not soft:
         if lacking:
