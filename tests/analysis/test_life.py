@@ -7,9 +7,11 @@ import pytest
 
 from cardan import InputError, forces, motion
 from cardan.analysis.bearing_life import bearing_life, maker_life
+from cardan.analysis.duty_cycle import combined_life, equivalent_torque
 from cardan.analysis.joint_rating import book_life
 from cardan.analysis.life import METHODS, life
 from cardan.analysis.needle_bearing import needle_rating
+from cardan.analysis.single_joint_forces import couple_frames, cross_loads
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty, Harmonic, History
@@ -202,3 +204,60 @@ def test_friction_and_inertia_load_the_joints_more():
     assert np.all(life(heavy, duty).joints < light.joints)
     swinging = life(SPATIAL, replace(duty, harmonics=(Harmonic(order=0.5, torque=150.0),)))
     assert np.all(swinging.joints < light.joints)
+
+
+@pytest.mark.parametrize(("torque_at", "shaft"), [("input", 0), ("output", 1)])
+def test_the_couple_of_a_shaft_is_order_one_in_it_and_order_two_in_its_housing(torque_at, shaft):
+    """Vectors of `forces` in the housing; turned back with the shaft they keep one direction."""
+    phi = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+    drive = Drive(joints=(Hooke(bend=25 * deg),))
+    found = couple_frames(25 * deg, 300.0)
+    turn = motion(drive, phi).shaft_angle[shaft]
+    even = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+    at = phi if shaft == 0 else np.interp(even, np.append(turn, 2.0 * np.pi), np.append(phi, 2.0 * np.pi))
+    if shaft:  # angles of the input at which the output has gone evenly on, by Newton's method
+        for _round in range(5):
+            gone = motion(drive, at)
+            at = at - (gone.output_angle - even) / gone.ratio
+    couple = forces(drive, Duty(torque=300.0, torque_at=torque_at), at).secondary_couple[shaft]
+    axis = np.asarray([1.0, 0.0, 0.0]) if shaft == 0 else np.asarray([np.cos(25 * deg), 0.0, -np.sin(25 * deg)])
+    first = np.asarray([0.0, 1.0, 0.0])
+    plane = couple @ first + 1j * (couple @ np.cross(axis, first))
+    assert np.max(np.abs(couple @ axis)) < 1e-9 * found.rotating
+    for course, sizes in (
+        (plane, {0: found.standing, 2: found.double}),
+        (plane * np.exp(-1j * even), {1: 0.5 * found.rotating, -1: 0.5 * found.rotating}),
+    ):
+        orders = np.fft.fft(course) / 64
+        for order, size in sizes.items():
+            assert abs(orders[order]) == pytest.approx(size, rel=1e-9)
+            orders[order] = 0.0
+        assert np.max(np.abs(orders)) < 1e-9 * found.rotating
+
+
+def test_formulas_run_on_any_array_library():
+    import array_api_strict as strict
+
+    bend, torque = strict.asarray([0.1, 0.4]), strict.asarray([0.0, 500.0])
+    case = {"speed": strict.asarray([50.0, 100.0]), "bend": bend}
+    plain = {"speed": np.asarray([50.0, 100.0]), "bend": np.asarray([0.1, 0.4])}
+    pairs = [
+        (
+            bearing_life(2e4, 0.04, torque, **case, torque_at="input").worst,
+            bearing_life(2e4, 0.04, [0.0, 500.0], **plain, torque_at="input").worst,
+        ),
+        (book_life(2000.0, torque, **case), book_life(2000.0, [0.0, 500.0], **plain)),
+        (
+            maker_life(2000.0, torque, **case, convention="CR"),
+            maker_life(2000.0, [0.0, 500.0], **plain, convention="CR"),
+        ),
+        (combined_life(bend, bend), combined_life([0.1, 0.4], [0.1, 0.4])),
+        (equivalent_torque(torque, bend), equivalent_torque([0.0, 500.0], [0.1, 0.4])),
+        (
+            cross_loads(bend, torque, torque, span=strict.asarray(0.1)).journal,
+            cross_loads([0.1, 0.4], [0.0, 500.0], [0.0, 500.0], span=0.1).journal,
+        ),
+    ]
+    for one, other in pairs:
+        assert one.__array_namespace__() is strict
+        np.testing.assert_allclose(np.asarray(one), other, rtol=1e-12)
