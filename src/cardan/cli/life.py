@@ -111,7 +111,7 @@ def _answer(drive: Drive, file: Path, found: Life) -> Answer:
         sentence=_sentence(drive, file, found),
         tone=tone,
         tables=lambda: list(_tables(drive, found)),
-        remarks=tuple(_remarks(drive, file, found)),
+        remarks=tuple(_remarks(file, found)),
         content=lambda: _content(drive, file, found),
         csv=lambda: _rows(found),
         figure=lambda: figures(found),
@@ -187,7 +187,6 @@ def _tables(drive: Drive, found: Life) -> Iterator[Table]:
 
 
 def _part_table(found: Life) -> Table:
-    """Return the parts of a duty cycle with their damage, joint by joint."""
     from cardan.units import rpm
 
     from .answer import Column, Table
@@ -217,10 +216,11 @@ def _part_table(found: Life) -> Table:
     )
 
 
-def _remarks(drive: Drive, file: Path, found: Life) -> Iterator[Remark]:
+def _remarks(file: Path, found: Life) -> Iterator[Remark]:
     from math import isfinite
 
     from .answer import Remark, percent, significant
+    from .asked import key_of
 
     if found.enough is False:
         i = found.governing - 1
@@ -249,7 +249,9 @@ def _remarks(drive: Drive, file: Path, found: Life) -> Iterator[Remark]:
         yield Remark(text=said)
     yield from _warned(found)
     if found.uncounted:
-        yield _uncounted(found)
+        keys = ", ".join(key_of(one.field) for one in found.uncounted)
+        text = _("Warning: some joints are not rated; the file lacks {keys}.")
+        yield Remark(text=text.format(keys=keys), tone="warning")
     text = _("{share} of the joints reach these lives (a1 = {factor}); the factor for shocks is {shock}.")
     yield Remark(
         text=text.format(
@@ -264,7 +266,7 @@ def _remarks(drive: Drive, file: Path, found: Life) -> Iterator[Remark]:
 
 
 def _warned(found: Life) -> Iterator[Remark]:
-    """Yield the cautions, joints with the same one together."""
+    """Yield cautions, joints together."""
     from .answer import Remark
     from .asked import listed
 
@@ -387,7 +389,6 @@ def _content(drive: Drive, file: Path, found: Life) -> dict[str, Any]:
 
 
 def _history(found: Life) -> dict[str, Any]:
-    """Return levels and cycles of the measured torque."""
     levels, cycles = found.history, found.cycles
     assert levels is not None
     assert cycles is not None
