@@ -74,7 +74,7 @@ def whirls(design: Design) -> list[Whirl]:
 def _line(drive: Drive) -> dict[int, float]:
     """Return the lowest critical speed of each shaft in the whole line, by index; none where the file lacks some."""
     try:
-        found = bending_speeds(drive, modes=len(drive.joints) + 1)
+        found = bending_speeds(drive, modes=len(drive.joints))
     except InputError:
         return {}
     speeds: dict[int, float] = {}
