@@ -167,9 +167,17 @@ class Design:
         """Every way the drive runs: its duty, then the blocks of its duty cycle."""
         duty = self.duty
         torque, speed = self.value("duty.torque"), self.value("duty.speed")
+        scale = 0.0 if torque is None else torque
         cases = []
         if torque is not None or speed is not None or not duty.blocks:
-            steady = Case(chain=self.chain, torque=_size(torque), speed=_size(speed), torque_at=duty.torque_at)
+            steady = Case(
+                chain=self.chain,
+                torque=_size(torque),
+                speed=_size(speed),
+                torque_at=duty.torque_at,
+                harmonics=duty.harmonics,
+                scale=scale,
+            )
             cases.append(steady)
         for k, block in enumerate(duty.blocks):
             path = f"duty.blocks[{k}]"
@@ -186,6 +194,8 @@ class Design:
                     speed=self.value(f"{path}.speed"),
                     share=self.value(f"{path}.share") if f"{path}.share" in self.varied else block.share,
                     block=True,
+                    harmonics=() if torque is None else duty.harmonics,
+                    scale=scale,
                 )
             )
         history = duty.torque_history

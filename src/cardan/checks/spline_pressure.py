@@ -20,7 +20,7 @@ SIZES = ("outer", "root", "teeth", "tooth_width", "length")
 def stresses(design: Design, k: int) -> tuple[SplineStress, str]:
     """Return the stresses of the spline of a shaft, counted from 0, and a sentence on what decides them."""
     path = f"shafts[{k}].spline"
-    torque, note = design.most(lambda case: case.shaft_torque[1][..., k])
+    torque, note = design.most(lambda case: case.shaft_torque[..., k])
     outer, root, teeth, width, length = (design.value(f"{path}.{name}") for name in SIZES)
     found = spline_stress(
         np.asarray(torque) * design.shock,

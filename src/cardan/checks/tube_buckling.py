@@ -38,7 +38,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         middle = np.asarray(outer) - plies * np.asarray(ply)
         wide = middle / (shaft.outer - plies * shaft.layup.ply_thickness)
         limit = base.buckling_torque * np.sqrt(wide) * (np.asarray(ply) / shaft.layup.ply_thickness) ** 2.5
-        torque, note = design.most(lambda case, k=k: case.shaft_torque[1][..., k])  # type: ignore[misc]
+        torque, note = design.most(lambda case, k=k: case.shaft_torque[..., k])  # type: ignore[misc]
         yield made(
             value=torque * design.shock,
             limit=limit / design.value("limits.safety"),

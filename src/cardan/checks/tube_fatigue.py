@@ -54,10 +54,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 def _safety(design: Design, case: Case, section: Section, k: int) -> Array:
     """Return the safety of a stretch in one way of running."""
     shaft = design.drive.shafts[k]
-    least, most = (torque[..., k] for torque in case.shaft_torque)
-    swing = 0.5 * (most - least)
-    if not case.block:
-        swing = swing + sum(one.torque for one in design.duty.harmonics)
+    least, most = (torque[..., k] for torque in case.torque_range)
     notch = shaft.notch or Notch()
     factors = [design.value(f"shafts[{k}].notch.{name}") for name in ("bending", "torsion")]
     bending, torsion = (
@@ -68,7 +65,7 @@ def _safety(design: Design, case: Case, section: Section, k: int) -> Array:
     outer = np.asarray(section.outer, dtype=float)
     return shaft_fatigue(
         mean_torque=0.5 * (most + least),
-        swinging_torque=swing,
+        swinging_torque=0.5 * (most - least),
         mean_bending=0.0,
         swinging_bending=case.end_bending[..., k],
         outer=outer,

@@ -41,7 +41,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         if lacking:
             yield made(missing=tuple(lacking))
         return
-    value, note = design.most(lambda case: sum(case.shaft_torque[1][..., k] * one for k, one in soft.items()))
+    value, note = design.most(lambda case: sum(case.shaft_torque[..., k] * one for k, one in soft.items()))
     own = design.value("limits.twist")
     yield made(
         value=value,
