@@ -33,12 +33,12 @@ def _judge(design: Design) -> Iterator[Verdict]:
         asked = [name for name in COUNTERS if getattr(row, name) is not None]
         given = [name for name in asked if design.value(f"duty.upkeep.{name}") is not None]
         if not given:
-            title = words[asked[0]].format(item=item)
+            title = words[asked[0]].format(item=_words(item))
             yield made(title=title, missing=tuple(f"duty.upkeep.{name}" for name in asked))
         for name in given:
             dimension, unit = COUNTERS[name]
             yield made(
-                title=words[name].format(item=item),
+                title=words[name].format(item=_words(item)),
                 dimension=dimension,
                 unit=unit,
                 # Due when the interval is reached, so all but a hair of it passes.
@@ -48,6 +48,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 + (_("; severe use halves the interval") if upkeep.severe else ""),
                 levers=(f"duty.upkeep.{name}",),
             )
+
+
+def _words(item: str) -> str:
+    """Return the row of a table in words."""
+    return {"needle_bearings": _("the needle bearings")}.get(item, item.replace("_", " "))
 
 
 CHECK = Check(name="lubrication", doc=_("use since the last lubrication against the intervals"), judge=_judge)

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.bearing_life import CONVENTIONS
-from cardan.analysis.joint_rating import NOMINAL, POWER, rated_bend
+from cardan.analysis.joint_rating import LEAST_BEND, NOMINAL, POWER, rated_bend
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -57,7 +57,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             limit=allowed,
             source=SOURCES[convention],
             levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
-            note=_("a bend below 3° counts as 3°"),
+            note=_("a bend below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
         )
 
 

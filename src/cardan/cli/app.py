@@ -118,6 +118,12 @@ COMMANDS = {
             ),
         },
     ),
+    "check": Entry(
+        "check",
+        QUESTIONS,
+        _("Whether the drive keeps its limits, and what cures it where it does not."),
+        ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
+    ),
     "report": Entry(
         "report",
         QUESTIONS,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +22,15 @@ MAX_BYTES = 20_000_000
 """Larger files are refused; no more of them is read."""
 
 
-def load(path: str | Path) -> Drive:
+def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     """Return the drive a file describes.
 
     Parameters
     ----------
     path : str or Path
         A ``.toml`` file, or ``.json`` with the same tables.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the drive file names.
 
     Returns
     -------
@@ -57,10 +60,18 @@ def load(path: str | Path) -> Drive:
         raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
     except UnicodeDecodeError as error:
         raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
-    return loads(text, folder=where.parent, form=where.suffix.lower().lstrip(".") or "toml", name=str(where))
+    form = where.suffix.lower().lstrip(".") or "toml"
+    return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
 
 
-def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str = "file") -> Drive:
+def loads(
+    text: str,
+    *,
+    folder: str | Path = ".",
+    form: str = "toml",
+    name: str = "file",
+    catalogues: Sequence[str | Path] = (),
+) -> Drive:
     """Return the drive a text describes.
 
     Parameters
@@ -73,6 +84,8 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
         ``"toml"`` or ``"json"``.
     name : str
         What messages call the text.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the text names.
 
     Returns
     -------
@@ -90,10 +103,10 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
     0.3490658503988659
     """
     drive = drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
-    return completed(drive, known_to(drive, folder))
+    return completed(drive, known_to(drive, folder, catalogues))
 
 
-def known_to(drive: Drive, folder: str | Path = ".") -> Catalogue:
+def known_to(drive: Drive, folder: str | Path = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
     """Return the catalogue of a drive: the shipped one and the files that its settings name.
 
     Parameters
@@ -101,14 +114,16 @@ def known_to(drive: Drive, folder: str | Path = ".") -> Catalogue:
     drive : Drive
     folder : str or Path
         Where the files are looked for.
+    catalogues : sequence of str or Path
+        Further files, by their own paths.
 
     Raises
     ------
     InputError
         What is wrong with the files.
     """
-    names = drive.settings.catalogues
-    return with_files(catalogue(), [Path(folder) / name for name in names]) if names else catalogue()
+    files = [*(Path(folder) / name for name in drive.settings.catalogues), *catalogues]
+    return with_files(catalogue(), files) if files else catalogue()
 
 
 def dumps(drive: Drive, *, form: str = "toml") -> str:
