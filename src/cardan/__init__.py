@@ -68,6 +68,13 @@ _HOMES = {
     "Adaptive": "analysis.transient",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "CHECKS": "checks.checks",
+    "Verdict": "checks.verdict",
+    "check": "checks.checks",
+    "Cure": "synthesis.change",
+    "cured": "synthesis.change",
+    "cures": "synthesis.cure",
+    "most_helpful": "synthesis.cure",
     "Allocation": "synthesis.allocation",
     "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
@@ -135,6 +142,9 @@ if TYPE_CHECKING:
     from .analysis.traces import traces as traces
     from .analysis.transient import Adaptive as Adaptive
     from .calc.calculations import calc as calc
+    from .checks.checks import CHECKS as CHECKS
+    from .checks.checks import check as check
+    from .checks.verdict import Verdict as Verdict
     from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
@@ -153,6 +163,10 @@ if TYPE_CHECKING:
     from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
+    from .synthesis.change import Cure as Cure
+    from .synthesis.change import cured as cured
+    from .synthesis.cure import cures as cures
+    from .synthesis.cure import most_helpful as most_helpful
     from .synthesis.goal import NEAREST as NEAREST
     from .synthesis.goal import SYNCHRONOUS as SYNCHRONOUS
     from .synthesis.goal import LeastIntermediate as LeastIntermediate

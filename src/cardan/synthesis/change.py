@@ -76,6 +76,11 @@ def cured(drive: Drive, cure: Cure, *, known: Catalogue | None = None) -> Drive:
     known : Catalogue, optional
         The shipped one when not given.
 
+    Returns
+    -------
+    Drive
+        With grades and sizes filled in.
+
     Examples
     --------
     >>> straighter = Cure(check="bend", subject="", title="", path="joints[0].bend_deg", now=20.0, value=10.0)

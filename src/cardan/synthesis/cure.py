@@ -66,6 +66,18 @@ def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
         All of a drive.
     count : int
         How many at most.
+
+    Returns
+    -------
+    tuple of Cure
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.duty import Limits
+    >>> drive = replace(Drive.from_angles([0.6, 0.5]), limits=Limits(bend=0.4))
+    >>> [(cure.path, cure.value) for cure in most_helpful(cures(drive))]
+    [('joints[1].bend_deg', 22.9), ('joints[0].bend_deg', 22.9)]
     """
     left = {title for cure in found for title in (cure.title, *cure.solves)}
     chosen: list[Cure] = []
