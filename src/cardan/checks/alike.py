@@ -25,7 +25,7 @@ def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
         kind = re.sub(r"\d+", "#", one.title) if one.subject else one.title
         used = f"{float(np.max(one.utilisation)):.2f}"
         groups.setdefault((one.check, kind, used, one.state), []).append(one)
-    return [tuple(group) for group in groups.values()]
+    return [tuple(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
 
 
 def title_of(group: Sequence[Verdict]) -> str:

@@ -147,9 +147,15 @@ def _verdicts(verdicts: Sequence[Verdict], title: str, *, sources: bool) -> Tabl
             said.append(one.note)
         if sources:
             said.append(one.source)
-        state = f"{SIGNS[one.state]} {words[one.state]}"
+        sign = SIGNS["close" if one.advice and one.state == "failed" else one.state]
+        state = f"{sign} {words[one.state]}"
         rows.append([state, float(one.utilisation), shown(one, one.value), limit(one), "; ".join(said)])
-    return Table(columns=columns, rows=rows, title=title, tones=[TONES[group[0].state] for group in groups])
+    return Table(columns=columns, rows=rows, title=title, tones=[_tone(group[0]) for group in groups])
+
+
+def _tone(one: Verdict) -> Tone:
+    """Return the tone of a verdict; red is kept for limits that must be kept."""
+    return "warning" if one.advice and one.state == "failed" else TONES[one.state]
 
 
 def shown(one: Verdict, value: Any, digits: int = 4) -> str:
