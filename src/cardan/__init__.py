@@ -49,6 +49,8 @@ _HOMES = {
     "MonteCarlo": "analysis.sampling",
     "MovingForces": "analysis.moving_forces",
     "moving_forces": "analysis.moving_forces",
+    "Strength": "analysis.strength",
+    "strength": "analysis.strength",
     "Linear": "analysis.tolerance",
     "ToleranceBand": "analysis.tolerance",
     "WorstCase": "analysis.tolerance",
@@ -88,6 +90,13 @@ _HOMES = {
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
     "YokeSetting": "synthesis.setting",
+    "Candidate": "synthesis.selection",
+    "Need": "synthesis.selection",
+    "select_joint": "synthesis.selection",
+    "Sizing": "synthesis.sized",
+    "size": "synthesis.sizing",
+    "TradeOff": "synthesis.trade_off",
+    "trade_off": "synthesis.trade_off",
     "example": "io.examples",
     "load": "io.drive_file",
     "save": "io.drive_file",
@@ -126,6 +135,8 @@ if TYPE_CHECKING:
     from .analysis.rainflow import rainflow as rainflow
     from .analysis.rainflow import time_at_level as time_at_level
     from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.strength import Strength as Strength
+    from .analysis.strength import strength as strength
     from .analysis.tolerance import Linear as Linear
     from .analysis.tolerance import ToleranceBand as ToleranceBand
     from .analysis.tolerance import WorstCase as WorstCase
@@ -175,7 +186,14 @@ if TYPE_CHECKING:
     from .synthesis.layout import layout as layout
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
+    from .synthesis.selection import Candidate as Candidate
+    from .synthesis.selection import Need as Need
+    from .synthesis.selection import select_joint as select_joint
     from .synthesis.setting import YokeSetting as YokeSetting
+    from .synthesis.sized import Sizing as Sizing
+    from .synthesis.sizing import size as size
+    from .synthesis.trade_off import TradeOff as TradeOff
+    from .synthesis.trade_off import trade_off as trade_off
 
 
 class _Package(ModuleType):

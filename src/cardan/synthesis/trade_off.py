@@ -105,6 +105,10 @@ def trade_off(
     progress : function, optional
         Called with the share done; answering "stop" leaves the rest nan.
 
+    Returns
+    -------
+    TradeOff
+
     Raises
     ------
     InputError
