@@ -19,8 +19,9 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
+from .bearing_life import CONVENTIONS
 from .joint_bearings import joint_bearings
-from .joint_rating import POWER
+from .joint_rating import NOMINAL, POWER, rated_bend
 from .joint_strength import PartStress, journal_stress, yoke_stress
 from .life import life
 from .needle_bearing import Contact, book_load, needle_contact
@@ -75,7 +76,13 @@ class JointStrength:
 
 
 def judged_joints(
-    drive: Drive, duty: Duty, known: Catalogue, cases: Sequence[LoadCase], torque: Array, couple: Array
+    drive: Drive,
+    duty: Duty,
+    known: Catalogue,
+    cases: Sequence[LoadCase],
+    torque: Array,
+    couple: Array,
+    bend: Array,
 ) -> tuple[tuple[JointStrength, ...], tuple[Use, ...]]:
     """Return the strength of every joint, and what it uses of its limits.
 
@@ -90,12 +97,14 @@ def judged_joints(
         Largest torque of each shaft.
     couple : array (c, n) [N·m]
         Largest couple of each cross.
+    bend : array (c, n) [rad]
+        Bend of each joint.
     """
     lives = _lives(drive, duty)
     joints: list[JointStrength] = []
     uses: list[Use] = []
     for i in range(len(drive.joints)):
-        one = _Judge(drive, duty, known, cases, torque, couple, i, lives)
+        one = _Judge(drive, duty, known, cases, torque, couple, bend, i, lives)
         joints.append(one.strength())
         uses += list(one.uses())
     return tuple(joints), tuple(uses)
@@ -155,6 +164,7 @@ class _Judge:
     cases: Sequence[LoadCase]
     torque: Array
     couple: Array
+    bend: Array
     i: int
     lives: tuple[Array, Array] | None
 
@@ -187,6 +197,8 @@ class _Judge:
 
     def uses(self) -> Iterator[Use]:
         yield self._rated()
+        if self.duty.life is not None and not lacking(self.drive, f"{self.path}.rating.torque"):
+            yield self._maker()
         yield self._journal()
         yield self._yoke()
         yield self._static()
@@ -204,6 +216,29 @@ class _Judge:
         value, case = self.most(np.maximum(self.torque[:, self.i], self.torque[:, self.i + 1]))
         source = _("rating of the joint") if own is not None or row is None else row.source
         return made(value=value, limit=limit, source=source, case=case)
+
+    def _maker(self) -> Use:
+        """Return what the torque of the whole duty uses of the rated torque for its life."""
+        made = self.made(
+            "rated_torque", _("rated torque of joint {number} for its life"), dimension="torque", unit="Nm"
+        )
+        rating = self.joint.rating
+        running = [c for c, case in enumerate(self.cases) if case.share > 0.0 and case.speed]
+        if rating is None or rating.torque is None or not running:
+            return made(missing=("duty.speed",))
+        share = np.asarray([self.cases[c].share for c in running])
+        pace = (
+            share * np.asarray([(self.cases[c].speed or 0.0) for c in running]) * rated_bend(self.bend[running, self.i])
+        )
+        beside = np.maximum(self.torque[running, self.i], self.torque[running, self.i + 1])
+        same = float(np.sum(pace * beside**POWER) / np.sum(pace)) ** (1.0 / POWER)
+        rated = rating.torque / NOMINAL if rating.convention == "book" else rating.torque
+        turned = float(np.sum(pace) / np.sum(share)) * (self.duty.life or math.nan)
+        return made(
+            value=self.duty.shock_factor * same,
+            limit=rated * (CONVENTIONS[rating.convention] / turned) ** (1.0 / POWER),
+            source=_("rating by the maker's convention, {name}").format(name=rating.convention),
+        )
 
     def _of_journal(self) -> PartStress | None:
         cross = self.joint.cross

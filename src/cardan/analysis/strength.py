@@ -158,8 +158,10 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     loads = [case_loads(kinematic, case) for case in cases]
     shafts = shaft_loads(loads)
     couple = np.stack([one.couple for one in loads])
+    own = np.asarray(kinematic.bend, dtype=float)
+    bend = np.stack([own if case.bend is None else np.full(own.shape, case.bend) for case in cases])
     of_shafts, shaft_uses = judged_shafts(whole, used, cases, shafts)
-    of_joints, joint_uses = judged_joints(whole, used, rows, cases, shafts.torque, couple)
+    of_joints, joint_uses = judged_joints(whole, used, rows, cases, shafts.torque, couple, bend)
     return Strength(
         cases=cases,
         loads=shafts,

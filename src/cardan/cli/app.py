@@ -65,6 +65,16 @@ COMMANDS = {
         _("How long the joints last, steadily or in a duty cycle."),
         ("cardan life truck.toml", "cardan life truck.toml --torque-Nm 900 --plot life.svg"),
     ),
+    "strength": Entry(
+        "strength",
+        QUESTIONS,
+        _("How strong every part is, the torque rating of the drive, and how large a part must be."),
+        (
+            "cardan strength truck.toml",
+            "cardan strength truck.toml --size tube:2 --plot tubes.svg",
+            "cardan strength truck.toml --size joint -o better.toml",
+        ),
+    ),
     "tolerance": Entry(
         "tolerance",
         QUESTIONS,
