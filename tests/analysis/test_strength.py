@@ -160,7 +160,7 @@ def test_strength_and_checks_agree(drive):
         if one.judged:
             assert same[0].limit == pytest.approx(one.limit, rel=1e-12), one.title
             assert same[0].utilisation == pytest.approx(one.utilisation, rel=1e-9), one.title
-    extra = {v.title for v in verdicts} - {one.title for one in found.uses}
+    extra = {v.title for v in verdicts if v.run} - {one.title for one in found.uses}
     assert all("book's rule" in title for title in extra)
 
 
@@ -237,6 +237,16 @@ def test_a_measured_torque_counts_its_cycles():
     cycles = float(strength(swung).shafts[1].fatigue.cycles)
     assert math.isfinite(cycles)
     assert found.shafts[1].fatigue_life == pytest.approx(2.0 * cycles, rel=1e-9)
+
+
+def test_a_wall_buckles_as_timoshenko_has_it():
+    """0.253 E (t/r)^1.5, the coefficient of the textbooks; the one for composites is 7 % higher."""
+    tube = Shaft(number=2, outer=100 * mm, wall=0.5 * mm, length=1.0, material=STEEL)
+    drive = replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))
+    found = use(strength(drive, Duty(torque=200.0)), "tube_buckling")
+    radius, wall = 49.75 * mm, 0.5 * mm
+    by_hand = 2 * math.pi * radius**2 * wall * 0.253 * 206e9 * (wall / radius) ** 1.5
+    assert 1.5 * found.limit == pytest.approx(by_hand, rel=1e-3)  # three digits of the coefficient
 
 
 def test_weight_bends_a_tube_as_handbooks_have_it():

@@ -11,6 +11,7 @@ from cardan.drive.body import body_length, body_material, inner_diameter
 from cardan.drive.drive import Drive
 from cardan.drive.material import Material
 from cardan.drive.parts import known_lengths
+from cardan.texts import _
 
 
 class Stretch(NamedTuple):
@@ -24,6 +25,13 @@ class Stretch(NamedTuple):
     length: float | None
     """[m]"""
     material: Material
+
+    @property
+    def words(self) -> str:
+        """What to add to the name of its shaft; nothing where the shaft is one stretch."""
+        if "segments" not in self.path:
+            return ""
+        return _(", stretch {number}").format(number=int(self.path.rpartition("[")[2].rstrip("]")) + 1)
 
 
 def stretches(drive: Drive, k: int) -> tuple[Stretch, ...]:

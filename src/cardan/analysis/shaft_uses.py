@@ -21,41 +21,21 @@ from .composite_tube import composite_tube
 from .fatigue import Fatigue, shaft_fatigue
 from .rainflow import rainflow, time_at_level
 from .shaft_body import Stretch, stretches, weight_bending
-from .shaft_strength import RATED_TWIST, ShaftStress, polar_moment, shaft_stress, torsion_modulus
+from .shaft_loads import ShaftLoads
+from .shaft_strength import (
+    RATED_TWIST,
+    ShaftStress,
+    polar_moment,
+    shaft_stress,
+    torsion_modulus,
+    wall_buckling_torque,
+)
 from .spline_strength import SplineStress, spline_stress
 from .strength_use import Use, lacking
-from .turn_loads import LoadCase, TurnLoads
+from .turn_loads import LoadCase
 
 SPLINE = ("outer", "root", "teeth", "tooth_width", "length")
 """Sizes that the stresses of a spline need."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class ShaftLoads:
-    """Largest loads of the shafts of a drive in each way of running, arrays (c, n+1), factor for shocks not counted.
-
-    Attributes
-    ----------
-    low, high : arrays [N·m]
-        Least and largest torque over a turn.
-    bending : array [N·m]
-        Largest secondary couple at either end.
-    moment : array [N·m]
-        Largest √(T² + M²).
-    mises : array [N·m]
-        Largest √(4 M² + 3 T²).
-    """
-
-    low: Array
-    high: Array
-    bending: Array
-    moment: Array
-    mises: Array
-
-    @property
-    def torque(self) -> Array:
-        """Largest size of the torque [N·m]."""
-        return np.maximum(np.abs(self.low), np.abs(self.high))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -97,16 +77,6 @@ class ShaftStrength:
     twist: float = math.nan
     spline: SplineStress | None = None
     buckling_torque: float = math.nan
-
-
-def shaft_loads(loads: Sequence[TurnLoads]) -> ShaftLoads:
-    """Return the loads of the shafts in all ways of running, one below the other."""
-    return ShaftLoads(
-        **{
-            name: np.stack([getattr(one, name) for one in loads])
-            for name in ("low", "high", "bending", "moment", "mises")
-        }
-    )
 
 
 def judged_shafts(
@@ -155,6 +125,7 @@ class _Judge:
             yield self._buckling()
         else:
             yield from (self._stress(one) for one in found)
+            yield from (self._wall(one) for one in found if one.inner > 0.0)
             if found:
                 yield self._fatigue(found)
             elif between:
@@ -166,11 +137,24 @@ class _Judge:
         if self.shaft.spline is not None:
             yield from self._spline()
 
+    def _wall(self, stretch: Stretch) -> Use:
+        torque, case = self.most(self.loads.torque)
+        material = stretch.material
+        buckles = wall_buckling_torque(stretch.outer, stretch.inner, material.youngs, material.poisson)
+        return self.made(
+            "tube_buckling",
+            _("torque on the wall of shaft {number}") + stretch.words,
+            dimension="torque",
+            unit="Nm",
+        )(
+            value=torque * self.duty.shock_factor,
+            limit=float(buckles) / self.drive.limits.safety,
+            source=_("buckling of the wall, 2π r² t E (t/r)^(3/2)/(3√2 (1 - ν²)^(3/4)), over safety"),
+            case=case,
+        )
+
     def _stress(self, stretch: Stretch) -> Use:
-        part = ""
-        if "segments" in stretch.path:
-            part = _(", stretch {number}").format(number=int(stretch.path.rpartition("[")[2].rstrip("]")) + 1)
-        made = self.made("tube_strength", _("stress of shaft {number}") + part, dimension="stress", unit="MPa")
+        made = self.made("tube_strength", _("stress of shaft {number}") + stretch.words, dimension="stress", unit="MPa")
         own = self.drive.limits.shear_stress
         resisting = float(torsion_modulus(stretch.outer, stretch.inner))
         if own is not None:

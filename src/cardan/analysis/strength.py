@@ -19,7 +19,8 @@ from cardan.texts import _
 from .bearing_loads import bearing_loads
 from .joint_uses import JointStrength, judged_joints
 from .life import duty_parts
-from .shaft_uses import ShaftLoads, ShaftStrength, judged_shafts, shaft_loads
+from .shaft_loads import ShaftLoads, shaft_loads
+from .shaft_uses import ShaftStrength, judged_shafts
 from .strength_use import Use, governing
 from .turn_loads import LoadCase, case_loads, load_cases
 

@@ -74,3 +74,14 @@ def modulus(design: Design, section: Section, name: str) -> float | Array:
     material = design.value(path) or STEEL
     shear = design.value(f"{path}.shear")
     return material.shear_modulus if shear is None else shear
+
+
+def number_of(path: str) -> int:
+    """Return the number of a stretch from its path.
+
+    Examples
+    --------
+    >>> number_of("shafts[1].segments[2]")
+    3
+    """
+    return int(path.rpartition("[")[2].rstrip("]")) + 1

@@ -10,7 +10,7 @@ from cardan.texts import _
 
 from .check import Check
 from .design import Design
-from .section import Section, sections
+from .section import Section, number_of, sections
 from .verdict import Verdict
 
 
@@ -38,7 +38,9 @@ def _made(k: int, part: str = "") -> partial[Verdict]:
 
 
 def _of_section(design: Design, k: int, section: Section) -> Verdict:
-    made = _made(k, _(", stretch {number}").format(number=_number(section.path)) if "segments" in section.path else "")
+    made = _made(
+        k, _(", stretch {number}").format(number=number_of(section.path)) if "segments" in section.path else ""
+    )
     own = design.value("limits.shear_stress")
     strength = section.of_material("yield_strength")
     lacking = design.unloaded if own is not None else (*design.missing(strength), *design.unloaded)
@@ -62,10 +64,6 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
         levers=(*section.levers, strength, *design.torque_levers),
         note=note,
     )
-
-
-def _number(path: str) -> int:
-    return int(path.rpartition("[")[2].rstrip("]")) + 1
 
 
 CHECK = Check(

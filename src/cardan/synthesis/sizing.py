@@ -163,7 +163,7 @@ def _journal(drive: Drive, number: int, series: str, rows: Catalogue) -> Sizing:
     key = f"{path}.journal_mm"
     start = replace(cross, journal=cross.journal or 0.02)
     base = with_joint(drive, i, cross=start)
-    least = -start.journal_bore / (start.journal or 0.02)
+    least = -start.journal_bore / (start.journal or 0.02) if start.journal_bore else math.inf
     free = {key: 1e3 * (start.journal or 0.02)}
     return solved(base, "journal", f"joints[{i}]", free, {key: _mm(cross.journal)}, series, rows, most=least)
 
