@@ -17,7 +17,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry, geometry_from_points
 from cardan.drive.parts import known_lengths
 from cardan.drive.paths import place
-from cardan.errors import refuse
+from cardan.errors import InputError, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
@@ -334,19 +334,29 @@ def design(
     (3, 2)
     """
     rows = known or catalogue()
-    whole = _whole(drive, drive.duty if duty is None else duty, rows)
+    made = whole(drive, drive.duty if duty is None else duty, rows)
     varied: dict[str, Array] = {}
     for path, values in (vary or {}).items():
-        there = place(whole, path)
+        there = place(made, path)
         bare = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in there.steps)
         given = np.asarray(values, dtype=float)
         if not np.all(np.isfinite(given)):
             raise refuse(path, _("not every value is finite"))
         varied[bare.removeprefix(".")] = given * there.factor
-    return Design(drive=whole, duty=whole.duty, known=rows, varied=varied)
+    return Design(drive=made, duty=made.duty, known=rows, varied=varied)
 
 
 @lru_cache(maxsize=64)
-def _whole(drive: Drive, duty: Duty, known: Catalogue) -> Drive:
-    """Return a drive in a duty with grades and sizes filled in."""
-    return completed(drive if duty is drive.duty else replace(drive, duty=duty), known)
+def whole(drive: Drive, duty: Duty, known: Catalogue) -> Drive:
+    """Return a drive in a duty with grades and sizes filled in.
+
+    A drive that names catalogue files was filled in from them when it was loaded; what the given one does not know of
+    it stays.
+    """
+    posed = drive if duty is drive.duty else replace(drive, duty=duty)
+    try:
+        return completed(posed, known)
+    except InputError:
+        if not drive.settings.catalogues:
+            raise
+        return posed

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
+from cardan.drive.drive import Drive
+from cardan.drive.parts import known_lengths
+from cardan.drive.paths import pose_drives
 from cardan.texts import _
 from cardan.units import mm
 
@@ -22,7 +25,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     splined = [k for k, shaft in enumerate(design.drive.shafts) if shaft.spline is not None]
     if not splined:
         return
-    slides = _slides(design)
+    slides = _slides(design.drive)
     own = design.value("limits.spline_overlap")
     for k in splined:
         path = f"shafts[{k}].spline"
@@ -52,22 +55,20 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
 
 
-def _slides(design: Design) -> dict[int, tuple[float, float]]:
+@lru_cache(maxsize=64)
+def _slides(drive: Drive) -> dict[int, tuple[float, float]]:
     """Return how far each shaft grows longer and shorter than drawn while the drive moves and in its poses [m]."""
-    from cardan.drive.parts import known_lengths
-    from cardan.drive.paths import pose_drives
-
     found: dict[int, tuple[float, float]] = {}
-    drawn = known_lengths(design.drive)
-    for posed in pose_drives(design.drive):
+    drawn = known_lengths(drive)
+    for posed in pose_drives(drive):
         for number, length in known_lengths(posed).items():
             if number in drawn:
                 out, back = found.get(number - 1, (0.0, 0.0))
                 found[number - 1] = max(out, length - drawn[number]), max(back, drawn[number] - length)
-    if design.drive.movements:
+    if drive.movements:
         from cardan.analysis.articulation import articulation
 
-        for one in articulation(design.drive).splines:
+        for one in articulation(drive).splines:
             out, back = found.get(one.shaft - 1, (0.0, 0.0))
             found[one.shaft - 1] = max(out, one.length_max - one.drawn), max(back, one.drawn - one.length_min)
     return found

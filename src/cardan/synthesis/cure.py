@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue
 from cardan.checks import Verdict, check
+from cardan.checks.design import whole as completed_drive
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
@@ -46,7 +47,7 @@ def cures(
     [('joints[1].bend_deg', 22.9)]
     """
     rows = known or catalogue()
-    whole = completed(drive, rows)
+    whole = completed_drive(drive, drive.duty, rows)
     judged = check(whole, known=rows) if verdicts is None else verdicts
     failed = [one for one in judged if one.state == "failed" and not one.advice]
     found: list[Cure] = []
