@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cardan import Drive, forces, motion
+from cardan import Drive, articulation, example, forces, load, motion
 from cardan.analysis.bearing_life import maker_life
 from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
@@ -13,10 +13,11 @@ from cardan.checks.case import Case
 from cardan.drive.chain import chain
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Upkeep, Vehicle
+from cardan.drive.geometry import geometry
 from cardan.drive.inspection import Inspection
 from cardan.drive.keys import spelled
 from cardan.drive.material import Material
-from cardan.drive.paths import read, with_values
+from cardan.drive.paths import pose_drives, read, with_values
 from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
 from cardan.errors import InputError
 from cardan.units import deg, mm, rpm
@@ -309,3 +310,34 @@ def test_utilisation_is_at_most_one_exactly_when_the_limit_is_kept(sense):
     }[sense]
     assert np.array_equal(utilisation(value, limit, sense) <= 1.0, kept)
     assert utilisation(-1.0, 1.5, "at_least") == math.inf
+
+
+def test_the_worst_pose_counts_and_is_named():
+    drive = example("rolling-mill-upper-spindle")
+    drive = replace(drive, limits=replace(drive.limits, bend=4 * deg))
+    found = check(drive, only=["bend"])[0]
+    steepest = max(float(geometry(one).bend[0]) for one in pose_drives(drive))
+    assert found.value == pytest.approx(steepest)
+    assert "roll change" in found.note
+    assert check(replace(drive, poses=()), only=["bend"])[0].value < found.value
+
+
+def test_what_a_movement_makes_of_bends_and_splines_counts():
+    drive = example("pto-hitch")
+    drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01))
+    moved = articulation(drive).envelope
+    bend, uneven, spline = (check(drive, only=[name])[0] for name in ("bend", "irregularity", "spline_overlap"))
+    assert bend.value == moved["bend"][1][0] > geometry(drive).bend[0]
+    assert uneven.value == moved["irregularity"][1]
+    assert spline.value == pytest.approx(articulation(drive).splines[0].engaged_min)
+    assert spline.limit == pytest.approx(0.150)
+
+
+def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
+    rows = '[[joint_sizes]]\nid = "own"\nsource = "s"\ncross = { span_mm = 60, journal_mm = 20 }\n'
+    (tmp_path / "own.toml").write_text(rows, "utf-8")
+    text = 'format = 1\nsettings.catalogues = ["own.toml"]\n[[joints]]\nbend_deg = 5\nsize = "own"\n'
+    (tmp_path / "drive.toml").write_text(text, "utf-8")
+    drive = load(tmp_path / "drive.toml")
+    assert drive.joints[0].cross.span == 0.060
+    assert check(drive, Duty(torque=100.0), only=["needle_static"])[0].missing == ("joints[0].needles.static_capacity",)

@@ -13,6 +13,7 @@ from cardan.texts import _
 from .case import largest
 from .check import Check
 from .design import Design
+from .moving import largest_bend
 from .verdict import Verdict
 
 
@@ -33,7 +34,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
             continue
         limit, source = given[0]
         bends = [np.asarray(case.bend)[..., i] for case in design.cases] or [design.bend[..., i]]
-        yield made(value=largest(bends), limit=limit, source=source, levers=design.bends_of(i))
+        moved = largest_bend(design, i)
+        note = _("while the drive moves") if moved > np.max(largest(bends)) else ""
+        yield made(value=largest([*bends, moved]), limit=limit, source=source, levers=design.bends_of(i), note=note)
 
 
 CHECK = Check(name="bend", doc=_("bend of every joint against what maker, type or user allow"), judge=_judge)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.paths import pose_drives
 from cardan.errors import Problem
 from cardan.errors import check as refuse_all
 from cardan.maths.arrays import ArrayLike
@@ -50,7 +52,8 @@ from . import (
     yoke_strength,
 )
 from .check import Check
-from .design import design
+from .design import Design, design
+from .moving import worst_of_poses
 from .verdict import Verdict
 
 CHECKS: dict[str, Check] = {
@@ -120,7 +123,8 @@ def check(
     Returns
     -------
     tuple of Verdict
-        A verdict that could not be reached names what is missing.
+        A verdict that could not be reached names what is missing. A drive with poses is judged as drawn and in each
+        pose, and the worst counts; where values vary it is judged as drawn.
 
     Raises
     ------
@@ -138,6 +142,15 @@ def check(
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
+    verdicts = _judged(subject, only)
+    if vary or not subject.drive.poses:
+        return verdicts
+    names = [pose.name or str(k) for k, pose in enumerate(subject.drive.poses, start=1)]
+    posed = [replace(subject, drive=one) for one in pose_drives(subject.drive)]
+    return worst_of_poses(verdicts, [(name, _judged(one, only)) for name, one in zip(names, posed, strict=True)])
+
+
+def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:
     return tuple(verdict for name, one in CHECKS.items() if not only or name in only for verdict in one.judge(subject))
 
 

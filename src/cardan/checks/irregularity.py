@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+import numpy as np
+
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.texts import _
 
+from .case import largest
 from .check import Check
 from .design import Design
+from .moving import largest_irregularity
 from .verdict import Verdict
 
 EVEN = 0.0027
@@ -29,11 +33,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if own is None and not design.duty.synchronous:
         yield made(missing=("limits.irregularity",))
         return
+    drawn, moved = equivalent_joint(design.chain).irregularity, largest_irregularity(design)
     yield made(
-        value=equivalent_joint(design.chain).irregularity,
+        value=largest([drawn, moved]),
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
         levers=(*design.yoke_levers, *design.bend_levers),
+        note=_("while the drive moves") if moved > np.max(drawn) else "",
     )
 
 

@@ -15,6 +15,7 @@ from cardan.units import mm
 
 from .check import Check
 from .design import Design
+from .moving import movement
 from .verdict import Verdict
 
 TOUCH = 1e-3 * mm
@@ -65,10 +66,9 @@ def _slides(drive: Drive) -> dict[int, tuple[float, float]]:
             if number in drawn:
                 out, back = found.get(number - 1, (0.0, 0.0))
                 found[number - 1] = max(out, length - drawn[number]), max(back, drawn[number] - length)
-    if drive.movements:
-        from cardan.analysis.articulation import articulation
-
-        for one in articulation(drive).splines:
+    moving = movement(drive)
+    if moving is not None:
+        for one in moving.splines:
             out, back = found.get(one.shaft - 1, (0.0, 0.0))
             found[one.shaft - 1] = max(out, one.length_max - one.drawn), max(back, one.drawn - one.length_min)
     return found
