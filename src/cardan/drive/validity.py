@@ -17,6 +17,7 @@ from .duty_validity import duty_problems
 from .line_validity import line_problems
 from .parts import part_problems
 from .shaft import Shaft
+from .size_validity import size_problems
 
 if TYPE_CHECKING:
     from .drive import Drive
@@ -232,6 +233,7 @@ def problems(drive: Drive) -> Iterator[Problem]:
         *part_problems(drive),
         *line_problems(drive),
         *duty_problems(drive),
+        *size_problems(drive),
         *_unused(drive),
     ]
     yield from found
