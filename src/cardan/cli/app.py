@@ -13,6 +13,7 @@ from .lazy import Entry, Group
 QUESTIONS = _("Questions")
 FILES = _("Drive files")
 FORMULAS = _("Formulas")
+DATA = _("Data")
 ASKED = _("Torsional vibration")
 
 COMMANDS = {
@@ -73,6 +74,22 @@ COMMANDS = {
             "cardan strength truck.toml",
             "cardan strength truck.toml --size tube:2 --plot tubes.svg",
             "cardan strength truck.toml --size joint -o better.toml",
+        ),
+    ),
+    "balance": Entry(
+        "balance",
+        QUESTIONS,
+        _("What unbalance each shaft may have, and the masses that cancel what it has."),
+        ("cardan balance truck.toml --grade G16",),
+    ),
+    "select": Entry(
+        "select",
+        QUESTIONS,
+        _("Which types and sizes of joints do a job, and why not the others."),
+        (
+            "cardan select truck.toml",
+            "cardan select --torque-Nm 2500 --bend-deg 12 --speed-rpm 900 --synchronous",
+            "cardan select truck.toml --catalogue my-maker.toml",
         ),
     ),
     "tolerance": Entry(
@@ -158,6 +175,16 @@ COMMANDS = {
         FILES,
         _("Print the JSON Schema of the drive file, for editors."),
         ("cardan schema > drive.schema.json",),
+    ),
+    "catalogue": Entry(
+        "catalogue",
+        DATA,
+        _("Materials, types and sizes of joints, norms: each row with its source."),
+        (
+            "cardan catalogue materials C45",
+            "cardan catalogue joint_sizes --keys",
+            "cardan catalogue --check my-maker.toml",
+        ),
     ),
     "calc": Entry(
         "calc",
