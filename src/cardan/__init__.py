@@ -49,6 +49,8 @@ _HOMES = {
     "MonteCarlo": "analysis.sampling",
     "MovingForces": "analysis.moving_forces",
     "moving_forces": "analysis.moving_forces",
+    "Balance": "analysis.shaft_balance",
+    "balance": "analysis.shaft_balance",
     "Strength": "analysis.strength",
     "strength": "analysis.strength",
     "Linear": "analysis.tolerance",
@@ -93,6 +95,7 @@ _HOMES = {
     "Candidate": "synthesis.selection",
     "Need": "synthesis.selection",
     "select_joint": "synthesis.selection",
+    "need_of": "synthesis.selection_reasons",
     "Sizing": "synthesis.sized",
     "size": "synthesis.sizing",
     "TradeOff": "synthesis.trade_off",
@@ -135,6 +138,8 @@ if TYPE_CHECKING:
     from .analysis.rainflow import rainflow as rainflow
     from .analysis.rainflow import time_at_level as time_at_level
     from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.shaft_balance import Balance as Balance
+    from .analysis.shaft_balance import balance as balance
     from .analysis.strength import Strength as Strength
     from .analysis.strength import strength as strength
     from .analysis.tolerance import Linear as Linear
@@ -189,6 +194,7 @@ if TYPE_CHECKING:
     from .synthesis.selection import Candidate as Candidate
     from .synthesis.selection import Need as Need
     from .synthesis.selection import select_joint as select_joint
+    from .synthesis.selection_reasons import need_of as need_of
     from .synthesis.setting import YokeSetting as YokeSetting
     from .synthesis.sized import Sizing as Sizing
     from .synthesis.sizing import size as size

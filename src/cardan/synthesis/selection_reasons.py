@@ -83,6 +83,11 @@ def need_of(
     known : Catalogue, optional
         The shipped one when not given.
 
+    Returns
+    -------
+    Need
+        Torque without the factor for shocks, which is its service factor.
+
     Raises
     ------
     InputError
