@@ -118,7 +118,7 @@ def everything():
     drive = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (0.9, 0.02, -0.2), (2.1, 0.06, -0.3), (2.4, 0.06, -0.4)])
     cross = Cross(span=90 * mm, journal=20 * mm, journal_length=18 * mm, material=Material(grade="20Kh"))
     joints = tuple(replace(one, cross=cross) for one in drive.joints)
-    joints = (replace(joints[0], size="example-90"), *joints[1:])
+    joints = (replace(joints[0], size="example-90", cross=replace(cross, journal=22 * mm)), *joints[1:])
     plies = Ply(along=135e9, across=10e9, shear=5e9)
     layup = Layup(angles=(45 * deg, -45 * deg) * 4, ply_thickness=0.4 * mm, ply=plies)
     stubs = (

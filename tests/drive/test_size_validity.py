@@ -1,5 +1,6 @@
 """Sizes, materials and figures that contradict each other are refused, all at once, each with its path."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -7,6 +8,8 @@ import pytest
 from cardan import Drive, InputError
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty, Vehicle
+from cardan.drive.joint_parts import Needles
+from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
 from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline
 from cardan.units import mm
@@ -69,3 +72,19 @@ def test_what_goes_together_is_taken():
         PLAIN, shafts=tube(outer=0.1, layup=layup, notch=Notch(torsion=1.2), spline=Spline(outer=0.05, root=0.04))
     )
     assert made.shafts[1].layup == layup
+
+
+@pytest.mark.parametrize(("count", "fine"), [(23, True), (24, False), (40, False)])
+def test_needles_that_have_no_room_around_their_journal(count, fine):
+    """23 cylinders of 2.5 mm touch each other on a pitch circle of 18.35 mm: 2.5/sin(π/23)."""
+    assert 2.5 / math.sin(math.pi / 23) < 16.0 + 2.5 < 2.5 / math.sin(math.pi / 24)
+    needles = Needles(count=count, diameter=2.5e-3, length=14e-3)
+
+    def made():
+        return Drive(joints=(Hooke(bend=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles),))
+
+    if fine:
+        assert made().joints[0].needles == needles
+        return
+    with pytest.raises(InputError, match=r"no room around a journal of 16 mm; 23 have"):
+        made()

@@ -105,6 +105,14 @@ def test_the_journal_is_the_root_of_its_quartic():
     assert found.exact["joints[1].cross.journal_mm"] == pytest.approx(1e3 * by_hand, rel=1e-7)
 
 
+def test_a_journal_is_not_made_too_small_for_its_needles():
+    needles = Needles(count=30, diameter=2.5 * mm, length=12 * mm)
+    joints = tuple(replace(j, cross=replace(j.cross, journal=24 * mm), needles=needles) for j in drive().joints)
+    found = size(drive(joints=joints, duty=Duty(torque=20.0)), None, "journal:1")
+    touching = 2.5 * (1 / math.sin(math.pi / 30) - 1)
+    assert found.exact["joints[0].cross.journal_mm"] == pytest.approx(touching, rel=1e-8)
+
+
 def test_the_capacity_for_a_life_is_the_tenth_root_law():
     base = drive()
     found = size(base, None, "needles:1")

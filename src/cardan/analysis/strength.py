@@ -19,13 +19,14 @@ from cardan.texts import _
 from .bearing_loads import bearing_loads
 from .joint_uses import JointStrength, judged_joints
 from .life import duty_parts
+from .shaft_body import stretches
 from .shaft_loads import ShaftLoads, shaft_loads
 from .shaft_uses import ShaftStrength, judged_shafts
 from .strength_use import Use, governing
 from .turn_loads import LoadCase, case_loads, load_cases
 
-NOTABLE = 1.02
-"""Masses and friction are told of from this factor on the couples of the crosses."""
+WIDEST = 0.254
+"""Diameter up to which the size factor of fatigue is measured [m], Shigley chapter 6."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,6 +52,8 @@ class Strength:
     dynamic_factor : float
         Largest couple of a cross with masses and friction counted over that without; 1 where it cannot be told. The
         stresses leave it out: the factor for shocks is to hold it.
+    extrapolated : tuple of int
+        Numbers of shafts that are wider than those whose fatigue was measured.
     """
 
     cases: tuple[LoadCase, ...]
@@ -62,6 +65,7 @@ class Strength:
     torque: float
     shock_factor: float
     dynamic_factor: float = 1.0
+    extrapolated: tuple[int, ...] = ()
 
     @property
     def judged(self) -> tuple[Use, ...]:
@@ -173,6 +177,11 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
         torque=max(abs(case.torque) for case in cases),
         shock_factor=used.shock_factor,
         dynamic_factor=_dynamic(whole, used, cases, couple),
+        extrapolated=tuple(
+            k + 1
+            for k, shaft in enumerate(whole.shafts)
+            if shaft.layup is None and any(one.outer > WIDEST for one in stretches(whole, k))
+        ),
     )
 
 

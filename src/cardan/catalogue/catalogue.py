@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -13,12 +14,14 @@ from typing import Any, TypeVar
 from cardan.drive.material import Material
 from cardan.errors import Problem, check, refuse
 from cardan.texts import _
-from cardan.units import nearest
 
 from .reading import rows_of
 from .rows import TABLES, Grade, Row
 
 R = TypeVar("R", bound=Row)
+
+NEAR = 3
+"""Names told of where one is not there."""
 
 FILES = ("materials", "joint_types", "joint_sizes", "norms")
 """Shipped files, beside this one."""
@@ -57,9 +60,8 @@ class Catalogue:
         rows = self.rows(cls)
         if name in rows:
             return rows[name]
-        near = nearest(name, rows)
         text = _("{name} is not in the catalogue").format(name=repr(name))
-        raise refuse(field, text + (_("; the nearest is {near}").format(near=near) if near else ""))
+        raise refuse(field, text + _near(name, {one: one for one in rows}), "unknown_key")
 
     def grade(self, name: str, *, field: str = "material") -> Grade:
         """Return a grade by its id or by its name in another standard.
@@ -81,10 +83,17 @@ class Catalogue:
         if found is not None:
             return found
         spelled = {other.casefold(): other for row in rows.values() for other in row.every_name}
-        near = nearest(name.casefold(), spelled)
         text = _("{name} is not in the catalogue").format(name=repr(name))
-        text += _("; the nearest is {near}").format(near=spelled[near]) if near else ""
-        raise refuse(field, text)
+        raise refuse(field, text + _near(name.casefold(), spelled), "unknown_key")
+
+
+def _near(name: str, spelled: Mapping[str, str]) -> str:
+    """Return which names are most like one that is not there, as the end of a sentence; "" where none is."""
+    found = [spelled[one] for one in get_close_matches(name, list(spelled), n=NEAR, cutoff=0.6)]
+    if not found:
+        return ""
+    text = _("; the nearest is {near}").format(near=found[0])
+    return text + (_(", then {others}").format(others=", ".join(found[1:])) if len(found) > 1 else "")
 
 
 @cache

@@ -23,6 +23,9 @@ HOUR = 3600.0
 
 MPA = 1e6
 
+NOTABLE = 1.02
+"""Masses and friction are told of from this factor on the couples of the crosses."""
+
 ENDLESS = 1e7
 """Factors from here on are as good as none."""
 
@@ -223,7 +226,7 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
     if found.shock_factor != 1.0:
         text = _("Torques and stresses are with the factor {shock:g} for shocks; twist and fatigue are without.")
         yield Remark(text=text.format(shock=found.shock_factor))
-    if found.dynamic_factor > 1.02:
+    if found.dynamic_factor > NOTABLE:
         text = _(
             "Warning: masses and friction raise the largest couple of a cross by {more:.1f} %; stresses leave them out."
         )
@@ -234,6 +237,9 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
             )
         low = found.shock_factor < found.dynamic_factor
         yield Remark(text=text.format(more=100.0 * (found.dynamic_factor - 1.0)), tone="warning" if low else "plain")
+    if found.extrapolated:
+        text = _("Warning: shafts over 254 mm are beyond the tests behind the fatigue formula; shafts {which}.")
+        yield Remark(text=text.format(which=", ".join(map(str, found.extrapolated))), tone="warning")
     for one in found.shafts:
         if one.bending > 0.0 and one.weight_bending > 0.2 * one.bending:
             text = _("Warning: its own weight bends shaft {number} by {weight} N·m, which no stress here counts.")
@@ -302,6 +308,7 @@ def _content(drive: Drive, file: Path, found: Strength) -> dict[str, Any]:
         "governing": None if first is None else {"check": first.check, "part": first.part, "title": first.title},
         "shock_factor": found.shock_factor,
         "dynamic_factor": found.dynamic_factor,
+        "extrapolated_shafts": found.extrapolated,
         "shafts": records(_shafts(drive, found), [(one.number, one.name) for one in drive.shafts]),
         "joints": records(_joints(drive, found), [(k, one.name) for k, one in enumerate(drive.joints, start=1)]),
         "limits": [dict(zip(keys, row, strict=True)) for row in table.rows],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from cardan.units import mm
 from .body import FITS
 from .cross import Cross
 from .duty import Vehicle
+from .joint_parts import Needles
 from .material import Material
 from .shaft import Shaft, Spline
 
@@ -22,11 +24,16 @@ ROUNDING = 1e-9
 """Sizes that differ by this share are the same."""
 
 
+ROOM = 0.02
+"""More needles than fit by this share are a matter of rounded diameters."""
+
+
 def size_problems(drive: Drive) -> Iterator[Problem]:
     """Yield sizes that do not go together, and keys that nothing can use beside the others."""
     for i, joint in enumerate(drive.joints):
         if joint.cross is not None:
             yield from _cross(joint.cross, f"joints[{i}].cross")
+            yield from _needles(joint.cross, joint.needles, f"joints[{i}].needles")
         if joint.yoke is not None:
             yield from _material(joint.yoke.material, f"joints[{i}].yoke.material")
     for shaft in drive.shafts:
@@ -50,6 +57,19 @@ def _cross(cross: Cross, path: str) -> Iterator[Problem]:
         text = _("{bore:.6g} mm is not less than the diameter of the journal, {journal:.6g} mm")
         yield Problem(f"{path}.journal_bore", text.format(bore=cross.journal_bore / mm, journal=cross.journal / mm))
     yield from _material(cross.material, f"{path}.material")
+
+
+def _needles(cross: Cross, needles: Needles | None, path: str) -> Iterator[Problem]:
+    """Yield a row of needles that has no room around its journal: z asin(d/(D + d)) ≤ π."""
+    if needles is None or needles.count is None or needles.diameter is None or cross.journal is None:
+        return
+    most = math.pi / math.asin(needles.diameter / (cross.journal + needles.diameter))
+    if needles.count > most * (1.0 + ROOM):
+        text = _("{count} needles of {diameter:.6g} mm have no room around a journal of {journal:.6g} mm; {most} have")
+        said = text.format(
+            count=needles.count, diameter=needles.diameter / mm, journal=cross.journal / mm, most=math.floor(most)
+        )
+        yield Problem(f"{path}.count", said, "inconsistent")
 
 
 def _material(material: Material | None, path: str) -> Iterator[Problem]:

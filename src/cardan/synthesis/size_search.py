@@ -25,6 +25,9 @@ REACH = (1e-4, 1e4)
 SETTLED = 1e-10
 """Share of its limit by which a part may be off it."""
 
+NEAR = 0.1
+"""Logarithm of what judging many sizes at once can be off."""
+
 ROUNDS = 15
 """Steps of the secant at most; four are usual."""
 
@@ -153,7 +156,7 @@ def settled(utilisation: Callable[[float], float], factor: float) -> float:
     2.0000000000
     """
     place, size = math.log(factor), math.log(utilisation(factor))
-    if abs(size) <= SETTLED:
+    if abs(size) <= SETTLED or abs(size) > NEAR:  # held by its room, not by a check
         return factor
     before, old = place, size
     place += 0.5 * size

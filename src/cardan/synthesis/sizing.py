@@ -163,9 +163,17 @@ def _journal(drive: Drive, number: int, series: str, rows: Catalogue) -> Sizing:
     key = f"{path}.journal_mm"
     start = replace(cross, journal=cross.journal or 0.02)
     base = with_joint(drive, i, cross=start)
-    least = -start.journal_bore / (start.journal or 0.02) if start.journal_bore else math.inf
+    least = max(start.journal_bore, _room(drive.joints[i].needles)) / (start.journal or 0.02)
+    most = -least if least > 0.0 else math.inf
     free = {key: 1e3 * (start.journal or 0.02)}
-    return solved(base, "journal", f"joints[{i}]", free, {key: _mm(cross.journal)}, series, rows, most=least)
+    return solved(base, "journal", f"joints[{i}]", free, {key: _mm(cross.journal)}, series, rows, most=most)
+
+
+def _room(needles: Needles | None) -> float:
+    """Return the smallest journal around which needles have room [m]; 0 where they are not given."""
+    if needles is None or needles.count is None or needles.diameter is None:
+        return 0.0
+    return needles.diameter * (1.0 / math.sin(math.pi / needles.count) - 1.0)
 
 
 def _needles(drive: Drive, number: int, series: str, rows: Catalogue) -> Sizing:
