@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from cardan import articulation, assembly, equivalent_joint, example, motion, phases
+from cardan import articulation, assembly, check, cured, cures, equivalent_joint, example, motion, phases
 from cardan.drive.geometry import geometry
 from cardan.drive.paths import pose_drives
 from cardan.io import example_names, example_text, loads, starter
@@ -19,8 +19,12 @@ SPINDLES = ("rolling-mill-lower-spindle", "rolling-mill-upper-spindle")
 
 def test_all_of_them_are_there() -> None:
     assert set(NAMES) >= {
+        "car-propshaft",
+        "composite-propshaft",
         "instrument-joint",
+        "mill-spindle",
         "overconstrained-pump",
+        "pto-drive",
         "pto-hitch",
         "pto-spline-thrust",
         *SPINDLES,
@@ -29,6 +33,7 @@ def test_all_of_them_are_there() -> None:
         "single-20deg",
         "six-joints",
         "three-joints-unequal",
+        "truck-duty-cycle",
         "truck-exact-yokes",
         "truck-power-unit",
         "truck-printed-angles",
@@ -131,6 +136,23 @@ def test_the_pump_in_four_bearings_binds() -> None:
     assert found.spare == ("supports[3].axial", "supports[1].radial")
     assert found.joint_peak[0].value > 2000.0
     assert found.residual < 1e-12  # sums of a handful of forces
+
+
+@pytest.mark.parametrize("name", ["car-propshaft", "pto-drive", "mill-spindle", "composite-propshaft"])
+def test_drives_that_are_fit_keep_all_their_limits(name: str) -> None:
+    found = [one for one in check(example(name)) if one.run and not one.advice]
+    assert len(found) > 20
+    assert {one.state for one in found} == {"passed"}
+
+
+def test_the_axle_joint_of_the_truck_is_too_small_and_the_next_size_is_not() -> None:
+    drive = example("truck-duty-cycle")
+    found = check(drive)
+    failed = {(one.check, one.subject) for one in found if one.state == "failed" and not one.advice}
+    assert failed == {("bearing_life", "joints[2]"), ("rated_torque", "joints[2]")}
+    best = cures(drive, found)[0]
+    assert (best.path, best.value, best.breaks) == ("joints[2].size", "example-180", ())
+    assert not any(one.state == "failed" and not one.advice for one in check(cured(drive, best)))
 
 
 @pytest.mark.parametrize("name", NAMES)

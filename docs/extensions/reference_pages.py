@@ -20,6 +20,7 @@ def write(folder: Path) -> None:
         "units.md": units(),
         "commands.md": commands(),
         "names.md": names(),
+        "checks.md": checks(),
         "examples.md": examples(),
     }
     for name, text in pages.items():
@@ -62,6 +63,14 @@ def examples() -> str:
         parts.append(f"{drive.name}: {said}, {turns}.\n")
         parts.append(f"```toml\n{text.strip()}\n```\n")
     return "\n".join(parts) or "\n"
+
+
+def checks() -> str:
+    """Return the table of all checks, in the order in which they are asked."""
+    from cardan import CHECKS
+
+    rows = ["| check | judges |", "|---|---|"]
+    return "\n".join([*rows, *(f"| `{name}` | {one.doc} |" for name, one in CHECKS.items())]) + "\n"
 
 
 def commands() -> str:
@@ -121,6 +130,7 @@ def _given(parameter: Any) -> str:
 GROUPS = {
     "The drive": ("drive", "io"),
     "Questions": ("analysis", "maths"),
+    "Verdicts": ("checks",),
     "Choices": ("synthesis",),
     "Results on paper": ("figures", "report", "calc"),
     "Errors": ("errors",),

@@ -44,9 +44,19 @@ _HOMES = {
     "forces": "analysis.forces",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
+    "Life": "analysis.life",
+    "life": "analysis.life",
+    "Cycles": "analysis.rainflow",
+    "Levels": "analysis.rainflow",
+    "rainflow": "analysis.rainflow",
+    "time_at_level": "analysis.rainflow",
     "MonteCarlo": "analysis.sampling",
     "MovingForces": "analysis.moving_forces",
     "moving_forces": "analysis.moving_forces",
+    "Balance": "analysis.shaft_balance",
+    "balance": "analysis.shaft_balance",
+    "Strength": "analysis.strength",
+    "strength": "analysis.strength",
     "Linear": "analysis.tolerance",
     "ToleranceBand": "analysis.tolerance",
     "WorstCase": "analysis.tolerance",
@@ -67,6 +77,13 @@ _HOMES = {
     "FixedStep": "analysis.fixed_steps",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "CHECKS": "checks.checks",
+    "Verdict": "checks.verdict",
+    "check": "checks.checks",
+    "Cure": "synthesis.change",
+    "cured": "synthesis.change",
+    "cures": "synthesis.cure",
+    "most_helpful": "synthesis.cure",
     "Allocation": "synthesis.allocation",
     "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
@@ -80,6 +97,14 @@ _HOMES = {
     "Phasing": "synthesis.phases",
     "phases": "synthesis.phases",
     "YokeSetting": "synthesis.setting",
+    "Candidate": "synthesis.selection",
+    "Need": "synthesis.selection",
+    "select_joint": "synthesis.selection",
+    "need_of": "synthesis.selection_reasons",
+    "Sizing": "synthesis.sized",
+    "size": "synthesis.sizing",
+    "TradeOff": "synthesis.trade_off",
+    "trade_off": "synthesis.trade_off",
     "example": "io.examples",
     "load": "io.drive_file",
     "save": "io.drive_file",
@@ -106,6 +131,8 @@ if TYPE_CHECKING:
     from .analysis.fixed_steps import FixedStep as FixedStep
     from .analysis.forces import Forces as Forces
     from .analysis.forces import forces as forces
+    from .analysis.life import Life as Life
+    from .analysis.life import life as life
     from .analysis.losses import Losses as Losses
     from .analysis.losses import LossMap as LossMap
     from .analysis.losses import loss_map as loss_map
@@ -114,9 +141,17 @@ if TYPE_CHECKING:
     from .analysis.motion import motion as motion
     from .analysis.moving_forces import MovingForces as MovingForces
     from .analysis.moving_forces import moving_forces as moving_forces
+    from .analysis.rainflow import Cycles as Cycles
+    from .analysis.rainflow import Levels as Levels
+    from .analysis.rainflow import rainflow as rainflow
+    from .analysis.rainflow import time_at_level as time_at_level
     from .analysis.sampling import MonteCarlo as MonteCarlo
+    from .analysis.shaft_balance import Balance as Balance
+    from .analysis.shaft_balance import balance as balance
     from .analysis.speed_map import CriticalSpeedMap as CriticalSpeedMap
     from .analysis.speed_map import critical_speed_map as critical_speed_map
+    from .analysis.strength import Strength as Strength
+    from .analysis.strength import strength as strength
     from .analysis.tolerance import Linear as Linear
     from .analysis.tolerance import ToleranceBand as ToleranceBand
     from .analysis.tolerance import WorstCase as WorstCase
@@ -133,6 +168,9 @@ if TYPE_CHECKING:
     from .analysis.traces import traces as traces
     from .analysis.transient import Adaptive as Adaptive
     from .calc.calculations import calc as calc
+    from .checks.checks import CHECKS as CHECKS
+    from .checks.checks import check as check
+    from .checks.verdict import Verdict as Verdict
     from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
@@ -151,6 +189,10 @@ if TYPE_CHECKING:
     from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
+    from .synthesis.change import Cure as Cure
+    from .synthesis.change import cured as cured
+    from .synthesis.cure import cures as cures
+    from .synthesis.cure import most_helpful as most_helpful
     from .synthesis.goal import NEAREST as NEAREST
     from .synthesis.goal import SYNCHRONOUS as SYNCHRONOUS
     from .synthesis.goal import LeastIntermediate as LeastIntermediate
@@ -159,7 +201,15 @@ if TYPE_CHECKING:
     from .synthesis.layout import layout as layout
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
+    from .synthesis.selection import Candidate as Candidate
+    from .synthesis.selection import Need as Need
+    from .synthesis.selection import select_joint as select_joint
+    from .synthesis.selection_reasons import need_of as need_of
     from .synthesis.setting import YokeSetting as YokeSetting
+    from .synthesis.sized import Sizing as Sizing
+    from .synthesis.sizing import size as size
+    from .synthesis.trade_off import TradeOff as TradeOff
+    from .synthesis.trade_off import trade_off as trade_off
 
 
 class _Package(ModuleType):

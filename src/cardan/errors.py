@@ -10,6 +10,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+CODES = (
+    "missing",
+    "not_finite",
+    "not_positive",
+    "negative",
+    "out_of_range",
+    "inconsistent",
+    "singular",
+    "empty",
+    "unknown_key",
+)
+"""What can be wrong with an input, in one word."""
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -21,10 +34,13 @@ class Problem:
         Path of the field, ``joints[1].centre`` in Python, ``joints[1].centre_mm`` in a file. Indices count from 0.
     message : str
         What was given and what is allowed, in one sentence.
+    code : str
+        One of `CODES`, for programs; empty where none of them fits.
     """
 
     field: str
     message: str
+    code: str = ""
 
     def __str__(self) -> str:
         return f"{self.field}: {self.message}" if self.field else self.message
@@ -66,7 +82,7 @@ class InputError(CardanError):
 
     def renamed(self, name: Any) -> InputError:
         """Return the same problems with their fields passed through ``name``."""
-        return type(self)([Problem(name(p.field), p.message) for p in self.problems], where=self.where)
+        return type(self)([Problem(name(p.field), p.message, p.code) for p in self.problems], where=self.where)
 
 
 def _rebuilt(kind: type[InputError], problems: Iterable[Problem], where: Any) -> InputError:
@@ -81,9 +97,9 @@ class MissingExtraError(CardanError):
     """An optional library is not installed; the message names the extra to install."""
 
 
-def refuse(field: str, message: str) -> InputError:
+def refuse(field: str, message: str, code: str = "") -> InputError:
     """Return an `InputError` with a single problem."""
-    return InputError([Problem(field, message)])
+    return InputError([Problem(field, message, code)])
 
 
 def check(problems: Iterable[Problem]) -> None:

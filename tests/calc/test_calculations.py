@@ -52,7 +52,7 @@ def test_every_calculation_says_what_it_takes_and_gives(one):
 
 CASES = [
     case
-    for name in ("kinematics.json", "statics.json", "dynamics.json", "strength.json")
+    for name in ("kinematics.json", "statics.json", "dynamics.json", "strength.json", "structure.json")
     for case in json.loads((Path(__file__).parents[1] / "reference" / name).read_text("utf8"))["cases"]
     if case["capability"] != "errors" and "error_field" not in case["expected"]
 ]
@@ -96,6 +96,12 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
         required |= {"d_out_mm", "length_mm", "E_GPa", "density_kg_m3"}  # or what another method needs
     if name == "mathieu_stability":
         required |= {"a"}  # or one of its other questions
+    if name == "design_torque":
+        required |= {"engine_torque_Nm", "engine_speed_rpm"}  # the torque, or power and speed
+    if name == "lubrication_due":
+        required |= {"hours"}  # or another counter
+    if name == "spline_axial_force":
+        required = {"alpha_deg", "phi1_deg", "M2_Nm", "mu", "d_spline_m"}  # or those of the thrust alone
     either = {"alpha_deg"} if "alpha_deg" in {i.key for i in CALCULATIONS[name].takes if not i.required} else set()
     assert set(found) == {"colour"} | required | either
 

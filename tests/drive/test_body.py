@@ -10,7 +10,7 @@ import pytest
 from cardan import Drive, InputError
 from cardan.drive.body import Lump, Segment, body_length, pieces, softness
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft
+from cardan.drive.shaft import Layup, Ply, Shaft
 from cardan.drive.train import train
 from cardan.io import dumps, loads
 
@@ -114,3 +114,13 @@ def test_files_keep_bodies() -> None:
 def test_shear_modulus_follows_from_the_others() -> None:
     assert Material().shear_modulus == pytest.approx(7.92e10, rel=1e-3)
     assert Material(shear=5e10).shear_modulus == 5e10
+
+
+def test_a_composite_tube_weighs_and_bends_as_its_plies():
+    ply = Ply(along=135e9, across=10e9, shear=5e9, density=1600.0)
+    tube = Shaft(number=2, outer=0.09, layup=Layup(angles=(0.0,) * 6, ply_thickness=5e-4, ply=ply))
+    one = pieces(tube, 1.5)[0]
+    assert one.inner == pytest.approx(0.084)
+    assert one.mass == pytest.approx(1600 * np.pi / 4 * (0.09**2 - 0.084**2) * 1.5)
+    assert one.material.youngs == pytest.approx(135e9)
+    assert one.material.shear_modulus == pytest.approx(5e9)

@@ -38,7 +38,7 @@ def test_round_trip_by_angles(bends: list[float], name: str, phase: float) -> No
     assert loads(dumps(drive, form="json"), form="json") == drive
 
 
-@given(st.lists(st.tuples(st.floats(0.1, 3), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)), min_size=3, max_size=6))
+@given(st.lists(st.tuples(st.floats(0.3, 3), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)), min_size=3, max_size=6))
 def test_round_trip_by_points(steps: list[tuple[float, float, float]]) -> None:
     points = np.cumsum(steps, axis=0)
     drive = Drive.from_points(points.tolist())

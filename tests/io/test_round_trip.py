@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import Drive
+from cardan.catalogue import completed, material
 from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
-from cardan.drive.duty import Duty, Limits
+from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joints import Hooke
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.machine import (
@@ -74,8 +75,18 @@ def holding(kind: Any, one: Field) -> st.SearchStrategy[Any]:
     return st.booleans() if kind is bool else words
 
 
+NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
+    (Hooke, "size"): st.just(""),
+    (Hooke, "type"): st.just("") | st.just("medium"),
+    (Material, "grade"): st.just(""),
+    (Settings, "catalogues"): st.just(()),
+}
+"""Fields that name a row or a file, and names that are there."""
+
+
 def things(cls: type, **known: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     """Return instances of a class of the model with any of its fields given."""
+    known = {name: one for (kind, name), one in NAMES.items() if kind is cls} | known
     given_fields = {
         name: known.get(name, holding(one.type, one) if one.required else st.just(one.default) | holding(one.type, one))
         for name, one in fields_of(cls).items()
@@ -120,6 +131,9 @@ duties = things(
     run_up=st.none() | run_ups,
     **dict.fromkeys(("engine", "motor", "load"), st.none()),
     torques=st.just(()),
+    blocks=st.just(())
+    | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
+    torque_history=st.none(),
 )
 
 
@@ -139,8 +153,9 @@ def shafts(draw: st.DrawFn) -> Shaft:
         )
     )
     body = draw(bodies)
-    material = draw(st.none() | things(Material)) if body else None
-    return replace(shaft, **body, material=material)
+    graded = st.sampled_from([material("C45"), replace(material("C45"), density=1.0)])
+    made_of = draw(st.none() | things(Material) | graded) if body else None
+    return replace(shaft, **body, material=made_of)
 
 
 @given(duties, shafts(), things(Limits), things(Settings), words, notes)
@@ -241,6 +256,20 @@ def test_engines(engine: Engine) -> None:
     drive = replace(DRIVE, duty=Duty(engine=engine))
     for form in ("toml", "json"):
         assert loads(dumps(drive, form=form), form=form) == drive
+
+
+def test_a_joint_of_a_size_is_written_as_its_size_and_what_differs() -> None:
+    own = replace(DRIVE.joints[0], size="example-90", cross=Cross(journal=0.025))
+    drive = completed(replace(DRIVE, joints=(own, *DRIVE.joints[1:])))
+    assert drive.joints[0].cross is not None
+    assert (drive.joints[0].cross.span, drive.joints[0].cross.journal) == (0.07, 0.025)
+    assert drive.joints[0].yoke is not None
+    assert drive.joints[0].yoke.material == material("40KhNMA")
+    text = dumps(drive)
+    assert "journal_mm = 25" in text
+    assert "span" not in text
+    assert "yoke =" not in text
+    assert loads(text) == drive
 
 
 def test_a_note_of_several_lines_stands_in_several_lines() -> None:

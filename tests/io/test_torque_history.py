@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from cardan import InputError, load, save
+from cardan.drive.duty import History
 from cardan.drive.machine import TorqueHistory
 
 TEXT = """format = 1
@@ -59,3 +60,30 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
     (tmp_path / "drive.toml").write_text(TEXT)
     with pytest.raises(InputError, match=r"duty\.load\.file: load.csv cannot be read"):
         load(tmp_path / "drive.toml")
+
+
+CYCLE = TEXT.replace('load = { kind = "time_history", file = "load.csv" }', 'torque_history = "load.csv"')
+
+
+def test_a_duty_cycle_is_a_file_by_its_name_alone(tmp_path: Path) -> None:
+    path = written(tmp_path, "time_min,torque_Nm\n0,-5\n1,10\n3,40\n")
+    path.write_text(CYCLE)
+    drive = load(path)
+    assert drive.duty.torque_history == History(file="load.csv", times=(0.0, 60.0, 180.0), torques=(-5.0, 10.0, 40.0))
+    path.write_text(CYCLE.replace('"load.csv"', '{ file = "load.csv" }'))
+    assert load(path) == drive
+    (tmp_path / "other").mkdir()
+    save(drive, tmp_path / "other" / "drive.toml")
+    assert 'torque_history = "load.csv"' in (tmp_path / "other" / "drive.toml").read_text()
+    assert load(tmp_path / "other" / "drive.toml") == drive
+
+
+def test_a_duty_cycle_that_is_none_is_refused_at_its_key(tmp_path: Path) -> None:
+    path = written(tmp_path, "time_s,torque_Nm\n0,1\n")
+    path.write_text(CYCLE)
+    with pytest.raises(InputError, match=r"duty\.torque_history: load.csv has 1 rows"):
+        load(path)
+    path.write_text(CYCLE + "blocks = [{ torque_Nm = 1, speed_rpm = 1, share_percent = 100 }]\n")
+    (tmp_path / "load.csv").write_text("time_s,torque_Nm\n0,1\n1,2\n")
+    with pytest.raises(InputError, match=r"duty\.torque_history: blocks give the duty cycle already"):
+        load(path)

@@ -19,7 +19,8 @@ def result_of(case: dict[str, Any]) -> dict[str, Any] | None:
     try:
         return {"id": case["id"], "computed": calc(name, case["inputs"])}
     except InputError as error:
-        return {"id": case["id"], "error": {"field": error.field, "message": str(error)}}
+        code = {"code": error.problems[0].code} if error.problems[0].code else {}
+        return {"id": case["id"], "error": {"field": error.field, "message": str(error), **code}}
 
 
 def main(source: str, target: str) -> None:

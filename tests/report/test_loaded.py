@@ -229,7 +229,8 @@ def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
     whole = page(locked)
     assert 'class="judgement failed"' in whole
     assert "Friction holds joint 1, 2" in front(locked)
-    assert 'class="judgement good"' in page(drive)
+    slow = replace(drive, duty=replace(drive.duty, speed=10.0))  # its shafts swing too hard at full speed
+    assert 'class="judgement good"' in page(slow)
 
 
 def test_what_could_not_be_reckoned_is_told_on_the_first_page():

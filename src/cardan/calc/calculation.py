@@ -11,10 +11,10 @@ import numpy as np
 
 from cardan.errors import InputError, Problem, check
 
-from .keys import Given, Gives, Values, given, gives, rows
+from .keys import Given, Gives, Values, given, gives, record, rows
 from .reading import read
 
-__all__ = ["Calculation", "Given", "Gives", "Values", "given", "gives", "rows"]
+__all__ = ["Calculation", "Given", "Gives", "Values", "given", "gives", "record", "rows"]
 
 PYTHON = {
     "bend": ("alpha",),

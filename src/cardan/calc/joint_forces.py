@@ -122,6 +122,29 @@ def _gyro_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
         yield Problem(key("alpha0"), _("the bend reaches 90° with the given amplitude"))
 
 
+SPLINE_THRUST = Calculation(
+    name="spline_axial_force",
+    doc=_("friction thrust of the spline of the driven shaft and its parts in the joint"),
+    source="Book (123), (124), corrected",
+    takes=(
+        given("alpha_deg", _("bend"), "angle", low=0.0, below=RIGHT),
+        given("phi1_deg", _("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
+        given("M2_Nm", _("torque at the spline"), "torque"),
+        given("mu", _("coefficient of friction of the spline"), low=0.0),
+        size("d_spline_m", _("mean diameter of the spline")),
+    ),
+    returns=(
+        gives("T_N", _("friction thrust"), "force"),
+        gives("axial_on_shaft1_N", _("its part along shaft 1"), "force"),
+        gives("radial_on_shaft1_N", _("its part across shaft 1"), "force"),
+        gives("along_pin_B_N", _("its part along the driving journals"), "force"),
+        gives("along_pin_C_N", _("its part along the driven journals"), "force"),
+        gives("along_cross_normal_N", _("its part along the normal of the cross"), "force"),
+    ),
+    answer=_spline,
+)
+"""The thrust of a spline and its parts in the joint before it."""
+
 CALCULATIONS = (
     Calculation(
         name="joint_reactions",
@@ -182,27 +205,6 @@ CALCULATIONS = (
             gives("M2_resultant_max_over_turn_Nm", _("largest resultant on shaft 2 over a turn"), "torque"),
         ),
         answer=_double,
-    ),
-    Calculation(
-        name="spline_axial_force",
-        doc=_("friction thrust of the spline of the driven shaft and its parts in the joint"),
-        source="Book (123), (124), corrected",
-        takes=(
-            given("alpha_deg", _("bend"), "angle", low=0.0, below=RIGHT),
-            given("phi1_deg", _("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
-            given("M2_Nm", _("torque at the spline"), "torque"),
-            given("mu", _("coefficient of friction of the spline"), low=0.0),
-            size("d_spline_m", _("mean diameter of the spline")),
-        ),
-        returns=(
-            gives("T_N", _("friction thrust"), "force"),
-            gives("axial_on_shaft1_N", _("its part along shaft 1"), "force"),
-            gives("radial_on_shaft1_N", _("its part across shaft 1"), "force"),
-            gives("along_pin_B_N", _("its part along the driving journals"), "force"),
-            gives("along_pin_C_N", _("its part along the driven journals"), "force"),
-            gives("along_cross_normal_N", _("its part along the normal of the cross"), "force"),
-        ),
-        answer=_spline,
     ),
     Calculation(
         name="moving_axis_gyro",

@@ -12,7 +12,7 @@ from cardan.units import DIMENSIONS, Key, factor
 Values: TypeAlias = dict[str, Any]
 """Name without unit -> value in SI."""
 
-Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows"]
+Kind: TypeAlias = Literal["numbers", "whole", "table", "word", "flag", "rows", "record"]
 
 REQUIRED: Any = object()
 """Default of an input that must be given."""
@@ -28,9 +28,10 @@ class Given:
         As in the reference cases, unit included; any other unit of its dimension is read as well.
     meaning : Key
         Sentence, dimension and allowed range in SI.
-    kind : "numbers", "whole", "table", "word", "flag" or "rows"
+    kind : "numbers", "whole", "table", "word", "flag", "rows" or "record"
         Numbers in ``axes``; whole numbers in ``axes``; a table from whole numbers to numbers; one of the key's choices,
-        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``.
+        or a list of them where ``axes`` is (1,); true or false; a list of tables with the keys of ``columns``, or
+        one such table.
     axes : tuple of int
         How deep the lists may be nested; 0 is a bare number.
     width : int or None
@@ -81,6 +82,8 @@ class Given:
             keys = [", ".join(column.key for column in self.columns)]
             keys += [f"{kind}: {', '.join(column.key for column in more)}" for kind, more in self.kinds.items()]
             return _("list of tables with {keys}").format(keys="; ".join(keys))
+        if self.kind == "record":
+            return _("table with {keys}").format(keys=", ".join(column.key for column in self.columns))
         if self.kind == "word" and not self.meaning.choices:
             return _("name")
         if self.kind == "word":
@@ -151,6 +154,11 @@ def rows(
     if more:
         columns += (given("kind", _("of which kind"), kind="word", choices=tuple(more)),)
     return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=more)
+
+
+def record(key: str, doc: str, *columns: Given, default: Any = REQUIRED) -> Given:
+    """Declare an input that is one table with the keys of ``columns``."""
+    return Given(key=key, meaning=Key(doc), kind="record", columns=columns, default=default)
 
 
 def gives(key: str, doc: str, dimension: str | None = None) -> Gives:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.validity import in_range, out_of_range, shown
+from cardan.drive.validity import in_range, out_of_range, range_code, shown
 from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import factor, nearest
@@ -25,20 +25,20 @@ def read(
     for item in takes:
         if item.name not in found:
             if item.required:
-                problems.append(Problem(before + item.key, _("missing: {doc}").format(doc=item.doc)))
+                problems.append(Problem(before + item.key, _("missing: {doc}").format(doc=item.doc), "missing"))
             else:
                 values[item.name] = item.default
             continue
         key = keys[item.name]
-        if item.kind == "rows":
-            wrong, value, inner = _rows(item, found[item.name], before + key)
+        if item.columns:
+            wrong, value, inner = _inner(item, found[item.name], before + key)
             keys |= {item.name + place: name for place, name in inner.items()}
         else:
             wrong, value = list(_problems(item, found[item.name], key)), None
-            wrong = [Problem(before + problem.field, problem.message) for problem in wrong]
+            wrong = [Problem(before + problem.field, problem.message, problem.code) for problem in wrong]
         problems += wrong
         if not wrong:
-            values[item.name] = value if item.kind == "rows" else _si(item, found[item.name], key)
+            values[item.name] = value if item.columns else _si(item, found[item.name], key)
     return values, keys, problems
 
 
@@ -53,13 +53,24 @@ def _sort(
     for key, value in inputs.items():
         item = own.get(key) or _in_other_unit(key, takes)
         if item is None:
-            problems.append(Problem(before + key, _unknown(key, own)))
+            problems.append(Problem(before + key, _unknown(key, own), "unknown_key"))
         elif item.name in found:
-            problems.append(Problem(before + key, _("given twice, also as {other}").format(other=keys[item.name])))
+            text = _("given twice, also as {other}").format(other=keys[item.name])
+            problems.append(Problem(before + key, text, "inconsistent"))
         elif value is not None or item.required:
             found[item.name] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
             keys[item.name] = key
     return found, keys, problems
+
+
+def _inner(item: Given, value: Any, key: str) -> tuple[list[Problem], Any, dict[str, str]]:
+    """Return what is wrong with tables, the tables in SI by name, and each key by its place and name."""
+    if item.kind == "rows":
+        return _rows(item, value, key)
+    if not isinstance(value, Mapping):
+        return [Problem(key, _("{value} is not a {shape}").format(value=_short(value), shape=item.shape))], {}, {}
+    values, own, wrong = read(item.columns, value, f"{key}.")
+    return wrong, values, {f".{name}": f"{key}.{given_as}" for name, given_as in own.items()}
 
 
 def _rows(item: Given, value: Any, key: str) -> tuple[list[Problem], list[Values], dict[str, str]]:
@@ -104,7 +115,9 @@ def _factor(item: Given, key: str) -> float:
 
 def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
     """Yield what is wrong with one input by itself."""
-    if item.kind == "flag":
+    if value is None:
+        yield Problem(key, _("missing: {doc}").format(doc=item.doc), "missing")
+    elif item.kind == "flag":
         if not isinstance(value, bool):
             yield Problem(key, _("{value} is neither true nor false").format(value=_short(value)))
     elif item.kind == "word" and item.axes == (0,):
@@ -135,7 +148,8 @@ def _word(item: Given, value: Any, key: str) -> Iterator[Problem]:
         near = nearest(str(value), item.meaning.choices)
         hint = _("; did you mean {near}?").format(near=near) if near else ""
         text = _("{value} is none of {choices}")
-        yield Problem(key, text.format(value=_short(value), choices=", ".join(item.meaning.choices)) + hint)
+        choices = ", ".join(item.meaning.choices)
+        yield Problem(key, text.format(value=_short(value), choices=choices) + hint, "out_of_range")
 
 
 def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
@@ -161,11 +175,12 @@ def _number(item: Given, entry: Any, field: str, key: str) -> Iterator[Problem]:
         return
     value = _scaled(entry, _factor(item, key))
     if not math.isfinite(value):
-        yield Problem(field, _("{value} is not finite").format(value=_short(entry)))
+        yield Problem(field, _("{value} is not finite").format(value=_short(entry)), "not_finite")
     elif item.kind == "whole" and entry != int(entry):
-        yield Problem(field, _("{value} is not a whole number").format(value=entry))
+        yield Problem(field, _("{value} is not a whole number").format(value=entry), "out_of_range")
     elif not in_range(item.meaning, value):
-        yield Problem(field, out_of_range(shown(value, item.meaning), item.meaning, value))
+        text = out_of_range(shown(value, item.meaning), item.meaning, value)
+        yield Problem(field, text, range_code(item.meaning, value))
 
 
 def _scaled(entry: float, scale: float) -> float:

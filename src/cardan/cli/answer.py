@@ -40,12 +40,16 @@ class Column:
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """Rows of values in the units of their columns; the first ``fixed`` columns are repeated when it is split."""
+    """Rows of values in the units of their columns; the first ``fixed`` columns are repeated when it is split.
+
+    ``tones`` says how good each row is; its first cell then has that colour, beside the sign and word it holds.
+    """
 
     columns: tuple[Column, ...]
     rows: Sequence[Sequence[Cell]]
     title: str = ""
     fixed: int = 1
+    tones: Sequence[Tone] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

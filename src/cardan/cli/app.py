@@ -13,6 +13,7 @@ from .lazy import Entry, Group
 QUESTIONS = _("Questions")
 FILES = _("Drive files")
 FORMULAS = _("Formulas")
+DATA = _("Data")
 ASKED = _("Torsional vibration")
 
 COMMANDS = {
@@ -58,6 +59,38 @@ COMMANDS = {
         QUESTIONS,
         _("How much of the power turns to heat, and where."),
         ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
+    ),
+    "life": Entry(
+        "life",
+        QUESTIONS,
+        _("How long the joints last, steadily or in a duty cycle."),
+        ("cardan life truck.toml", "cardan life truck.toml --torque-Nm 900 --plot life.svg"),
+    ),
+    "strength": Entry(
+        "strength",
+        QUESTIONS,
+        _("How strong every part is, the torque rating of the drive, and how large a part must be."),
+        (
+            "cardan strength truck.toml",
+            "cardan strength truck.toml --size tube:2 --plot tubes.svg",
+            "cardan strength truck.toml --size joint -o better.toml",
+        ),
+    ),
+    "balance": Entry(
+        "balance",
+        QUESTIONS,
+        _("What unbalance each shaft may have, and the masses that cancel what it has."),
+        ("cardan balance truck.toml --grade G16",),
+    ),
+    "select": Entry(
+        "select",
+        QUESTIONS,
+        _("Which types and sizes of joints do a job, and why not the others."),
+        (
+            "cardan select truck.toml",
+            "cardan select --torque-Nm 2500 --bend-deg 12 --speed-rpm 900 --synchronous",
+            "cardan select truck.toml --catalogue my-maker.toml",
+        ),
     ),
     "tolerance": Entry(
         "tolerance",
@@ -122,6 +155,12 @@ COMMANDS = {
             ),
         },
     ),
+    "check": Entry(
+        "check",
+        QUESTIONS,
+        _("Whether the drive keeps its limits, and what cures it where it does not."),
+        ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
+    ),
     "report": Entry(
         "report",
         QUESTIONS,
@@ -146,6 +185,16 @@ COMMANDS = {
         FILES,
         _("Print the JSON Schema of the drive file, for editors."),
         ("cardan schema > drive.schema.json",),
+    ),
+    "catalogue": Entry(
+        "catalogue",
+        DATA,
+        _("Materials, types and sizes of joints, norms: each row with its source."),
+        (
+            "cardan catalogue materials C45",
+            "cardan catalogue joint_sizes --keys",
+            "cardan catalogue --check my-maker.toml",
+        ),
     ),
     "calc": Entry(
         "calc",

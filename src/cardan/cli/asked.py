@@ -59,6 +59,7 @@ SUFFIX = {
     "position": "mm",
     "journal": "mm",
     "bore": "mm",
+    "capacity": "N",
     "length": "mm",
     "mean_diameter": "mm",
     "mass_centre": "mm",
@@ -115,7 +116,7 @@ def keys_of(file: Path) -> Iterator[None]:
         try:
             yield
         except InputError as error:
-            raise InputError(Problem(key_of(one.field), _hinted(one)) for one in error.problems) from error
+            raise InputError(Problem(key_of(one.field), _hinted(one), one.code) for one in error.problems) from error
 
 
 def _hinted(problem: Problem) -> str:

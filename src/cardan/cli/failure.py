@@ -1,7 +1,8 @@
 """What the command line says when something goes wrong: one message with every problem, on stderr, and a code.
 
-With ``--json`` the message is JSON too, ``{"error": {"message", "problems": [{"field", "message"}], "exit_code"}}``,
-still on stderr, so that stdout holds an answer or nothing.
+With ``--json`` the message is JSON too, still on stderr, so that stdout holds an answer or nothing:
+``{"error": {"message", "problems": [{"field", "message", "code"}], "exit_code"}}``, a code of `cardan.errors.CODES`
+where one fits.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def about(name: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        problems = (Problem("" if p.field == name else p.field, p.message) for p in error.problems)
+        problems = (Problem("" if p.field == name else p.field, p.message, p.code) for p in error.problems)
         raise RefusedError(name, tuple(problems)) from error
     except OSError as error:
         raise RefusedError(name, (Problem("", reason(error)),)) from error
@@ -116,7 +117,10 @@ def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequen
 def _json(head: str, subject: str, problems: Sequence[Problem], code: int) -> str:
     import json
 
-    listed = [{"field": problem.field, "message": problem.message} for problem in problems]
+    listed = [
+        {"field": problem.field, "message": problem.message, **({"code": problem.code} if problem.code else {})}
+        for problem in problems
+    ]
     error = {"message": head, "file": subject, "problems": listed, "exit_code": code}
     return json.dumps({"error": error}, ensure_ascii=False)
 

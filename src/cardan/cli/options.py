@@ -35,3 +35,12 @@ SpeedRpm: TypeAlias = Annotated[
         show_default=False,
     ),
 ]
+MoreRows: TypeAlias = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--catalogue",
+        metavar="FILE",
+        help=_("Catalogue file with more sizes, types, grades or norms; may be repeated."),
+        show_default=False,
+    ),
+]

@@ -204,17 +204,20 @@ def _print_table(console: Console, table: Table) -> None:
     widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
     if columns[-1].wrap:
         widths[-1] = min(widths[-1], max(NARROWEST, console.width - GAP - sum(GAP + width for width in widths[:-1])))
-    for number, block in enumerate(_blocks(widths, table.fixed, console.width)):
-        if number:
+    for place, block in enumerate(_blocks(widths, table.fixed, console.width)):
+        if place:
             console.print()
         for row in headings:
             if any(row):
                 console.print(Text(_line(row, widths, columns, block), style="dim"), soft_wrap=True)
-        for row in cells:
+        for number, row in enumerate(cells):
+            tint = SIGNS[table.tones[number]][1] if table.tones else ""
             parts = wrap(row[-1], widths[-1]) if columns[-1].wrap and len(columns) - 1 in block else []
             for k, part in enumerate(parts or row[-1:]):
                 line = [*row[:-1], part] if k == 0 else [*[""] * (len(row) - 1), part]
-                console.print(Text(_line(line, widths, columns, block)), soft_wrap=True)
+                printed_line = Text(_line(line, widths, columns, block))
+                printed_line.stylize(tint, 0, GAP + widths[0])
+                console.print(printed_line, soft_wrap=True)
 
 
 def _blocks(widths: Sequence[int], fixed: int, room: int) -> Iterator[list[int]]:

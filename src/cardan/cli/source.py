@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 STDIN = Path("-")
 
 
-def read(path: Path) -> Drive:
-    """Return the drive of a file, or of standard input when the path is ``-``.
+def read(path: Path, catalogues: Sequence[Path] = ()) -> Drive:
+    """Return the drive of a file, or of standard input when the path is ``-``; with rows of further catalogues.
 
     Raises
     ------
@@ -25,25 +26,25 @@ def read(path: Path) -> Drive:
         Everything that is wrong with the file, with its name.
     """
     if path == STDIN:
-        return read_with_text(path)[0]
+        return read_with_text(path, catalogues)[0]
     from cardan.io import load
 
     with about(str(path)):
-        return load(path)
+        return load(path, catalogues=catalogues)
 
 
-def read_with_text(path: Path) -> tuple[Drive, str]:
+def read_with_text(path: Path, catalogues: Sequence[Path] = ()) -> tuple[Drive, str]:
     """Return the drive of a file and the file's text; see `read`."""
     from cardan.io import loads
 
     if path != STDIN:
-        drive = read(path)
+        drive = read(path, catalogues)
         with about(str(path)):
             return drive, path.read_text("utf-8-sig")
     name = _("standard input")
     with about(name):
         text = stdin_text()
-        return loads(text, form=form_of(path, text), name=name), text
+        return loads(text, form=form_of(path, text), name=name, catalogues=catalogues), text
 
 
 def form_of(path: Path, text: str) -> str:

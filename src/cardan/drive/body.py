@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from cardan.errors import Problem
+from cardan.maths.laminate import PlyStiffness, laminate_moduli
 from cardan.texts import _
 from cardan.units import mm, plain, quantity
 
@@ -134,13 +135,36 @@ def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
     if length is None:
         return ()
     if shaft.outer is not None:
-        return (Piece(0.0, length, shaft.outer, inner_diameter(shaft), shaft.material or Material()),)
+        return (Piece(0.0, length, shaft.outer, inner_diameter(shaft), body_material(shaft)),)
     found: list[Piece] = []
     fit = length / sum(one.length for one in shaft.segments) if shaft.segments else 1.0
     for one in shaft.segments:
         start = found[-1].start + found[-1].length if found else 0.0
         found.append(Piece(start, fit * one.length, one.outer, one.inner, one.material or Material()))
     return tuple(found)
+
+
+def body_material(shaft: Shaft) -> Material:
+    """Return what a uniform body is made of; of a tube of fibre composite its moduli along the axis and in shear.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Layup, Ply, Shaft
+    >>> layup = Layup(angles=(0.0, 0.0), ply_thickness=1e-3, ply=Ply(along=135e9, across=10e9, shear=5e9))
+    >>> round(body_material(Shaft(number=2, outer=0.09, layup=layup)).youngs / 1e9)
+    135
+    """
+    layup = shaft.layup
+    if layup is None:
+        return shaft.material or Material()
+    ply = PlyStiffness(layup.ply.along, layup.ply.across, layup.ply.shear, layup.ply.poisson)
+    along, _around, shear = laminate_moduli(layup.angles, [layup.ply_thickness] * len(layup.angles), ply)
+    return Material(density=layup.ply.density, youngs=float(along), shear=float(shear))
 
 
 def inner_diameter(shaft: Shaft) -> float:
@@ -154,6 +178,8 @@ def inner_diameter(shaft: Shaft) -> float:
     """
     if shaft.outer is None or shaft.inner is not None:
         return shaft.inner or 0.0
+    if shaft.layup is not None:
+        return max(shaft.outer - 2.0 * shaft.layup.ply_thickness * len(shaft.layup.angles), 0.0)
     return shaft.outer - 2.0 * (shaft.wall or 0.5 * shaft.outer)
 
 

@@ -7,6 +7,8 @@ from typing import TypeAlias
 
 from cardan.units import plain, quantity
 
+from .material import Material
+
 Inertias: TypeAlias = tuple[float, float, float]
 
 
@@ -16,6 +18,15 @@ class Cross:
 
     span: float | None = quantity("length", None, doc="distance between the middles of opposite bearings", above=0.0)
     journal: float | None = quantity("length", None, doc="diameter of the journals", above=0.0)
+    journal_bore: float = quantity("length", 0.0, doc="diameter of the grease bore in the journals", low=0.0)
+    journal_length: float | None = quantity("length", None, doc="length of a journal", above=0.0)
+    bending_arm: float | None = quantity(
+        "length",
+        None,
+        doc="from the middle of a bearing to the root of its journal; half the journal's length when not given",
+        above=0.0,
+    )
+    material: Material | None = plain(None, doc="material")
     mass: float = quantity("mass", 0.0, doc="mass", low=0.0)
     inertia: Inertias = quantity(
         "inertia",

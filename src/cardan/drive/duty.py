@@ -19,6 +19,57 @@ class Harmonic:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Block:
+    """Part of a duty cycle."""
+
+    torque: float = quantity("torque", doc="torque at the output", low=0.0)
+    speed: float = quantity("angular_speed", doc="input speed", above=0.0)
+    share: float = quantity("share", doc="share of the whole time", low=0.0, high=1.0)
+    bend: float | None = quantity(
+        "angle", None, doc="bend of every joint in this part; that of the drive when not given", low=0.0, below=1.5708
+    )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class History:
+    """Measured torque over time from a CSV file, straight between its rows."""
+
+    file: str = plain(doc="CSV file beside the drive file with the columns time_s and torque_Nm")
+    times: tuple[float, ...] = ()
+    torques: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Vehicle:
+    """What drives the shaft of a vehicle, and what its wheels can pass on."""
+
+    place: str = plain("propshaft", doc="where the drive stands", choices=("propshaft", "halfshaft"))
+    engine_torque: float | None = quantity("torque", None, doc="largest torque of the engine", above=0.0)
+    engine_power: float | None = quantity("power", None, doc="power of the engine, with engine_speed", above=0.0)
+    engine_speed: float | None = quantity("angular_speed", None, doc="engine speed at that power", above=0.0)
+    gear_ratio: float = plain(1.0, doc="lowest gear: engine speed over shaft speed", above=0.0)
+    axle_ratio: float = plain(1.0, doc="shaft speed over wheel speed", above=0.0)
+    efficiency: float = plain(1.0, doc="efficiency from the engine to the shaft", above=0.0, high=1.0)
+    split_fraction: float = plain(1.0, doc="share of the torque that this shaft carries", above=0.0, high=1.0)
+    dynamic_factor: float = plain(1.0, doc="factor for jerks", above=0.0)
+    wheel_radius: float | None = quantity("length", None, doc="rolling radius of the wheels", above=0.0)
+    wheel_load: float | None = quantity("force", None, doc="load on the wheels that this shaft drives", above=0.0)
+    adhesion: float | None = plain(None, doc="coefficient of adhesion of the wheels", above=0.0)
+    wheelbase: float | None = quantity("length", None, doc="distance of the axles", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Upkeep:
+    """Use since the last service."""
+
+    hours: float | None = quantity("time", None, doc="running time since the last lubrication", low=0.0)
+    distance: float | None = quantity("length", None, doc="distance run since the last lubrication", low=0.0)
+    years: float | None = plain(None, doc="years since the last lubrication", low=0.0)
+    items: tuple[str, ...] = plain((), doc="rows of the lubrication table that the drive has; needle bearings if none")
+    severe: bool = plain(False, doc="water, mud or dust: half the intervals")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Duty:
     """Steady running of the input shaft."""
 
@@ -38,6 +89,19 @@ class Duty:
     )
     torque_at: str = plain("output", doc="at which end of the drive the torque is given", choices=("output", "input"))
     harmonics: tuple[Harmonic, ...] = plain((), doc="swinging parts of the torque, beside its mean")
+    life: float | None = quantity("time", None, doc="running time that the joints are to last", above=0.0)
+    shock_factor: float = plain(1.0, doc="factor for shocks on the joints, 1 for smooth running", low=1.0)
+    reliability: float = quantity("share", 0.9, doc="share of parts that reach the life", low=0.5, high=0.99999)
+    continuous: bool = plain(True, doc="whether the drive runs for long at a time")
+    synchronous: bool = plain(False, doc="whether the output must turn evenly")
+    blocks: tuple[Block, ...] = plain((), doc="duty cycle, in parts that make up the whole time")
+    torque_history: History | None = plain(
+        None, doc="CSV file with the columns time_s and torque_Nm, measured at the output: a duty cycle"
+    )
+    vehicle: Vehicle | None = plain(None, doc="what drives the shaft of a vehicle, and what its wheels can pass on")
+    upkeep: Upkeep | None = plain(None, doc="use since the last service")
+    balance_grade: str = plain("", doc="balance grade that the shafts are to keep, as G16")
+    balance_class: str = plain("", doc="vehicle of the book's balance norms, as gaz_66")
     input: str | None = plain(
         None,
         doc="whether the input turns evenly at its speed, or freely as torques make it; free when not given and an "
@@ -57,4 +121,15 @@ class Duty:
 class Limits:
     """Limits that the user sets over the built-in ones."""
 
+    irregularity: float | None = quantity("share", None, doc="largest irregularity of the output allowed", above=0.0)
+    output_error: float | None = quantity("angle", None, doc="largest error of the output angle allowed", above=0.0)
+    bend: float | None = quantity("angle", None, doc="largest bend angle of a joint allowed", above=0.0)
+    twist: float | None = quantity("angle", None, doc="largest twist of the shafts under torque allowed", above=0.0)
+    shear_stress: float | None = quantity("stress", None, doc="largest shear stress of a shaft allowed", above=0.0)
+    spline_pressure: float | None = quantity("stress", None, doc="largest pressure on spline teeth allowed", above=0.0)
     spline_overlap: float | None = quantity("length", None, doc="smallest engaged spline length allowed", above=0.0)
+    safety: float = plain(1.5, doc="safety that yield strengths are divided by", low=1.0)
+    fatigue_safety: float = plain(1.5, doc="smallest safety against fatigue", low=1.0)
+    critical_speed: float | None = plain(
+        None, doc="smallest ratio of the real critical speed to the highest speed", above=0.0
+    )

@@ -12,8 +12,10 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 from cardan.units import DIMENSIONS, KEY, Key, preferred
 
 from .drive import Drive
+from .duty import History
 from .joints import JOINTS, Joint
 from .machine import LAWS, MachineTorque
+from .material import Material
 from .movement import MOVEMENTS, Movement
 
 KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {
@@ -22,6 +24,9 @@ KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {
     MachineTorque: (LAWS, None),
 }
 """Base class -> its kinds by the value of the key ``kind``, and the default kind."""
+
+NAMED: dict[type, str] = {Material: "grade", History: "file"}
+"""Class of a table that may be given by a name alone -> field that holds the name."""
 
 WORD_OR_FLAG: Any = bool | str
 """Type of a field that is true, false or one of its words."""

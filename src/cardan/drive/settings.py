@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cardan.units import quantity
+from cardan.units import plain, quantity
 
 from .joints.joint import Point
 
@@ -14,3 +14,5 @@ class Settings:
     """Surroundings of the drive."""
 
     gravity: Point = quantity("acceleration", (0.0, 0.0, -9.80665), doc="acceleration of free fall [x, y, z]")
+    norm: str = plain("default", doc="row of angle_norms in the catalogue: limits of angular accelerations")
+    catalogues: tuple[str, ...] = plain((), doc="catalogue files of the user's own, beside this file")

@@ -17,6 +17,12 @@ class Spline:
     teeth: int | None = plain(None, doc="number of teeth; the yoke angle can be set in steps of 360°/teeth", low=1)
     engaged: float | None = quantity("length", None, doc="engaged length in the drawn position", above=0.0)
     gap: float | None = quantity("length", None, doc="way left to bottoming in the drawn position", above=0.0)
+    outer: float | None = quantity("length", None, doc="outer diameter of the teeth", above=0.0)
+    root: float | None = quantity("length", None, doc="root diameter of the toothed shaft", above=0.0)
+    tooth_width: float | None = quantity("length", None, doc="width of a tooth", above=0.0)
+    length: float | None = quantity("length", None, doc="length of the teeth that can carry", above=0.0)
+    chamfer: float = quantity("length", 0.0, doc="chamfer of the teeth", low=0.0)
+    load_share: float = plain(0.75, doc="share of the teeth that carry", above=0.0, high=1.0)
     position: float | None = quantity(
         "length", None, doc="place along the power flow from the joint before; the middle of the shaft when not given"
     )
@@ -38,6 +44,45 @@ class Spline:
         doc="which way the shaft slides under load: it grows longer, shorter, or one and then the other",
         choices=("out", "in", "both"),
     )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Notch:
+    """Fatigue notch factors."""
+
+    bending: float = plain(1.0, doc="notch factor in bending", low=1.0)
+    torsion: float = plain(1.0, doc="notch factor in torsion", low=1.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Ply:
+    """One layer of fibre and resin, in its own axes."""
+
+    along: float = quantity("stress", doc="Young's modulus along the fibres", above=0.0)
+    across: float = quantity("stress", doc="Young's modulus across the fibres", above=0.0)
+    shear: float = quantity("stress", doc="shear modulus", above=0.0)
+    poisson: float = plain(0.3, doc="Poisson's ratio, contraction across over stretch along", above=-1.0, below=1.0)
+    density: float = quantity("density", 1600.0, doc="density", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Layup:
+    """Plies of a composite tube, from the inside out."""
+
+    angles: tuple[float, ...] = quantity("angle", doc="angle of each ply from the axis of the shaft")
+    ply_thickness: float = quantity("length", doc="thickness of a ply", above=0.0)
+    ply: Ply = plain(doc="elastic figures of a ply")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Unbalance:
+    """Unbalance in a plane of a shaft."""
+
+    position: float = quantity(
+        "length", doc="place along the power flow from the joint before; on shaft 1 from joint 1"
+    )
+    amount: float = quantity("unbalance", doc="mass times its distance from the axis", low=0.0)
+    angle: float = quantity("angle", 0.0, doc="about the axis along the power flow, from the shaft's driving yoke")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -112,6 +157,15 @@ class Shaft:
         "torque", 0.0, doc="torque that resists the turning of this shaft beside the load of the drive"
     )
     spline: Spline | None = plain(None, doc="sliding spline of the shaft")
+    finish: str = plain(
+        "machined",
+        doc="surface of the shaft, for its fatigue strength",
+        choices=("ground", "machined", "hot_rolled", "forged"),
+    )
+    notch: Notch | None = plain(None, doc="notch factors of the shaft's weakest place, for its fatigue strength")
+    layup: Layup | None = plain(None, doc="plies of a tube of fibre composite, in place of its material")
+    unbalance: tuple[Unbalance, ...] = plain((), doc="unbalances measured or allowed on the shaft")
+    runout: float | None = quantity("length", None, doc="run-out of the tube", low=0.0)
 
     @property
     def has_body(self) -> bool:

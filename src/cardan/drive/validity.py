@@ -13,9 +13,11 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import KEY, Key, factor, label, preferred
 
+from .duty_validity import duty_problems
 from .line_validity import line_problems
 from .parts import part_problems
 from .shaft import Shaft
+from .size_validity import size_problems
 
 if TYPE_CHECKING:
     from .drive import Drive
@@ -96,6 +98,25 @@ def out_of_range(given: str, key: Key, value: float, unit: str = "", *, mirrored
     )
 
 
+def range_code(key: Key, value: float) -> str:
+    """Return the word of `cardan.errors.CODES` for a number in SI that is not `in_range`.
+
+    Examples
+    --------
+    >>> range_code(Key("", "length", above=0.0), 0.0), range_code(Key("", "torque", low=0.0), -1.0)
+    ('not_positive', 'negative')
+    >>> range_code(Key("", "angle", low=0.0, below=1.57), -0.1), range_code(Key(""), math.nan)
+    ('out_of_range', 'not_finite')
+    """
+    if not math.isfinite(value):
+        return "not_finite"
+    if key.above == 0.0 and value <= 0.0:
+        return "not_positive"
+    if key.low == 0.0 and value < 0.0 and key.high == key.below == math.inf:
+        return "negative"
+    return "out_of_range"
+
+
 def range_problems(thing: Any, path: str = "") -> Iterator[Problem]:
     """Yield every number of a dataclass tree that is out of range or not finite, and every unprintable text."""
     for field in fields(thing):
@@ -129,7 +150,7 @@ def _number_problems(value: Any, key: Key, path: str) -> Iterator[Problem]:
         for index, item in enumerate(value):
             yield from _number_problems(item, key, f"{path}[{index}]")
     elif isinstance(value, int | float) and not in_range(key, value):
-        yield Problem(path, out_of_range(shown(value, key), key, value))
+        yield Problem(path, out_of_range(shown(value, key), key, value), range_code(key, value))
 
 
 def wrong_count(field: str, values: Sequence[Any], wanted: int, *, empty: bool = False) -> Iterator[Problem]:
@@ -211,6 +232,8 @@ def problems(drive: Drive) -> Iterator[Problem]:
         *movement_problems(drive.movements, n),
         *part_problems(drive),
         *line_problems(drive),
+        *duty_problems(drive),
+        *size_problems(drive),
         *_unused(drive),
     ]
     yield from found

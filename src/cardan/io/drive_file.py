@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check, refuse
 from cardan.files import write_text
@@ -20,13 +22,15 @@ MAX_BYTES = 20_000_000
 """Larger files are refused; no more of them is read."""
 
 
-def load(path: str | Path) -> Drive:
+def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     """Return the drive a file describes.
 
     Parameters
     ----------
     path : str or Path
         A ``.toml`` file, or ``.json`` with the same tables.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the drive file names.
 
     Returns
     -------
@@ -56,10 +60,18 @@ def load(path: str | Path) -> Drive:
         raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
     except UnicodeDecodeError as error:
         raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
-    return loads(text, folder=where.parent, form=where.suffix.lower().lstrip(".") or "toml", name=str(where))
+    form = where.suffix.lower().lstrip(".") or "toml"
+    return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
 
 
-def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str = "file") -> Drive:
+def loads(
+    text: str,
+    *,
+    folder: str | Path = ".",
+    form: str = "toml",
+    name: str = "file",
+    catalogues: Sequence[str | Path] = (),
+) -> Drive:
     """Return the drive a text describes.
 
     Parameters
@@ -72,6 +84,8 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
         ``"toml"`` or ``"json"``.
     name : str
         What messages call the text.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the text names.
 
     Returns
     -------
@@ -88,7 +102,28 @@ def loads(text: str, *, folder: str | Path = ".", form: str = "toml", name: str 
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
     0.3490658503988659
     """
-    return drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
+    drive = drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
+    return completed(drive, known_to(drive, folder, catalogues))
+
+
+def known_to(drive: Drive, folder: str | Path = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
+    """Return the catalogue of a drive: the shipped one and the files that its settings name.
+
+    Parameters
+    ----------
+    drive : Drive
+    folder : str or Path
+        Where the files are looked for.
+    catalogues : sequence of str or Path
+        Further files, by their own paths.
+
+    Raises
+    ------
+    InputError
+        What is wrong with the files.
+    """
+    files = [*(Path(folder) / name for name in drive.settings.catalogues), *catalogues]
+    return with_files(catalogue(), files) if files else catalogue()
 
 
 def dumps(drive: Drive, *, form: str = "toml") -> str:
@@ -101,7 +136,7 @@ def dumps(drive: Drive, *, form: str = "toml") -> str:
     form : str
         ``"toml"`` or ``"json"``.
     """
-    tree = tree_of(drive)
+    tree = tree_of(shortened(drive))
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
 
 

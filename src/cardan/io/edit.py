@@ -50,6 +50,9 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
     document = tomlkit.parse(text)
     for path in values:
         there = place(drive, path)
+        if _named(document, there.steps):
+            _table(document, there.steps[:-2])[there.steps[-2]] = values[path]
+            continue
         table = _table(document, there.steps[: len(there.steps) - there.inside - 1])
         inner = there.steps[len(there.steps) - there.inside :]
         others = [spelling for spelling in there.field.spellings if spelling in table and spelling != there.spelling]
@@ -64,6 +67,14 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
     changed = tomlkit.dumps(document)
     loads(changed, folder=folder)
     return changed
+
+
+def _named(document: Any, steps: Sequence[str | int]) -> bool:
+    """Tell whether steps lead to the grade of a material that the file gives by this name alone."""
+    if steps[-2:] != ("material", "grade"):
+        return False
+    held = _table(document, steps[:-2]).get("material", "")
+    return isinstance(held, str)
 
 
 def _table(document: Any, steps: Sequence[str | int]) -> Any:

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
+from cardan.drive.duty import History
+from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
 from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
 from cardan.drive.shaft import Shaft
@@ -172,9 +173,13 @@ def _value(one: Field, kind: Any, value: Any, key: str, factor: float, written: 
     if kind in KINDS:
         return _kind(kind, value, written, path, found)
     if is_dataclass(kind):
+        if kind in NAMED and isinstance(value, str):
+            thing = kind(**{NAMED[kind]: value})
+            return _with_rows(thing, written, path, found) if kind is History else thing
         if not _is_table(value, written, path, found):
             return _blank(kind)
-        return kind(**_values(kind, value, written, path, found))  # type: ignore[arg-type, operator]
+        thing = kind(**_values(kind, value, written, path, found))  # type: ignore[arg-type, operator]
+        return _with_rows(thing, f"{written}.file", path, found) if kind is History else thing
     return _scalar(one, kind, value, key, factor, written, path, found)
 
 
@@ -252,7 +257,8 @@ def _kind(base: Any, value: Any, written: str, path: str, found: Findings) -> An
     rest = {key: item for key, item in value.items() if key != "kind"}
     if isinstance(name, str) and name in kinds:
         thing = kinds[name](**_values(kinds[name], rest, written, path, found))
-        return _with_rows(thing, written, path, found) if isinstance(thing, Table | TorqueHistory) else thing
+        held = isinstance(thing, Table | TorqueHistory)
+        return _with_rows(thing, f"{written}.file", path, found) if held else thing
     if name is None:
         message = _("missing; one of {kinds}").format(kinds=", ".join(kinds))
     else:
@@ -267,19 +273,19 @@ def _kind(base: Any, value: Any, written: str, path: str, found: Findings) -> An
     return base(**_values(base, owned, written, path, found))
 
 
-def _with_rows(thing: Table | TorqueHistory, written: str, path: str, found: Findings) -> Table | TorqueHistory:
-    """Return a movement or a torque with the rows of its CSV file."""
+def _with_rows(thing: Any, written: str, path: str, found: Findings) -> Any:
+    """Return a movement, a torque or a history with the rows of its CSV file, whose key is ``written``."""
     if f"{path}.file" in found.doubtful:
         return thing
     try:
-        if isinstance(thing, TorqueHistory):
+        if isinstance(thing, TorqueHistory | History):
             times, torques = read_torques(found.folder / thing.file)
             return replace(thing, times=times, torques=torques)
         times, shifts = read_shifts(found.folder / thing.file)
         return replace(thing, times=times, shifts=shifts)
     except InputError as error:
         for problem in error.problems:
-            found.refuse(f"{written}.file", f"{problem.field} {problem.message}", f"{path}.file")
+            found.refuse(written, f"{problem.field} {problem.message}", f"{path}.file")
         return thing
 
 

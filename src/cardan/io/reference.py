@@ -10,15 +10,17 @@ from cardan.drive.accuracy import Cost, Error, Tolerance
 from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
-from cardan.drive.duty import Duty, Harmonic, Limits
+from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
+from cardan.drive.inspection import Inspection
+from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS
-from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of
+from cardan.drive.keys import NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.drive.validity import allowed
@@ -33,14 +35,23 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`output`", Output),
     *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
     ("`cross` of a joint", Cross),
+    ("`needles` of a joint", Needles),
+    ("`yoke` of a joint", Yoke),
+    ("`section` of a yoke", Section),
+    ("`rating` of a joint", Rating),
+    ("`inspection` of a joint", Inspection),
     ("`error` of a joint", Error),
     ("`tolerance` of a joint", Tolerance),
     ("`cost` of tolerances", Cost),
     ("`[[shafts]]`", Shaft),
-    ("`material` of a shaft", Material),
+    ("`material`", Material),
     ("`segments` of a shaft", Segment),
     ("`masses` of a shaft", Lump),
     ("`spline` of a shaft", Spline),
+    ("`notch` of a shaft", Notch),
+    ("`layup` of a shaft", Layup),
+    ("`ply` of a layup", Ply),
+    ("`unbalance` of a shaft", Unbalance),
     ("`[[supports]]`", Support),
     ("`[[stations]]`", Station),
     ("`to_next` of a station", ToNext),
@@ -48,6 +59,10 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`pendulum` of a station", Pendulum),
     ("`[duty]`", Duty),
     ("`harmonics` of the duty", Harmonic),
+    ("`blocks` of the duty", Block),
+    ("`torque_history` of the duty", History),
+    ("`vehicle` of the duty", Vehicle),
+    ("`upkeep` of the duty", Upkeep),
     ("`engine` of the duty", Engine),
     ("`harmonics` of an engine", EngineHarmonic),
     *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
@@ -102,6 +117,8 @@ def _shape(kind: Any, one: Field) -> str:
             return "tables" if is_dataclass(parts[0]) else f"list of {_shape(parts[0], one)}s"
         inner = _shape(parts[0], one)
         return f"{len(parts)} {inner}s" if inner == "number" else f"{len(parts)} pairs of numbers"
+    if kind in NAMED:
+        return "name or table"
     if is_dataclass(kind):
         return "table"
     if kind == WORD_OR_FLAG:

@@ -7,7 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.units import label
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -68,6 +68,8 @@ def _shape(kind: Any, one: Field, factor: float) -> dict[str, Any]:
         return {"type": "array", "items": items, "minItems": len(parts), "maxItems": len(parts)}
     if kind in KINDS:
         return _kinds(kind)
+    if kind in NAMED:
+        return {"anyOf": [{"type": "string"}, _table(kind)]}
     if is_dataclass(kind):
         return _table(kind)  # type: ignore[arg-type]
     if kind == WORD_OR_FLAG:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from cardan.drive.drive import Drive
+from cardan.drive.duty import History
 from cardan.drive.joints.joint import Point
 from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
@@ -72,25 +73,25 @@ def keep_rows(drive: Drive, folder: Path) -> None:
         write_text(path, text)
 
 
-def _named(drive: Drive) -> Iterator[tuple[str, Table | TorqueHistory]]:
+def _named(drive: Drive) -> Iterator[tuple[str, Table | TorqueHistory | History]]:
     """Yield what names a file, with its path in the drive."""
     duty = drive.duty
     things = [(f"movements[{k}]", one) for k, one in enumerate(drive.movements)]
     laws = [("duty.motor", duty.motor), ("duty.load", duty.load)]
     laws += [(f"duty.torques[{k}]", one) for k, one in enumerate(duty.torques)]
-    for field, thing in (*things, *laws):
-        if isinstance(thing, Table | TorqueHistory):
+    for field, thing in (*things, *laws, ("duty.torque_history", duty.torque_history)):
+        if isinstance(thing, Table | TorqueHistory | History):
             yield field, thing
 
 
-def _rows(thing: Table | TorqueHistory, path: Path) -> bool:
+def _rows(thing: Table | TorqueHistory | History, path: Path) -> bool:
     """Tell whether a file holds the rows of a thing."""
     if isinstance(thing, Table):
         return read_shifts(path) == (thing.times, thing.shifts)
     return read_torques(path) == (thing.times, thing.torques)
 
 
-def _text(thing: Table | TorqueHistory) -> str:
+def _text(thing: Table | TorqueHistory | History) -> str:
     """Return the rows of a thing as CSV."""
     if isinstance(thing, Table):
         rows: list[tuple[float, ...]] = [(t, *shift) for t, shift in zip(thing.times, thing.shifts, strict=True)]

@@ -9,7 +9,7 @@ from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
-from cardan.drive.keys import Field, exact_in_unit, fields_of, in_unit
+from cardan.drive.keys import NAMED, Field, exact_in_unit, fields_of, in_unit
 from cardan.drive.machine import MachineTorque
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
@@ -33,7 +33,7 @@ def written(value: float, dimension: str) -> tuple[str, float]:
         number = exact_in_unit(value, factor)
         if number is not None:
             return unit, number
-    unit, factor = next(iter(DIMENSIONS[dimension].items()))  # a share has no SI unit: one rounding is left
+    unit, factor = next(iter(DIMENSIONS[dimension].items()))  # pragma: no cover - every dimension has its SI unit
     return unit, in_unit(value, factor)
 
 
@@ -57,13 +57,23 @@ def _entry(one: Field, value: Any) -> Iterator[tuple[str, Any]]:
     elif one.name == "set":
         yield one.name, {path: _listed(item) for path, item in value}
     elif is_dataclass(value):
-        yield one.name, _table(value)
+        yield one.name, _name_alone(value) or _table(value)
     elif isinstance(value, tuple) and value and is_dataclass(value[0]):
         yield one.name, [_table(item) for item in value]
     elif one.key.dimension is None:
         yield one.name, _listed(value)
     else:
         yield _in_units(one, value)
+
+
+def _name_alone(thing: Any) -> str:
+    """Return the name of a thing that says nothing else, empty where it says more."""
+    cls = type(thing)
+    if cls not in NAMED:
+        return ""
+    name: str = getattr(thing, NAMED[cls])
+    bare = cls(**{NAMED[cls]: name})
+    return name if all(getattr(thing, one) == getattr(bare, one) for one in fields_of(cls)) else ""
 
 
 def _in_units(one: Field, value: Any) -> tuple[str, Any]:

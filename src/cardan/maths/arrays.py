@@ -93,6 +93,19 @@ def real(value: ArrayLike, xp: Any) -> Array:
     return xp.asarray(value, dtype=xp.float64)
 
 
+def floats(*values: ArrayLike) -> tuple[Array, ...]:
+    """Return values as 64-bit float arrays of the library of those that are arrays, NumPy's when none is.
+
+    Examples
+    --------
+    >>> floats(1, [2, 3])
+    (array(1.), array([2., 3.]))
+    """
+    xp = namespace(*values)
+    lib = np if xp is NUMBERS else xp
+    return tuple(real(value, lib) for value in values)
+
+
 def complex_of(value: Array, xp: Any) -> Array:
     """Return a real array as a complex one."""
     return xp.astype(value, xp.complex128)

@@ -25,6 +25,7 @@ from .subject import Subject, asked
 from .summary import changes, judgement, key_figures, warnings
 from .turning import turning
 from .understood import understood
+from .verdicts import Judged, judged
 
 SUFFIXES = (".html", ".htm")
 
@@ -94,6 +95,9 @@ def page(
     if on.moving is not None:
         pages.append(moving(on))
     pages += loaded(on)
+    limits = judged(on) if on.complete else Judged()
+    if limits.page is not None:
+        pages.append(limits.page)
     pages.append(method(on, source_text))
 
     def drawn(figure: Figure) -> str:
@@ -115,6 +119,7 @@ def page(
         warnings=list(warnings(on, pages)),
         figures=key_figures(on, pages),
         changes=changes(on),
+        limits=limits,
         sketch=_sketch(on),
         pages=pages,
         drawn=drawn,

@@ -8,6 +8,8 @@ from typing import ClassVar, TypeAlias
 
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.cross import Cross
+from cardan.drive.inspection import Inspection
+from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.units import plain, quantity
 
 Point: TypeAlias = tuple[float, float, float]
@@ -21,6 +23,8 @@ class Joint:
     kind: ClassVar[str]
 
     name: str = plain("", doc="name of the joint, for tables and pictures")
+    type: str = plain("", doc="type of joint in the catalogue, with its limits")
+    size: str = plain("", doc="size of a maker's series in the catalogue, with its dimensions and ratings")
     centre: Point | None = quantity("length", None, doc="joint centre [x, y, z], z up")
     bend: float | None = quantity(
         "angle", None, doc="bend angle between the joint's two shafts", low=0.0, below=math.pi / 2
@@ -48,5 +52,9 @@ class Joint:
     )
     backlash: float = quantity("angle", 0.0, doc="whole angular play, as its driving shaft feels it", low=0.0)
     cross: Cross | None = plain(None, doc="cross of the joint")
+    needles: Needles | None = plain(None, doc="needle bearings of the cross")
+    yoke: Yoke | None = plain(None, doc="yokes of the joint")
+    rating: Rating | None = plain(None, doc="what the maker allows")
+    inspection: Inspection | None = plain(None, doc="what was measured on yoke and cross")
     error: Error | None = plain(None, doc="manufacturing errors of the joint, as measured")
     tolerance: Tolerance | None = plain(None, doc="tolerances of the joint, each to both sides")

@@ -1,0 +1,427 @@
+"""Calculations of practice: joint angles, balance, accuracy of parts, layout, upkeep, materials, types of joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+from cardan.analysis.angle_limits import TABLE_INERTIA, angle_limits, broken_rules, compound_angle
+from cardan.analysis.balance import allowed_unbalance
+from cardan.analysis.upkeep import lubrication_shares, shaft_sections
+from cardan.catalogue import catalogue
+from cardan.catalogue.rows import AnglePair, BalanceNorm, Lubrication, PartLimit, SpeedAngleLimit
+from cardan.errors import Problem
+from cardan.synthesis.selection import Need, select_joint
+from cardan.texts import _
+from cardan.units import DIMENSIONS
+
+from .calculation import Calculation, Given, Values, given, gives
+from .kinematics import RIGHT
+from .strength import at_least_zero, positive
+
+SLACK = 1e-12
+"""A measure may exceed its limit by this share: what is left of rounding."""
+
+MEASURES = {
+    "yoke": {
+        "axis_offset": "axis_offset_mm",
+        "yoke_perpendicularity": "perpendicularity_mm_per_100",
+        "face_symmetry": "face_symmetry_mm",
+    },
+    "cross": {
+        "half_height_difference": "half_height_difference_mm",
+        "cross_perpendicularity": "perpendicularity_mm_per_100",
+        "coplanarity": "coplanarity_mm",
+        "coaxiality": "coaxiality_mm",
+    },
+}
+"""Part -> row of its limits -> key of the measure."""
+
+
+def _angle(key: str, doc: str) -> Given:
+    return given(key, doc, "angle", low=0.0, below=RIGHT)
+
+
+def _limits(values: Values) -> Values:
+    found = angle_limits(
+        values["speed"],
+        values["theta1"],
+        values["theta2"],
+        phased=values["phased"],
+        torsional=values["limit_torsional"],
+    )
+    return {
+        "theta_residual_deg": found.residual,
+        "torsional_rad_s2": found.torsional,
+        "inertia_drive_rad_s2": found.inertia_drive,
+        "inertia_coast_rad_s2": found.inertia_coast,
+        "torsional_exact_rad_s2": found.torsional_exact,
+        "theta2_min_deg": found.least,
+        "theta2_max_deg": found.most,
+    }
+
+
+def _table(values: Values) -> Values:
+    found = angle_limits(values["speed"], values["theta1"], values["theta1"])
+    speeds = [row.speed for row in catalogue().rows(AnglePair).values()]
+    warnings = []
+    if not min(speeds) - 1e-9 <= values["speed"] <= max(speeds) + 1e-9:
+        warnings.append("extrapolated")
+    if values["speed"] ** 2 * found.most**2 > TABLE_INERTIA:
+        warnings.append("inertia_limit")
+    return {"theta2_max_deg": found.most, "warnings": warnings}
+
+
+def _rule(values: Values) -> Values:
+    broken = broken_rules(values["theta1"], values["theta2"])
+    return {"ok": not broken, "violated": list(broken)}
+
+
+def _product(values: Values) -> Values:
+    row = catalogue().rows(SpeedAngleLimit)[values["joint"]]
+    product = values["speed"] * values["alpha"]
+    violated = ["n_alpha"] if product > row.max_speed_angle * (1.0 + SLACK) else []
+    if row.max_speed is not None and values["speed"] > row.max_speed * (1.0 + SLACK):
+        violated.append("speed")
+    return {
+        "n_alpha_rpm_deg": product,
+        "limit_rpm_deg": row.max_speed_angle,
+        "ok": not violated,
+        "violated": violated,
+    }
+
+
+def _compound(values: Values) -> Values:
+    exact, small = compound_angle(values["top_view"], values["side_view"])
+    return {"angle_deg": exact, "angle_small_deg": small}
+
+
+def _balance(values: Values) -> Values:
+    found = allowed_unbalance(values["mass"], values["speed"], values["grade"])
+    return {
+        "U_per_gmm": found.whole / GMM,
+        "U_per_plane_gmm": found.plane / GMM,
+        "e_per_um": found.eccentricity / 1e-6,
+        "force_N": found.force,
+    }
+
+
+GMM = DIMENSIONS["unbalance"]["g_mm"]
+UNITS = tuple(unit for unit in DIMENSIONS["unbalance"])
+
+
+def _convert(values: Values) -> Values:
+    return {"unbalance_gmm": values["value"] * DIMENSIONS["unbalance"][values["unit"]] / GMM}
+
+
+def _norm(values: Values) -> Values:
+    row = catalogue().rows(BalanceNorm)[values["vehicle_class"]]
+    return {
+        "ok": values["unbalance"] <= row.max_unbalance * (1.0 + SLACK),
+        "limit_Ncm": row.max_unbalance / DIMENSIONS["unbalance"]["N_cm"],
+    }
+
+
+def _accuracy(values: Values) -> Values:
+    limits = catalogue().rows(PartLimit)
+    violated = []
+    for row, key in MEASURES[values["part"]].items():
+        value = values[MEASURE[key].name]
+        if value is not None and value > limits[row].limit * (1.0 + SLACK):
+            violated.append(key)
+    return {"ok": not violated, "violated": violated}
+
+
+def _measures(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield measures of the other part, and a part of which nothing was measured."""
+    part = values.get("part")
+    if part is None:
+        return
+    own = [MEASURE[one] for one in MEASURES[part].values()]
+    for item in MEASURE.values():
+        if item not in own and values.get(item.name) is not None:
+            text = _("is no measure of a {part}; its measures are {known}")
+            known = ", ".join(one.key for one in own)
+            yield Problem(key(item.name), text.format(part=part, known=known), "unknown_key")
+    if all(values.get(item.name, math.nan) is None for item in own):
+        yield Problem(own[0].key, _("missing: give at least one measure"), "missing")
+
+
+def _layout(values: Values) -> Values:
+    sections = shaft_sections(values["wheelbase"])
+    return {"shaft_sections": sections, "joints": sections + 1, "centre_bearings": sections - 1}
+
+
+COUNTERS = {"hours": "hours", "distance": "km", "years": "years"}
+
+
+def _lubrication(values: Values) -> Values:
+    row = catalogue().rows(Lubrication)[values["item"]]
+    shares = lubrication_shares(
+        row,
+        hours=None if values["hours"] is None else 3600.0 * values["hours"],
+        distance=None if values["km"] is None else 1000.0 * values["km"],
+        years=values["years"],
+        severe=values["severe"],
+    )
+    by = [COUNTERS[name] for name, share in shares.items() if share >= 1.0 - SLACK]
+    return {"due": bool(by), "by": by, "lubricant": row.lubricant}
+
+
+def _counters(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    if all(values.get(name, math.nan) is None for name in ("hours", "km", "years")):
+        yield Problem("hours", _("missing: give the hours, the km or the years since the last lubrication"), "missing")
+
+
+def _material(values: Values) -> Values:
+    row = catalogue().grade(values["grade"], field="grade")
+    return {
+        "heat_treatment": row.treatment,
+        "hardness_HB": list(row.hardness_brinell) if row.hardness_brinell else None,
+        "hardness_HRC": list(row.hardness_rockwell) if row.hardness_rockwell else None,
+        "yield_MPa": row.yield_strength,
+        "ultimate_MPa": row.ultimate_strength,
+        "en_equivalent": row.european or None,
+        "aisi_equivalent": row.american or None,
+        "used_for": list(row.parts),
+        "confidence": row.confidence,
+        "source": row.source,
+    }
+
+
+def _uses(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield a part that the grade is not used for, where both are known."""
+    parts = {part for row in catalogue().tables["materials"].values() for part in row.parts}  # type: ignore[attr-defined]
+    part = values.get("part")
+    if part is not None and part not in parts:
+        text = _("{part} is none of {known}")
+        yield Problem(key("part"), text.format(part=repr(part), known=", ".join(sorted(parts))), "out_of_range")
+
+
+def _select(values: Values) -> Values:
+    need = Need(
+        torque=values["torque"],
+        bend=values["angle"],
+        speed=values["speed"],
+        synchronous=values["synchronous"],
+        service_factor=values["service_factor"],
+        continuous=values["continuous"],
+        outer=values["outer_diameter"],
+    )
+    found = select_joint(need, include_beyond=values["include_beyond_seeds"])
+    return {
+        "ok": sorted(one.row.id for one in found if one.state == "ok"),
+        "conditional": {one.row.id: list(one.flags) for one in found if one.state == "conditional"},
+        "rejected": {one.row.id: list(one.causes) for one in found if one.state == "rejected"},
+    }
+
+
+MEASURE = {
+    key: at_least_zero(
+        key, _("deviation as measured") + (_(", on 100 mm") if key.endswith("per_100") else ""), "length", default=None
+    )
+    for keys in MEASURES.values()
+    for key in keys.values()
+}
+
+CALCULATIONS = (
+    Calculation(
+        name="joint_angle_limits",
+        doc=_("angular accelerations of two joints, and the second angle that keeps the torsional limit"),
+        source=_("small angles as in shop practice, and exactly by the equivalent joint"),
+        takes=(
+            positive("speed_rpm", _("input speed"), "angular_speed"),
+            _angle("theta1_deg", _("angle of joint 1")),
+            _angle("theta2_deg", _("angle of joint 2")),
+            given("phased", _("whether the joints are set to cancel"), kind="flag", default=True),
+            positive("limit_torsional_rad_s2", _("largest acceleration"), "angular_acceleration", default=400.0),
+        ),
+        returns=(
+            gives("theta_residual_deg", _("angle of one joint as uneven"), "angle"),
+            gives("torsional_rad_s2", _("acceleration of the output"), "angular_acceleration"),
+            gives("inertia_drive_rad_s2", _("of the middle shaft when driving"), "angular_acceleration"),
+            gives("inertia_coast_rad_s2", _("of the middle shaft when coasting"), "angular_acceleration"),
+            gives("torsional_exact_rad_s2", _("acceleration of the output, exact"), "angular_acceleration"),
+            gives("theta2_min_deg", _("smallest second angle"), "angle"),
+            gives("theta2_max_deg", _("largest second angle; none where none keeps the limit"), "angle"),
+        ),
+        answer=_limits,
+    ),
+    Calculation(
+        name="joint_angle_table",
+        doc=_("largest second angle beside a first one, the articles' table as a formula"),
+        source=_("θ_2 = √(θ_1² + 400/ω²), which gives the table of the web articles, section 26.1, to one digit"),
+        takes=(
+            positive("speed_rpm", _("input speed"), "angular_speed"),
+            _angle("theta1_deg", _("angle of joint 1")),
+        ),
+        returns=(
+            gives("theta2_max_deg", _("largest angle of joint 2"), "angle"),
+            gives("warnings", _("extrapolated: not a speed of the table; inertia_limit: beyond its rows")),
+        ),
+        answer=_table,
+    ),
+    Calculation(
+        name="angle_rule_6_1p5",
+        doc=_("whether two angles keep the rule of 6° each and 1.5° difference"),
+        source=_("web articles on drive shafts"),
+        takes=(_angle("theta1_deg", _("angle of joint 1")), _angle("theta2_deg", _("angle of joint 2"))),
+        returns=(gives("ok", _("whether they do")), gives("violated", _("angle, difference"))),
+        answer=_rule,
+    ),
+    Calculation(
+        name="speed_angle_product",
+        doc=_("product of speed and bend against the limit of a joint"),
+        source=_("Book pp. 64-65 for ball joints; Dana catalogue for its sizes"),
+        takes=(
+            positive("speed_rpm", _("speed"), "angular_speed"),
+            _angle("alpha_deg", _("bend")),
+            given("joint", _("row of the catalogue"), kind="word", choices=tuple(catalogue().rows(SpeedAngleLimit))),
+        ),
+        returns=(
+            gives("n_alpha_rpm_deg", _("product"), "speed_angle"),
+            gives("limit_rpm_deg", _("its limit"), "speed_angle"),
+            gives("ok", _("whether speed and product keep their limits")),
+            gives("violated", _("n_alpha, speed")),
+        ),
+        answer=_product,
+    ),
+    Calculation(
+        name="compound_angle",
+        doc=_("angle between two shafts from its top and side view"),
+        source=_("tan θ = √(tan²T + tan²S)"),
+        takes=(
+            given("top_view_deg", _("angle in the top view"), "angle", above=-RIGHT, below=RIGHT),
+            given("side_view_deg", _("angle in the side view"), "angle", above=-RIGHT, below=RIGHT),
+        ),
+        returns=(
+            gives("angle_deg", _("exact"), "angle"),
+            gives("angle_small_deg", _("by the shop's formula √(T² + S²)"), "angle"),
+        ),
+        answer=_compound,
+    ),
+    Calculation(
+        name="balance",
+        doc=_("unbalance that a balance grade allows"),
+        source="ISO 21940-11",
+        takes=(
+            positive("mass_kg", _("mass of the shaft"), "mass"),
+            positive("speed_rpm", _("highest speed"), "angular_speed"),
+            positive("grade_mm_s", _("grade: 16 for G16"), "speed"),
+        ),
+        returns=(
+            gives("U_per_gmm", _("unbalance of the shaft [g mm]")),
+            gives("U_per_plane_gmm", _("in each of two planes [g mm]")),
+            gives("e_per_um", _("eccentricity of the centre of mass [µm]")),
+            gives("force_N", _("force that turns with the shaft"), "force"),
+        ),
+        answer=_balance,
+    ),
+    Calculation(
+        name="unbalance_convert",
+        doc=_("unbalance from one unit to g mm"),
+        source=_("g = 9.80665 m/s²"),
+        takes=(
+            at_least_zero("value", _("unbalance")),
+            given("unit", _("its unit"), kind="word", choices=UNITS),
+        ),
+        returns=(gives("unbalance_gmm", _("unbalance [g mm]")),),
+        answer=_convert,
+    ),
+    Calculation(
+        name="balance_norm_book",
+        doc=_("whether an unbalance keeps the book's norm of a vehicle"),
+        source="Book p. 247",
+        takes=(
+            given("vehicle_class", _("vehicle"), kind="word", choices=tuple(catalogue().rows(BalanceNorm))),
+            at_least_zero("unbalance_Ncm", _("unbalance [N cm]")),
+        ),
+        returns=(gives("ok", _("whether it does")), gives("limit_Ncm", _("the norm [N cm]"))),
+        answer=lambda values: _norm({**values, "unbalance": values["unbalance_Ncm"] * DIMENSIONS["unbalance"]["N_cm"]}),
+    ),
+    Calculation(
+        name="accuracy_check",
+        doc=_("whether the measures of a yoke or a cross keep their limits"),
+        source=_("GOST 2752-74, by the Book"),
+        takes=(given("part", _("part"), kind="word", choices=tuple(MEASURES)), *MEASURE.values()),
+        returns=(gives("ok", _("whether they do")), gives("violated", _("the keys that do not"))),
+        answer=_accuracy,
+        check=_measures,
+    ),
+    Calculation(
+        name="shaft_layout",
+        doc=_("how many shafts and centre bearings a wheelbase usually has"),
+        source=_("web articles on drive shafts"),
+        takes=(positive("wheelbase_m", _("distance of the axles"), "length"),),
+        returns=(
+            gives("shaft_sections", _("shafts in line")),
+            gives("joints", _("joints")),
+            gives("centre_bearings", _("centre bearings")),
+        ),
+        answer=_layout,
+    ),
+    Calculation(
+        name="lubrication_due",
+        doc=_("whether lubrication is due, and by which counter"),
+        source=_("Book pp. 248-249; half the intervals in water, mud or dust is a rule of this program"),
+        takes=(
+            given("item", _("what is lubricated"), kind="word", choices=tuple(catalogue().rows(Lubrication))),
+            at_least_zero("hours", _("hours run since the last time"), default=None),
+            at_least_zero("km", _("kilometres run since the last time"), default=None),
+            at_least_zero("years", _("years since the last time"), default=None),
+            given("severe", _("water, mud or dust"), kind="flag", default=False),
+        ),
+        returns=(
+            gives("due", _("whether it is")),
+            gives("by", _("hours, km, years: those reached")),
+            gives("lubricant", _("with what")),
+        ),
+        answer=_lubrication,
+        check=_counters,
+    ),
+    Calculation(
+        name="material",
+        doc=_("what the catalogue says of a grade"),
+        source=_("Book p. 230; see the source of each row"),
+        takes=(
+            given("grade", _("grade, or its name in another standard"), kind="word"),
+            given("part", _("part it is to be used for"), kind="word", default=None),
+        ),
+        returns=(
+            gives("heat_treatment", _("treatment")),
+            gives("hardness_HB", _("Brinell hardness, from and to")),
+            gives("hardness_HRC", _("Rockwell C hardness, from and to")),
+            gives("yield_MPa", _("yield strength"), "stress"),
+            gives("ultimate_MPa", _("tensile strength"), "stress"),
+            gives("en_equivalent", _("European grade, the same or the nearest")),
+            gives("aisi_equivalent", _("AISI grade, the same or the nearest")),
+            gives("used_for", _("parts it is used for")),
+            gives("confidence", _("how sure the figures are")),
+            gives("source", _("where they come from")),
+        ),
+        answer=_material,
+        check=_uses,
+    ),
+    Calculation(
+        name="joint_selection",
+        doc=_("types of joints that do a job, under conditions or not, and why not"),
+        source=_("catalogue of types; Book, chapter 1"),
+        takes=(
+            positive("torque_Nm", _("torque"), "torque"),
+            _angle("angle_deg", _("bend of the joint")),
+            at_least_zero("speed_rpm", _("speed"), "angular_speed"),
+            given("synchronous", _("whether the output must turn evenly"), kind="flag", default=False),
+            positive("service_factor", _("factor on the torque"), default=1.0),
+            given("continuous", _("whether it runs for long at a time"), kind="flag", default=True),
+            positive("outer_diameter_m", _("outer diameter of the joint"), "length", default=None),
+            given("include_beyond_seeds", _("whether modern types count"), kind="flag", default=False),
+        ),
+        returns=(
+            gives("ok", _("types that do")),
+            gives("conditional", _("types that do under conditions -> conditions")),
+            gives("rejected", _("types that do not -> causes")),
+        ),
+        answer=_select,
+    ),
+)
+"""Calculations of this part."""

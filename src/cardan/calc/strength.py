@@ -1,0 +1,508 @@
+"""Calculations of strength: design torque, shafts, splines, yokes, journals, fatigue, tubes of composite."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cardan.analysis.composite_tube import composite_tube
+from cardan.analysis.critical_speed import uniform_speed
+from cardan.analysis.design_torque import design_torque, wheel_load
+from cardan.analysis.fatigue import FINISHES, RELIABILITIES, shaft_fatigue
+from cardan.analysis.joint_strength import journal_stress, yoke_stress
+from cardan.analysis.shaft_strength import RATED_TWIST, shaft_diameter, shaft_stress, shaft_twist
+from cardan.analysis.spline_strength import spline_stress
+from cardan.drive.shaft import Layup, Ply
+from cardan.drive.train import spline_grip
+from cardan.errors import Problem
+from cardan.texts import _
+
+from .calculation import Calculation, Given, Values, given, gives, record, rows
+from .joint_forces import SPLINE_THRUST
+
+
+def positive(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+    """Declare an input above zero."""
+    return given(key, doc, dimension, above=0.0, **options)
+
+
+def at_least_zero(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+    """Declare an input that is not negative."""
+    return given(key, doc, dimension, low=0.0, **options)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Forms(Calculation):
+    """A calculation that is asked in several ways, told apart by the keys given."""
+
+    forms: tuple[Calculation, ...]
+
+    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the answer of the form that knows most of the keys, the first one of equals."""
+        known = [sum(item.key in inputs for item in form.takes) for form in self.forms]
+        return self.forms[known.index(max(known))](inputs)
+
+
+def bores(outer: str, inner: str) -> Callable[[Values, Callable[[str], str]], Iterator[Problem]]:
+    """Return a check that an inner diameter is less than its outer one."""
+
+    def check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+        if outer in values and inner in values and values[inner] >= values[outer]:
+            text = _("{inner:.6g} mm is not less than the outer diameter, {outer:.6g} mm")
+            message = text.format(inner=1e3 * values[inner], outer=1e3 * values[outer])
+            yield Problem(key(inner), message, "out_of_range")
+
+    return check
+
+
+def _design(values: Values) -> Values:
+    torque = values["engine_torque"]
+    if torque is None:
+        torque = values["engine_power"] / values["engine_speed"]
+    names = ("gear_ratio", "axle_ratio", "efficiency", "split_fraction", "dynamic_factor")
+    limits = ("wheel_load", "friction", "wheel_radius")
+    found = design_torque(
+        torque, halfshaft=values["kind"] == "halfshaft", **{name: values[name] for name in names + limits}
+    )
+    return {
+        "torque_drive_Nm": found.drive,
+        "torque_adhesion_Nm": found.adhesion,
+        "torque_design_Nm": found.design,
+        "governed_by": "adhesion" if bool(found.by_adhesion) else "drive",
+    }
+
+
+def _engine(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield what misses of the engine and of the wheels."""
+    names = ("engine_torque", "engine_power", "engine_speed")
+    torque, power, speed = (values.get(name, math.nan) for name in names)
+    if torque is None:
+        for name, value in (("engine_torque", power), ("engine_speed", speed)):
+            if value is None:
+                yield Problem(key(name), _("missing: give the engine's torque, or its power and speed"), "missing")
+    elif power is not None and not any(math.isnan(one) for one in (torque, power)):
+        yield Problem(key("engine_power"), _("engine_torque gives the same already"), "inconsistent")
+    wheel = {name: values.get(name, math.nan) for name in ("wheel_load", "friction", "wheel_radius")}
+    if any(value is not None for value in wheel.values()):
+        for name, value in wheel.items():
+            if value is None:
+                yield Problem(key(name), _("missing: the adhesion limit needs it beside the others"), "missing")
+
+
+def _stress(values: Values) -> Values:
+    found = shaft_stress(values["torque"], values["bending"], values["d_out"], values["d_in"])
+    return {
+        "tau_torsion_MPa": found.torsion,
+        "sigma_bending_MPa": found.bending,
+        "tau_resultant_MPa": found.shear,
+        "sigma_mises_MPa": found.mises,
+    }
+
+
+def _twist(values: Values) -> Values:
+    parts = {name: [row[name] for row in values["segments"]] for name in ("length", "d_out", "d_in")}
+    twist = shaft_twist(values["torque"], values["G"], parts["length"], parts["d_out"], parts["d_in"])
+    return {"twist_deg": twist, "within_9_deg": bool(np.abs(twist) <= RATED_TWIST)}
+
+
+def segment_problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield segments that are none: an empty list, a bore that is not inside."""
+    segments = values.get("segments")
+    if segments is not None and not segments:
+        yield Problem(key("segments"), _("empty; a shaft has at least one segment"), "empty")
+    for k, row in enumerate(segments or ()):
+        for problem in bores("d_out", "d_in")(row, lambda name: name):
+            yield Problem(f"{key('segments')}[{k}].{problem.field}_mm", problem.message, problem.code)
+
+
+def _spline(values: Values) -> Values:
+    found = spline_stress(
+        values["torque"],
+        outer=values["D"],
+        root=values["d"],
+        teeth=values["teeth"],
+        tooth_width=values["tooth_width"],
+        length=values["length"],
+        chamfer=values["chamfer"],
+        load_share=values["load_share"],
+    )
+    return {
+        "d_m_mm": found.mean_diameter,
+        "h_mm": found.height,
+        "sigma_crush_MPa": found.pressure,
+        "tau_tooth_MPa": found.tooth_shear,
+        "tau_core_MPa": found.core_shear,
+    }
+
+
+def _flanks(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    wrong = list(bores("D", "d")(values, key))
+    yield from wrong
+    if wrong or not {"D", "d", "chamfer"} <= values.keys():
+        return
+    if 0.5 * (values["D"] - values["d"]) <= 2.0 * values["chamfer"]:
+        text = _("{chamfer:.6g} mm leaves no height of the flanks: (D - d)/2 - 2c must be more than 0")
+        yield Problem(key("chamfer"), text.format(chamfer=1e3 * values["chamfer"]), "out_of_range")
+
+
+def _thrust(values: Values) -> Values:
+    return {
+        "axial_force_N": spline_grip(values["friction"], values["d_m"], values["pressure_angle"]) * values["torque"]
+    }
+
+
+SHAPES = {"rect": "rectangle", "ellipse": "ellipse"}
+
+
+def _yoke(values: Values) -> Values:
+    section = values["section"]
+    found = yoke_stress(
+        values["journal_force"],
+        bending_arm=values["bending_arm"],
+        torsion_arm=values["torsion_arm"],
+        height=section["height"],
+        width=section["width"],
+        shape=SHAPES[section["shape"]],
+    )
+    return {"sigma_bending_MPa": found.bending, "tau_torsion_MPa": found.shear, "sigma_mises_MPa": found.mises}
+
+
+def _journal(values: Values) -> Values:
+    arm = 0.5 * values["length"] if values["arm"] is None else values["arm"]
+    found = journal_stress(values["journal_force"], diameter=values["d"], arm=arm, bore=values["bore"])
+    return {"sigma_bending_MPa": found.bending, "tau_mean_MPa": found.mean_shear, "tau_max_MPa": found.shear}
+
+
+def _fatigue(values: Values) -> Values:
+    found = shaft_fatigue(
+        mean_torque=values["T_mean"],
+        swinging_torque=values["T_alt"],
+        mean_bending=values["M_mean"],
+        swinging_bending=values["M_alt"],
+        outer=values["d_out"],
+        inner=values["d_in"],
+        ultimate=values["Sut"],
+        yield_strength=values["Sy"],
+        finish=values["finish"],
+        bending_notch=values["Kf"],
+        torsion_notch=values["Kfs"],
+        reliability=values["reliability"],
+    )
+    return {
+        "Se_MPa": found.endurance,
+        "sigma_a_eq_MPa": found.alternating,
+        "sigma_m_eq_MPa": found.mean,
+        "n_goodman": _unless_endless(found.safety),
+        "n_yield": _unless_endless(found.yield_safety),
+        "life_cycles": _unless_endless(found.cycles),
+    }
+
+
+def _unless_endless(value: Any) -> float:
+    """Return a number, nan for none where it is infinite."""
+    return math.nan if math.isinf(value) else float(value)
+
+
+def _fatigue_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    yield from bores("d_out", "d_in")(values, key)
+    if {"Sut", "Sy"} <= values.keys() and values["Sy"] > values["Sut"]:
+        text = _("{yields:.6g} MPa is above the tensile strength, {breaks:.6g} MPa")
+        message = text.format(yields=1e-6 * values["Sy"], breaks=1e-6 * values["Sut"])
+        yield Problem(key("Sy"), message, "inconsistent")
+
+
+def _composite(values: Values) -> Values:
+    ply = Ply(
+        along=values["E1"],
+        across=values["E2"],
+        shear=values["G12"],
+        poisson=values["nu12"],
+        density=values["density"],
+    )
+    layup = Layup(angles=tuple(map(float, values["layup"])), ply_thickness=values["ply_thickness"], ply=ply)
+    found = composite_tube(layup, values["mean_d"])
+    outer, inner = values["mean_d"] + found.thickness, values["mean_d"] - found.thickness
+    speed = uniform_speed(values["length"], outer, inner, found.along, values["density"], modes=1)[0]
+    return {
+        "E_x_GPa": found.along,
+        "E_y_GPa": found.around,
+        "G_xy_GPa": found.shear,
+        "n_critical_rpm": speed,
+        "torque_buckling_Nm": found.buckling_torque,
+        "mass_kg": found.mass_per_length * values["length"],
+    }
+
+
+def _plies(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    layup = values.get("layup")
+    if layup is not None and not len(layup):
+        yield Problem(key("layup"), _("empty; a tube has at least one ply"), "empty")
+    elif layup is not None and len(layup) * values.get("ply_thickness", 0.0) >= values.get("mean_d", math.inf):
+        yield Problem(key("ply_thickness"), _("the plies are thicker than the tube"), "out_of_range")
+    if {"E1", "E2", "nu12"} <= values.keys() and values["nu12"] ** 2 * values["E2"] >= values["E1"]:
+        yield Problem(key("nu12"), _("no material has this: ν12² E2 must be less than E1"), "inconsistent")
+
+
+TORQUE = at_least_zero("torque_Nm", _("torque"), "torque")
+SEGMENT = (
+    positive("length_mm", _("length"), "length"),
+    positive("d_out_mm", _("outer diameter"), "length"),
+    at_least_zero("d_in_mm", _("inner diameter"), "length", default=0.0),
+)
+OUTER = positive("d_out_mm", _("outer diameter"), "length")
+INNER = at_least_zero("d_in_mm", _("inner diameter"), "length", default=0.0)
+FORCE = at_least_zero("journal_force_N", _("force on a journal"), "force")
+
+CALCULATIONS = (
+    Calculation(
+        name="design_torque",
+        doc=_("torque that a vehicle's shaft must carry: what the engine brings, limited by the wheels' adhesion"),
+        source=_("power balance; web articles on drive shafts, examples 26.1 and 26.2, corrected"),
+        takes=(
+            given("kind", _("which shaft"), kind="word", choices=("propshaft", "halfshaft")),
+            positive("engine_torque_Nm", _("largest torque of the engine"), "torque", default=None),
+            positive("engine_power_W", _("power of the engine"), "power", default=None),
+            positive("engine_speed_rpm", _("engine speed at that power"), "angular_speed", default=None),
+            positive("gear_ratio", _("engine speed over shaft speed")),
+            positive("axle_ratio", _("shaft speed over wheel speed")),
+            positive("efficiency", _("efficiency from the engine to the shaft"), default=1.0, high=1.0),
+            positive("split_fraction", _("share of the torque that this shaft carries"), default=1.0, high=1.0),
+            positive("dynamic_factor", _("factor for jerks"), default=1.0),
+            positive("wheel_load_N", _("load on the wheels that this shaft drives"), "force", default=None),
+            positive("friction", _("adhesion of these wheels"), default=None),
+            positive("wheel_radius_m", _("their rolling radius"), "length", default=None),
+        ),
+        returns=(
+            gives("torque_drive_Nm", _("what the engine brings"), "torque"),
+            gives("torque_adhesion_Nm", _("what the wheels can pass on"), "torque"),
+            gives("torque_design_Nm", _("design torque"), "torque"),
+            gives("governed_by", _("drive or adhesion")),
+        ),
+        answer=_design,
+        check=_engine,
+    ),
+    Calculation(
+        name="wheel_load_max",
+        doc=_("load on the wheels above which they pass a torque without slipping"),
+        source=_("adhesion, T = μ W r"),
+        takes=(
+            TORQUE,
+            positive("friction", _("adhesion of the wheels")),
+            positive("wheel_radius_m", _("their rolling radius"), "length"),
+        ),
+        returns=(gives("wheel_load_N", _("load on the wheels"), "force"),),
+        answer=lambda values: {
+            "wheel_load_N": wheel_load(values["torque"], values["friction"], values["wheel_radius"])
+        },
+    ),
+    Calculation(
+        name="shaft_stress",
+        doc=_("stresses of a round shaft under torque and bending"),
+        source="Book (261)",
+        takes=(TORQUE, at_least_zero("bending_Nm", _("bending moment"), "torque", default=0.0), OUTER, INNER),
+        returns=(
+            gives("tau_torsion_MPa", _("shear stress of torsion"), "stress"),
+            gives("sigma_bending_MPa", _("bending stress"), "stress"),
+            gives("tau_resultant_MPa", _("largest shear stress (Tresca)"), "stress"),
+            gives("sigma_mises_MPa", _("equivalent stress by von Mises"), "stress"),
+        ),
+        answer=_stress,
+        check=bores("d_out", "d_in"),
+    ),
+    Calculation(
+        name="shaft_diameter",
+        doc=_("outer diameter of a shaft that carries a torque"),
+        source="Book (261)",
+        takes=(
+            TORQUE,
+            at_least_zero("bore_ratio", _("inner over outer diameter"), default=0.0, below=1.0),
+            positive("tau_allow_MPa", _("shear stress allowed"), "stress"),
+        ),
+        returns=(gives("d_out_mm", _("outer diameter"), "length"),),
+        answer=lambda values: {"d_out_mm": shaft_diameter(values["torque"], values["tau_allow"], values["bore_ratio"])},
+    ),
+    Calculation(
+        name="shaft_twist",
+        doc=_("twist of a stepped shaft under torque"),
+        source="Book (262), with the torque alone",
+        takes=(
+            given("torque_Nm", _("torque"), "torque"),
+            positive("G_GPa", _("shear modulus"), "stress"),
+            rows("segments", _("segments along the shaft"), *SEGMENT),
+        ),
+        returns=(
+            gives("twist_deg", _("twist"), "angle"),
+            gives("within_9_deg", _("whether it keeps the book's 9°")),
+        ),
+        answer=_twist,
+        check=segment_problems,
+    ),
+    Calculation(
+        name="spline",
+        doc=_("stresses of a straight-sided spline"),
+        source=_("Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter"),
+        takes=(
+            positive("D_mm", _("outer diameter"), "length"),
+            positive("d_mm", _("root diameter"), "length"),
+            positive("teeth", _("number of teeth"), kind="whole"),
+            positive("tooth_width_mm", _("width of a tooth"), "length"),
+            positive("length_mm", _("length of the teeth"), "length"),
+            TORQUE,
+            at_least_zero("chamfer_mm", _("chamfer"), "length", default=0.0),
+            positive("load_share", _("share of the teeth that carry"), default=0.75, high=1.0),
+        ),
+        returns=(
+            gives("d_m_mm", _("mean diameter"), "length"),
+            gives("h_mm", _("height of the flanks that bear"), "length"),
+            gives("sigma_crush_MPa", _("pressure on the flanks"), "stress"),
+            gives("tau_tooth_MPa", _("shear at the roots of the teeth"), "stress"),
+            gives("tau_core_MPa", _("torsion at the root diameter"), "stress"),
+        ),
+        answer=_spline,
+        check=_flanks,
+    ),
+    Calculation(
+        name="yoke",
+        doc=_("stresses of the arm of a yoke"),
+        source=_("Book (263); Saint-Venant's torsion"),
+        takes=(
+            FORCE,
+            at_least_zero("bending_arm_mm", _("arm of the force for bending"), "length"),
+            at_least_zero("torsion_arm_mm", _("arm of the force for torsion"), "length"),
+            record(
+                "section",
+                _("weakest section"),
+                given("shape", _("shape of the section"), kind="word", choices=tuple(SHAPES)),
+                positive("height_mm", _("height along the force"), "length"),
+                positive("width_mm", _("width across the force"), "length"),
+            ),
+        ),
+        returns=(
+            gives("sigma_bending_MPa", _("bending stress"), "stress"),
+            gives("tau_torsion_MPa", _("shear stress of torsion"), "stress"),
+            gives("sigma_mises_MPa", _("equivalent stress by von Mises"), "stress"),
+        ),
+        answer=_yoke,
+    ),
+    Calculation(
+        name="journal",
+        doc=_("stresses at the root of a journal of the cross"),
+        source="Book (264), (265), with the grease bore",
+        takes=(
+            FORCE,
+            positive("length_mm", _("length of the journal"), "length"),
+            positive("d_mm", _("diameter"), "length"),
+            at_least_zero("bore_mm", _("diameter of the grease bore"), "length", default=0.0),
+            at_least_zero("arm_mm", _("arm of the force; half the length when not given"), "length", default=None),
+        ),
+        returns=(
+            gives("sigma_bending_MPa", _("bending stress"), "stress"),
+            gives("tau_mean_MPa", _("mean shear stress"), "stress"),
+            gives("tau_max_MPa", _("largest shear stress"), "stress"),
+        ),
+        answer=_journal,
+        check=bores("d", "bore"),
+    ),
+    Calculation(
+        name="fatigue",
+        doc=_("fatigue of a shaft under swinging torque and turning bending"),
+        source=_("Goodman with Marin's factors, Shigley, chapter 6"),
+        takes=(
+            at_least_zero("T_mean_Nm", _("mean torque"), "torque"),
+            at_least_zero("T_alt_Nm", _("amplitude of the torque"), "torque"),
+            at_least_zero("M_mean_Nm", _("mean bending moment"), "torque"),
+            at_least_zero("M_alt_Nm", _("amplitude of the bending moment"), "torque"),
+            OUTER,
+            INNER,
+            positive("Sut_MPa", _("tensile strength"), "stress"),
+            positive("Sy_MPa", _("yield strength"), "stress"),
+            given("finish", _("surface"), kind="word", choices=tuple(FINISHES)),
+            given("Kf", _("notch factor in bending"), default=1.0, low=1.0),
+            given("Kfs", _("notch factor in torsion"), default=1.0, low=1.0),
+            given(
+                "reliability_percent",
+                _("share of parts that last"),
+                "share",
+                low=min(RELIABILITIES),
+                high=max(RELIABILITIES),
+            ),
+        ),
+        returns=(
+            gives("Se_MPa", _("fatigue limit of the part"), "stress"),
+            gives("sigma_a_eq_MPa", _("equivalent amplitude"), "stress"),
+            gives("sigma_m_eq_MPa", _("equivalent mean stress"), "stress"),
+            gives("n_goodman", _("safety against fatigue")),
+            gives("n_yield", _("safety against yielding")),
+            gives("life_cycles", _("cycles to failure; none when endless")),
+        ),
+        answer=_fatigue,
+        check=_fatigue_check,
+    ),
+    Calculation(
+        name="composite_tube",
+        doc=_("moduli, critical speed, buckling torque and mass of a tube of fibre composite"),
+        source=_("classical laminate theory"),
+        takes=(
+            given("layup_deg", _("angles of the plies from the axis, from the inside out"), "angle", axes=(1,)),
+            positive("ply_thickness_mm", _("thickness of a ply"), "length"),
+            positive("mean_d_mm", _("diameter of the middle of the wall"), "length"),
+            positive("length_mm", _("length between the joints"), "length"),
+            positive("E1_GPa", _("Young's modulus along the fibres"), "stress"),
+            positive("E2_GPa", _("Young's modulus across the fibres"), "stress"),
+            positive("G12_GPa", _("shear modulus"), "stress"),
+            given("nu12", _("Poisson's ratio"), above=-1.0, below=1.0),
+            positive("density_kg_m3", _("density"), "density"),
+        ),
+        returns=(
+            gives("E_x_GPa", _("modulus along the axis"), "stress"),
+            gives("E_y_GPa", _("modulus around it"), "stress"),
+            gives("G_xy_GPa", _("shear modulus"), "stress"),
+            gives("n_critical_rpm", _("critical speed between two joints"), "angular_speed"),
+            gives("torque_buckling_Nm", _("torque at which the wall buckles"), "torque"),
+            gives("mass_kg", _("mass between the joints"), "mass"),
+        ),
+        answer=_composite,
+        check=_plies,
+    ),
+    Forms(
+        name="spline_axial_force",
+        doc=_("friction thrust of a spline: its parts in the joint, or the thrust alone"),
+        source=SPLINE_THRUST.source,
+        takes=(
+            *SPLINE_THRUST.takes,
+            *(
+                thrust_keys := (
+                    at_least_zero("torque_Nm", _("torque at the spline, for the thrust alone"), "torque"),
+                    positive("d_m_mm", _("its mean diameter"), "length"),
+                    at_least_zero("friction", _("its coefficient of friction")),
+                    given(
+                        "pressure_angle_deg",
+                        _("pressure angle of its teeth"),
+                        "angle",
+                        default=0.0,
+                        low=0.0,
+                        below=0.5 * math.pi,
+                    ),
+                )
+            ),
+        ),
+        returns=(*SPLINE_THRUST.returns, gives("axial_force_N", _("friction thrust"), "force")),
+        answer=dict,
+        forms=(
+            SPLINE_THRUST,
+            Calculation(
+                name="spline_axial_force",
+                doc=_("friction thrust of a spline"),
+                source="Book (123)",
+                takes=thrust_keys,
+                returns=(gives("axial_force_N", _("friction thrust"), "force"),),
+                answer=_thrust,
+            ),
+        ),
+    ),
+)
+"""Calculations of this part."""

@@ -1,0 +1,180 @@
+"""The catalogue: materials, types and sizes of joints, norms; the shipped rows and those of a user's files."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, TypeVar
+
+from cardan.drive.material import Material
+from cardan.errors import Problem, check, refuse
+from cardan.texts import _
+
+from .reading import rows_of
+from .rows import TABLES, Grade, Row
+
+R = TypeVar("R", bound=Row)
+
+NEAR = 3
+"""Names told of where one is not there."""
+
+FILES = ("materials", "joint_types", "joint_sizes", "norms")
+"""Shipped files, beside this one."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Catalogue:
+    """Rows by table and id.
+
+    Attributes
+    ----------
+    tables : mapping
+        Name of the table -> id -> row.
+    """
+
+    tables: Mapping[str, Mapping[str, Row]]
+
+    def rows(self, cls: type[R]) -> Mapping[str, R]:
+        """Return the rows of the first table of a class, by id."""
+        name = next(name for name, kind in TABLES.items() if kind is cls)
+        return self.tables.get(name, {})  # type: ignore[return-value]
+
+    def table(self, name: str, cls: type[R]) -> Mapping[str, R]:
+        """Return the rows of a table, by id."""
+        assert TABLES[name] is cls
+        return self.tables.get(name, {})  # type: ignore[return-value]
+
+    def row(self, cls: type[R], name: str, *, field: str = "id") -> R:
+        """Return a row by its id.
+
+        Raises
+        ------
+        InputError
+            No row has it; the message names the nearest.
+        """
+        rows = self.rows(cls)
+        if name in rows:
+            return rows[name]
+        text = _("{name} is not in the catalogue").format(name=repr(name))
+        raise refuse(field, text + _near(name, {one: one for one in rows}), "unknown_key")
+
+    def grade(self, name: str, *, field: str = "material") -> Grade:
+        """Return a grade by its id or by its name in another standard.
+
+        Raises
+        ------
+        InputError
+            No grade has the name; the message names the nearest ones.
+
+        Examples
+        --------
+        >>> catalogue().grade("C22").id
+        '20'
+        """
+        rows = self.rows(Grade)
+        by_name = {other.casefold(): row for row in rows.values() for other in row.every_name}
+        by_name |= {row.id.casefold(): row for row in rows.values()}
+        found = by_name.get(name.casefold())
+        if found is not None:
+            return found
+        spelled = {other.casefold(): other for row in rows.values() for other in row.every_name}
+        text = _("{name} is not in the catalogue").format(name=repr(name))
+        raise refuse(field, text + _near(name.casefold(), spelled), "unknown_key")
+
+
+def _near(name: str, spelled: Mapping[str, str]) -> str:
+    """Return which names are most like one that is not there, as the end of a sentence; "" where none is."""
+    found = [spelled[one] for one in get_close_matches(name, list(spelled), n=NEAR, cutoff=0.6)]
+    if not found:
+        return ""
+    text = _("; the nearest is {near}").format(near=found[0])
+    return text + (_(", then {others}").format(others=", ".join(found[1:])) if len(found) > 1 else "")
+
+
+@cache
+def catalogue() -> Catalogue:
+    """Return the shipped catalogue.
+
+    Examples
+    --------
+    >>> catalogue().grade("45").yield_strength
+    355000000.0
+    """
+    tree: dict[str, Any] = {}
+    for name in FILES:
+        tree |= tomllib.loads(files(__package__).joinpath(f"{name}.toml").read_text(encoding="utf-8"))
+    tables, problems = rows_of(tree)
+    check(problems)
+    return Catalogue(tables=tables)
+
+
+def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
+    """Return a catalogue with the rows of a user's files added; a row of theirs replaces a shipped one of its id.
+
+    Parameters
+    ----------
+    base : Catalogue
+    paths : iterable of path
+        TOML files with the tables of the catalogue.
+
+    Raises
+    ------
+    InputError
+        A file cannot be read, or holds what is no row; every problem at once.
+    """
+    tables = {name: dict(rows) for name, rows in base.tables.items()}
+    problems: list[Problem] = []
+    for path in paths:
+        try:
+            tree = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        except OSError as error:
+            problems.append(Problem(str(path), _("cannot be read: {why}").format(why=error.strerror or error)))
+            continue
+        except ValueError as error:
+            problems.append(Problem(str(path), _("is not TOML: {why}").format(why=error)))
+            continue
+        rows, wrong = rows_of(tree)
+        problems += [Problem(f"{path}: {problem.field}", problem.message) for problem in wrong]
+        for name, new in rows.items():
+            tables.setdefault(name, {}).update(new)
+    check(problems)
+    return Catalogue(tables=tables)
+
+
+def material(name: str, *, known: Catalogue | None = None) -> Material:
+    """Return the material of a grade.
+
+    Parameters
+    ----------
+    name : str
+        Id of the grade, or its name in another standard.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Raises
+    ------
+    InputError
+        No grade has the name.
+
+    Examples
+    --------
+    >>> material("C45").yield_strength
+    355000000.0
+    """
+    row = (known or catalogue()).grade(name)
+    hardness = row.hardness_brinell
+    return Material(
+        grade=name,
+        density=row.density,
+        youngs=row.youngs,
+        shear=row.shear,
+        poisson=row.poisson,
+        yield_strength=row.yield_strength,
+        ultimate_strength=row.ultimate_strength,
+        hardness=None if hardness is None else 0.5 * (hardness[0] + hardness[1]),
+    )

@@ -1,0 +1,158 @@
+"""Names in a drive and what the catalogue says of them: materials by grade, joints by size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+from cardan.drive.drive import Drive
+from cardan.drive.joints import Joint
+from cardan.drive.material import Material
+from cardan.errors import InputError, Problem, check
+
+from .catalogue import Catalogue, catalogue, material
+from .rows import JointSize, JointType
+
+SIZED = ("cross", "needles", "yoke", "rating")
+"""Fields of a joint that a size of the catalogue fills where the drive does not give them."""
+
+
+def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
+    """Return a drive whose grades and sizes carry the figures of the catalogue; what the drive gives itself stays.
+
+    Parameters
+    ----------
+    drive : Drive
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Raises
+    ------
+    InputError
+        Grades, sizes and types that the catalogue does not have, all at once, each with the nearest.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> tube = Shaft(number=2, outer=0.06, wall=0.002, length=1.0, material=Material(grade="C22"))
+    >>> completed(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).shafts[1].material.yield_strength
+    245000000.0
+    """
+    rows = known or catalogue()
+    problems = list(_unknown(drive, rows))
+    check(problems)
+    joints = tuple(_sized(joint, rows) for joint in drive.joints)
+    whole: Drive = _graded(replace(drive, joints=joints), rows)
+    return whole
+
+
+def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
+    """Return a drive without the figures that its grades and sizes stand for: what its file says.
+
+    Parameters
+    ----------
+    drive : Drive
+    known : Catalogue, optional
+        The shipped one when not given.
+    """
+    rows = known or catalogue()
+    bare: Drive = _ungraded(drive, rows)
+    return replace(bare, joints=tuple(_unsized(joint, rows) for joint in drive.joints))
+
+
+def _unknown(drive: Drive, rows: Catalogue) -> Iterator[Problem]:
+    for path, grade in _grades(drive, ""):
+        try:
+            rows.grade(grade, field=path)
+        except InputError as error:
+            yield from error.problems
+    for i, joint in enumerate(drive.joints):
+        for name, cls in (("size", JointSize), ("type", JointType)):
+            given = getattr(joint, name)
+            try:
+                if given:
+                    rows.row(cls, given, field=f"joints[{i}].{name}")
+            except InputError as error:
+                yield from error.problems
+
+
+def _grades(thing: Any, path: str) -> Iterator[tuple[str, str]]:
+    """Yield path and name of every material that is given by its name alone."""
+    if isinstance(thing, Material):
+        if thing.grade and thing == Material(grade=thing.grade):
+            yield path, thing.grade
+    elif isinstance(thing, tuple):
+        for k, item in enumerate(thing):
+            if is_dataclass(item):
+                yield from _grades(item, f"{path}[{k}]")
+    elif is_dataclass(thing):
+        for one in fields(thing):
+            yield from _grades(getattr(thing, one.name), f"{path}.{one.name}" if path else one.name)
+
+
+def _sized(joint: Joint, rows: Catalogue) -> Joint:
+    if not joint.size:
+        return joint
+    row = rows.row(JointSize, joint.size)
+    filled = {name: _over(getattr(joint, name), getattr(row, name)) for name in SIZED}
+    return replace(joint, **filled, type=joint.type or row.type)
+
+
+def _over(given: Any, usual: Any) -> Any:
+    """Return a part as given, its missing fields as usual."""
+    if given is None or usual is None:
+        return usual if given is None else given
+    blank = {one.name: one.default for one in fields(given)}
+    missing = [name for name, default in blank.items() if getattr(given, name) == default]
+    return replace(given, **{name: getattr(usual, name) for name in missing})
+
+
+def _unsized(joint: Joint, rows: Catalogue) -> Joint:
+    row = rows.rows(JointSize).get(joint.size)
+    if row is None:
+        return joint
+    kept = {name: _under(getattr(joint, name), _graded(getattr(row, name), rows), rows) for name in SIZED}
+    return replace(joint, **kept, type="" if joint.type == row.type else joint.type)
+
+
+def _under(given: Any, usual: Any, rows: Catalogue) -> Any:
+    """Return a part without what is usual, None where nothing is left."""
+    if given is None or usual is None or given == usual:
+        return None if given == usual else given
+    blank = {one.name: one.default for one in fields(given)}
+    same = [name for name in blank if getattr(given, name) == getattr(usual, name)]
+    return _ungraded(replace(given, **{name: blank[name] for name in same}), rows)
+
+
+def _graded(thing: Any, rows: Catalogue) -> Any:
+    """Return a thing whose materials carry the figures of their grades."""
+    if isinstance(thing, Material):
+        bare = bool(thing.grade) and thing == Material(grade=thing.grade)
+        return material(thing.grade, known=rows) if bare else thing
+    return _changed(thing, lambda inner: _graded(inner, rows))
+
+
+def _ungraded(thing: Any, rows: Catalogue) -> Any:
+    """Return a thing whose materials are names alone where the catalogue says the rest."""
+    if isinstance(thing, Material):
+        try:
+            same = bool(thing.grade) and thing == material(thing.grade, known=rows)
+        except InputError:
+            return thing
+        return Material(grade=thing.grade) if same else thing
+    return _changed(thing, lambda inner: _ungraded(inner, rows))
+
+
+def _changed(thing: Any, change: Any) -> Any:
+    if isinstance(thing, tuple):
+        return tuple(change(item) for item in thing)
+    if not is_dataclass(thing) or isinstance(thing, type):
+        return thing
+    new = {one.name: change(getattr(thing, one.name)) for one in fields(thing) if one.init}
+    altered = {
+        name: value
+        for name, value in new.items()
+        if value is not getattr(thing, name) and value != getattr(thing, name)
+    }
+    return replace(thing, **altered) if altered else thing

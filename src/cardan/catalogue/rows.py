@@ -1,0 +1,178 @@
+"""Rows of the catalogue: what each of its tables says of a thing, with the source of every row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.drive.cross import Cross
+from cardan.drive.joint_parts import Needles, Rating, Yoke
+from cardan.units import plain, quantity
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Row:
+    """What every row has."""
+
+    id: str = plain(doc="name of the row, unique in its table")
+    source: str = plain(doc="where its figures come from")
+    confidence: str = plain(
+        "confirmed",
+        doc="how sure the figures are: confirmed by the source, recalled (usual values, look them up), book (as the "
+        "book has it), derived from other rows, made_up for examples",
+        choices=("confirmed", "recalled", "not_confirmed", "book", "derived", "beyond", "made_up"),
+    )
+    note: str = plain("", doc="what to know about it")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grade(Row):
+    """A material and the state it is delivered in."""
+
+    russian: str = plain("", doc="name in Cyrillic")
+    european: str = plain("", doc="the same or the nearest European grade")
+    american: str = plain("", doc="the same or the nearest AISI grade")
+    names: tuple[str, ...] = plain((), doc="further names")
+    parts: tuple[str, ...] = plain((), doc="parts it is used for")
+    treatment: str = plain("", doc="heat treatment")
+    hardness_brinell: tuple[float, float] | None = plain(None, doc="Brinell hardness, from and to", above=0.0)
+    hardness_rockwell: tuple[float, float] | None = plain(None, doc="Rockwell C hardness, from and to", above=0.0)
+    density: float = quantity("density", 7850.0, doc="density", above=0.0)
+    youngs: float = quantity("stress", 2.06e11, doc="Young's modulus", above=0.0)
+    shear: float = quantity("stress", 7.92e10, doc="shear modulus", above=0.0)
+    poisson: float = plain(0.3, doc="Poisson's ratio", low=0.0, below=0.5)
+    yield_strength: float | None = quantity("stress", None, doc="yield strength or 0.2 % proof stress", above=0.0)
+    ultimate_strength: float | None = quantity("stress", None, doc="tensile strength", above=0.0)
+
+    @property
+    def every_name(self) -> tuple[str, ...]:
+        """Its names in all standards, its own first."""
+        named = (self.id, self.european, self.american, self.russian, *self.names)
+        return tuple(dict.fromkeys(name.partition(" (")[0] for name in named if name))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class JointType(Row):
+    """A type of joint and its limits, without sizes."""
+
+    name: str = plain(doc="what it is called")
+    family: str = plain(doc="group of joints it belongs to")
+    synchronous: str = plain(doc="whether it turns evenly", choices=("yes", "approx", "no"))
+    synchronous_as_pair: bool = plain(False, doc="whether two of them, set right, turn evenly")
+    pair_mobility: int | None = plain(None, doc="freedoms between its two shafts", low=1)
+    max_bend: float | None = quantity("angle", None, doc="largest bend angle", above=0.0)
+    min_torque: float | None = quantity("torque", None, doc="smallest torque it is made for", low=0.0)
+    max_torque: float | None = quantity("torque", None, doc="largest torque it is made for", above=0.0)
+    max_speed_angle: float | None = quantity(
+        "speed_angle", None, doc="largest product of speed and bend in continuous running", above=0.0
+    )
+    max_rim_speed: float | None = quantity("speed", None, doc="largest speed of its rim", above=0.0)
+    uses: tuple[str, ...] = plain((), doc="what it is used for")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class JointSize(Row):
+    """A size of a maker's series: the dimensions and ratings that a joint of this size has."""
+
+    type: str = plain("", doc="type of joint it is of")
+    cross: Cross | None = plain(None, doc="its cross")
+    needles: Needles | None = plain(None, doc="its needle bearings")
+    yoke: Yoke | None = plain(None, doc="its yokes")
+    rating: Rating | None = plain(None, doc="what its maker allows")
+    mass: float | None = quantity("mass", None, doc="mass of the joint", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class AngleNorm(Row):
+    """Largest angular accelerations that unequal joint angles may cause."""
+
+    torsional: float = quantity("angular_acceleration", doc="of the output", above=0.0)
+    inertia_drive: float = quantity(
+        "angular_acceleration", doc="of an intermediate shaft, the input uniform", above=0.0
+    )
+    inertia_coast: float = quantity(
+        "angular_acceleration", doc="of an intermediate shaft, the output uniform", above=0.0
+    )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class SpeedAngleLimit(Row):
+    """Largest product of speed and bend of a joint, and its largest speed."""
+
+    max_speed_angle: float = quantity("speed_angle", doc="largest product of speed and bend", above=0.0)
+    max_speed: float | None = quantity("angular_speed", None, doc="largest speed", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class MaxBend(Row):
+    """Largest bend of one joint at a speed."""
+
+    speed: float = quantity("angular_speed", doc="speed", above=0.0)
+    max_bend: float = quantity("angle", doc="largest bend angle", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class AnglePair(Row):
+    """Largest second bend beside first bends of 0°, 1°, 2° … at a speed, as printed."""
+
+    speed: float = quantity("angular_speed", doc="speed", above=0.0)
+    second_bend: tuple[float, ...] = quantity("angle", doc="largest second bend for each first one", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class BalanceNorm(Row):
+    """Unbalance that is left in a balanced shaft of a vehicle."""
+
+    max_unbalance: float = quantity("unbalance", doc="largest unbalance", above=0.0)
+    min_unbalance: float | None = quantity("unbalance", None, doc="lower end where the source gives a range", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class BalanceGrade(Row):
+    """Balance quality grade: the speed at which the centre of mass may circle the axis."""
+
+    speed: float = quantity("speed", doc="eccentricity times angular speed", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class PartLimit(Row):
+    """Largest deviation of a measure on a part."""
+
+    part: str = plain(doc="part it is measured on")
+    limit: float = quantity("length", doc="largest deviation", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Lubrication(Row):
+    """What to lubricate with, and when again."""
+
+    lubricant: str = plain(doc="lubricant")
+    hours: float | None = quantity("time", None, doc="interval in running time", above=0.0)
+    distance: float | None = quantity("length", None, doc="interval in distance run", above=0.0)
+    years: float | None = plain(None, doc="interval in years", above=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LifeFactor(Row):
+    """A point of a printed table of factors."""
+
+    at: float = plain(doc="where it stands in the table", above=0.0)
+    printed: float = plain(doc="factor as printed", above=0.0)
+    factor: float = plain(doc="factor, misprints put right", above=0.0)
+
+
+TABLES: dict[str, type[Row]] = {
+    "materials": Grade,
+    "joint_types": JointType,
+    "joint_sizes": JointSize,
+    "angle_norms": AngleNorm,
+    "speed_angle_limits": SpeedAngleLimit,
+    "max_bends": MaxBend,
+    "angle_pairs": AnglePair,
+    "balance_norms": BalanceNorm,
+    "balance_grades": BalanceGrade,
+    "part_limits": PartLimit,
+    "lubrication": Lubrication,
+    "life_factors": LifeFactor,
+    "speed_angle_factors": LifeFactor,
+}
+"""Table of a catalogue file -> what its rows are."""

@@ -1,0 +1,99 @@
+"""Rows as a catalogue file has them, and the keys that a row can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import is_dataclass
+from typing import Any, NamedTuple
+
+from cardan.drive.keys import NAMED, fields_of
+
+from .rows import TABLES, Row
+
+
+class RowKey(NamedTuple):
+    """A key of a row."""
+
+    key: str
+    """With its unit; inside an inner table after a point."""
+    needed: bool
+    meaning: str
+
+
+def row_keys(table: str) -> Iterator[RowKey]:
+    """Yield the keys that a row of a table can have, those of inner tables after their own.
+
+    Parameters
+    ----------
+    table : str
+        One of `TABLES`.
+
+    Examples
+    --------
+    >>> [one.key for one in row_keys("balance_grades")]
+    ['id', 'source', 'confidence', 'note', 'speed_m_s']
+    """
+    yield from _of_class(TABLES[table], "")
+
+
+def _of_class(cls: Any, before: str) -> Iterator[RowKey]:
+    for one in fields_of(cls).values():
+        yield RowKey(before + one.spelling, one.required, one.key.doc)
+        if is_dataclass(one.type) and one.type not in NAMED:
+            yield from _of_class(one.type, f"{before}{one.spelling}.")
+
+
+def row_tree(row: Any) -> dict[str, Any]:
+    """Return a row as a catalogue file has it: keys with units, nothing that is not said.
+
+    Parameters
+    ----------
+    row : Row
+
+    Examples
+    --------
+    >>> from cardan.catalogue import catalogue
+    >>> row_tree(catalogue().tables["balance_grades"]["G16"])["speed_m_s"]
+    0.016
+    """
+    found: dict[str, Any] = {}
+    for name, one in fields_of(type(row)).items():
+        value = getattr(row, name)
+        if value is None or value in ((), ""):
+            continue
+        if is_dataclass(value) and not isinstance(value, type):
+            named = getattr(value, NAMED[type(value)]) if type(value) in NAMED else ""
+            found[one.spelling] = named or row_tree(value)
+        else:
+            found[one.spelling] = _in_unit(value, one.spellings[one.spelling])
+    return found
+
+
+def row_flat(row: Row) -> dict[str, Any]:
+    """Return a row with its inner tables spread out, as ``rating.torque_Nm``; lists as text.
+
+    Parameters
+    ----------
+    row : Row
+    """
+    return dict(_spread(row_tree(row), ""))
+
+
+def _spread(tree: Mapping[str, Any], before: str) -> Iterator[tuple[str, Any]]:
+    for key, value in tree.items():
+        if isinstance(value, Mapping):
+            yield from _spread(value, f"{before}{key}.")
+        else:
+            yield before + key, ", ".join(map(_said, value)) if isinstance(value, list) else value
+
+
+def _said(value: Any) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _in_unit(value: Any, factor: float) -> Any:
+    if isinstance(value, tuple):
+        return [_in_unit(item, factor) for item in value]
+    if isinstance(value, float):
+        return float(f"{value / factor:.12g}")
+    return value

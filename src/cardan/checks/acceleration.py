@@ -1,0 +1,67 @@
+"""Whether joints make the output and the shafts between swing no harder than the norm of joint angles allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.analysis.equivalence import after_each_joint, largest_acceleration
+from cardan.catalogue.rows import AngleNorm
+from cardan.maths import mobius
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .case import Case
+from .check import Check
+from .design import Design
+from .verdict import Verdict
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    norm = design.known.row(AngleNorm, design.drive.settings.norm, field="settings.norm")
+    speed = design.top_speed
+    output = f"shafts[{design.joints}]"
+    said = [(_("torsional acceleration of the output"), output, norm.torsional)]
+    if design.joints > 1:
+        said.append((_("acceleration of inside shafts in drive"), "", norm.inertia_drive))
+        said.append((_("acceleration of inside shafts in coast"), "", norm.inertia_coast))
+    swings = _swings(design) if speed is not None else ()
+    for k, (title, subject, limit) in enumerate(said):
+        made = partial(
+            Verdict,
+            check="acceleration",
+            subject=subject,
+            title=title,
+            dimension="angular_acceleration",
+            unit="rad_s2",
+            limit=limit,
+            source=norm.source,
+        )
+        if speed is None:
+            yield made(missing=("duty.speed",))
+            continue
+        yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
+        yield made(
+            value=np.asarray(speed) ** 2 * swings[k],
+            levers=(*yokes, *design.bend_levers, *design.speed_levers),
+        )
+
+
+def _swings(design: Design) -> tuple[Array, ...]:
+    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast."""
+    case = Case(chain=design.chain)
+    each = after_each_joint(design.chain).max_acceleration
+    n = design.joints
+    if n == 1:
+        return (each[..., -1],)
+    coast = [largest_acceleration(mobius.bend(case.between(i, n))) for i in range(1, n)]
+    return each[..., -1], np.max(each[..., :-1], axis=-1), np.max(np.stack(coast, axis=-1), axis=-1)
+
+
+CHECK = Check(
+    name="acceleration",
+    doc=_("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
+    judge=_judge,
+)

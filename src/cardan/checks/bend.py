@@ -1,0 +1,42 @@
+"""Whether every joint may bend as far as it does: by its maker, its type, or the user's own limit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.catalogue.rows import JointType
+from cardan.texts import _
+
+from .case import largest
+from .check import Check
+from .design import Design
+from .moving import largest_bend
+from .verdict import Verdict
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    own = design.drive.limits.bend
+    for i, joint in enumerate(design.drive.joints):
+        row = design.known.rows(JointType).get(joint.type)
+        limits = [
+            (own, _("limits of the drive file")),
+            (design.value(f"joints[{i}].rating.max_bend"), _("rating of the joint")),
+            (row.max_bend if row else None, row.source if row else ""),
+        ]
+        given = [(limit, source) for limit, source in limits if limit is not None]
+        title = _("bend of joint {number}").format(number=i + 1)
+        made = partial(Verdict, check="bend", subject=f"joints[{i}]", title=title, dimension="angle", unit="deg")
+        if not given:
+            yield made(missing=(f"joints[{i}].rating.max_bend",))
+            continue
+        limit, source = given[0]
+        bends = [np.asarray(case.bend)[..., i] for case in design.cases] or [design.bend[..., i]]
+        moved = largest_bend(design, i)
+        note = _("while the drive moves") if moved > np.max(largest(bends)) else ""
+        yield made(value=largest([*bends, moved]), limit=limit, source=source, levers=design.bends_of(i), note=note)
+
+
+CHECK = Check(name="bend", doc=_("bend of every joint against what maker, type or user allow"), judge=_judge)

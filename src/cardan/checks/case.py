@@ -1,0 +1,111 @@
+"""A way in which a drive runs, and what that asks of its joints and shafts: torques and couples over a turn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from cardan.analysis.turn_loads import TurnLoads, turn_loads
+from cardan.drive.chain import Chain
+from cardan.drive.duty import Harmonic
+from cardan.maths import mobius
+from cardan.maths.arrays import Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Case:
+    """Steady running at a torque and a speed, without masses and friction; leading axes (...) are those of the drives.
+
+    Attributes
+    ----------
+    name : str
+        What to call it; empty for the duty itself.
+    torque : float or array (...) or None [N·m]
+        Size of the torque.
+    speed : float or array (...) or None [rad/s]
+        Size of the input speed.
+    share : float or array (...)
+        Share of the whole time.
+    block : bool
+        Whether it is part of a duty cycle.
+    chain : Chain
+        Kinematic half of the drives.
+    torque_at : str
+        At which end the torque is given.
+    harmonics : tuple of Harmonic
+        Its swinging parts.
+    scale : float or array (...) [N·m]
+        Mean torque that the harmonics belong to, and with which they grow; zero where they do not.
+    """
+
+    chain: Chain
+    name: str = ""
+    torque: Array | float | None = None
+    speed: Array | float | None = None
+    share: Array | float = 1.0
+    block: bool = False
+    torque_at: str = "output"
+    harmonics: tuple[Harmonic, ...] = ()
+    scale: Array | float = 0.0
+
+    @cached_property
+    def bend(self) -> Array:
+        """Bend of every joint, array (..., n) [rad]."""
+        return self.chain.bend
+
+    def between(self, first: int, last: int) -> mobius.Pair:
+        """Return the Möbius pair of the joints from ``first`` on, counted from 0, up to before ``last``."""
+        part = mobius.partial_products(self.chain.bend[..., first:last], self.chain.turn_before[..., first:last])
+        return part[-1]
+
+    @property
+    def torque_range(self) -> tuple[Array, Array]:
+        """Least and largest torque of every shaft over a turn, two arrays (..., n+1) [N·m]."""
+        return self._loads.low, self._loads.high
+
+    @property
+    def shaft_torque(self) -> Array:
+        """Largest size of the torque of every shaft over a turn, array (..., n+1) [N·m]."""
+        return self._loads.torque
+
+    @property
+    def joint_torque(self) -> Array:
+        """Largest torque over a turn on either side of every joint, array (..., n) [N·m]."""
+        high = self._loads.torque
+        found: Array = np.maximum(high[..., :-1], high[..., 1:])
+        return found
+
+    @property
+    def couple(self) -> Array:
+        """Largest couple across every cross over a turn, array (..., n) [N·m]; over the span it loads a journal."""
+        return self._loads.couple
+
+    @property
+    def end_bending(self) -> Array:
+        """Largest secondary couple at either end of every shaft, array (..., n+1) [N·m]."""
+        return self._loads.bending
+
+    @property
+    def mises_moment(self) -> Array:
+        """Largest √(4 M_b² + 3 T²) at either end of every shaft, array (..., n+1) [N·m]; von Mises over 1/W_t."""
+        return self._loads.mises
+
+    @property
+    def end_moment(self) -> Array:
+        """Largest √(T² + M_b²) at either end of every shaft, array (..., n+1) [N·m]: the couple of the cross there."""
+        return self._loads.moment
+
+    @cached_property
+    def _loads(self) -> TurnLoads:
+        """Largest loads over a turn."""
+        torque = np.asarray(self.torque, dtype=float)
+        return turn_loads(self.chain, torque, torque_at=self.torque_at, harmonics=self.harmonics, scale=self.scale)
+
+
+def largest(values: Sequence[Array | float]) -> Array:
+    """Return the largest of arrays (...), place by place."""
+    found: Array = np.max(np.stack(np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in values))), axis=0)
+    return found

@@ -1,0 +1,160 @@
+"""All checks, and asking them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.paths import pose_drives
+from cardan.errors import Problem
+from cardan.errors import check as refuse_all
+from cardan.maths.arrays import ArrayLike
+from cardan.texts import _
+from cardan.units import nearest
+
+from . import (
+    acceleration,
+    angle_rule,
+    angle_table,
+    balance,
+    bearing_life,
+    bend,
+    bend_at_speed,
+    contact_pressure,
+    critical_speed,
+    design_torque,
+    half_critical,
+    irregularity,
+    joint_torque,
+    journal_strength,
+    layout,
+    length,
+    lubrication,
+    max_speed,
+    needle_static,
+    output_error,
+    part_accuracy,
+    rated_torque,
+    rim_speed,
+    runout,
+    small_oscillation,
+    speed_angle,
+    spline_overlap,
+    spline_pressure,
+    spline_strength,
+    tube_buckling,
+    tube_fatigue,
+    tube_strength,
+    twist,
+    yoke_strength,
+)
+from .check import Check
+from .design import Design, design
+from .moving import worst_of_poses
+from .verdict import Verdict
+
+CHECKS: dict[str, Check] = {
+    module.CHECK.name: module.CHECK
+    for module in (
+        bend,
+        acceleration,
+        irregularity,
+        output_error,
+        bearing_life,
+        rated_torque,
+        joint_torque,
+        max_speed,
+        speed_angle,
+        rim_speed,
+        journal_strength,
+        yoke_strength,
+        needle_static,
+        tube_strength,
+        tube_fatigue,
+        tube_buckling,
+        twist,
+        spline_strength,
+        spline_pressure,
+        spline_overlap,
+        critical_speed,
+        half_critical,
+        balance,
+        design_torque,
+        part_accuracy,
+        lubrication,
+        angle_rule,
+        angle_table,
+        bend_at_speed,
+        contact_pressure,
+        small_oscillation,
+        runout,
+        length,
+        layout,
+    )
+}
+"""Name of a check -> the check; its code is the file of the same name."""
+
+
+def check(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    only: Sequence[str] = (),
+    vary: Mapping[str, ArrayLike] | None = None,
+    known: Catalogue | None = None,
+) -> tuple[Verdict, ...]:
+    """Return the verdicts of the checks on a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+    duty : Duty, optional
+        The drive's own when not given.
+    only : sequence of str
+        Names of checks; all when empty.
+    vary : mapping of str to array (...), optional
+        Path with unit -> values over many drives; the verdicts then hold arrays.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    tuple of Verdict
+        A verdict that could not be reached names what is missing. A drive with poses is judged as drawn and in each
+        pose, and the worst counts; where values vary it is judged as drawn.
+
+    Raises
+    ------
+    InputError
+        A check that is not known, a path that leads nowhere.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.duty import Limits
+    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(bend=0.4))
+    >>> [verdict.state for verdict in check(drive, only=["bend"])]
+    ['passed', 'failed']
+    """
+    unknown = [name for name in only if name not in CHECKS]
+    refuse_all(Problem("only", _unknown(name)) for name in unknown)
+    subject = design(drive, duty, vary=vary, known=known)
+    verdicts = _judged(subject, only)
+    if vary or not subject.drive.poses:
+        return verdicts
+    names = [pose.name or str(k) for k, pose in enumerate(subject.drive.poses, start=1)]
+    posed = [replace(subject, drive=one) for one in pose_drives(subject.drive)]
+    return worst_of_poses(verdicts, [(name, _judged(one, only)) for name, one in zip(names, posed, strict=True)])
+
+
+def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:
+    return tuple(verdict for name, one in CHECKS.items() if not only or name in only for verdict in one.judge(subject))
+
+
+def _unknown(name: str) -> str:
+    near = nearest(name, CHECKS)
+    text = _("{name} is no check; the checks are {known}").format(name=repr(name), known=", ".join(CHECKS))
+    return text + (_("; the nearest is {near}").format(near=near) if near else "")

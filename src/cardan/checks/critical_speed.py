@@ -1,0 +1,71 @@
+"""Whether every shaft stays far enough below the speed at which it whirls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.analysis.critical_speed import ARTICLE, CATALOGUE
+from cardan.texts import _
+from cardan.units import rpm
+
+from .check import Check
+from .design import Design
+from .verdict import Verdict
+from .whirl import Whirl, whirls
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for one in whirls(design):
+        made = partial(
+            Verdict,
+            check="critical_speed",
+            subject=f"shafts[{one.shaft}]",
+            title=_("critical speed of shaft {number} over the highest speed").format(number=one.shaft + 1),
+        )
+        if one.missing or design.unmoved:
+            yield made(missing=(*one.missing, *design.unmoved))
+            continue
+        if one.speed is None:
+            continue
+        top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
+        own = design.value("limits.critical_speed")
+        source = _("web articles on drive shafts: 60 % above the highest speed")
+        yield made(
+            value=one.wear * one.speed / top,
+            limit=ARTICLE if own is None else own,
+            sense="at_least",
+            source=source if own is None else _("limits of the drive file"),
+            levers=(*one.levers, *design.speed_levers),
+            note=_note(one),
+        )
+        application = design.duty.application
+        makers = {
+            "automotive": _("IMS catalogue, automotive drives: 70 %"),
+            "industrial": _("IMS catalogue, industrial drives: 65 %"),
+        }
+        yield made(
+            title=_("highest speed over the critical speed of shaft {number}").format(number=one.shaft + 1),
+            value=top / one.speed,
+            limit=CATALOGUE[application],
+            dimension="share",
+            unit="percent",
+            source=makers[application],
+            levers=(*(path for path in one.levers if "wear" not in path), *design.speed_levers),
+        )
+
+
+def _note(one: Whirl) -> str:
+    if one.speed is None or np.ndim(one.speed) or np.ndim(one.wear):
+        return ""
+    text = _("{factor:g} of the {speed:.0f} rpm computed for the whole line")
+    if not one.exact:
+        text = _("{factor:g} of the {speed:.0f} rpm computed for the tube between its joints")
+    return text.format(factor=float(one.wear), speed=float(one.speed) / rpm)
+
+
+CHECK = Check(
+    name="critical_speed", doc=_("critical speed of every shaft in bending against the highest speed"), judge=_judge
+)

@@ -1,0 +1,362 @@
+"""What is checked: a drive in its duty, some of its fields varied over many drives."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.drive.chain import Chain, chain
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.geometry import geometry, geometry_from_points
+from cardan.drive.parts import known_lengths
+from cardan.drive.paths import place
+from cardan.errors import InputError, refuse
+from cardan.maths import frames
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+
+from .case import Case, largest
+
+_STEP = re.compile(r"([a-z_]+)((?:\[\d+\])*)$")
+_GEOMETRY = re.compile(
+    r"joints\[\d+\]\.(centre|bend|plane_twist)|shafts\[\d+\]\.(yoke_angle|side_slope|plan_slope|length)|input\.|output\."
+)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Design:
+    """A drive in its duty, or many drives that differ in a few fields.
+
+    Attributes
+    ----------
+    drive : Drive
+        With grades and sizes filled in, and with this duty.
+    duty : Duty
+    known : Catalogue
+        Its norms, types and sizes.
+    varied : mapping of str to array (...)
+        Path without unit, as ``joints[0].cross.span`` or ``duty.torque`` -> values in SI, in place of the drive's.
+    """
+
+    drive: Drive
+    duty: Duty
+    known: Catalogue = field(default_factory=catalogue)
+    varied: Mapping[str, Array] = field(default_factory=dict)
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """Leading axes: () for one drive."""
+        return np.broadcast_shapes(*(np.shape(one) for one in self.varied.values())) if self.varied else ()
+
+    def value(self, path: str) -> Any:
+        """Return what stands at a path without unit: an array where it is varied, None where nothing stands.
+
+        Examples
+        --------
+        >>> Design(drive=Drive.from_angles([0.1]), duty=Duty()).value("joints[0].bend")
+        0.1
+        """
+        if path in self.varied:
+            return self.varied[path]
+        here: Any = {"duty": self.duty}.get(path.partition(".")[0], self.drive)
+        for word in path.removeprefix("duty.").split(".") if here is self.duty else path.split("."):
+            match = _STEP.fullmatch(word)
+            assert match is not None, path
+            if here is None:
+                return None
+            here = getattr(here, match[1])
+            for k in re.findall(r"\d+", match[2]):
+                here = here[int(k)] if here is not None and int(k) < len(here) else None
+        return here
+
+    def missing(self, *paths: str) -> tuple[str, ...]:
+        """Return those of the paths at which nothing stands."""
+        return tuple(path for path in paths if path not in self.varied and self.value(path) in (None, "", ()))
+
+    def levers(self, *paths: str) -> tuple[str, ...]:
+        """Return those of the paths at which something stands that can be changed."""
+        return tuple(dict.fromkeys(path for path in paths if not self.missing(path)))
+
+    @property
+    def joints(self) -> int:
+        """Number of joints."""
+        return len(self.drive.joints)
+
+    @cached_property
+    def chain(self) -> Chain:
+        """Kinematic half of the drives."""
+        base = chain(self.drive)
+        moved = {path: values for path, values in self.varied.items() if _GEOMETRY.match(path)}
+        if not moved:
+            return base
+        bend, twist = base.bend, base.plane_twist
+        if self.drive.form != "angles":
+            found = geometry_from_points(self._points)
+            bend, twist = found.bend, found.plane_twist
+        return Chain(
+            bend=self._over(bend, moved, r"joints\[(\d+)\]\.bend$", 0),
+            plane_twist=self._over(twist, moved, r"joints\[(\d+)\]\.plane_twist$", 1),
+            yoke_angle=self._over(base.yoke_angle, moved, r"shafts\[(\d+)\]\.yoke_angle$", 1),
+            start_phase=np.broadcast_to(np.asarray(moved.get("input.start_phase", base.start_phase)), self.shape),
+        )
+
+    @cached_property
+    def _points(self) -> Array:
+        """Points of the axis of drives given by points or slopes, array (..., n+2, 3) [m]."""
+        place_of = geometry(self.drive)
+        base = np.asarray(place_of.points, dtype=float)
+        if self.drive.form == "slopes":
+            length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
+            slopes = [
+                self._over(
+                    np.asarray([getattr(one, name) or 0.0 for one in self.drive.shafts]),
+                    self.varied,
+                    rf"shafts\[(\d+)\]\.{name}$",
+                    0,
+                )
+                for name in ("plan_slope", "side_slope")
+            ]
+            axis = frames.unit(np.stack((np.ones_like(slopes[0]), np.tan(slopes[0]), np.tan(slopes[1])), axis=-1))
+            steps = length[..., None] * axis
+            after = np.cumsum(steps[..., 1:, :], axis=-2)
+            return np.concatenate((-steps[..., :1, :], 0.0 * steps[..., :1, :], after), axis=-2)
+        points = np.broadcast_to(base, (*self.shape, *base.shape)).copy()
+        for path, values in self.varied.items():
+            row = _row(path, self.joints)
+            if row is not None:
+                part = re.search(r"\[(\d)\]$", path.partition(".")[2])
+                points[..., row, int(part[1]) if part else slice(None)] = values
+        return points
+
+    def _over(self, values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:
+        """Return values (..., k) with the varied ones in their places."""
+        given = np.asarray(values, dtype=float)
+        whole = np.broadcast_to(given, (*self.shape, given.shape[-1])).copy()
+        for path, new in moved.items():
+            match = re.match(pattern, path)
+            if match:
+                whole[..., int(match[1]) - first] = new
+        return whole
+
+    @property
+    def bend(self) -> Array:
+        """Bend of every joint, array (..., n) [rad]."""
+        return self.chain.bend
+
+    def length(self, k: int) -> Array | float | None:
+        """Return the length of a shaft between two joints, counted from 0 [m]; None where the drive does not say it."""
+        known = known_lengths(self.drive).get(k + 1)
+        given = self.value(f"shafts[{k}].length")
+        if self.drive.form != "points":
+            return known if given is None else given
+        moved = any(_row(path, self.joints) is not None for path in self.varied)
+        if known is None or not moved:
+            return known
+        found: Array = frames.norm(self._points[..., k + 1, :] - self._points[..., k, :])
+        return found
+
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """Every way the drive runs: its duty, then the blocks of its duty cycle."""
+        duty = self.duty
+        torque, speed = self.value("duty.torque"), self.value("duty.speed")
+        scale = 0.0 if torque is None else torque
+        cases = []
+        if torque is not None or speed is not None or not duty.blocks:
+            steady = Case(
+                chain=self.chain,
+                torque=_size(torque),
+                speed=_size(speed),
+                torque_at=duty.torque_at,
+                harmonics=duty.harmonics,
+                scale=scale,
+            )
+            cases.append(steady)
+        for k, block in enumerate(duty.blocks):
+            path = f"duty.blocks[{k}]"
+            whole = self.chain
+            bend = self.value(f"{path}.bend")
+            if bend is not None:
+                flat = np.asarray(bend, dtype=float)[..., None] + np.zeros(self.joints)
+                whole = replace(whole, bend=np.broadcast_to(flat, np.broadcast_shapes(flat.shape, whole.bend.shape)))
+            cases.append(
+                Case(
+                    chain=whole,
+                    name=_("part {number} of the duty cycle").format(number=k + 1),
+                    torque=self.value(f"{path}.torque"),
+                    speed=self.value(f"{path}.speed"),
+                    share=self.value(f"{path}.share") if f"{path}.share" in self.varied else block.share,
+                    block=True,
+                    harmonics=() if torque is None else duty.harmonics,
+                    scale=scale,
+                )
+            )
+        history = duty.torque_history
+        if history is not None and history.torques:
+            most = max(abs(one) for one in history.torques)
+            name = _("the peak of the torque history")
+            cases.append(Case(chain=self.chain, name=name, torque=most, speed=_size(speed), share=0.0))
+        return tuple(cases)
+
+    @property
+    def loaded(self) -> tuple[Case, ...]:
+        """Those of the ways to run that have a torque."""
+        return tuple(case for case in self.cases if case.torque is not None)
+
+    @cached_property
+    def top_speed(self) -> Array | float | None:
+        """Highest speed of the input, either way round [rad/s]."""
+        speeds = [case.speed for case in self.cases if case.speed is not None]
+        if self.duty.speed_range is not None:
+            speeds.append(self.value("duty.speed_range[1]"))
+        if not speeds:
+            return None
+        return largest(speeds)
+
+    def most(self, ask: Callable[[Case], Array]) -> tuple[Array, str]:
+        """Return the largest answer of all the ways to run under load, and a sentence on which of them it is."""
+        answers = [np.asarray(ask(case), dtype=float) for case in self.loaded]
+        value = largest(answers)
+        if value.ndim or len(answers) == 1:
+            return value, ""
+        name = self.loaded[int(np.argmax([float(one) for one in answers]))].name
+        return value, _("decided by {case}").format(case=name) if name else ""
+
+    @property
+    def unloaded(self) -> tuple[str, ...]:
+        """Path of the torque where the duty says none."""
+        return () if self.loaded else ("duty.torque",)
+
+    @property
+    def unmoved(self) -> tuple[str, ...]:
+        """Path of the speed where the duty says none."""
+        return () if self.top_speed is not None else ("duty.speed",)
+
+    @property
+    def running(self) -> tuple[Case, ...]:
+        """Parts that make up the time of the duty under load: its blocks, or the duty itself."""
+        parts = [case for case in self.loaded if case.speed is not None]
+        blocks = [case for case in parts if case.block]
+        return tuple(blocks or [case for case in parts if not case.name])
+
+    def allowed(self, strength: str) -> Array | float:
+        """Return the stress allowed by the yield strength at a path: over the safety of the limits [Pa]."""
+        return self.value(strength) / self.value("limits.safety")
+
+    @property
+    def shock(self) -> Array | float:
+        """Factor for shocks on the torque."""
+        return self.value("duty.shock_factor")
+
+    @property
+    def bend_levers(self) -> tuple[str, ...]:
+        """Paths that move the bends of the joints."""
+        return tuple(dict.fromkeys(path for i in range(self.joints) for path in self.bends_of(i)))
+
+    def bends_of(self, i: int) -> tuple[str, ...]:
+        """Return the paths that move the bend of a joint, counted from 0."""
+        if self.drive.form == "angles":
+            return (f"joints[{i}].bend",)
+        if self.drive.form == "slopes":
+            return self.levers(*(f"shafts[{k}].{name}" for k in (i, i + 1) for name in ("side_slope", "plan_slope")))
+        rows = ["input.point", *(f"joints[{k}].centre" for k in range(self.joints)), "output.point"]
+        around = [rows[i + 1], rows[i], rows[i + 2]]
+        return self.levers(*(f"{row}[{axis}]" for row in around for axis in (2, 1)))
+
+    @property
+    def yoke_levers(self) -> tuple[str, ...]:
+        """Paths of the yoke angles that may be changed."""
+        return tuple(f"shafts[{k}].yoke_angle" for k in range(1, self.joints) if not self.drive.shafts[k].yoke_fixed)
+
+    @property
+    def torque_levers(self) -> tuple[str, ...]:
+        """Paths of the torques of the duty."""
+        blocks = (f"duty.blocks[{k}].torque" for k in range(len(self.duty.blocks)))
+        return self.levers("duty.torque", *blocks)
+
+    @property
+    def speed_levers(self) -> tuple[str, ...]:
+        """Paths of the speeds of the duty."""
+        blocks = (f"duty.blocks[{k}].speed" for k in range(len(self.duty.blocks)))
+        top = ("duty.speed_range[1]",) if self.duty.speed_range is not None else ()
+        return self.levers("duty.speed", *top, *blocks)
+
+
+def _size(value: Any) -> Any:
+    return None if value is None else np.abs(value)
+
+
+def _row(path: str, joints: int) -> int | None:
+    if path.startswith("input.point"):
+        return 0
+    if path.startswith("output.point"):
+        return joints + 1
+    match = re.match(r"joints\[(\d+)\]\.centre", path)
+    return int(match[1]) + 1 if match else None
+
+
+def design(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    vary: Mapping[str, ArrayLike] | None = None,
+    known: Catalogue | None = None,
+) -> Design:
+    """Return what is to be checked.
+
+    Parameters
+    ----------
+    drive : Drive
+        Grades and sizes are filled in from the catalogue.
+    duty : Duty, optional
+        The drive's own when not given.
+    vary : mapping of str to array (...), optional
+        Path with unit, as in the drive file: ``shafts[1].outer_mm`` -> values in that unit, over many drives.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Raises
+    ------
+    InputError
+        A path that leads nowhere; names that the catalogue does not have.
+
+    Examples
+    --------
+    >>> many = design(Drive.from_angles([0.1, 0.2]), vary={"joints[0].bend_deg": [0.0, 10.0, 20.0]})
+    >>> many.bend.shape
+    (3, 2)
+    """
+    rows = known or catalogue()
+    made = whole(drive, drive.duty if duty is None else duty, rows)
+    varied: dict[str, Array] = {}
+    for path, values in (vary or {}).items():
+        there = place(made, path)
+        bare = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in there.steps)
+        given = np.asarray(values, dtype=float)
+        if not np.all(np.isfinite(given)):
+            raise refuse(path, _("not every value is finite"))
+        varied[bare.removeprefix(".")] = given * there.factor
+    return Design(drive=made, duty=made.duty, known=rows, varied=varied)
+
+
+@lru_cache(maxsize=64)
+def whole(drive: Drive, duty: Duty, known: Catalogue) -> Drive:
+    """Return a drive in a duty with grades and sizes filled in.
+
+    A drive that names catalogue files was filled in from them when it was loaded; what the given one does not know of
+    it stays.
+    """
+    posed = drive if duty is drive.duty else replace(drive, duty=duty)
+    try:
+        return completed(posed, known)
+    except InputError:
+        if not drive.settings.catalogues:
+            raise
+        return posed

@@ -1,0 +1,46 @@
+"""Whether the output turns as evenly as it must."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.analysis.equivalence import equivalent_joint
+from cardan.texts import _
+
+from .case import largest
+from .check import Check
+from .design import Design
+from .moving import largest_irregularity
+from .verdict import Verdict
+
+EVEN = 0.0027
+"""Largest irregularity of a drive that counts as even: that of one joint bent by 2.98°."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    own = design.value("limits.irregularity")
+    made = partial(
+        Verdict,
+        check="irregularity",
+        subject=f"shafts[{design.joints}]",
+        title=_("irregularity of the output"),
+        dimension="share",
+        unit="percent",
+    )
+    if own is None and not design.duty.synchronous:
+        yield made(missing=("limits.irregularity",))
+        return
+    drawn, moved = equivalent_joint(design.chain).irregularity, largest_irregularity(design)
+    yield made(
+        value=largest([drawn, moved]),
+        limit=EVEN if own is None else own,
+        source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
+        levers=(*design.yoke_levers, *design.bend_levers),
+        note=_("while the drive moves") if moved > np.max(drawn) else "",
+    )
+
+
+CHECK = Check(name="irregularity", doc=_("unevenness of the output against the limit of the user"), judge=_judge)

@@ -1,0 +1,48 @@
+"""Whether yokes and crosses are as accurate as the norm asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+from cardan.catalogue.rows import PartLimit
+from cardan.drive.inspection import Inspection
+from cardan.texts import _
+
+from .check import Check
+from .design import Design
+from .verdict import Verdict
+
+NAMES = {
+    "axis_offset": _("offset of the axes of the yokes of joint {number}"),
+    "yoke_perpendicularity": _("squareness of the yokes of joint {number}, on 100 mm"),
+    "face_symmetry": _("symmetry of the faces of the yokes of joint {number}"),
+    "half_height_difference": _("difference of the halves of the cross of joint {number}"),
+    "cross_perpendicularity": _("squareness of the cross of joint {number}, on 100 mm"),
+    "coplanarity": _("journals of the cross of joint {number} in one plane"),
+    "coaxiality": _("journals of the cross of joint {number} on one axis"),
+}
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    rows = design.known.rows(PartLimit)
+    for i, joint in enumerate(design.drive.joints):
+        for one in fields(Inspection) if joint.inspection is not None else ():
+            path = f"joints[{i}].inspection.{one.name}"
+            value, row = design.value(path), rows.get(one.name)
+            if value is None or row is None:
+                continue
+            yield Verdict(
+                check="part_accuracy",
+                subject=f"joints[{i}]",
+                title=NAMES[one.name].format(number=i + 1),
+                dimension="length",
+                unit="mm",
+                value=value,
+                limit=row.limit,
+                source=row.source,
+                levers=(path,),
+            )
+
+
+CHECK = Check(name="part_accuracy", doc=_("what was measured on yokes and crosses against GOST 2752-74"), judge=_judge)

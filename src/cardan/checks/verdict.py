@@ -1,0 +1,128 @@
+"""What a check says: value, limit, how much of the limit is used, where the limit comes from, what moves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+Sense: TypeAlias = Literal["at_most", "at_least", "within", "outside"]
+
+AMBER = 0.9
+"""Utilisation from which a check that passes is close to its limit."""
+
+State: TypeAlias = Literal["passed", "close", "failed", "not_run"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Verdict:
+    """Answer of one check on one drive or on many; leading axes (...) are the drives'.
+
+    Attributes
+    ----------
+    check : str
+        Name of the check in `CHECKS`.
+    subject : str
+        What was judged, as a path: ``joints[1]``, ``shafts[2]``; empty for the drive as a whole.
+    title : str
+        What was judged, in words.
+    value : float or array (...)
+        In SI.
+    limit : float, array (...) or (float, float)
+        In SI; a pair where the value must lie within or outside a band.
+    sense : "at_most", "at_least", "within" or "outside"
+    dimension : str
+        Key of `cardan.units.DIMENSIONS`, empty for a plain number.
+    unit : str
+        Unit that people read it in.
+    source : str
+        Where limit and formula come from.
+    levers : tuple of str
+        Paths of the drive file whose change moves the value.
+    missing : tuple of str
+        Paths that the check needs and the drive does not give; then there is no value.
+    note : str
+        One sentence on what it means or assumes.
+    advice : bool
+        Whether it is a rule of thumb that does not fail the drive.
+    """
+
+    check: str
+    title: str
+    subject: str = ""
+    value: Array | float = float("nan")
+    limit: Array | float | tuple[float, float] = float("nan")
+    sense: Sense = "at_most"
+    dimension: str = ""
+    unit: str = ""
+    source: str = ""
+    levers: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
+    note: str = ""
+    advice: bool = False
+
+    @property
+    def run(self) -> bool:
+        """Whether the drive had what the check needs."""
+        return not self.missing
+
+    @property
+    def utilisation(self) -> Array | float:
+        """Share of the limit that is used, at most 1 exactly when the check passes; an unlimited life uses none."""
+        return utilisation(self.value, self.limit, self.sense)
+
+    @property
+    def passed(self) -> Array | bool:
+        """Whether the value keeps the limit."""
+        return self.utilisation <= 1.0
+
+    @property
+    def state(self) -> State:
+        """State of a single verdict."""
+        if not self.run:
+            return "not_run"
+        used = float(np.max(self.utilisation))
+        return "failed" if not used <= 1.0 else "close" if used >= AMBER else "passed"
+
+
+def utilisation(value: Array | float, limit: Array | float | tuple[float, float], sense: Sense) -> Array | float:
+    """Return the share of a limit that is used.
+
+    Parameters
+    ----------
+    value : float or array (...)
+    limit : float, array (...) or (float, float)
+        A pair (a, b) for "within" and "outside".
+    sense : "at_most", "at_least", "within" or "outside"
+
+    Returns
+    -------
+    float or array (...)
+        At most: value/limit; at least: limit/value; within a…b: the larger of value/b and a/value; outside: the
+        smaller of value/a and b/value. At most 1 exactly when the value keeps the limit; what must be at least
+        something uses all of it, and more, where nothing is left.
+
+    Examples
+    --------
+    >>> utilisation(80.0, 100.0, "at_most"), utilisation(5000.0, 4000.0, "at_least")
+    (0.8, 0.8)
+    >>> utilisation(float("inf"), 4000.0, "at_least"), utilisation(3000.0, (1900.0, 2100.0), "outside")
+    (0.0, 0.7)
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if sense == "at_most":
+            used = np.divide(value, limit)
+        elif sense == "at_least":
+            used = np.where(np.asarray(value) > 0.0, np.divide(limit, value), np.inf)
+        else:
+            low, high = limit  # type: ignore[misc]
+            above, below = np.divide(value, high), np.divide(low, value)
+            used = (
+                np.maximum(above, below)
+                if sense == "within"
+                else np.minimum(np.divide(value, low), np.divide(high, value))
+            )
+    return float(used) if np.ndim(used) == 0 else used

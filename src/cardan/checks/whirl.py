@@ -1,0 +1,103 @@
+"""Critical speeds of the shafts of a design: of the whole line where the drive says enough, else shaft by shaft."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.analysis.bending import SPLINED, bending_speeds
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.maths.arrays import Array
+
+from .design import Design
+from .section import modulus, sections
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Whirl:
+    """How fast a shaft may turn until it whirls.
+
+    Attributes
+    ----------
+    shaft : int
+        Counted from 0.
+    speed : array (...) or None [rad/s]
+        Critical speed as computed; None where something is missing, or the shaft cannot be rated alone.
+    wear : float or array (...)
+        k_n, real over computed critical speed.
+    exact : bool
+        Whether it is that of the whole line, with supports, masses and stretches.
+    missing, levers : tuple of str
+        Paths that lack, and those that move it.
+    """
+
+    shaft: int
+    speed: Array | None
+    wear: Array | float
+    exact: bool = False
+    missing: tuple[str, ...] = ()
+    levers: tuple[str, ...] = ()
+
+
+def whirls(design: Design) -> list[Whirl]:
+    """Return the lowest critical speed of every shaft between two joints.
+
+    Parameters
+    ----------
+    design : Design
+        Where sizes vary, the speed of the line changes as that of the shaft alone between its joints.
+
+    Notes
+    -----
+    The line as a whole: `cardan.analysis.bending`. A tube alone: Book (257), ω = (π/L)² √(E(D² + d²)/(16ρ)).
+    """
+    line = _line(design.drive)
+    plain = Design(drive=design.drive, duty=design.duty, known=design.known)
+    found = []
+    for k in range(1, design.joints):
+        alone = _alone(design, k)
+        if alone.speed is not None and k in line:
+            before = _alone(plain, k).speed
+            speed = line[k] * (alone.speed / before)
+            alone = Whirl(shaft=k, speed=speed, wear=alone.wear, exact=True, levers=alone.levers)
+        elif k not in line and line:
+            continue
+        found.append(alone)
+    return found
+
+
+@lru_cache(maxsize=64)
+def _line(drive: Drive) -> dict[int, float]:
+    """Return the lowest critical speed of each shaft in the whole line, by index; none where the file lacks some."""
+    try:
+        found = bending_speeds(drive, modes=len(drive.joints))
+    except InputError:
+        return {}
+    speeds: dict[int, float] = {}
+    for part, speed in zip(found.part, found.speed, strict=True):
+        if part.kind == "shaft":
+            speeds.setdefault(part.number - 1, float(speed))
+    return speeds
+
+
+def _alone(design: Design, k: int) -> Whirl:
+    """Return the critical speed of a shaft between its joints, one like its longest stretch."""
+    found = list(sections(design, k))
+    length = design.length(k)
+    lacking = [] if found else [f"shafts[{k}].outer"]
+    lacking += [] if length is not None else [f"shafts[{k}].length"]
+    given = design.value(f"shafts[{k}].wear_factor")
+    usual = SPLINED if design.drive.shafts[k].spline is not None else 1.0
+    wear = usual if given is None else given
+    if lacking or length is None:
+        return Whirl(shaft=k, speed=None, wear=wear, missing=tuple(lacking))
+    section = max(found, key=lambda one: float(np.max(np.asarray(one.length))))
+    stiff, heavy = (np.asarray(modulus(design, section, name)) for name in ("youngs", "density"))
+    speed: Array = 0.25 * np.sqrt(stiff / heavy) * np.hypot(section.outer, section.inner) * (math.pi / length) ** 2
+    levers = [*section.levers, f"shafts[{k}].wear_factor"]
+    levers += [f"shafts[{k}].length"] if design.drive.form != "points" and len(found) == 1 else []
+    return Whirl(shaft=k, speed=speed, wear=wear, levers=design.levers(*levers))

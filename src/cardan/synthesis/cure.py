@@ -1,0 +1,137 @@
+"""Which change of one key makes a check pass that fails: how far each lever has to be moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, catalogue
+from cardan.checks import Verdict, check
+from cardan.checks.design import whole as completed_drive
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.maths.arrays import Array
+
+from .change import Cure, cured
+from .cure_search import of_check
+
+
+def cures(
+    drive: Drive, verdicts: Sequence[Verdict] | None = None, *, known: Catalogue | None = None
+) -> tuple[Cure, ...]:
+    """Return the smallest changes of single keys that make each failed verdict pass.
+
+    Parameters
+    ----------
+    drive : Drive
+    verdicts : sequence of Verdict, optional
+        Of this drive; those of `cardan.check` when not given. Advice is left alone.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    tuple of Cure
+        In the order of the verdicts, for each the gentlest first: changes of the drive before lesser demands, those
+        that break nothing before the others, small ones before large ones. Rounded outwards to what a drawing has, and
+        tried: with the change the check passes.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.duty import Limits
+    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(bend=0.4))
+    >>> [(cure.path, cure.value) for cure in cures(drive)]
+    [('joints[1].bend_deg', 22.9)]
+    """
+    rows = known or catalogue()
+    whole = completed_drive(drive, drive.duty, rows)
+    judged = check(whole, known=rows) if verdicts is None else verdicts
+    failed = [one for one in judged if one.state == "failed" and not one.advice]
+    found: list[Cure] = []
+    for name in dict.fromkeys(one.check for one in failed):
+        found += of_check(whole, name, [one for one in failed if one.check == name], rows)
+    found = _with_effects(whole, found, judged, rows)
+    order = {one.title: k for k, one in enumerate(failed)}
+    return tuple(sorted(found, key=lambda cure: (order[cure.title], cure.cost)))
+
+
+def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
+    """Return the few changes that together make most failed verdicts pass, the most helpful first.
+
+    Parameters
+    ----------
+    found : sequence of Cure
+        All of a drive.
+    count : int
+        How many at most.
+
+    Returns
+    -------
+    tuple of Cure
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.duty import Limits
+    >>> drive = replace(Drive.from_angles([0.6, 0.5]), limits=Limits(bend=0.4))
+    >>> [(cure.path, cure.value) for cure in most_helpful(cures(drive))]
+    [('joints[1].bend_deg', 22.9), ('joints[0].bend_deg', 22.9)]
+    """
+    left = {title for cure in found for title in (cure.title, *cure.solves)}
+    chosen: list[Cure] = []
+    while left and len(chosen) < count:
+        helping = [cure for cure in found if left & {cure.title, *cure.solves}]
+        if not helping:
+            break
+        best = min(
+            helping,
+            key=lambda one: (one.demand, len(one.breaks) - len(left & {one.title, *one.solves}), one.cost),
+        )
+        chosen.append(best)
+        left -= {best.title, *best.solves}
+    return tuple(chosen)
+
+
+def _with_effects(drive: Drive, found: Sequence[Cure], judged: Sequence[Verdict], known: Catalogue) -> list[Cure]:
+    """Return cures with what else they solve and break."""
+    before = {one.title: one.state for one in judged if one.run and not one.advice}
+    numeric = [cure for cure in found if not isinstance(cure.value, str)]
+    done = dict(zip(map(id, numeric), _effects(drive, numeric, known), strict=True))
+    whole = []
+    for cure in found:
+        after = done.get(id(cure)) or _failing(check(cured(drive, cure, known=known), known=known))
+        failing = {title for title, bad in after.items() if bad} - {cure.title}
+        solves = (title for title, state in before.items() if state == "failed" and title not in failing)
+        breaks = (title for title in failing if before.get(title) not in (None, "failed"))
+        whole.append(replace(cure, solves=tuple(solves), breaks=tuple(breaks)))
+    return whole
+
+
+def _effects(drive: Drive, found: Sequence[Cure], known: Catalogue) -> list[Mapping[str, bool]]:
+    """Return which verdicts fail with each cure, all in one batch."""
+    if not found:
+        return []
+    vary: dict[str, Array] = {}
+    for k, cure in enumerate(found):
+        vary.setdefault(cure.path, np.full(len(found), float(cure.now)))[k] = float(cure.value)
+    try:
+        with np.errstate(all="ignore"):
+            verdicts = check(drive, vary=vary, known=known)
+    except InputError:
+        return [_failing(check(cured(drive, cure, known=known), known=known)) for cure in found]
+    effects: list[dict[str, bool]] = [{} for _cure in found]
+    for one in verdicts:
+        if one.run and not one.advice:
+            for k, passed in enumerate(np.broadcast_to(np.asarray(one.passed), len(found))):
+                effects[k][one.title] = not bool(passed)
+    return list(effects)
+
+
+def _failing(verdicts: Sequence[Verdict]) -> dict[str, bool]:
+    return {one.title: one.state == "failed" for one in verdicts if one.run and not one.advice}
+
+
+__all__ = ["Cure", "cured", "cures", "most_helpful"]

@@ -1,0 +1,211 @@
+"""How large must a part be? The smallest size at which its checks pass: exactly at the limit, then as it is made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.drive.cross import Cross
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.joint_parts import Needles
+from cardan.errors import refuse
+from cardan.texts import _
+
+from .joint_size import smallest_row, with_joint
+from .preferred import SERIES
+from .size_search import solved
+from .sized import HOLDS, PARTS, Hold, Sizing, Tried
+
+WALL = 0.04
+"""Wall over outer diameter of a tube where the drive gives none."""
+
+
+def size(
+    drive: Drive,
+    duty: Duty | None,
+    part: str,
+    *,
+    hold: Hold = "ratio",
+    series: str = "step",
+    known: Catalogue | None = None,
+) -> Sizing:
+    """Return the smallest size of a part at which its checks pass.
+
+    Parameters
+    ----------
+    drive : Drive
+    duty : Duty or None
+        The drive's own when None.
+    part : str
+        ``tube:2`` or ``shaft:2`` (a solid one), ``journal:1``, ``needles:1`` (capacities of its bearings), ``joint:1``
+        (a row of the catalogue); ``joint`` gives all joints the same row. The number may be left out where there is
+        only one such part.
+    hold : "ratio", "wall" or "outer"
+        What a tube keeps: wall over outer diameter, its wall, or its outer diameter.
+    series : str
+        What the size is rounded up to: ``step`` (whole mm, tenths for walls), ``R10``, ``R20``, ``R40``.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    Sizing
+
+    Raises
+    ------
+    InputError
+        No such part; what the checks need is missing; no size passes.
+
+    Notes
+    -----
+    The checks are inverted, not written a second time: many sizes are judged at once, and the range in which the first
+    one passes is narrowed down to the last digits. So the checks themselves say that the size is just at its limit.
+
+    Examples
+    --------
+    >>> from cardan.drive.material import Material
+    >>> from cardan.drive.shaft import Shaft
+    >>> tube = Shaft(number=2, outer=0.09, wall=0.003, length=1.0, material=Material(grade="C45"))
+    >>> found = size(replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,)), Duty(torque=800.0), "tube", hold="wall")
+    >>> print(f"{found.exact['shafts[1].outer_mm']:.3f}", found.values, found.governing.check)
+    40.089 {'shafts[1].outer_mm': 41.0} tube_fatigue
+    """
+    rows = known or catalogue()
+    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    kind, number = _named(whole, part)
+    if series not in SERIES:
+        raise refuse("series", _("{value} is none of {choices}").format(value=repr(series), choices=", ".join(SERIES)))
+    if kind == "joint":
+        return smallest_row(whole, number, rows)
+    if kind == "needles":
+        return _needles(whole, number, series, rows)
+    if kind == "journal":
+        return _journal(whole, number, series, rows)
+    return _tube(whole, number, hold, series, rows, solid=kind == "shaft")
+
+
+def _named(drive: Drive, part: str) -> tuple[str, int]:
+    """Return kind and number of a part; 0 for all joints alike."""
+    kind, _colon, text = part.partition(":")
+    if kind not in PARTS:
+        raise refuse("part", _("{value} is none of {choices}").format(value=repr(part), choices=", ".join(PARTS)))
+    of_shaft = kind in ("tube", "shaft")
+    numbers = range(2, len(drive.joints) + 1) if of_shaft else range(1, len(drive.joints) + 1)
+    if of_shaft:
+        own = [shaft.number for shaft in drive.shafts if shaft.has_body]
+        numbers = range(1, len(drive.joints) + 2) if text else numbers if len(numbers) else own  # type: ignore[assignment]
+    if not text:
+        if kind == "joint":
+            return kind, 0
+        if len(numbers) == 1:
+            return kind, numbers[0]
+        raise refuse("part", _("say which: {choices}").format(choices=", ".join(f"{kind}:{k}" for k in numbers)))
+    if not text.isdigit() or int(text) not in numbers:
+        choices = ", ".join(f"{kind}:{k}" for k in numbers)
+        raise refuse("part", _("{value} is none of {choices}").format(value=repr(part), choices=choices))
+    return kind, int(text)
+
+
+def _tube(drive: Drive, number: int, hold: Hold, series: str, rows: Catalogue, *, solid: bool) -> Sizing:
+    k, path = number - 1, f"shafts[{number - 1}]"
+    if hold not in HOLDS:
+        raise refuse("hold", _("{value} is none of {choices}").format(value=repr(hold), choices=", ".join(HOLDS)))
+    shaft = drive.shafts[k]
+    if shaft.segments:
+        raise refuse(f"{path}.segments", _("a stepped shaft has no single size; give outer and wall instead"))
+    before = {f"{path}.outer_mm": _mm(shaft.outer), f"{path}.wall_mm": _mm(shaft.wall)}
+    layered = shaft.layup is not None
+    thin = "layup.ply_thickness" if shaft.layup is not None else "wall"
+    if solid:
+        if layered:
+            raise refuse(f"{path}.layup", _("a solid shaft is not made of plies; size it as tube:{k}").format(k=number))
+        start = replace(shaft, outer=shaft.outer or 0.05, wall=None, inner=None)
+        free, kept = {f"{path}.outer_mm": 1e3 * (start.outer or 0.05)}, {}
+    else:
+        outer = shaft.outer or 0.08
+        wall = shaft.wall or (0.5 * (outer - shaft.inner) if shaft.inner else WALL * outer)
+        if shaft.layup is not None:
+            wall, start = shaft.layup.ply_thickness, replace(shaft, outer=outer)
+            before[f"{path}.{thin}_mm"] = _mm(wall)
+            before.pop(f"{path}.wall_mm")
+        else:
+            start = replace(shaft, outer=outer, wall=wall, inner=None)
+        sizes = {f"{path}.outer_mm": 1e3 * outer, f"{path}.{thin}_mm": 1e3 * wall}
+        held = {"ratio": (), "wall": (f"{path}.{thin}_mm",), "outer": (f"{path}.outer_mm",)}[hold]
+        free = {name: value for name, value in sizes.items() if name not in held}
+        kept = {name: value for name, value in sizes.items() if name in held}
+    base = replace(drive, shafts=(*drive.shafts[:k], start, *drive.shafts[k + 1 :]))
+    if solid:
+        before.pop(f"{path}.wall_mm")
+    else:
+        before = {name: value for name, value in before.items() if name in free or value is None}
+    plies = len(shaft.layup.angles) if shaft.layup is not None else 1
+    most = _most_wall(free, kept, plies, thin)
+    kind = "shaft" if solid else "tube"
+    need = ("tube_buckling",) if layered else ("tube_strength",)
+    return solved(base, kind, path, free, before, series, rows, need=need, most=most)
+
+
+def _most_wall(free: Mapping[str, float], kept: Mapping[str, float], plies: int, thin: str) -> float:
+    """Return the largest share of a wall, or the smallest of an outer diameter, at which the tube is still a tube."""
+    if len(free) == 1 and kept:
+        (name, value), (_other, held) = next(iter(free.items())), next(iter(kept.items()))
+        return 0.5 * held / (plies * value) if thin in name else -2.0 * plies * held / value
+    return math.inf
+
+
+def _journal(drive: Drive, number: int, series: str, rows: Catalogue) -> Sizing:
+    i, path = number - 1, f"joints[{number - 1}].cross"
+    cross = drive.joints[i].cross or Cross()
+    key = f"{path}.journal_mm"
+    start = replace(cross, journal=cross.journal or 0.02)
+    base = with_joint(drive, i, cross=start)
+    least = max(start.journal_bore, _room(drive.joints[i].needles)) / (start.journal or 0.02)
+    most = -least if least > 0.0 else math.inf
+    free = {key: 1e3 * (start.journal or 0.02)}
+    return solved(base, "journal", f"joints[{i}]", free, {key: _mm(cross.journal)}, series, rows, most=most)
+
+
+def _room(needles: Needles | None) -> float:
+    """Return the smallest journal around which needles have room [m]; 0 where they are not given."""
+    if needles is None or needles.count is None or needles.diameter is None:
+        return 0.0
+    return needles.diameter * (1.0 / math.sin(math.pi / needles.count) - 1.0)
+
+
+def _needles(drive: Drive, number: int, series: str, rows: Catalogue) -> Sizing:
+    """Size dynamic and static capacity, each by its own check."""
+    i, path = number - 1, f"joints[{number - 1}]"
+    now = drive.joints[i].needles or Needles()
+    start = replace(now, capacity=now.capacity or 2e4, static_capacity=now.static_capacity or 2e4)
+    base = with_joint(drive, i, needles=start)
+    parts = []
+    for name, judge in (("capacity", "bearing_life"), ("static_capacity", "needle_static")):
+        key, before = f"{path}.needles.{name}_N", getattr(now, name)
+        if name == "capacity" and drive.duty.life is None:
+            continue
+        free = {key: getattr(start, name)}
+        found = solved(base, "needles", path, free, {key: before}, series, rows, need=(judge,), only=(judge,))
+        base = found.drive
+        parts.append(found)
+    last = parts[-1]
+    return replace(
+        last,
+        exact={name: value for one in parts for name, value in one.exact.items()},
+        values={name: value for one in parts for name, value in one.values.items()},
+        before={name: value for one in parts for name, value in one.before.items()},
+        limits=tuple(v for one in parts for v in one.limits),
+        made=tuple(v for one in parts for v in one.made),
+        skipped=tuple(path for one in parts for path in one.skipped)
+        + (("duty.life",) if drive.duty.life is None else ()),
+    )
+
+
+def _mm(value: float | None) -> float | None:
+    return None if value is None else 1e3 * value
+
+
+__all__ = ["HOLDS", "PARTS", "Hold", "Sizing", "Tried", "size"]

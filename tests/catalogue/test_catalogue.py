@@ -1,0 +1,99 @@
+"""Every row loads, has a source and figures that can be; a user's file adds to it and is checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cardan.catalogue import TABLES, catalogue, material, with_files
+from cardan.catalogue.rows import AnglePair, Grade, JointSize, LifeFactor
+from cardan.errors import InputError
+
+ROWS = [row for rows in catalogue().tables.values() for row in rows.values()]
+
+
+def test_every_table_has_rows() -> None:
+    assert set(catalogue().tables) == set(TABLES)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_every_row_has_a_source(row: object) -> None:
+    assert len(row.source) > 3  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("row", catalogue().rows(Grade).values(), ids=lambda row: row.id)
+def test_materials_are_plausible(row: Grade) -> None:
+    assert 2000.0 < row.density < 8000.0
+    assert 40e9 < row.youngs < 215e9
+    # isotropic: G = E/(2(1+nu)) within the rounding of published figures
+    assert row.shear == pytest.approx(row.youngs / (2.0 * (1.0 + row.poisson)), rel=0.03)
+    if row.yield_strength is not None and row.ultimate_strength is not None:
+        assert 0.3 < row.yield_strength / row.ultimate_strength < 1.0
+
+
+@pytest.mark.parametrize("name", ["life_factors", "speed_angle_factors"])
+def test_factor_tables_rise(name: str) -> None:
+    rows = catalogue().table(name, LifeFactor).values()
+    at, factor = np.asarray([[row.at, row.factor] for row in rows]).T
+    assert np.all(np.diff(at) > 0.0)
+    assert np.all(np.diff(factor) > 0.0)
+
+
+def test_the_angle_table_falls_with_speed_and_rises_along_its_rows() -> None:
+    rows = list(catalogue().rows(AnglePair).values())
+    assert [row.speed for row in rows] == sorted(row.speed for row in rows)
+    assert all(np.all(np.diff(row.second_bend) >= 0.0) for row in rows)
+    first = [row.second_bend[0] for row in rows]
+    assert first == sorted(first, reverse=True)
+
+
+@pytest.mark.parametrize("row", catalogue().rows(JointSize).values(), ids=lambda row: row.id)
+def test_the_example_series_says_that_it_is_made_up_and_holds_together(row: JointSize) -> None:
+    assert row.confidence == "made_up"
+    assert row.cross is not None
+    assert row.needles is not None
+    assert row.rating is not None
+    pitch = row.cross.journal + row.needles.diameter
+    room = np.pi / np.arcsin(row.needles.diameter / pitch)
+    assert row.needles.count <= room < row.needles.count + 1.0  # a full row
+    assert row.rating.torque == pytest.approx(row.needles.capacity * row.cross.span, rel=0.06)  # Tc = 2 C R, rounded
+
+
+def test_a_grade_is_found_by_any_of_its_names() -> None:
+    assert {catalogue().grade(name).id for name in ("45", "C45", "1045", "c45")} == {"45"}
+    assert material("17Cr3").grade == "17Cr3"
+
+
+def test_an_unknown_grade_names_the_nearest() -> None:
+    with pytest.raises(InputError, match="42CrMo4"):
+        catalogue().grade("42CrMo")
+
+
+def test_rows_of_a_file_are_added_and_replace_their_like(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('[[materials]]\nid = "45"\nyield_strength_MPa = 400\nsource = "own test"\n', encoding="utf-8")
+    both = with_files(catalogue(), [own])
+    assert material("45", known=both).yield_strength == 400e6
+    assert material("40", known=both) == material("40")
+    assert material("45").yield_strength == 355e6
+
+
+def test_every_fault_of_a_file_is_named_at_once(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[[materials]]\nid = "a"\nyield_strength_MP = 400\n[[joint_sizes]]\nid = "b"\nsource = "x"\n'
+        "cross = { span_mm = -1 }\n[[stuff]]\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError) as caught:
+        with_files(catalogue(), [own, tmp_path / "none.toml"])
+    fields = [problem.field.removeprefix(f"{own}: ") for problem in caught.value.problems]
+    assert fields == [
+        "materials[0].yield_strength_MP",
+        "materials[0].source",
+        "joint_sizes[0].cross.span_mm",
+        "stuff",
+        str(tmp_path / "none.toml"),
+    ]

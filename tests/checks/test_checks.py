@@ -1,0 +1,343 @@
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cardan import Drive, articulation, example, forces, load, motion
+from cardan.analysis.bearing_life import maker_life
+from cardan.catalogue import completed
+from cardan.checks import CHECKS, Verdict, check, design, utilisation
+from cardan.checks.case import Case
+from cardan.drive.chain import chain
+from cardan.drive.cross import Cross
+from cardan.drive.duty import Block, Duty, Limits, Upkeep, Vehicle
+from cardan.drive.geometry import geometry
+from cardan.drive.inspection import Inspection
+from cardan.drive.keys import spelled
+from cardan.drive.material import Material
+from cardan.drive.paths import pose_drives, read, with_values
+from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
+from cardan.errors import InputError
+from cardan.units import deg, mm, rpm
+
+HOUR = 3600.0
+
+SCALED = {"critical_speed": 3e-3, "half_critical": 3e-3, "bearing_life": 3e-3}
+"""Checks whose exact answer is scaled by a closed formula where keys vary: a percent here moves it by so much less."""
+
+
+def one(verdicts: tuple[Verdict, ...], name: str, title: str = "") -> Verdict:
+    found = [v for v in verdicts if v.check == name and title in v.title]
+    assert found, (name, title)
+    return found[0]
+
+
+def whole() -> Drive:
+    """Three joints in space with everything that a check could ask for."""
+    tube = Material(grade="C45")
+    spline = Spline(
+        teeth=16, outer=42 * mm, root=36 * mm, tooth_width=4 * mm, length=80 * mm, engaged=80 * mm, gap=40 * mm
+    )
+    drive = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (0.9, 0.02, -0.08), (2.1, 0.06, -0.3), (2.4, 0.06, -0.33)])
+    joints = tuple(
+        replace(joint, size="example-90", inspection=Inspection(coaxiality=0.03 * mm)) for joint in drive.joints
+    )
+    plane = Unbalance(position=0.1, amount=5e-5), Unbalance(position=0.8, amount=4e-5, angle=1.0)
+    return completed(
+        replace(
+            drive,
+            joints=joints,
+            shafts=(
+                Shaft(number=2, outer=80 * mm, wall=3 * mm, material=tube, yoke_angle=0.2, unbalance=plane),
+                Shaft(
+                    number=3,
+                    outer=80 * mm,
+                    wall=2.5 * mm,
+                    material=tube,
+                    spline=spline,
+                    runout=0.2 * mm,
+                    unbalance=plane[:1],
+                ),
+            ),
+            duty=Duty(
+                speed=2000 * rpm,
+                speed_range=(500 * rpm, 2600 * rpm),
+                torque=900.0,
+                life=2000 * HOUR,
+                shock_factor=1.3,
+                balance_grade="G16",
+                balance_class="truck_up_to_5t",
+                vehicle=Vehicle(engine_torque=400.0, gear_ratio=3.0, wheelbase=3.8),
+                upkeep=Upkeep(hours=100 * HOUR, distance=1e6, items=("needle_bearings", "spline_gaz66")),
+                blocks=(
+                    Block(torque=600.0, speed=1800 * rpm, share=0.7),
+                    Block(torque=1100.0, speed=900 * rpm, share=0.3),
+                ),
+            ),
+            limits=Limits(irregularity=0.02, output_error=1 * deg, spline_pressure=60e6, spline_overlap=50 * mm),
+        )
+    )
+
+
+def test_every_file_of_a_check_is_listed():
+    folder = Path(check.__code__.co_filename).parent
+    files = {path.stem for path in folder.glob("*.py") if "\nCHECK = " in path.read_text("utf-8")}
+    assert files == set(CHECKS)
+
+
+def test_a_full_drive_leaves_nothing_unjudged():
+    lacking = {(v.check, v.missing) for v in check(whole()) if v.missing}
+    assert lacking == {("speed_angle", (f"joints[{i}].rating.speed_angle",)) for i in range(3)}
+
+
+def test_every_verdict_has_what_a_reader_needs():
+    for v in check(whole()):
+        assert v.title
+        if v.run:
+            assert v.source
+            assert math.isfinite(v.utilisation)
+            assert v.state in ("passed", "close", "failed")
+
+
+def test_varying_a_key_is_the_same_as_a_drive_with_that_key():
+    """Every lever of every verdict: the batch against drives made one by one."""
+    drive = whole()
+    verdicts = check(drive)
+    levers = {path for v in verdicts for path in v.levers}
+    assert len(levers) > 60
+    for lever in sorted(levers):
+        moved = sorted({v.check for v in verdicts if lever in v.levers})
+        path = spelled(lever)
+        now = read(drive, path)
+        values = [1.01 * now + 0.001, 0.99 * now] if isinstance(now, float) else [now + 1, now - 1]
+        many = check(drive, only=moved, vary={path: values})
+        for k, value in enumerate(values):
+            try:
+                single = check(with_values(drive, {path: value}), only=moved)
+            except InputError:
+                continue  # beyond the range of the field, on this side
+            for a, b in zip(many, single, strict=True):
+                assert a.title == b.title
+                if a.run:
+                    used = np.broadcast_to(a.utilisation, 2)[k]
+                    assert used == pytest.approx(b.utilisation, rel=SCALED.get(a.check, 1e-9), abs=1e-12), (
+                        path,
+                        a.title,
+                    )
+            break
+        else:
+            pytest.fail(f"{path} cannot be changed")
+
+
+def test_the_levers_move_what_they_are_said_to_move():
+    drive = whole()
+    for lever in sorted({path for v in check(drive) for path in v.levers}):
+        # The worst part of the duty, joint, shaft or plane decides: the others move nothing until they do.
+        if any(word in lever for word in ("blocks", "torque", "speed", "centre", "point", "yoke_angle", "amount")):
+            continue
+        path = spelled(lever)
+        now = read(drive, path)
+        values = [now, 1.05 * now + 1e-3 if isinstance(now, float) else now + 1]
+        for v in check(drive, vary={path: values}):
+            if lever in v.levers:
+                used = np.broadcast_to(v.utilisation, 2)
+                assert used[0] != used[1], (path, v.title)
+
+
+@pytest.mark.parametrize("at", ["output", "input"])
+def test_torques_and_couples_over_a_turn_are_those_of_statics(at):
+    """Without masses, the balance of forces of the whole drive, position by position."""
+    drive = Drive.from_angles([0.3, 0.5, 0.2], plane_twists=[0.4, 0.9], yoke_angles=[0.3, 1.0])
+    span = 0.1
+    drive = replace(
+        drive,
+        joints=tuple(replace(joint, cross=Cross(span=span)) for joint in drive.joints),
+        shafts=tuple(Shaft(number=k, yoke_angle=a) for k, a in ((2, 0.3), (3, 1.0))),
+    )
+    case = Case(chain=chain(drive), torque=100.0, torque_at=at)
+    angle = np.linspace(0, math.pi, 3601)
+    found = forces(drive, Duty(speed=10.0, torque=100.0, torque_at=at), angle)
+    load = np.max(found.journals.size, axis=(-2, -1))
+    # 3600 positions on half a turn miss the peak by at most 1e-7 of it; 72 with a parabola by 1e-6.
+    np.testing.assert_allclose(case.couple / span, load, rtol=3e-6)
+    ratio = motion(drive, angle).shaft_ratio
+    torque = 100.0 * (ratio[-1:] if at == "output" else ratio[:1]) / ratio
+    np.testing.assert_allclose(case.torque_range[0], torque.min(-1), rtol=1e-6)
+    np.testing.assert_allclose(case.torque_range[1], torque.max(-1), rtol=1e-6)
+
+
+def test_accelerations_are_the_largest_of_the_motion():
+    drive = whole()
+    turn = np.linspace(0, math.pi, 20001)
+    there = motion(drive, turn, speed=2600 * rpm).shaft_acceleration
+    verdicts = check(drive, only=["acceleration"])
+    assert verdicts[0].value == pytest.approx(np.max(np.abs(there[-1])), rel=1e-6)
+    assert verdicts[1].value == pytest.approx(np.max(np.abs(there[1:-1])), rel=1e-6)
+    # With the output uniform: ω_i = ω s, s = r_i/r_out, and dt = r_out dφ_1/ω.
+    found = motion(drive, turn)
+    ratio, slope = found.shaft_ratio, found.shaft_slope
+    swing = (slope[1:-1] * ratio[-1] - ratio[1:-1] * slope[-1]) / ratio[-1] ** 3
+    assert verdicts[2].value == pytest.approx((2600 * rpm) ** 2 * np.max(np.abs(swing)), rel=1e-6)
+
+
+def test_two_equal_joints_have_the_small_angle_values_of_the_norm():
+    drive = replace(Drive.from_angles([3 * deg, 3 * deg]), duty=Duty(speed=2000 * rpm))
+    output, in_drive, in_coast = check(drive, only=["acceleration"])
+    small = (2000 * rpm) ** 2 * (3 * deg) ** 2
+    assert output.value == pytest.approx(0.0, abs=1e-9)
+    assert in_drive.value == pytest.approx(small, rel=2e-3)  # fourth order in the angle
+    assert in_coast.value == pytest.approx(in_drive.value, rel=1e-12)
+    assert (in_drive.limit, in_coast.limit) == (1000.0, 500.0)
+
+
+def test_a_joint_alone_bends_its_tube_as_the_book_has_it():
+    tube = Shaft(number=2, outer=80 * mm, wall=3 * mm, material=Material(yield_strength=300e6))
+    drive = replace(Drive.from_angles([20 * deg]), shafts=(tube,), duty=Duty(torque=1000.0))
+    found = check(drive, only=["tube_strength"])[0]
+    resisting = math.pi * (0.08**4 - 0.074**4) / 16 / 0.08
+    couple = 1000.0 * math.tan(20 * deg)
+    assert found.value == pytest.approx(math.hypot(2 * couple, math.sqrt(3) * 1000.0) / resisting, rel=1e-6)
+    assert found.limit == pytest.approx(200e6)
+    own = check(replace(drive, limits=Limits(shear_stress=50e6)), only=["tube_strength"])[0]
+    assert own.value == pytest.approx(1000.0 / math.cos(20 * deg) / resisting, rel=1e-6)
+
+
+@pytest.mark.parametrize("convention", ["Tc", "CR", "book"])
+def test_the_rated_torque_is_that_which_lasts_the_life(convention):
+    drive = whole()
+    joint = drive.joints[0]
+    rating = replace(joint.rating, convention=convention)
+    duty = Duty(speed=1500 * rpm, torque=800.0, life=3000 * HOUR, shock_factor=1.2)
+    found = check(
+        replace(drive, joints=(replace(joint, rating=rating), *drive.joints[1:]), duty=duty), only=["rated_torque"]
+    )[0]
+    rated = rating.torque if convention != "book" else rating.torque / 2.6
+    life = maker_life(rated, found.limit, speed=1500 * rpm, bend=design(drive).bend[0], convention=convention)
+    assert float(life) == pytest.approx(3000 * HOUR, rel=1e-12)
+    assert found.value == pytest.approx(1.2 * 800.0, rel=2e-2)  # the joints make the torque swing a little
+
+
+def test_parts_of_a_duty_cycle_do_the_damage_of_their_time():
+    drive = whole()
+    steady = replace(drive.duty, torque=None, blocks=())
+    halves = (Block(torque=700.0, speed=1000 * rpm, share=0.5), Block(torque=700.0, speed=1000 * rpm, share=0.5))
+    alone = check(drive, replace(steady, torque=700.0, speed=1000 * rpm), only=["rated_torque"])
+    parts = check(drive, replace(steady, speed=None, blocks=halves), only=["rated_torque"])
+    idle = (
+        replace(halves[0], share=0.25),
+        replace(halves[1], share=0.25),
+        Block(torque=0.0, speed=1000 * rpm, share=0.5),
+    )
+    rests = check(drive, replace(steady, speed=None, blocks=idle), only=["rated_torque"])
+    assert [v.utilisation for v in parts] == pytest.approx([v.utilisation for v in alone])
+    assert [v.utilisation for v in rests] == pytest.approx([v.utilisation * 0.5**0.3 for v in alone])
+
+
+def test_the_worst_part_of_the_duty_decides_and_is_named():
+    drive = whole()
+    found = check(drive, only=["joint_torque"])[0]
+    assert "part 2" in found.note
+    steep = replace(drive.duty, blocks=(Block(torque=10.0, speed=100.0, share=1.0, bend=31 * deg),))
+    assert [v.state for v in check(drive, steep, only=["bend"])] == ["failed"] * 3
+
+
+def test_a_critical_speed_goes_with_the_square_of_the_length():
+    tube = Shaft(number=2, outer=76 * mm, inner=72 * mm, length=1.5, material=Material(youngs=2.1e11))
+    drive = replace(Drive.from_angles([0.05, 0.05]), shafts=(tube,), duty=Duty(speed=3000 * rpm))
+    found = check(drive, only=["critical_speed"])[0]
+    # Book (257) with E 210 GPa; the line as a whole knows of shear and rotary inertia.
+    assert found.value * 3000 == pytest.approx(5670.335, rel=1e-2)
+    unheld = replace(drive, joints=(*drive.joints, drive.joints[0]))
+    assert check(unheld, only=["critical_speed"])[0].value * 3000 == pytest.approx(5670.335, rel=1e-6)
+    long = check(drive, only=["critical_speed"], vary={"shafts[1].length_mm": [750.0, 1500.0]})[0]
+    assert long.value[0] == pytest.approx(4 * long.value[1])
+
+
+def test_running_at_half_the_critical_speed_fails_and_passing_it_is_advice():
+    tube = Shaft(number=2, outer=76 * mm, inner=72 * mm, length=1.5, material=Material(youngs=2.1e11))
+    drive = replace(Drive.from_angles([0.05, 0.05]), shafts=(tube,), duty=Duty(speed=2835 * rpm))
+    assert check(drive, only=["half_critical"])[0].state == "failed"
+    passing = replace(drive, duty=Duty(speed=2000 * rpm, speed_range=(600 * rpm, 3500 * rpm)))
+    running, through = check(passing, only=["half_critical"])
+    assert running.state == "passed"
+    assert through.advice
+    assert through.state == "failed"
+
+
+def test_a_composite_tube_buckles_in_proportion():
+    ply = Ply(along=135e9, across=10e9, shear=5e9)
+    layup = Layup(angles=(0.2, -0.2, 1.0, -1.0), ply_thickness=0.5 * mm, ply=ply)
+    shaft = Shaft(number=2, outer=92 * mm, length=1.8, layup=layup)
+    drive = replace(Drive.from_angles([0.05, 0.05]), shafts=(shaft,), duty=Duty(speed=100.0, torque=500.0))
+    many = check(drive, only=["tube_buckling"], vary={"shafts[1].layup.ply_thickness_mm": [0.5, 0.75]})[0]
+    thick = replace(drive, shafts=(replace(shaft, layup=replace(layup, ply_thickness=0.75 * mm)),))
+    assert many.limit[1] == pytest.approx(check(thick, only=["tube_buckling"])[0].limit, rel=1e-12)
+    assert one(check(drive), "critical_speed").run
+
+
+def test_lubrication_is_due_at_the_interval():
+    drive = Drive.from_angles([0.1])
+    due = check(drive, Duty(upkeep=Upkeep(hours=500 * HOUR)), only=["lubrication"])
+    soon = check(drive, Duty(upkeep=Upkeep(hours=499 * HOUR)), only=["lubrication"])
+    severe = check(drive, Duty(upkeep=Upkeep(hours=499 * HOUR, severe=True)), only=["lubrication"])
+    assert [v[0].state for v in (due, soon, severe)] == ["failed", "close", "failed"]
+
+
+def test_what_is_missing_is_named_with_its_path():
+    lacking = {v.check: v.missing for v in check(Drive.from_angles([0.1, 0.1]))}
+    assert lacking["tube_strength"] == ("shafts[1].outer",)
+    assert "joints[1].cross.span" in lacking["journal_strength"]
+    assert lacking["acceleration"] == ("duty.speed",)
+    assert "design_torque" not in lacking  # no vehicle stands behind this drive
+
+
+def test_a_check_that_is_not_known_is_refused():
+    with pytest.raises(InputError, match="the nearest is bend"):
+        check(Drive.from_angles([0.1]), only=["bent"])
+
+
+@pytest.mark.parametrize("sense", ["at_most", "at_least", "within", "outside"])
+def test_utilisation_is_at_most_one_exactly_when_the_limit_is_kept(sense):
+    value = np.linspace(0.5, 3.0, 251)
+    limit = (1.0, 2.0) if sense in ("within", "outside") else 1.5
+    kept = {
+        "at_most": value <= 1.5,
+        "at_least": value >= 1.5,
+        "within": (value >= 1.0) & (value <= 2.0),
+        "outside": (value <= 1.0) | (value >= 2.0),
+    }[sense]
+    assert np.array_equal(utilisation(value, limit, sense) <= 1.0, kept)
+    assert utilisation(-1.0, 1.5, "at_least") == math.inf
+
+
+def test_the_worst_pose_counts_and_is_named():
+    drive = example("rolling-mill-upper-spindle")
+    drive = replace(drive, limits=replace(drive.limits, bend=4 * deg))
+    found = check(drive, only=["bend"])[0]
+    steepest = max(float(geometry(one).bend[0]) for one in pose_drives(drive))
+    assert found.value == pytest.approx(steepest)
+    assert "roll change" in found.note
+    assert check(replace(drive, poses=()), only=["bend"])[0].value < found.value
+
+
+def test_what_a_movement_makes_of_bends_and_splines_counts():
+    drive = example("pto-hitch")
+    drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01))
+    moved = articulation(drive).envelope
+    bend, uneven, spline = (check(drive, only=[name])[0] for name in ("bend", "irregularity", "spline_overlap"))
+    assert bend.value == moved["bend"][1][0] > geometry(drive).bend[0]
+    assert uneven.value == moved["irregularity"][1]
+    assert spline.value == pytest.approx(articulation(drive).splines[0].engaged_min)
+    assert spline.limit == pytest.approx(0.150)
+
+
+def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
+    rows = '[[joint_sizes]]\nid = "own"\nsource = "s"\ncross = { span_mm = 60, journal_mm = 20 }\n'
+    (tmp_path / "own.toml").write_text(rows, "utf-8")
+    text = 'format = 1\nsettings.catalogues = ["own.toml"]\n[[joints]]\nbend_deg = 5\nsize = "own"\n'
+    (tmp_path / "drive.toml").write_text(text, "utf-8")
+    drive = load(tmp_path / "drive.toml")
+    assert drive.joints[0].cross.span == 0.060
+    assert check(drive, Duty(torque=100.0), only=["needle_static"])[0].missing == ("joints[0].needles.static_capacity",)

@@ -1,0 +1,143 @@
+"""cardan check: the table of verdicts, what is missing, the cures, and the exit code."""
+
+import csv
+import io
+
+import pytest
+
+from cardan import load
+from cardan.checks import CHECKS, check
+from cardan.io import edit
+from tests.cli.test_forces import widest
+
+CAR = """format = 1
+name = "car"
+input.point_mm = [-250, 0, 0]
+output.point_mm = [1500, 0, -60]
+
+[[joints]]
+centre_mm = [0, 0, 0]
+size = "example-75"
+
+[[joints]]
+centre_mm = [1200, 0, -60]
+size = "example-75"
+
+[[shafts]]
+number = 2
+outer_mm = 70
+wall_mm = 2
+material = "C22"
+
+[duty]
+speed_rpm = 3000
+torque_Nm = 400
+life_h = 3000
+shock_factor = 1.2
+"""
+
+
+@pytest.fixture
+def car(drive_file):
+    return drive_file(CAR, "car.toml")
+
+
+def test_a_drive_that_fails_says_so_with_a_sign_a_word_and_code_1(cardan, car):
+    done = cardan("check", car)
+    assert done.code == 1
+    assert done.out.startswith("✖ car: ")
+    assert "✖ failed" in done.out
+    assert "● passed" in done.out
+    assert "limits.irregularity_percent" in done.out
+    assert widest(done.out) <= 80
+
+
+def test_json_holds_what_the_library_found(cardan, car):
+    done = cardan("check", car, "--json")
+    said, found = done.content, check(load(car))
+    assert [row["title"] for row in said["verdicts"]] == [one.title for one in found]
+    for row, one in zip(said["verdicts"], found, strict=True):
+        assert row["state"] == one.state
+        if one.run:
+            assert row["utilisation"] == one.utilisation
+            assert row["source"]
+            assert row["unit"] == one.unit
+            assert row["limit"] is not None
+        else:
+            assert row["missing"]
+    assert said["exit_code"] == done.code == 1
+    assert not said["passed"]
+    assert {one["path"] for one in said["most_helpful"]} <= {one["path"] for one in said["cures"]}
+
+
+def test_a_cure_written_into_the_file_makes_its_check_pass(cardan, car, drive_file):
+    cures = cardan("check", car, "--json").content["cures"]
+    assert len({cure["title"] for cure in cures}) > 2
+    for cure in cures[::3]:
+        better = drive_file(edit(CAR, {cure["path"]: cure["value"]}), "better.toml")
+        rows = cardan("check", better, "--only", cure["check"], "--json").content["verdicts"]
+        assert next(row["state"] for row in rows if row["title"] == cure["title"]) in ("passed", "close")
+
+
+def test_a_drive_that_passes_ends_with_code_0(cardan, drive_file):
+    path = drive_file(CAR.replace("life_h = 3000", "life_h = 1000"))
+    done = cardan("check", path)
+    assert done.code == 0
+    assert "checks pass" in done.out
+    assert "What cures it" not in done.out
+
+
+def test_csv_is_one_row_a_verdict(cardan, car):
+    rows = list(csv.DictReader(io.StringIO(cardan("check", car, "--csv").out)))
+    said = cardan("check", car, "--json").content["verdicts"]
+    assert [row["title"] for row in rows] == [row["title"] for row in said]
+    assert [float(row["value"]) for row in rows if row["value"]] == [
+        row["value"] for row in said if row["value"] is not None
+    ]
+
+
+def test_only_some_checks(cardan, car):
+    said = cardan("check", car, "--only", "twist", "--only", "bend", "--json").content
+    assert {row["check"] for row in said["verdicts"]} == {"twist", "bend"}
+    done = cardan("check", car, "--only", "twits")
+    assert done.code == 2
+    assert "the nearest is twist" in done.err
+
+
+def test_the_command_line_changes_the_duty(cardan, car):
+    light = cardan("check", car, "--torque-Nm", "100", "--speed-rpm", "500", "--json")
+    assert light.code == 0
+
+
+def test_the_list_names_every_check(cardan):
+    said = cardan("check", "--list", "--json").content
+    assert [row["name"] for row in said["checks"]] == list(CHECKS)
+    assert cardan("check").code == 2
+
+
+def test_a_catalogue_adds_sizes_to_take_and_to_try(cardan, drive_file):
+    own = """[[joint_sizes]]
+id = "own-80"
+type = "medium"
+cross = { span_mm = 60, journal_mm = 20, journal_length_mm = 18, material = "20Kh" }
+needles = { count = 28, diameter_mm = 2.5, length_mm = 14, capacity_N = 24000, static_capacity_N = 40000 }
+rating = { torque_Nm = 1400, max_torque_Nm = 2400, max_bend_deg = 30, max_speed_rpm = 5000 }
+source = "a test"
+"""
+    rows = drive_file(own, "own.toml")
+    cures = cardan("check", drive_file(CAR), "--catalogue", rows, "--json").content["cures"]
+    assert "own-80" in {cure["value"] for cure in cures}
+    taken = drive_file(CAR.replace("example-75", "own-80"))
+    assert cardan("check", taken).code == 2
+    assert cardan("check", taken, "--catalogue", rows, "--only", "rated_torque").code == 0
+
+
+def test_sources_are_told_when_asked_for(cardan, car):
+    assert "ISO 281" not in cardan("check", car).out
+    assert "ISO 281" in cardan("check", car, "--sources").out
+
+
+def test_the_figure_is_drawn(cardan, car, tmp_path):
+    done = cardan("check", car, "--plot", tmp_path / "bars.svg")
+    assert done.code == 1
+    assert "</svg>" in (tmp_path / "bars.svg").read_text("utf-8")

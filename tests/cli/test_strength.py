@@ -1,0 +1,220 @@
+"""cardan strength, select, balance, catalogue: what they say, what they write, what they refuse."""
+
+import csv
+import io
+import tomllib
+
+import pytest
+
+from cardan import io as files
+from cardan.analysis.shaft_balance import balance
+from cardan.analysis.strength import strength
+from cardan.catalogue import TABLES, catalogue
+from cardan.synthesis.selection import Need, select_joint
+from cardan.synthesis.sizing import size
+from cardan.units import deg, rpm
+from tests.cli.test_forces import widest
+
+DRIVE = """format = 1
+name = "winch"
+
+[[joints]]
+bend_deg = 14  # as built
+size = "example-90"
+
+[[joints]]
+bend_deg = 14
+size = "example-90"
+
+[[shafts]]
+number = 2
+outer_mm = 70  # a stock tube
+wall_mm = 3
+length_mm = 1100
+material = "C45"
+unbalance = [{ position_mm = 200, amount_g_mm = 90 }]
+
+[duty]
+torque_Nm = 500
+speed_rpm = 1500
+shock_factor = 1.2
+life_h = 1000
+"""
+
+MAKER = """[[joint_sizes]]
+id = "mine-60"
+source = "my maker, catalogue of 2024"
+type = "medium"
+cross = { span_mm = 60, journal_mm = 19, bending_arm_mm = 9, material = "20Kh" }
+needles = { capacity_N = 60000, static_capacity_N = 40000 }
+rating = { max_torque_Nm = 2500, max_bend_deg = 30, max_speed_rpm = 5000, outer_mm = 60 }
+"""
+
+
+@pytest.fixture
+def winch(drive_file):
+    return drive_file(DRIVE, "winch.toml")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("strength", "{}"),
+        ("strength", "{}", "--size", "tube"),
+        ("strength", "{}", "--size", "joint"),
+        ("strength", "{}", "--size", "needles:1"),
+        ("select", "{}"),
+        ("balance", "{}"),
+        ("catalogue",),
+        ("catalogue", "joint_sizes"),
+        ("catalogue", "joint_types", "heavy"),
+        ("catalogue", "materials", "--keys"),
+    ],
+)
+def test_the_answer_stands_within_80_columns_and_as_json_and_csv(cardan, winch, command):
+    command = [word.format(winch) for word in command]
+    done = cardan(*command)
+    assert (done.code, done.err) == (0, "")
+    assert widest(done.out) <= 80
+    assert cardan(*command, "--json").content["exit_code"] == 0
+    rows = list(csv.reader(io.StringIO(cardan(*command, "--csv").out)))
+    assert len(rows) > 1
+    assert {len(row) for row in rows} == {len(rows[0])}
+
+
+def test_json_is_the_strength(cardan, winch):
+    said = cardan("strength", winch, "--json").content
+    found = strength(files.load(winch))
+    assert said["rated_torque_Nm"] == found.rated_torque
+    assert said["utilisation"] == found.utilisation
+    assert [row["utilisation"] for row in said["limits"]] == [u.utilisation if u.judged else None for u in found.uses]
+
+
+def test_a_drive_that_is_too_weak_fails_and_says_what_to_size(cardan, winch):
+    done = cardan("strength", winch, "--torque-Nm", 9000)
+    assert done.code == 1
+    assert "too weak" in done.out
+    assert "--size" in done.out
+
+
+def test_a_size_is_written_with_the_comments(cardan, winch, tmp_path):
+    done = cardan("strength", winch, "--size", "tube:2", "-o", "better.toml")
+    assert done.code == 0
+    text = (tmp_path / "better.toml").read_text("utf-8")
+    assert "# a stock tube" in text
+    found = size(files.load(winch), None, "tube:2")
+    new = files.load(tmp_path / "better.toml").shafts[1]
+    assert 1e3 * new.outer == pytest.approx(found.values["shafts[1].outer_mm"])
+    assert 1e3 * new.wall == pytest.approx(found.values["shafts[1].wall_mm"])
+    assert cardan("strength", "better.toml").code == 0
+
+
+def test_a_row_of_a_maker_is_taken(cardan, winch, drive_file, tmp_path):
+    maker = drive_file(MAKER, "maker.toml")
+    said = cardan("strength", winch, "--size", "joint", "--catalogue", maker, "--json").content
+    assert said["as_made"] == {"joints[0].size": "mine-60", "joints[1].size": "mine-60"}
+    assert said["tried"][0]["size"] == "example-58"
+    own = cardan("select", winch, "--catalogue", maker, "--json").content
+    assert [row["fits"] for row in own["sizes"] if row["size"] == "mine-60"] == [True]
+    shown = cardan("catalogue", "joint_sizes", "mine-60", "--catalogue", maker)
+    assert "my maker, catalogue of 2024" in shown.out
+    done = cardan("catalogue", "--check", maker)
+    assert (done.code, "mine-60" in done.out) == (0, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--size", "tubes"), "--size: 'tubes' is none of tube"),
+        (("--size", "journal"), "--size: say which: journal:1, journal:2"),
+        (("--size", "tube", "--series", "R7"), "--series: 'R7' is none of"),
+        (("-o", "x.toml"), "--out: there is nothing to write"),
+        (("--size", "tube", "--hold", "colour"), "colour"),
+    ],
+)
+def test_what_cannot_be_sized_is_refused(cardan, winch, arguments, words):
+    done = cardan("strength", winch, *arguments)
+    assert done.code == 2
+    assert words in " ".join(done.err.split())
+
+
+def test_no_torque_is_named_with_its_option(cardan, drive_file):
+    bare = drive_file("format = 1\n[[joints]]\nbend_deg = 10\n")
+    assert "--torque-Nm" in cardan("strength", bare).err
+    done = cardan("strength", bare, "--torque-Nm", 10)
+    assert done.code == 0
+    assert "nothing could be judged" in " ".join(done.out.split())
+
+
+def test_options_and_file_ask_for_the_same(cardan, winch):
+    """Two joints of 14°, yokes in one plane: the middle shaft carries 500/cos 14°."""
+    said = cardan("select", winch, "--json").content
+    same = ["--torque-Nm", said["need"]["torque_Nm"], "--bend-deg", 14, "--speed-rpm", 1500, "--service-factor", 1.2]
+    own = cardan("select", *same, "--outer-mm", 90, "--json").content
+    assert own["types"] == said["types"]
+    assert own["need"] == pytest.approx(said["need"])
+
+
+def test_every_reason_says_its_limit_and_source(cardan):
+    said = cardan(
+        "select", "--torque-Nm", 700, "--bend-deg", 30, "--speed-rpm", 2000, "--synchronous", "--json"
+    ).content
+    found = select_joint(Need(torque=700.0, bend=30 * deg, speed=2000 * rpm, synchronous=True))
+    assert [row["type"] for row in said["types"]] == [one.row.id for one in found]
+    for row, one in zip(said["types"], found, strict=True):
+        assert [reason["code"] for reason in row["reasons"]] == [*one.causes, *one.flags]
+        for reason in row["reasons"]:
+            assert reason["message"]
+            assert reason["source"]
+            if reason["code"] in ("torque", "angle", "n_alpha"):
+                assert reason["value"] > reason["limit"]
+
+
+def test_a_need_that_cannot_be_names_its_options(cardan):
+    done = cardan("select", "--torque-Nm", -1, "--bend-deg", 95, "--speed-rpm", 10)
+    assert done.code == 2
+    assert "--torque-Nm: -1 given" in done.err
+    assert "--bend-deg: 95 given" in done.err
+    assert cardan("select", "--torque-Nm", 5).code == 2
+    assert "--bend-deg: nan" in cardan("select", "--torque-Nm", 5, "--speed-rpm", 2, "--bend-deg", "nan").err
+
+
+def test_the_need_of_one_joint(cardan, winch):
+    assert cardan("select", winch, "--joint", 3).code == 2
+    assert cardan("select", winch, "--joint", 1, "--json").content["need"]["bend_deg"] == pytest.approx(14)
+
+
+def test_json_is_the_balance(cardan, winch):
+    said = cardan("balance", winch, "--grade", "G40", "--json").content
+    found = balance(files.load(winch), grade="G40").shafts[0]
+    assert said["shafts"][0]["allowed_g_mm"] == pytest.approx(1e6 * found.allowed)
+    assert len(said["shafts"][0]["corrections"]) == 2
+    assert cardan("balance", winch, "--grade", "G41").code == 2
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_every_row_is_shown_as_a_file_may_give_it(cardan, drive_file, table):
+    """Rows printed as JSON, written as a file, read back: the same rows."""
+    from cardan.catalogue.telling import row_tree
+    from cardan.io.writer import toml_text
+
+    rows = cardan("catalogue", table, "--json").content["rows"]
+    own = catalogue().tables[table]
+    assert [row["id"] for row in rows] == list(own)
+    text = "".join(toml_text({table: [row_tree(row)]}) + "\n" for row in own.values())
+    assert len(tomllib.loads(text)[table]) == len(own)
+    done = cardan("catalogue", "--check", drive_file(text, "own.toml"))
+    assert (done.code, done.err) == (0, "")
+
+
+def test_every_problem_of_a_file_of_rows_is_told(cardan, drive_file):
+    bad = drive_file(
+        '[[joint_sizes]]\nid = "A"\nratng = {}\ncross = { span_mm = -3 }\n[[materals]]\nid = "X"\n', "bad.toml"
+    )
+    done = cardan("catalogue", "--check", bad)
+    assert done.code == 2
+    for words in ("ratng: unknown key; did you mean rating?", "cross.span_mm: -3", "source: missing", "materials?"):
+        assert words in done.err
+    assert "no table" in cardan("catalogue", "steel").err
+    assert "the nearest is C45" in cardan("catalogue", "materials", "C46").err
+    assert cardan("catalogue", "--check", "nowhere.toml").code == 2

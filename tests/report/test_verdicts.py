@@ -1,0 +1,48 @@
+"""The limits in the report: traffic lights and the changes that help most first, then every verdict."""
+
+import re
+from dataclasses import replace
+
+from cardan.checks import check
+from cardan.io import example
+from cardan.report.report import page
+from cardan.report.subject import asked
+from cardan.report.verdicts import judged
+from tests.report.test_report import parsed
+
+
+def test_a_joint_too_small_stands_first_with_its_cure():
+    text = page(example("truck-duty-cycle"))
+    words = "".join(parsed(text).words)
+    first = words.index("life of the bearings of joint 3")
+    assert 'class="judgement failed"' in text
+    assert first < words.index("joints[2].size") < words.index("The drive as understood")
+    assert re.search(r"2 of \d+ limits are not kept", words)
+
+
+def test_lights_show_what_fails_and_is_close_before_the_rest():
+    found = judged(asked(example("truck-duty-cycle"), None, None))
+    assert found.lights is not None
+    tones = [row[-1].tone for row in found.lights.rows]
+    assert tones[:2] == ["failed", "failed"]
+    assert tones == sorted(tones, key=["failed", "warning", "good"].index)
+    assert "more limits are kept" in found.lights.note
+
+
+def test_the_page_holds_every_verdict_and_names_what_is_missing():
+    drive = example("car-propshaft")
+    found = judged(asked(drive, None, None))
+    assert found.page is not None
+    assert found.changes is None
+    assert not found.page.alarms
+    rows = {block.title: block.rows for block in found.page.blocks if hasattr(block, "rows")}
+    verdicts = check(drive)
+    assert len(rows["Could not be judged"]) == sum(bool(one.missing) for one in verdicts)
+    said = " ".join(row[0].text for row in rows["Verdicts"])
+    assert all(one.title.split(" of ")[0] in said for one in verdicts if one.run and not one.advice)
+
+
+def test_a_drive_of_which_nothing_is_said_has_no_such_page():
+    drive = example("single-20deg")
+    bare = replace(drive, duty=replace(drive.duty, speed=None, torque=None))
+    assert judged(asked(bare, None, None)).page is None
