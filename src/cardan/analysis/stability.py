@@ -133,7 +133,9 @@ class Floquet:
 
     @property
     def spectral_radius(self) -> Array:
-        """Largest |ρ|, array (...)."""
+        """Largest |ρ|, array (...); not a number where no motion was found."""
+        if not self.multipliers.shape[-1]:
+            return np.full(self.multipliers.shape[:-1], np.nan)
         return self.modulus[..., 0]
 
     @property
