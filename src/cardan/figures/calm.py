@@ -145,7 +145,10 @@ def calm_figure(found: Calm) -> Figure:
     return Figure(
         name="calm-running",
         title=_("Design for calm running"),
-        sentence=_("The largest swing falls from {before} N·m at {at} rpm to {after} N·m, {share} of it.").format(
+        sentence=_(
+            "The largest swing falls from {before} N·m at {at} rpm to {after} N·m, {share} of it. Below: how each "
+            "joint pushes the mode twice a turn, head to tail; dashed is what their phases leave."
+        ).format(
             before=significant(found.peak_before.torque, 3),
             at=significant(found.peak_before.speed / rpm, 3),
             after=significant(found.peak_after.torque, 3),

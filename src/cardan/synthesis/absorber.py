@@ -80,7 +80,7 @@ class Absorber:
     torque, twist, heat : arrays (s,) [N·m, rad, W]
         In the best setting: swing of the torque in the absorber, swing of its angle against its station (of a pendulum
         about its pivot), power that its damper turns to heat.
-    unstable_before, unstable_after : arrays [rad/s]
+    unstable_before, unstable_after : arrays (k,) [rad/s]
         Speeds, of those looked at, at which a small disturbance grows.
     tuned_speed : float or None [rad/s]
         The one speed an absorber without damping is set for.
