@@ -61,7 +61,7 @@ class Calm:
         Values that made no drive.
     run_peaks : array (r,) [N·m]
         Largest swing at the end of every independent run, as the search saw it.
-    history : tuple of r arrays
+    history : tuple of r arrays (g,) [N·m]
         The same after every generation.
     converged : bool
         Whether every run ended by itself.
