@@ -77,6 +77,7 @@ _HOMES = {
     "FixedStep": "analysis.fixed_steps",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+<<<<<<< HEAD
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
     "check": "checks.checks",
@@ -84,10 +85,18 @@ _HOMES = {
     "cured": "synthesis.change",
     "cures": "synthesis.cure",
     "most_helpful": "synthesis.cure",
+=======
+    "Absorber": "synthesis.absorber",
+    "absorber": "synthesis.absorber",
+>>>>>>> main
     "Allocation": "synthesis.allocation",
     "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
     "synchronous_yokes": "synthesis.batch",
+    "Calm": "synthesis.calm",
+    "calm": "synthesis.calm",
+    "Grid": "synthesis.calm_search",
+    "Evolution": "synthesis.evolution",
     "LeastIntermediate": "synthesis.goal",
     "NEAREST": "synthesis.goal",
     "NearestYokes": "synthesis.goal",
@@ -185,14 +194,23 @@ if TYPE_CHECKING:
     from .maths.periodic import HarmonicBalance as HarmonicBalance
     from .maths.pieces import Shooting as Shooting
     from .report.report import report as report
+    from .synthesis.absorber import Absorber as Absorber
+    from .synthesis.absorber import absorber as absorber
     from .synthesis.allocation import Allocation as Allocation
     from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
+<<<<<<< HEAD
     from .synthesis.change import Cure as Cure
     from .synthesis.change import cured as cured
     from .synthesis.cure import cures as cures
     from .synthesis.cure import most_helpful as most_helpful
+=======
+    from .synthesis.calm import Calm as Calm
+    from .synthesis.calm import calm as calm
+    from .synthesis.calm_search import Grid as Grid
+    from .synthesis.evolution import Evolution as Evolution
+>>>>>>> main
     from .synthesis.goal import NEAREST as NEAREST
     from .synthesis.goal import SYNCHRONOUS as SYNCHRONOUS
     from .synthesis.goal import LeastIntermediate as LeastIntermediate

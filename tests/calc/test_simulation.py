@@ -114,6 +114,21 @@ def test_a_group_without_inertia_spring_and_damper_is_named() -> None:
     assert calc("torsional_simulation", drive)["energy_J"] > 0.0  # the joint carries the inertia of both
 
 
+def test_a_free_drive_without_any_inertia_is_named_unless_something_brakes_it() -> None:
+    weightless = {"inertia_kgm2": [0.0, 0.0], "stiffness_Nm_per_rad": [10.0]}
+    drive = {"shafts": [weightless, weightless], "joints": DRIVE["joints"], "t_end_s": 0.1}
+    assert fields(drive) == ["shafts[0].inertia_kgm2"]
+    push = {"shaft": 1, "station": 1, "kind": "constant", "value_Nm": 3.0}
+    assert fields(drive | {"torques": [push]}) == ["shafts[0].inertia_kgm2"]
+    assert calc("torsional_simulation", drive | {"input_speed_rad_s": 5.0})["station_speed_rad_s"][0] == 5.0
+    braked = weightless | {"ground_damping_Nms_per_rad": [0.0, 2.0]}
+    found = calc("torsional_simulation", drive | {"shafts": [braked], "joints": [], "torques": [push]})
+    assert found["station_speed_rad_s"] == pytest.approx([1.5, 1.5], rel=1e-9)  # 3 N·m against 2 N·m·s/rad
+    running = {"shaft": 1, "station": 2, "kind": "linear_speed", "M0_Nm": 8.0, "slope_Nms_per_rad": 2.0}
+    found = calc("torsional_simulation", drive | {"shafts": [weightless], "joints": [], "torques": [running]})
+    assert found["station_speed_rad_s"] == pytest.approx([4.0, 4.0], rel=1e-9)
+
+
 def test_all_faults_are_told_at_once() -> None:
     drive = changed("joints.0.alpha_deg", 95.0)
     drive["shafts"][1]["stiffness_Nm_per_rad"] = [-1.0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 
+import numpy as np
 import pytest
 
 from cardan import calc
@@ -60,7 +61,8 @@ def test_a_free_drive_tells_its_constant_torque() -> None:
     found = calc("periodic_response", changed(input_speed_rad_s=None, mean_speed_rad_s=30.0))
     assert found["constant_drive_torque_Nm"] == pytest.approx(found["elements"][0]["mean_Nm"], rel=1e-9)
     assert "drive_torque_mean_Nm" not in found
-    assert calc("floquet_stability", changed(input_speed_rad_s=None, mean_speed_rad_s=30.0))["multipliers_removed"] == 1
+    # a shift in time, and the mean speed that constant torques leave open
+    assert calc("floquet_stability", changed(input_speed_rad_s=None, mean_speed_rad_s=30.0))["multipliers_removed"] == 2
 
 
 def test_stability_leaves_out_an_order_that_does_not_repeat() -> None:
@@ -104,3 +106,16 @@ def test_a_response_by_orders_needs_orders_that_repeat() -> None:
     with pytest.raises(InputError) as caught:
         calc("periodic_response", harmonic(6.8))
     assert caught.value.field == "torques[1].order"
+
+
+def test_a_drive_that_only_its_input_moves_is_stable_and_has_no_multipliers() -> None:
+    """Both stations follow the forced speed: nothing can be disturbed."""
+    shafts = [{"inertia_kgm2": [1.0]}, {"inertia_kgm2": [0.5]}]
+    drive = {"shafts": shafts, "joints": [{"alpha_deg": 20.0}], "input_speed_rad_s": 30.0}
+    found = calc("floquet_stability", drive)
+    assert (found["stable"], found["multiplier_modulus_sorted"]) == (True, [])
+    assert (found["spectral_radius"], found["growth_rate_1_per_s"]) == (None, None)
+    speeds = calc("periodic_response", drive)["station_speed_order_amplitude_rad_s"]
+    assert speeds[0]["2"] == 0.0
+    tau = np.tan(np.radians(10.0)) ** 2
+    assert speeds[1]["2"] == pytest.approx(30.0 * 2.0 * tau, rel=1e-9)  # T = θ + Σ (τ^k/k) sin 2kθ

@@ -220,3 +220,42 @@ def test_a_second_ctrl_c_ends_it_at_once():
 
     with pytest.raises(KeyboardInterrupt):
         twice()
+
+
+def test_a_drive_that_finds_no_steady_motion_says_so(cardan, drive_file, tmp_path, recwarn):
+    steep = drive_file(
+        'format = 1\nname = "steep"\njoints = [{ bend_deg = 89 }]\nshafts = [\n'
+        "  { number = 1, stiffness_Nm_per_rad = 6000, damping_Nms_per_rad = 0.5 },\n"
+        "  { number = 2, stiffness_Nm_per_rad = 60000, damping_Nms_per_rad = 0.5 },\n]\nstations = [\n"
+        "  { shaft = 1, inertia_kg_m2 = 0.9 },\n  { shaft = 2, inertia_kg_m2 = 0.4 },\n]\n"
+        'duty = { speed_rpm = 1340, torque_Nm = 60, input = "free" }\n'
+    )
+    for command in ("stability", "response"):
+        done = cardan("torsion", command, steep, "--plot", f"{command}.svg")
+        assert (done.code, done.err) == (1, "")
+        assert done.out.startswith("✖ steep: no steady motion was found")
+    assert not (tmp_path / "response.svg").exists()
+    assert "Figure drawn" not in done.out
+    mapped = cardan("torsion", "stability", steep, "--speeds", "1000:2000:3")
+    assert mapped.out.startswith("✖ steep: no steady motion was found")
+    assert not [one for one in recwarn if one.category is RuntimeWarning]
+
+
+def test_a_map_marks_the_drive_and_names_its_zones(cardan, drive_file):
+    path = drive_file(RIG.replace("0.02", "0.002").replace("speed_rpm = 1500", "speed_rpm = 2728"))
+    done = cardan("torsion", "stability", path, "--speeds", "2600:2900:13", "--bends", "6:20:8")
+    first = plain(done.out)
+    assert "of the map is unstable: principal zone of mode 1." in first
+    marked = [line for line in done.out.splitlines() if line.endswith(("·", "#")) and "O" in line]
+    assert len(marked) == 1
+    assert marked[0].split()[0] == "12.00"
+
+
+def test_large_counts_are_grouped_by_thin_blanks(cardan, rig):
+    err = cardan("torsion", "stability", rig, "--speeds", "100:200:1000000000").err
+    assert "1\u202f000\u202f000\u202f000 values" in err
+
+
+def test_a_mean_of_nothing_but_rounding_is_zero(cardan, rig):
+    rows = cardan("torsion", "response", rig, "--torque-Nm", 0).out
+    assert "e-1" not in rows.partition("station")[0]

@@ -14,7 +14,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Absorber, Pendulum, Station
 from cardan.figures import Figure, for_result, save
-from cardan.figures.figure import Band, Bars, Curve, Rule, Shape
+from cardan.figures.figure import Band, Bars, Curve, Note, Rule, Shape
 from cardan.figures.torsion import campbell_figure, shapes_figure
 from cardan.figures.torsion_map import growth_figure, map_figure
 from cardan.figures.torsion_running import response_figure, sweep_figure, waterfall_figure
@@ -105,6 +105,36 @@ def test_maps_cover_the_unstable_points() -> None:
         assert 0.0 < area < (56.0 - 44.0) * 25.0
     growth = growth_figure(stability(DRIVE, over={"duty.speed_rad_s": SPEEDS}))
     assert len(drawn(growth, Band)) == 1
+
+
+def test_zones_are_named_beside_their_tongues() -> None:
+    for axes in (("duty.speed_rpm", "bend_deg"), ("bend_deg", "duty.speed_rpm")):
+        values = {"duty.speed_rpm": np.linspace(20.0, 60.0, 41) / rpm, "bend_deg": np.linspace(5.0, 30.0, 6)}
+        found = stability(DRIVE, over={path: values[path] for path in axes})
+        figure = map_figure(found)
+        notes = drawn(figure, Note)
+        left = min(float(one.x[0]) for one in drawn(figure, Shape))
+        named = {one.text: one.x for one in notes}
+        assert "principal zone of mode 1" in named
+        assert left <= min(named.values())
+        assert 44.0 < named["principal zone of mode 1"] * rpm < 56.0  # edge of the tongue about ω = 50 rad/s
+
+
+def test_a_shaft_keeps_its_colour_in_every_figure() -> None:
+    three = replace(
+        Drive.from_angles([0.2, 0.2]),
+        shafts=(
+            Shaft(number=1, stiffness=9000.0),
+            Shaft(number=2, stiffness=1000.0),
+            Shaft(number=3, stiffness=4000.0),
+        ),
+        stations=(Station(shaft=1, inertia=0.5), Station(shaft=3, inertia=2.0)),
+        duty=Duty(speed=40.0, torque=50.0, input="free"),
+    )
+    for figure in (response_figure(torsion_response(three)), sweep_figure(torsion_response(three, speed=SPEEDS[:3]))):
+        roles = {one.label: one.role for one in drawn(figure, Curve)}
+        assert roles == {f"shaft {k}": f"shaft {k}" for k in (1, 2, 3)}
+        assert len({one.dash for one in drawn(figure, Curve)}) == 3
 
 
 def test_every_result_is_drawn_by_both_renderers(tmp_path: Path) -> None:

@@ -116,3 +116,12 @@ def test_a_direction_left_out_leaves_the_other_eigenvalues() -> None:
     for k in range(3):
         wanted = np.delete(values[k], one[k])
         np.testing.assert_allclose(np.sort_complex(rest[k]), np.sort_complex(wanted), atol=1e-10)
+
+
+def test_nothing_that_may_move_has_no_multipliers() -> None:
+    """A drive whose only coordinate is forced: its disturbances are none, not an error."""
+
+    def coefficients(share):
+        return np.zeros((2, len(share), 0)), np.zeros((2, len(share), 0, 0)), np.zeros((2, len(share), 0, 0))
+
+    assert monodromy(coefficients, np.asarray([0.5, 0.7])).shape == (2, 0, 0)

@@ -246,8 +246,9 @@ def _sentences(rule: NodeRule) -> Iterator[str]:
         text = _("The pushes of order 2 add up to {left:.0f} % of what they would be in phase.")
         yield text.format(left=100.0 * rule.left)
     if np.isfinite(rule.resonance_torque):
-        text = _("By this mode alone the torque swings by {torque:.3g} N·m where order 2 meets it.")
-        yield text.format(torque=rule.resonance_torque)
+        text = _("By this mode alone the torque swings by {torque} N·m where order 2 meets it.")
+        torque = rule.resonance_torque
+        yield text.format(torque=f"{torque:.3g}" if torque < 1000.0 else f"{torque:,.0f}".replace(",", "\u202f"))
 
 
 def _where(rule: NodeRule, joint: int) -> str:

@@ -19,6 +19,7 @@ from cardan.drive.geometry import geometry
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
+from cardan.units import mm
 
 from .machine_torques import machine_torques, turns_freely
 from .motion import phase_angles
@@ -57,17 +58,31 @@ class TorsionalTrain:
     @property
     def element_names(self) -> tuple[str, ...]:
         """Names of the elements: of their shaft where it has but one, else with the stations at their ends."""
-        model, names = self.model, self.model.names
+        model, names = self.model, self._end_names
         line = [b for _a, b in model.elements if self.hangs[b] is None]
         alone = {k for k in model.shaft if sum(model.shaft[b] == k for b in line) == 1}
         found = []
         for a, b in model.elements:
             if self.hangs[b] is not None:
-                found.append(names[b])
+                found.append(model.names[b])
                 continue
             text = _("shaft {number}") if model.shaft[a] in alone else _("shaft {number}, {one} to {two}")
             found.append(text.format(number=model.shaft[a] + 1, one=names[a], two=names[b]))
         return tuple(found)
+
+    @property
+    def _end_names(self) -> tuple[str, ...]:
+        """Names of the stations short enough for the ends of an element: what its shaft is, is said before them."""
+        names = list(self.model.names)
+        for number, ends in enumerate(self.joints, start=1):
+            for end in ends:
+                names[end] = _("joint {number}").format(number=number)
+        starts = [0, *(driven for _driving, driven in self.joints)]
+        for k, (shaft, name) in enumerate(zip(self.model.shaft, self.model.names, strict=True)):
+            place = f"{(self.position[k] - self.position[starts[shaft]]) / mm:.4g} mm"
+            if name == _("shaft {number} at {place}").format(number=shaft + 1, place=place):
+                names[k] = place
+        return tuple(names)
 
     @property
     def line(self) -> tuple[int, ...]:

@@ -63,7 +63,7 @@ def _stability(values: Values) -> Values:
         "spectral_radius": found.spectral_radius,
         "stable": bool(found.stable),
         "verdict": Verdict(int(found.verdict)).name.lower(),
-        "growth_rate_1_per_s": found.growth_rate,
+        "growth_rate_1_per_s": np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)[()],
         "kind": Kind(int(found.kind)).name.lower() if found.verdict == Verdict.UNSTABLE else None,
         "disturbance_order": found.order,
         "nearest_zone": found.zone.name(),

@@ -94,6 +94,9 @@ _LAWS: dict[str, Callable[[Values], Law]] = {
 
 _BETWEEN = ("stiffness", "damping", "gap")
 
+_BRAKES = ("linear_speed", "speed_table", "asynchronous")
+"""Kinds of torques that follow the speed."""
+
 
 def model_of(values: Values) -> TorsionalModel:
     """Return the torsional model of values that were read by `MODEL` and passed `model_problems`."""
@@ -211,3 +214,13 @@ def _loose_problems(shafts: list[Values], values: Values, key: Callable[[str], s
             yield Problem(
                 place, _("this station and those that joints bind to it have neither inertia nor spring nor damper")
             )
+    if all(held) and not forced and not any(np.any(shaft["inertia"] > 0.0) for shaft in shafts):
+        yield from _weightless_problems(shafts, values, key)
+
+
+def _weightless_problems(shafts: list[Values], values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
+    """Yield that nothing sets the speed of a free drive without inertia: no damper to ground, no torque by speed."""
+    grounded = any(shaft["ground_damping"] is not None and np.any(shaft["ground_damping"] > 0.0) for shaft in shafts)
+    if not grounded and not any(row["kind"] in _BRAKES for row in values.get("torques") or ()):
+        text = _("no station of the drive has inertia, and neither a damper to ground nor its torques set its speed")
+        yield Problem(key("shafts[0].inertia"), text)

@@ -15,6 +15,7 @@ FILES = _("Drive files")
 FORMULAS = _("Formulas")
 DATA = _("Data")
 ASKED = _("Torsional vibration")
+CHOSEN = _("Measures against it")
 
 COMMANDS = {
     "motion": Entry(
@@ -151,6 +152,24 @@ COMMANDS = {
                 (
                     "cardan torsion stability truck.toml",
                     "cardan torsion stability truck.toml --speeds 500:3000 --bends 2:25 --plot map.svg",
+                ),
+            ),
+            "absorber": Entry(
+                "torsion_absorber",
+                CHOSEN,
+                _("Which absorber, damper or pendulum calms it, where, and how it is to be set."),
+                (
+                    "cardan torsion absorber truck.toml --speeds 300:900",
+                    "cardan torsion absorber truck.toml --kind pendulum --radius-mm 120 -o better.toml",
+                ),
+            ),
+            "calm": Entry(
+                "torsion_calm",
+                CHOSEN,
+                _("Which yokes, stiffnesses, inertias or joint places let it run calmly."),
+                (
+                    "cardan torsion calm truck.toml --speeds 300:900",
+                    "cardan torsion calm truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
                 ),
             ),
         },

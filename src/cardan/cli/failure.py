@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
+from unicodedata import category
 
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem
 from cardan.texts import _, plural
@@ -145,8 +146,8 @@ def _text(head: str, problems: Sequence[Problem]) -> str:
 
 
 def _visible(text: str) -> str:
-    """Return a text in which characters that a terminal would obey are spelled out."""
-    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
+    """Return a text in which characters that a terminal would obey are spelled out; blanks of all widths may stay."""
+    return "".join(sign if sign.isprintable() or category(sign) == "Zs" else ascii(sign)[1:-1] for sign in text)
 
 
 def _closed(code: int) -> int:

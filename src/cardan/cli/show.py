@@ -47,6 +47,8 @@ def show(answer: Answer, *, json: bool = False, csv: bool = False, plot: Path | 
     plot : path, optional
         ``--plot``; drawn first, so that nothing is printed when it cannot be.
     """
+    if answer.figure is None:
+        plot = None  # what there is to say says why there is nothing to draw
     if plot is not None and answer.figure is not None:
         from cardan.figures import save
 

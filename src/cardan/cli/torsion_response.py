@@ -55,6 +55,8 @@ def torsion_response(
 
 
 def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
+    import numpy as np
+
     from .answer import Answer
     from .asked import figures
     from .torsion_tables import sweep_table
@@ -68,7 +70,7 @@ def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
         remarks=tuple(_remarks(drive, file, found)),
         content=lambda: _content(drive, file, found),
         csv=lambda: _rows(found),
-        figure=lambda: figures(found),
+        figure=(lambda: figures(found)) if np.any(found.steady.found) else None,
         code=1 if tone == "failed" and not swept else 0,
     )
 
@@ -81,12 +83,14 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
 
     from .answer import significant
     from .source import title
+    from .torsion_tables import level
 
     at = {"name": title(drive, file), "speed": significant(abs(float(found.speed)) / rpm)}
     if not bool(found.steady.found):
         return "failed", _("{name}: no steady motion was found at {speed} rpm.").format(**at)
     e = int(np.argmax(found.swing))
-    mean, swing = float(found.steady.torque.mean[e]), float(found.swing[e])
+    swing = float(found.swing[e])
+    mean = level(float(found.steady.torque.mean[e]), swing)
     text = _("{name}: at {speed} rpm {element} carries {mean} ± {swing} N·m").format(
         element=found.train.element_names[e], mean=significant(mean), swing=significant(swing, 3), **at
     )

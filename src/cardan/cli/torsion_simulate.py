@@ -135,6 +135,9 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
         return "failed", text + _("; then the torque snapped a joint without inertia through."), 1
     if status == Status.STALLED:
         return "failed", text + _("; then no step was short enough."), 1
+    lifts = (ends.torque_low < 0.0) & (ends.torque_high > 0.0) & np.any(found.train.model.backlash > 0.0)
+    if np.any(lifts):
+        return "warning", text + _("; torques change their sign, so that play is passed through and strikes."), 0
     return "plain", text + ".", 0
 
 
@@ -224,6 +227,9 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     text = _("Account of energy checked: {rest:.0e} of it is left over ({steps} steps, {method}).")
     how = {"explicit": _("explicit"), "implicit": _("implicit")}.get(found.motion.method, found.motion.method)
     yield Remark(text=text.format(rest=float(found.motion.imbalance), steps=found.motion.steps, method=how))
+    yield Remark(
+        text=_("Whether such vibration dies out:"), command=("cardan", "torsion", "stability", str(file)), tone="next"
+    )
 
 
 def _rows(found: Transient) -> Table:

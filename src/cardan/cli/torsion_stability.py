@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 SIGNS = {0: "·", 1: "~", 2: "#", 3: " "}
 """A point of a map in the terminal, by `cardan.analysis.stability.Verdict`."""
 
+NAMED = 3
+"""Zones named in the answer to a map."""
+
 WIDE, HIGH = 61, 17
 """Points of a map in the terminal at most."""
 
@@ -145,14 +148,23 @@ def _mapped(drive: Drive, file: Path, found: Stability) -> tuple[Tone, str]:
 
     name = title(drive, file)
     unstable = found.verdict == Verdict.UNSTABLE
+    lost = found.verdict == Verdict.UNKNOWN
     if not np.any(unstable):
-        return "good", _("{name}: stable throughout.").format(name=name)
+        if np.all(found.verdict == Verdict.STABLE):
+            return "good", _("{name}: stable throughout.").format(name=name)
+        if np.all(lost):
+            return "failed", _("{name}: no steady motion was found.").format(name=name)
+        text = _("{name}: no point is known to be unstable; {neutral} of {all} are neutral, {lost} not known.")
+        neutral = int(np.sum(found.verdict == Verdict.NEUTRAL))
+        return "warning", text.format(name=name, neutral=neutral, all=unstable.size, lost=int(np.sum(lost)))
     if len(found.over) == 1:
         path, values = found.over[0]
         text = _("{name}: unstable at {where} {path}.")
         return "failed", text.format(name=name, path=_axis(path), where=intervals(values, unstable))
-    text = _("{name}: {share} of the map is unstable.")
-    return "failed", text.format(name=name, share=percent(found.unstable_share))
+    zones = sorted({found.zone.name(tuple(index)) for index in np.argwhere(unstable).tolist()})
+    said = ", ".join(zones[:NAMED]) + (_(" and others") if len(zones) > NAMED else "")
+    text = _("{name}: {share} of the map is unstable: {zones}.")
+    return "failed", text.format(name=name, share=percent(found.unstable_share), zones=said)
 
 
 def _axis(path: str) -> str:
@@ -171,13 +183,21 @@ def _tables(found: Stability) -> list[Table]:
     table = found.verdict if found.over[0][0] != "duty.speed_rpm" else found.verdict.T
     i = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), HIGH)).round().astype(int))[::-1]
     j = np.unique(np.linspace(0, len(columns) - 1, min(len(columns), WIDE)).round().astype(int))
-    lines: list[list[Cell]] = [[float(rows[k]), "".join(SIGNS[int(table[k, n])] for n in j)] for k in i]
+    pictured = [[SIGNS[int(table[k, n])] for n in j] for k in i]
+    title = _("# unstable, · stable")
+    here = dict(found.here)
+    at = [(here.get(path), values[picked]) for path, values, picked in ((down, rows, i), (across, columns, j))]
+    if all(one is not None and min(values) <= one <= max(values) for one, values in at):
+        y, x = (int(np.argmin(np.abs(values - one))) for one, values in at)
+        pictured[y][x] = "O"
+        title = _("# unstable, · stable, O the drive")
+    lines: list[list[Cell]] = [[float(rows[k]), "".join(line)] for k, line in zip(i, pictured, strict=True)]
     ends = f"{printed(float(columns[0]), 'g')} … {printed(float(columns[-1]), 'g')}"
     heads = (
         Column(key="value", heading=_axis(down)),
         Column(key="map", heading=f"{_axis(across)}: {ends}", left=True),
     )
-    return [Table(columns=heads, rows=lines, title=_("# unstable, · stable"))]
+    return [Table(columns=heads, rows=lines, title=title)]
 
 
 def _remarks(file: Path, found: Stability) -> Iterator[Remark]:

@@ -18,6 +18,21 @@ STATES = (_("stable"), _("neutral"), _("unstable"), _("unknown"))
 """What becomes of a small disturbance, by `cardan.analysis.stability.Verdict`."""
 
 
+ROUNDING = 1e-8
+"""Share of a swing below which the mean about which it goes is left over by rounding."""
+
+
+def level(mean: float, swing: float) -> float:
+    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
+
+    Examples
+    --------
+    >>> level(3e-11, 0.2), level(400.0, 1300.0)
+    (0.0, 400.0)
+    """
+    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean
+
+
 def element_table(found: TorsionResponse) -> Table:
     """Return mean, extremes and orders of the torque of every element."""
     import numpy as np
@@ -26,17 +41,17 @@ def element_table(found: TorsionResponse) -> Table:
     from .torsion_parts import short
 
     torque, order = found.steady.torque, found.steady.order
+    largest = float(np.max(np.abs(torque.mean)) + np.max(torque.amplitude))
     rows: list[list[Cell]] = []
     for e, name in enumerate(found.train.element_names):
-        amplitude = torque.amplitude[e]
+        amplitude = np.where(torque.amplitude[e] > 1e-12 * largest, torque.amplitude[e], 0.0)
         others = np.where((order == 2.0) | (order == 4.0), 0.0, amplitude)
         k = int(np.argmax(others))
-        largest = float(np.max(np.abs(torque.mean)) + np.max(torque.amplitude))
         there = others[k] > 1e-9 * largest
         rows.append(
             [
                 short(name, 28),
-                float(torque.mean[e]),
+                level(float(torque.mean[e]), float(np.max(torque.amplitude))),
                 float(found.torque_lowest[e]),
                 float(found.torque_highest[e]),
                 float(amplitude[np.flatnonzero(order == 2.0)[0]]),

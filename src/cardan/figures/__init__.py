@@ -38,6 +38,8 @@ _MAKERS = {
     "cardan.analysis.speed_map.CriticalSpeedMap": "bending.speed_map_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",
+    "cardan.synthesis.absorber.Absorber": "calm.absorber_figures",
+    "cardan.synthesis.calm.Calm": "calm.calm_figures",
     "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",
 }
 """Result -> file and function of this folder that make its figures."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -11,9 +12,12 @@ from cardan.analysis.torsion_stability import BEND, Stability
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, axis, steps, written
 from .torsion_running import runs, unstable_bands
 from .wording import percent, significant
+
+TONGUES = 6
+"""Zones with their names in a map, the largest."""
 
 CELLS = 160
 """Rows of a map at most; finer ones are thinned."""
@@ -120,6 +124,7 @@ def map_figure(found: Stability) -> Figure:
         (Verdict.UNKNOWN, "faint", 0.8, _("not known")),
     ):
         series += _cells(x, y[rows], verdict[rows] == state, role, opacity, word)
+    series += _tongues(found, x, y, verdict == Verdict.UNSTABLE, turned=turned)
     here = _here(found, wide), _here(found, high)
     if here[0] is not None and here[1] is not None:
         series.append(
@@ -149,6 +154,28 @@ def map_figure(found: Stability) -> Figure:
         source=_("Floquet multipliers of the exact equations at every point"),
         rows=(Row(panels=(panel,), height=3.0),),
     )
+
+
+def _tongues(found: Stability, x: Array, y: Array, mask: Array, *, turned: bool) -> Iterator[Note]:
+    """Yield the names of the zones, each at the largest of its tongue."""
+    places: dict[str, list[tuple[int, int]]] = {}
+    for i, j in np.argwhere(mask).tolist():
+        places.setdefault(found.zone.name((i, j) if turned else (j, i)), []).append((i, j))
+    largest = sorted(places.items(), key=lambda one: -len(one[1]))[:TONGUES]
+    room = float(y[-1] - y[0])
+    for n, (name, cells) in enumerate(sorted(largest, key=lambda one: min(one[1], key=lambda cell: cell[1])[1])):
+        first, last = min(j for _i, j in cells), max(j for _i, j in cells)
+        behind = bool(x[last] < 0.7 * x[-1] + 0.3 * x[0])
+        place = float(x[last] if behind else x[first])
+        top = max(i for i, _j in cells)
+        yield Note(
+            text=name,
+            x=place,
+            y=max(float(y[top]) - (0.04 + 0.05 * n) * room, float(y[0]) + 0.03 * room),
+            role="failed",
+            side="left" if behind else "right",
+            shift=(14.0 if behind else -14.0, 0.0),
+        )
 
 
 def _here(found: Stability, path: str) -> float | None:

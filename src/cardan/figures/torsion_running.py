@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from cardan.analysis.stability import Verdict
 from cardan.analysis.torsion_response import TorsionResponse
+from cardan.analysis.torsional_train import TorsionalTrain
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .figure import Axis, Band, Bars, Curve, Figure, Panel, Row, axis, steps, written
+from .figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row, axis, steps, written
 from .palette import DASHES, shaft
 from .turning import across
 from .wording import significant
@@ -23,6 +24,12 @@ CURVES = 4
 
 BARS = 12
 """Orders with a bar of their own."""
+
+SEEN = 5e-3
+"""Share of the strongest order below which another one is a line on the axis."""
+
+ROUNDING = 1e-8
+"""Share of a swing below which the mean about which it goes is left over by rounding."""
 
 FALLS = 24
 """Speeds of a waterfall."""
@@ -36,8 +43,17 @@ def response_figures(found: TorsionResponse) -> tuple[Figure, ...]:
 
 
 def worst_elements(swing: Array) -> list[int]:
-    """Return the elements that swing most."""
+    """Return the elements that swing most, the worst first."""
     return [int(e) for e in np.argsort(-np.nan_to_num(swing), kind="stable")[:CURVES]]
+
+
+def looks(train: TorsionalTrain, elements: Sequence[int]) -> Iterator[tuple[int, str, Dash]]:
+    """Yield some elements along the line, each in the colour of its shaft; more of one shaft differ by their dashes."""
+    drawn: dict[int, int] = {}
+    for n, e in enumerate(sorted(elements)):
+        number = train.model.shaft[train.model.elements[e][0]] + 1
+        drawn[number] = drawn.get(number, n - 1) + 1
+        yield e, shaft(number), DASHES[drawn[number] % len(DASHES)]
 
 
 def response_figure(found: TorsionResponse) -> Figure:
@@ -55,8 +71,8 @@ def response_figure(found: TorsionResponse) -> Figure:
     torque = np.asarray(traces.torque)
     over = Panel(
         series=tuple(
-            Curve(x=angle / deg, y=torque[:, e], role=shaft(k + 2), dash=DASHES[k % 4], label=names[e])
-            for k, e in enumerate(worst)
+            Curve(x=angle / deg, y=torque[:, e], role=role, dash=dash, label=names[e])
+            for e, role, dash in looks(found.train, worst)
         ),
         x=across(angle / deg, named=True),
         y=axis(_("Torque"), "N·m", [torque[:, worst]], count=5),
@@ -72,7 +88,7 @@ def response_figure(found: TorsionResponse) -> Figure:
     bars = Panel(
         series=(
             Bars(
-                at=at, size=amplitude[kept], roles=(shaft(2),), texts=tuple(significant(amplitude[k], 3) for k in kept)
+                at=at, size=amplitude[kept], roles=("accent",), texts=tuple(significant(amplitude[k], 3) for k in kept)
             ),
         ),
         x=Axis(
@@ -104,9 +120,20 @@ def _response_sentence(found: TorsionResponse, e: int, name: str) -> str:
     return text.format(
         name=name,
         swing=significant(float(found.swing[e]), 3),
-        mean=significant(float(found.steady.torque.mean[e]), 3),
+        mean=significant(level(float(found.steady.torque.mean[e]), float(found.swing[e])), 3),
         stable=stable,
     )
+
+
+def level(mean: float, swing: float) -> float:
+    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
+
+    Examples
+    --------
+    >>> level(3e-11, 0.2), level(400.0, 1300.0)
+    (0.0, 400.0)
+    """
+    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean
 
 
 def sweep_figure(found: TorsionResponse) -> Figure:
@@ -126,16 +153,17 @@ def sweep_figure(found: TorsionResponse) -> Figure:
         series=(
             *shaded,
             *(
-                Curve(x=speed, y=found.swing[:, e], role=shaft(k + 2), dash=DASHES[k % 4], label=names[e])
-                for k, e in enumerate(worst)
+                Curve(x=speed, y=found.swing[:, e], role=role, dash=dash, label=names[e])
+                for e, role, dash in looks(found.train, worst)
             ),
         ),
         x=axis("", "", [speed], margin=0.0, count=8),
-        y=axis(_("Half of highest less lowest torque"), "N·m", [found.swing[:, worst]], include=(0.0,), count=5),
+        y=axis(_("Swing of the torque, ±"), "N·m", [found.swing[:, worst]], include=(0.0,), count=5),
     )
     e = worst[0]
     amplitude = found.steady.torque.amplitude[:, e]
-    strongest = sorted(int(k) for k in np.argsort(-np.nan_to_num(np.nanmax(amplitude, axis=0)))[:CURVES])
+    height = np.nan_to_num(np.max(np.nan_to_num(amplitude), axis=0))
+    strongest = sorted(int(k) for k in np.argsort(-height)[:CURVES] if height[k] >= SEEN * np.max(height))
     orders = Panel(
         series=(
             *shaded,
@@ -208,7 +236,8 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
     order = found.steady.order
     last = int(np.max(np.flatnonzero(np.max(amplitude, axis=0) > 2e-3 * np.max(amplitude)), initial=1))
     order, amplitude = order[: last + 1], amplitude[:, : last + 1]
-    chosen = np.unique(np.linspace(0, len(speed) - 1, min(FALLS, len(speed))).round().astype(int))
+    stretches = np.array_split(np.arange(len(speed)), min(FALLS, len(speed)))
+    chosen = np.asarray([k[int(np.argmax(np.max(amplitude[k], axis=1)))] for k in stretches])
     gap = (speed[-1] - speed[0]) / max(len(chosen) - 1, 1) or 1.0
     scale = 4.0 * abs(gap) / (float(np.max(amplitude)) or 1.0)
     narrow = 0.1 * float(order[0])
@@ -228,7 +257,7 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
             ticks=ticks,
             texts=tuple(f"{v:g}" for v in ticks),
         ),
-        y=axis(_("input speed"), "rpm", [speed], include=(float(np.max(speed)) + 4.2 * abs(gap),), count=8),
+        y=axis(_("input speed"), "rpm", [speed], include=(max(float(np.max(one.y)) for one in curves),), count=8),
     )
     tallest = np.unravel_index(int(np.argmax(amplitude)), amplitude.shape)
     text = _("The tallest peak is order {order} at {speed} rpm, ± {torque} N·m.")

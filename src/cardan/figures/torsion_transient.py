@@ -9,8 +9,8 @@ from cardan.texts import _
 from cardan.units import rpm
 
 from .figure import Curve, Figure, Panel, Row, axis
-from .palette import DASHES, shaft
-from .torsion_running import worst_elements
+from .palette import DASHES
+from .torsion_running import looks, worst_elements
 from .wording import significant
 
 
@@ -37,8 +37,8 @@ def transient_figure(found: Transient) -> Figure:
     stations = list(dict.fromkeys([line[0], line[-1], liveliest]))
     torques = Panel(
         series=tuple(
-            Curve(x=motion.times, y=motion.torque[:, e], role=shaft(k + 2), width=1.0, label=names[e])
-            for k, e in enumerate(worst)
+            Curve(x=motion.times, y=motion.torque[:, e], role=role, dash=dash, width=1.0, label=names[e])
+            for e, role, dash in looks(found.train, worst)
         ),
         x=axis("", "", [motion.times], margin=0.0, count=8),
         y=axis(_("Torque"), "N·m", [motion.torque[:, worst]], count=5),

@@ -75,18 +75,27 @@ def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".
 
 
 def station_text(drive: Drive, number: int) -> str:
-    """Return one of the `[[stations]]` of a drive as it stands in a file.
+    """Return one of the `[[stations]]` of a drive as it can stand in a file, a key a line.
 
     Examples
     --------
     >>> from dataclasses import replace
     >>> from cardan.drive.station import Station
-    >>> print(station_text(replace(Drive.from_angles([0.1]), stations=(Station(shaft=2, inertia=0.02),)), 0))
+    >>> from cardan.drive.station import Absorber
+    >>> disc = Station(shaft=2, absorber=Absorber(inertia=0.002, stiffness=40.0))
+    >>> print(station_text(replace(Drive.from_angles([0.1]), stations=(disc,)), 0))
     [[stations]]
     shaft = 2
-    inertia_kg_m2 = 0.02
+    absorber.inertia_kg_m2 = 0.002
+    absorber.stiffness_Nm_per_rad = 40
     """
-    return toml_text({"stations": [tree_of(drive)["stations"][number]]}).strip()
+    lines = ["[[stations]]"]
+    for key, value in tree_of(drive)["stations"][number].items():
+        if isinstance(value, dict):
+            lines += [f"{key}.{line}" for line in toml_text(value).splitlines()]
+        else:
+            lines.append(toml_text({key: value}).strip())
+    return "\n".join(lines)
 
 
 def _inline(values: dict[str, Any]) -> Any:

@@ -92,6 +92,8 @@ def monodromy(coefficients: Coefficients, duration: ArrayLike, *, steps: int | N
     trial = np.arange(2 * FEWEST) / (2 * FEWEST)
     sample = coefficients(trial)
     heavy = np.any(sample[0] != 0.0, axis=(0, 1))
+    if not heavy.size:
+        return np.zeros((len(period), 0, 0))
     count = steps or _steps(sample, heavy, period)
     points, table = collocation(STAGES, stiff=not heavy.all())
     rank = len(heavy)

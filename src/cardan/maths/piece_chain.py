@@ -177,11 +177,12 @@ class Chain:
         # every state as a function of (1, first state, knots, force)
         by = np.zeros((n + 1, states, width))
         by[0, :, 1 : 1 + states] = np.eye(states)
-        for k in range(n):
-            step = self.after[k]
-            by[k + 1] = step[:, 1 : 1 + states] @ by[k]
-            by[k + 1][:, 0] += step[:, 0]
-            by[k + 1][:, 1 + states :] += step[:, 1 + states :]
+        with np.errstate(over="ignore", invalid="ignore"):  # a motion that leaves all bounds closes no period
+            for k in range(n):
+                step = self.after[k]
+                by[k + 1] = step[:, 1 : 1 + states] @ by[k]
+                by[k + 1][:, 0] += step[:, 0]
+                by[k + 1][:, 1 + states :] += step[:, 1 + states :]
         switches = np.cumsum(self.plan.counts)[:-1]
         events = len(switches)
         state = np.concatenate([guess.x, guess.v[:, moving]], axis=-1)
@@ -208,7 +209,8 @@ class Chain:
         answer = np.zeros(width)
         answer[0] = 1.0
         answer[1 + np.asarray(columns)] = np.linalg.solve(system, np.concatenate(right))
-        moved = by @ answer
+        with np.errstate(over="ignore", invalid="ignore"):
+            moved = by @ answer
         knot = answer[1 + states : 1 + states + knots]
         local = np.concatenate(
             [np.ones((n, 1)), moved[:-1], np.broadcast_to(answer[1 + states :], (n, knots + 1))], axis=-1

@@ -10,13 +10,16 @@ import numpy as np
 from cardan.analysis.stability import Verdict
 from cardan.analysis.torsion import TorsionModes, torsion_modes
 from cardan.analysis.torsion_response import TorsionResponse, torsion_response
+from cardan.analysis.torsion_stability import BEND, Stability, stability
+from cardan.drive.chain import chain
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.torsion import campbell_figure, shapes_figure
-from cardan.figures.torsion_running import response_figure, sweep_figure
+from cardan.figures.torsion_map import map_figure
+from cardan.figures.torsion_running import response_figure, sweep_figure, waterfall_figure
 from cardan.figures.wording import significant
 from cardan.texts import _
-from cardan.units import rpm
+from cardan.units import deg, rpm
 
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
@@ -27,6 +30,12 @@ MODES = 4
 
 SWEEP = 31
 """Speeds of the sweep over those in use."""
+
+ACROSS, UP = 61, 14
+"""Speeds and bends of the map of stability."""
+
+LITTLE, WIDEST = math.radians(0.5), math.radians(45.0)
+"""No map of drives bent less; what stands for the bend of one that is bent more."""
 
 SMALL = 1e-6
 """Share of the largest torque that a motion may miss its equations by between the points it was found from."""
@@ -43,6 +52,7 @@ def twisting(on: Subject) -> Page | None:
         known = drive.duty.speed is not None
         runs = torsion_response(drive) if known else None
         swept = _swept(drive)
+        mapped = _mapped(drive)
     except InputError as error:
         return refused("torsion", title, error)
     alarms = list(_alarms(modes, runs))
@@ -51,7 +61,9 @@ def twisting(on: Subject) -> Page | None:
     if runs is not None and bool(runs.steady.found):
         blocks += [Picture(figure=response_figure(runs)), _torque_table(runs)]
     if swept is not None:
-        blocks.append(Picture(figure=sweep_figure(swept)))
+        blocks += [Picture(figure=sweep_figure(swept)), Picture(figure=waterfall_figure(swept))]
+    if mapped is not None:
+        blocks.append(Picture(figure=map_figure(mapped)))
     if modes.train.assumed:
         blocks.append(Points(title=_("Assumed"), items=list(_assumed(modes))))
     blocks.append(_checks(modes, runs))
@@ -72,6 +84,16 @@ def _swept(drive: Drive) -> TorsionResponse | None:
         return None
     low, high = max(between[0], 0.05 * between[1]), between[1]
     return torsion_response(drive, speed=np.linspace(low, high, SWEEP))
+
+
+def _mapped(drive: Drive) -> Stability | None:
+    """Return where vibration grows, about the speed and the bends of the drive; None where it has none of them."""
+    bend = float(np.max(chain(drive).bend))
+    if not drive.duty.speed or bend < LITTLE:
+        return None
+    runs = abs(drive.duty.speed) / rpm
+    speeds = np.linspace(0.5 * runs, 1.5 * runs, ACROSS)
+    return stability(drive, over={"duty.speed_rpm": speeds, BEND: np.linspace(0.3, 1.6, UP) * min(bend, WIDEST) / deg})
 
 
 def _answer(modes: TorsionModes, runs: TorsionResponse | None) -> str:

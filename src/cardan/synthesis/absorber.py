@@ -27,6 +27,9 @@ from .least_swing import LeastSwing, Stopped, Watched
 RATIO = 0.1
 """Inertia of an absorber over that of the mode where none is given."""
 
+SAME = 1e-9
+"""Inertias of a mode at two stations that differ by no more than this share are the same."""
+
 WIDE = 0.3
 """Half the band about the resonance, as a share of its speed, where the duty gives none."""
 
@@ -77,7 +80,7 @@ class Absorber:
     torque, twist, heat : arrays (s,) [N·m, rad, W]
         In the best setting: swing of the torque in the absorber, swing of its angle against its station (of a pendulum
         about its pivot), power that its damper turns to heat.
-    unstable_before, unstable_after : arrays [rad/s]
+    unstable_before, unstable_after : arrays (k,) [rad/s]
         Speeds, of those looked at, at which a small disturbance grows.
     tuned_speed : float or None [rad/s]
         The one speed an absorber without damping is set for.
@@ -220,7 +223,7 @@ def absorber(
     ...     stations=(Station(shaft=2, name="pump", inertia=0.4),), duty=Duty(torque=60.0, speed_range=(35.0, 70.0)))
     >>> found = absorber(drive, inertia_ratio=0.15)
     >>> found.host.name, found.order, bool(found.best.peak < found.closed_form.peak < 0.35 * found.bare.peak)
-    ('joint 1, driving yoke', 2.0, True)
+    ('pump', 2.0, True)
     """
     asked = replace(drive, duty=drive.duty if duty is None else duty)
     check(problems(kind, inertia, inertia_ratio, radius, count, mode, order))
@@ -240,7 +243,9 @@ def absorber(
     found = hosts(asked, bare.trains[0])
     with np.errstate(divide="ignore"):
         modal = 1.0 / modes.shape[number][: len(found)] ** 2
-    host = found[int(np.argmin(modal))] if station is None else host_named(found, station)
+    near = [one for one in found if modal[one.station] <= np.min(modal) * (1.0 + SAME)]
+    loosest = next((one for one in near if one.table is not None), near[0])  # a station of the file before a yoke
+    host = loosest if station is None else host_named(found, station)
     check(still(host, modal))
     own = (RATIO if inertia_ratio is None else inertia_ratio) * float(modal[host.station])
     own = rounded(own if inertia is None else inertia)

@@ -137,7 +137,7 @@ class Task:
         """Return what hangs on the station."""
         if setting.arm is None:
             return Branch(inertia=setting.inertia, stiffness=setting.stiffness, damping=setting.damping)
-        mass = setting.inertia / (self.count * (self.radius + setting.arm) ** 2)
+        mass = rounded(setting.inertia / (self.count * (self.radius + setting.arm) ** 2))
         return Pendulum(mass=mass, radius=self.radius, length=setting.arm, count=self.count)
 
     def with_it(self, setting: Setting) -> tuple[Drive, int]:

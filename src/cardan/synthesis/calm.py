@@ -17,8 +17,13 @@ from cardan.texts import _
 
 from .band import Lines, lines, wanted_band
 from .calm_designs import Designs, Free, free_quantities
-from .calm_search import Curves, Grid, Method, Peak, everywhere, method_problems, refined
-from .evolution import Evolution, evolve
+from .calm_search import Curves, Method, Peak, everywhere, method_problems, refined
+from .calm_search import Grid as Grid
+from .evolution import Evolution as Evolution
+from .evolution import evolve
+
+SAME = 0.01
+"""What differs by no more than this share is the same."""
 
 SHARES = (0.8, 0.92)
 """Shares of the work when the search everywhere ends, and when the last steps do."""
@@ -45,7 +50,7 @@ class Calm:
     before, after : arrays (s, E) [N·m]
         Swing of the torque of every element as built and with the best values.
     peak_before, peak_after : Peak
-    unstable_before, unstable_after : arrays [rad/s]
+    unstable_before, unstable_after : arrays (k,) [rad/s]
         Speeds, of those looked at, at which a small disturbance grows.
     rules_before, rules_after : tuple of NodeRule
         What the joints do to the modes whose resonances matter in the band: the explanation.
@@ -56,7 +61,7 @@ class Calm:
         Values that made no drive.
     run_peaks : array (r,) [N·m]
         Largest swing at the end of every independent run, as the search saw it.
-    history : tuple of r arrays
+    history : tuple of r arrays (g,) [N·m]
         The same after every generation.
     converged : bool
         Whether every run ended by itself.
@@ -123,12 +128,7 @@ class Calm:
             found += rule.sentences
             old = next((one for one in self.rules_before if one.mode == rule.mode), None)
             if old is not None and old.push > 0.0:
-                text = _(
-                    "As built: {hertz:.3g} Hz, {times:.3g} times this push of order 2, stiffness modulated by "
-                    "{share:.2g} %."
-                )
-                times = old.push / rule.push if rule.push > 0.0 else np.inf
-                found.append(text.format(hertz=old.omega / (2.0 * np.pi), times=times, share=100.0 * old.modulation))
+                found += _as_built(old, rule)
         return tuple(found)
 
 
@@ -257,6 +257,18 @@ def calm(
         play=designs.built.play,
         assumed=designs.built.trains[0].assumed,
     )
+
+
+def _as_built(old: NodeRule, new: NodeRule) -> list[str]:
+    """Return what a mode was as built, where that was something else."""
+    values = {"hertz": old.omega / (2.0 * np.pi), "share": 100.0 * old.modulation}
+    times = old.push / new.push if new.push > 0.0 else np.inf
+    if abs(times - 1.0) > SAME:
+        text = _("As built: {hertz:.3g} Hz, {times:.3g} times this push, stiffness modulated by {share:.2g} %.")
+        return [text.format(times=times, **values)]
+    if abs(old.omega / new.omega - 1.0) > SAME or abs(old.modulation - new.modulation) > SAME * old.modulation:
+        return [_("As built: {hertz:.3g} Hz, stiffness modulated by {share:.2g} %.").format(**values)]
+    return []
 
 
 def _rules(line: Lines, band: tuple[float, float]) -> tuple[NodeRule, ...]:

@@ -54,7 +54,7 @@ class Evolved:
     run_places : array (r, v)
         Best place of every run.
     run_costs : array (r,)
-    history : tuple of r arrays
+    history : tuple of r arrays (g,)
         Smallest cost after every generation of a run, its beginning first.
     evaluations : int
     converged : bool

@@ -1,0 +1,130 @@
+"""cardan torsion absorber and calm, on the terminal, as JSON and as CSV, and the drives that they write."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from cardan import absorber, calm
+from cardan import io as files
+from cardan.synthesis.calm import Grid
+from cardan.units import rpm
+from tests.cli.test_forces import plain, widest
+
+RIG = """format = 1
+name = "test rig"   # on the bench
+[[joints]]
+bend_deg = 12
+[[joints]]
+bend_deg = 12
+[[shafts]]
+number = 2
+stiffness_Nm_per_rad = 6000
+damping_Nms_per_rad = 2
+yoke_angle_deg = 20   # as found
+[[stations]]
+shaft = 3
+name = "mill"
+inertia_kg_m2 = 0.5
+[duty]
+torque_Nm = 100
+speed_range_rpm = [350, 700]
+"""
+YOKE = "shafts[1].yoke_angle_deg"
+
+
+@pytest.fixture
+def rig(drive_file):
+    return drive_file(RIG)
+
+
+def test_an_absorber_is_set_and_written(cardan, rig, tmp_path):
+    done = cardan("torsion", "absorber", rig, "--ratio", "0.15", "-o", "better.toml", "--plot", "curves.svg")
+    assert done.code == 0
+    assert widest(done.out) <= 80
+    found = absorber(files.load(rig), inertia_ratio=0.15)
+    text = plain(done.out)
+    assert "an absorber on mill lowers the largest swing" in text
+    assert f"from {found.bare.peak:,.0f} to {found.best.peak:.0f} N·m".replace(",", " ") in text.replace("\u202f", " ")
+    assert "absorber.stiffness_Nm_per_rad" in done.out
+    written = (tmp_path / "better.toml").read_text("utf-8")
+    assert "# on the bench" in written
+    assert files.load(tmp_path / "better.toml") == found.drive
+    assert (tmp_path / "curves.svg").stat().st_size > 10_000
+
+
+def test_what_an_absorber_does_for_a_program(cardan, rig):
+    content = cardan("torsion", "absorber", rig, "--kind", "viscous", "--json").content
+    found = absorber(files.load(rig), kind="viscous")
+    assert content["best"]["damping_Nms_per_rad"] == found.best.damping
+    assert content["without"]["swing_Nm"] == pytest.approx(found.bare.peak)
+    assert content["best"]["swing_Nm"] < content["without"]["swing_Nm"]
+    assert content["station"] == {"number": 4, "name": "mill", "shaft": 3}
+    assert [one["name"] for one in content["stations"]][-1] == "mill"
+    rows = list(csv.DictReader(io.StringIO(cardan("torsion", "absorber", rig, "--kind", "viscous", "--csv").out)))
+    assert len(rows) == len(found.speed) == len(content["curves"]["speed_rpm"])
+    np.testing.assert_allclose([float(row["best_swing_1_Nm"]) for row in rows], found.after[:, 0], rtol=1e-9)
+
+
+def test_pendulums_and_one_speed(cardan, rig):
+    text = plain(cardan("torsion", "absorber", rig, "--kind", "pendulum", "--radius-mm", "150", "--at", "4").out)
+    assert "pendulums on mill" in text
+    assert "--kind pendulum --at 4 --radius-mm 150 -o better.toml" in text
+    text = plain(cardan("torsion", "absorber", rig, "--kind", "tuned", "--speed-rpm", "500").out)
+    assert "at 500.0 rpm an absorber without damping" in text
+    assert "It serves this speed alone" in text
+
+
+def test_a_calm_design_is_found_and_written(cardan, rig, tmp_path):
+    ask = ("torsion", "calm", rig, "--free", f"{YOKE}=-45:45", "--grid", "7")
+    done = cardan(*ask, "-o", "better.toml", "--plot", "calm.png")
+    assert done.code == 0
+    assert widest(done.out) <= 80
+    found = calm(files.load(rig), free={YOKE: (-45, 45)}, method=Grid(points=7))
+    text = plain(done.out)
+    assert "the largest swing of a torque falls from" in text
+    assert "Joint 1 stands in the node" in text
+    assert "The pushes of order 2 cancel" in text
+    written = (tmp_path / "better.toml").read_text("utf-8")
+    assert "# as found" in written
+    assert files.load(tmp_path / "better.toml") == found.drive
+    content = cardan(*ask, "--json").content
+    assert content["values"] == pytest.approx(dict(found.values))
+    assert content["reduction"] == pytest.approx(found.reduction)
+    assert content["why"] == list(found.sentences)
+    rows = list(csv.DictReader(io.StringIO(cardan(*ask, "--csv").out)))
+    np.testing.assert_allclose([float(row["speed_rpm"]) for row in rows], found.speed / rpm)
+
+
+def test_one_yoke_stands_calmest_where_it_is_and_the_file_stays(cardan, rig, tmp_path):
+    ask = ("torsion", "calm", rig, "--free", f"{YOKE}=70:90", "--grid", "2", "-o", "same.toml")
+    text = plain(cardan(*ask).out)
+    assert "nothing that may change makes it much calmer" in text
+    assert (tmp_path / "same.toml").read_text("utf-8") == RIG
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("absorber", "--kind", "magic"), "--kind: 'magic' given"),
+        (("absorber", "--at", "mil"), "the nearest is mill"),
+        (("absorber", "--ratio", "-1"), "--ratio: -1 given"),
+        (("absorber", "--element", "0"), "--element: 0 given; elements count from 1"),
+        (("absorber", "--speeds", "700:300"), "--speeds: 700:300 is empty"),
+        (("calm", "--free", "shafts[1].yoke=1:2"), "shafts[1].yoke"),
+        (("calm", "--free", "nonsense"), "--free: nonsense is no PATH=LOW:HIGH[:STEP]"),
+        (("calm", "--grid", "1"), "--grid: 1 given; at least 2"),
+    ],
+)
+def test_what_is_wrong_names_the_option(cardan, rig, arguments, said):
+    done = cardan("torsion", arguments[0], rig, *arguments[1:])
+    assert done.code == 2
+    assert said in plain(done.err)
+
+
+def test_files_that_cannot_be_written_are_refused_before_any_work(cardan, rig, tmp_path):
+    (tmp_path / "there.toml").write_text("x", encoding="utf-8")
+    for name in ("absorber", "calm"):
+        assert "--force" in cardan("torsion", name, rig, "-o", "there.toml").err
+        assert "should end in" in cardan("torsion", name, rig, "-o", "drive.txt").err
