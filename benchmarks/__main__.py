@@ -12,6 +12,7 @@ NAMES = (
     "single_drive",
     "forces",
     "synthesis",
+    "checks",
     "tolerance",
     "torsional_response",
     "mathieu_map",
