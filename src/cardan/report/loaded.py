@@ -9,9 +9,10 @@ from .assembly import straining
 from .block import Page
 from .forces import carrying
 from .losses import rubbing
+from .strength import bearing_up
 from .subject import Subject
 
-PAGES = (carrying, rubbing, erring, straining)
+PAGES = (carrying, rubbing, bearing_up, erring, straining)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
