@@ -223,6 +223,14 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
         if part:
             command = ("cardan", "strength", str(file), "--size", part)
             yield Remark(text=_("What it would take:"), command=command, tone="next")
+    left = sum(not one.judged for one in found.uses)
+    if left and found.judged:
+        text = plural(
+            "Warning: one limit could not be judged; the drive may carry less.",
+            "Warning: {count} limits could not be judged; the drive may carry less.",
+            left,
+        )
+        yield Remark(text=text.format(count=left), tone="warning")
     if found.shock_factor != 1.0:
         text = _("Torques and stresses are with the factor {shock:g} for shocks; twist and fatigue are without.")
         yield Remark(text=text.format(shock=found.shock_factor))

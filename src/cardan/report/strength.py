@@ -10,7 +10,7 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.strength import strength_figures
 from cardan.figures.wording import fixed, significant
-from cardan.texts import _
+from cardan.texts import _, plural
 from cardan.units import deg
 
 from .balance import refused
@@ -127,6 +127,13 @@ def _joints(drive: Drive, found: Strength) -> Table:
 
 
 def _notes(found: Strength) -> Iterator[str]:
+    left = sum(not one.judged for one in found.uses)
+    if left:
+        yield plural(
+            "One limit could not be judged; the drive may carry less.",
+            "{count} limits could not be judged; the drive may carry less.",
+            left,
+        ).format(count=left)
     if found.dynamic_factor > 1.02:
         text = _("Masses and friction raise the largest couple of a cross by {more} %, which the stresses leave out.")
         yield text.format(more=fixed(100.0 * (found.dynamic_factor - 1.0), 1))
