@@ -13,6 +13,7 @@ NAMES = (
     "forces",
     "critical_speeds",
     "synthesis",
+    "checks",
     "tolerance",
     "torsional_response",
     "transient",

@@ -22,6 +22,7 @@ def write(folder: Path) -> None:
         "names.md": names(),
         "checks.md": checks(),
         "examples.md": examples(),
+        "catalogue.md": rows(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -43,6 +44,45 @@ def drive_file() -> str:
     from cardan.io import reference
 
     return reference()
+
+
+SHOWN = {
+    "materials": ("id", "european", "american", "yield_strength_MPa", "ultimate_strength_MPa", "source", "confidence"),
+    "joint_types": ("id", "name", "synchronous", "max_bend_deg", "min_torque_Nm", "max_torque_Nm", "confidence"),
+    "joint_sizes": (
+        "id",
+        "type",
+        "rating.outer_mm",
+        "rating.torque_Nm",
+        "rating.max_torque_Nm",
+        "mass_kg",
+        "confidence",
+    ),
+}
+"""Keys of tables that are too wide to show whole."""
+
+
+def rows() -> str:
+    """Return one section for each table of the catalogue, with all its rows."""
+    from cardan.catalogue import TABLES, catalogue
+    from cardan.catalogue.telling import row_flat
+
+    parts = []
+    for name, kind in TABLES.items():
+        doc = (kind.__doc__ or "").strip().splitlines()[0]
+        flat = [row_flat(row) for row in catalogue().tables.get(name, {}).values()]
+        keys = SHOWN.get(name) or tuple(dict.fromkeys(key for one in flat for key in one if key != "note"))
+        lines = ["| " + " | ".join(f"`{key}`" for key in keys) + " |", "|" + "---|" * len(keys)]
+        lines += ["| " + " | ".join(_cell(one.get(key)) for key in keys) + " |" for one in flat]
+        parts.append(f"## {name}\n\n{doc}\n\n" + "\n".join(lines) + "\n")
+    return "\n".join(parts)
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return "–"
+    text = f"{value:.10g}" if isinstance(value, float) else str(value)
+    return text.replace("|", "\\|")
 
 
 def examples() -> str:

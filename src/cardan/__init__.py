@@ -77,7 +77,6 @@ _HOMES = {
     "FixedStep": "analysis.fixed_steps",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
-<<<<<<< HEAD
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
     "check": "checks.checks",
@@ -85,10 +84,8 @@ _HOMES = {
     "cured": "synthesis.change",
     "cures": "synthesis.cure",
     "most_helpful": "synthesis.cure",
-=======
     "Absorber": "synthesis.absorber",
     "absorber": "synthesis.absorber",
->>>>>>> main
     "Allocation": "synthesis.allocation",
     "allocate": "synthesis.allocation",
     "YokeAngles": "synthesis.batch",
@@ -200,17 +197,14 @@ if TYPE_CHECKING:
     from .synthesis.allocation import allocate as allocate
     from .synthesis.batch import YokeAngles as YokeAngles
     from .synthesis.batch import synchronous_yokes as synchronous_yokes
-<<<<<<< HEAD
+    from .synthesis.calm import Calm as Calm
+    from .synthesis.calm import calm as calm
+    from .synthesis.calm_search import Grid as Grid
     from .synthesis.change import Cure as Cure
     from .synthesis.change import cured as cured
     from .synthesis.cure import cures as cures
     from .synthesis.cure import most_helpful as most_helpful
-=======
-    from .synthesis.calm import Calm as Calm
-    from .synthesis.calm import calm as calm
-    from .synthesis.calm_search import Grid as Grid
     from .synthesis.evolution import Evolution as Evolution
->>>>>>> main
     from .synthesis.goal import NEAREST as NEAREST
     from .synthesis.goal import SYNCHRONOUS as SYNCHRONOUS
     from .synthesis.goal import LeastIntermediate as LeastIntermediate

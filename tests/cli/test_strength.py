@@ -13,6 +13,7 @@ from cardan.catalogue import TABLES, catalogue
 from cardan.synthesis.selection import Need, select_joint
 from cardan.synthesis.sizing import size
 from cardan.units import deg, rpm
+from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 
 DRIVE = """format = 1
@@ -60,6 +61,7 @@ def winch(drive_file):
     "command",
     [
         ("strength", "{}"),
+        ("strength", str(EXAMPLES / "truck-supports.toml")),
         ("strength", "{}", "--size", "tube"),
         ("strength", "{}", "--size", "joint"),
         ("strength", "{}", "--size", "needles:1"),

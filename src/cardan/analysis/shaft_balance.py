@@ -6,7 +6,7 @@ import cmath
 import math
 from dataclasses import dataclass, replace
 
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.drive.body import body_length, weight
 from cardan.drive.drive import Drive
@@ -172,7 +172,7 @@ def balance(
     509 g·mm, 50.3 N
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     used = whole.duty
     speeds = [abs(one) for one in (used.speed, *(block.speed for block in used.blocks)) if one]
     speeds += [] if used.speed_range is None else [used.speed_range[1]]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.drive.chain import chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -154,7 +154,7 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     tube_fatigue 0.423 1890.9
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     used = whole.duty
     cases = tuple(load_cases(used))
     if not cases:

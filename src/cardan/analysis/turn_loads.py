@@ -104,6 +104,7 @@ def turn_loads(
     torque_at: str = "output",
     harmonics: Sequence[Harmonic] = (),
     scale: ArrayLike = 0.0,
+    look: int = LOOK,
 ) -> TurnLoads:
     """Return the largest loads of the shafts and crosses of drives over a turn.
 
@@ -119,6 +120,8 @@ def turn_loads(
         Its swinging parts, in the angle of the shaft there.
     scale : float or array (...) [N·m]
         Mean torque that the harmonics belong to, and with which they grow; they do not where it is zero.
+    look : int
+        Places in half a turn at which loads are looked at.
 
     Notes
     -----
@@ -134,7 +137,7 @@ def turn_loads(
     [106.454 100.   ] [34.29  36.503]
     """
     period = 2.0 * math.pi * turns(harmonics) if harmonics else math.pi
-    places = round(LOOK * period / math.pi)
+    places = round(look * period / math.pi)
     angle = np.arange(places) * (period / places)
     found = motion(chain, angle)
     ratio, theta = found.shaft_ratio, found.joint_angle

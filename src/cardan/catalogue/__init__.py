@@ -1,7 +1,7 @@
 """Data with their sources: materials, types and sizes of joints, norms."""
 
 from .catalogue import Catalogue, catalogue, material, with_files
-from .completion import completed, shortened
+from .completion import completed, filled, shortened
 from .rows import TABLES
 
-__all__ = ["TABLES", "Catalogue", "catalogue", "completed", "material", "shortened", "with_files"]
+__all__ = ["TABLES", "Catalogue", "catalogue", "completed", "filled", "material", "shortened", "with_files"]

@@ -47,6 +47,28 @@ def completed(drive: Drive, known: Catalogue | None = None) -> Drive:
     return whole
 
 
+def filled(drive: Drive, known: Catalogue | None = None) -> Drive:
+    """Return a drive completed; one that names catalogue files stays as these filled it when it was loaded.
+
+    Parameters
+    ----------
+    drive : Drive
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Raises
+    ------
+    InputError
+        Names that the catalogue does not have, in a drive that names no files of its own.
+    """
+    try:
+        return completed(drive, known)
+    except InputError:
+        if not drive.settings.catalogues:
+            raise
+        return drive
+
+
 def shortened(drive: Drive, known: Catalogue | None = None) -> Drive:
     """Return a drive without the figures that its grades and sizes stand for: what its file says.
 

@@ -257,7 +257,7 @@ def _sizes(sizes: Sequence[SizeFit]) -> Table:
 
     rows: list[list[Cell]] = [
         [
-            _("● fits") if one.fits else _("✖ too small"),
+            _("● fits") if one.fits else _("✖ no"),
             one.row.id,
             None if one.row.rating is None or one.row.rating.outer is None else 1e3 * one.row.rating.outer,
             one.row.mass,

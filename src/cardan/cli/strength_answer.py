@@ -97,8 +97,8 @@ def _tables(drive: Drive, found: Strength) -> Iterator[Table]:
     lacking = list(_lacking(found))
     if lacking:
         columns = (
-            Column(key="missing", heading=_("key to add"), left=True),
-            Column(key="title", heading=_("what it tells"), left=True, wrap=True),
+            Column(key="title", heading=_("what it tells"), left=True),
+            Column(key="missing", heading=_("key to add"), left=True, wrap=True),
         )
         yield Table(columns=columns, rows=lacking, title=_("Could not be judged"))
 
@@ -207,7 +207,7 @@ def _lacking(found: Strength) -> Iterator[list[Cell]]:
     for members in groups.values():
         keys = ", ".join(key_of(path) for path in members[0].missing)
         several = _(" and so on") if len(members) > 1 else ""
-        yield [keys + several, members[0].title]
+        yield [members[0].title, keys + several]
 
 
 def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
@@ -223,6 +223,14 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
         if part:
             command = ("cardan", "strength", str(file), "--size", part)
             yield Remark(text=_("What it would take:"), command=command, tone="next")
+    left = sum(not one.judged for one in found.uses)
+    if left and found.judged:
+        text = plural(
+            "Warning: one limit could not be judged; the drive may carry less.",
+            "Warning: {count} limits could not be judged; the drive may carry less.",
+            left,
+        )
+        yield Remark(text=text.format(count=left), tone="warning")
     if found.shock_factor != 1.0:
         text = _("Torques and stresses are with the factor {shock:g} for shocks; twist and fatigue are without.")
         yield Remark(text=text.format(shock=found.shock_factor))

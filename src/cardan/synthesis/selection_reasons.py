@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.analysis.turn_loads import case_loads, load_cases
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize
 from cardan.checks import design
 from cardan.drive.chain import chain
@@ -100,7 +100,7 @@ def need_of(
     104.675 0.3 1.5
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     n = len(whole.joints)
     made = design(whole, known=rows)
     cases = tuple(load_cases(whole.duty))

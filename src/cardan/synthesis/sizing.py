@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -74,7 +74,7 @@ def size(
     40.089 {'shafts[1].outer_mm': 41.0} tube_fatigue
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     kind, number = _named(whole, part)
     if series not in SERIES:
         raise refuse("series", _("{value} is none of {choices}").format(value=repr(series), choices=", ".join(SERIES)))

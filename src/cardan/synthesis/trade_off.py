@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.checks import Verdict, check, design
 from cardan.drive.body import body_material
 from cardan.drive.drive import Drive
@@ -124,7 +124,7 @@ def trade_off(
     68.4 0.9 1.498 kg
     """
     rows = known or catalogue()
-    whole = completed(drive if duty is None else replace(drive, duty=duty), rows)
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     k, path = shaft - 1, f"shafts[{shaft - 1}]"
     length = known_lengths(whole).get(shaft)
     if not 0 < k < len(whole.joints):

@@ -1,0 +1,146 @@
+"""How strong the parts of the drive are, and how much torque the whole of it may carry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cardan.analysis.strength import Strength, strength
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.figures.strength import strength_figures
+from cardan.figures.wording import fixed, significant
+from cardan.texts import _, plural
+from cardan.units import deg
+
+from .balance import refused
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, key, number, of_shaft, words
+from .subject import Subject
+
+MPA = 1e6
+
+HOUR = 3600.0
+
+
+def bearing_up(on: Subject) -> Page | None:
+    """Return the page of the strength; None where the file gives no torque, or nothing that could be judged."""
+    title = _("Strength")
+    if not _loaded(on.drive):
+        return None
+    try:
+        found = strength(on.drive)
+    except InputError as error:
+        return refused("strength", title, error)
+    if not found.binding:
+        return None
+    figures = strength_figures(found)
+    blocks: list[Block] = [Picture(figure=figure) for figure in figures]
+    blocks += [_shafts(on.drive, found), _joints(on.drive, found)]
+    notes = list(_notes(found))
+    if notes:
+        blocks.append(Points(title=_("To mind"), items=notes))
+    answer = figures[0].sentence
+    alarms = [Words(text=answer, tone="failed")] if found.enough is False else []
+    return Page(name="strength", title=title, answer=answer, blocks=blocks, keys=list(_keys(found)), alarms=alarms)
+
+
+def _loaded(drive: Drive) -> bool:
+    duty = drive.duty
+    return duty.torque is not None or bool(duty.blocks) or duty.torque_history is not None
+
+
+def _keys(found: Strength) -> Iterator[list[Cell]]:
+    tone: Tone = "good" if found.enough else "failed"
+    first = found.governing
+    said = words("" if first is None else _("then {title} ends it").format(title=first.title), tone)
+    if math.isfinite(found.rated_torque):
+        yield key(_("torque rating of the whole drive"), found.rated_torque, "N·m", said)
+
+
+def _cell(value: float | None, digits: int = 4) -> Cell:
+    if value is None or math.isnan(value):
+        return words("–")
+    if math.isinf(value):
+        return words("∞")
+    return number(significant(value, digits), value)
+
+
+def _shafts(drive: Drive, found: Strength) -> Table:
+    rows = [
+        [
+            of_shaft(one.number, shaft.name),
+            _cell(one.torque),
+            _cell(one.bending),
+            _cell(None if one.stress is None else float(one.stress.torsion) / MPA),
+            _cell(None if one.stress is None else float(one.stress.bending) / MPA),
+            _cell(one.twist / deg, 3),
+            _cell(None if one.fatigue is None else float(one.fatigue.safety), 3),
+            _cell(one.fatigue_life / HOUR, 3),
+        ]
+        for one, shaft in zip(found.shafts, drive.shafts, strict=True)
+    ]
+    return Table(
+        title=_("Shafts"),
+        columns=(
+            Column(heading=_("shaft"), left=True),
+            Column(heading=_("torque"), unit="N·m"),
+            Column(heading=_("secondary couple"), unit="N·m"),
+            Column(heading=_("torsion"), unit="MPa"),
+            Column(heading=_("bending"), unit="MPa"),
+            Column(heading=_("twist"), unit="°"),
+            Column(heading=_("safety against fatigue")),
+            Column(heading=_("lasts"), unit="h"),
+        ),
+        rows=rows,
+        note=_("Torque, couple and stresses are the largest over the turn, with the factor {shock} for shocks.").format(
+            shock=fixed(found.shock_factor)
+        ),
+    )
+
+
+def _joints(drive: Drive, found: Strength) -> Table:
+    rows = [
+        [
+            words(f"{one.number} {joint.name}".strip()),
+            _cell(one.torque),
+            _cell(one.journal_force),
+            _cell(None if one.journal is None else float(one.journal.mises) / MPA),
+            _cell(None if one.yoke is None else float(one.yoke.mises) / MPA),
+            _cell(None if one.contact is None else float(one.contact.pressure) / MPA),
+            _cell(one.static_capacity),
+        ]
+        for one, joint in zip(found.joints, drive.joints, strict=True)
+    ]
+    return Table(
+        title=_("Joints"),
+        columns=(
+            Column(heading=_("joint"), left=True),
+            Column(heading=_("torque"), unit="N·m"),
+            Column(heading=_("load of a journal"), unit="N"),
+            Column(heading=_("its root"), unit="MPa"),
+            Column(heading=_("yoke"), unit="MPa"),
+            Column(heading=_("pressure on needles"), unit="MPa"),
+            Column(heading=_("static capacity"), unit="N"),
+        ),
+        rows=rows,
+    )
+
+
+def _notes(found: Strength) -> Iterator[str]:
+    left = sum(not one.judged for one in found.uses)
+    if left:
+        yield plural(
+            "One limit could not be judged; the drive may carry less.",
+            "{count} limits could not be judged; the drive may carry less.",
+            left,
+        ).format(count=left)
+    if found.dynamic_factor > 1.02:
+        text = _("Masses and friction raise the largest couple of a cross by {more} %, which the stresses leave out.")
+        yield text.format(more=fixed(100.0 * (found.dynamic_factor - 1.0), 1))
+    for one in found.shafts:
+        if one.bending > 0.0 and one.weight_bending > 0.2 * one.bending:
+            text = _("The weight of shaft {number} bends it by {moment} N·m, which the stresses leave out.")
+            yield text.format(number=one.number, moment=significant(one.weight_bending, 3))
+    if found.extrapolated:
+        which = ", ".join(map(str, found.extrapolated))
+        yield _("Shafts {which} are wider than those behind the fatigue formula.").format(which=which)
