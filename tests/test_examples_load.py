@@ -30,6 +30,7 @@ def test_all_of_them_are_there() -> None:
         *SPINDLES,
         "cured-drive",
         "pto-flywheel",
+        "pto-flywheel-absorber",
         "single-20deg",
         "six-joints",
         "three-joints-unequal",

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError
+from cardan import Drive, InputError, example
 from cardan.analysis.absorber_tuning import h_infinity
 from cardan.analysis.torsion_response import torsion_response
 from cardan.drive.duty import Duty
@@ -17,7 +17,7 @@ from cardan.drive.station import Absorber as Branch
 from cardan.drive.station import Station
 from cardan.synthesis.absorber import absorber
 from cardan.synthesis.hosts import branch_of, host_named, hosts, hung
-from cardan.units import deg
+from cardan.units import deg, rpm
 
 J, C = 0.5, 2000.0
 OWN = np.sqrt(C / J)
@@ -207,3 +207,19 @@ def test_without_a_range_the_band_lies_about_the_resonance() -> None:
     f = h_infinity(0.1).frequency_ratio
     assert found.frequency_ratio(found.closed_form) == pytest.approx(float(f), rel=1e-4)
     assert found.inertia_ratio == pytest.approx(0.1)
+
+
+def test_the_example_says_what_is_found() -> None:
+    """The comment of pto-flywheel-absorber.toml, and its numbers."""
+    plain, ringed = example("pto-flywheel"), example("pto-flywheel-absorber")
+    found = absorber(plain, inertia=0.45, speeds=(200 * rpm, 600 * rpm))
+    branch = ringed.stations[0].absorber
+    assert branch is not None
+    assert found.play
+    assert found.best.stiffness == pytest.approx(branch.stiffness, rel=0.02)
+    assert found.best.damping == pytest.approx(branch.damping, rel=0.05)
+    assert found.bare.peak == pytest.approx(4400.0, rel=0.01)
+    assert found.best.peak == pytest.approx(660.0, rel=0.01)
+    assert found.closed_form.peak == pytest.approx(720.0, rel=0.01)
+    assert np.max(found.twist) / deg == pytest.approx(5.0, abs=0.3)
+    assert np.max(found.heat) == pytest.approx(150.0, rel=0.05)
