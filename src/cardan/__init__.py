@@ -40,7 +40,7 @@ _HOMES = {
     "book_comparison": "analysis.book",
     "EquivalentJoint": "analysis.equivalence",
     "equivalent_joint": "analysis.equivalence",
-    "Forces": "analysis.forces",
+    "Forces": "analysis.drive_forces",
     "forces": "analysis.forces",
     "Extremes": "analysis.extremes",
     "extremes": "analysis.extremes",
@@ -130,12 +130,12 @@ if TYPE_CHECKING:
     from .analysis.bending import bending_speeds as bending_speeds
     from .analysis.book import BookComparison as BookComparison
     from .analysis.book import book_comparison as book_comparison
+    from .analysis.drive_forces import Forces as Forces
     from .analysis.equivalence import EquivalentJoint as EquivalentJoint
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
     from .analysis.fixed_steps import FixedStep as FixedStep
-    from .analysis.forces import Forces as Forces
     from .analysis.forces import forces as forces
     from .analysis.life import Life as Life
     from .analysis.life import life as life

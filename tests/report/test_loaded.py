@@ -34,8 +34,14 @@ WITH = {
     "overconstrained-pump": {"forces", "losses", "assembly", "bending"},
     "truck-power-unit": {"torsion"},
     "pto-flywheel": {"torsion", "bending"},
+    "pto-flywheel-absorber": {"torsion", "bending"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
+    "car-propshaft": {"bending"},
+    "composite-propshaft": {"bending"},
+    "mill-spindle": {"bending"},
+    "pto-drive": {"bending"},
+    "truck-duty-cycle": {"bending"},
 }
 """Examples with parts of their own."""
 

@@ -13,7 +13,7 @@ _MAKERS = {
     "cardan.drive.drive.Drive": "drive.drive_figures",
     "cardan.analysis.motion.Motion": "motion.motion_figures",
     "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
-    "cardan.analysis.forces.Forces": "forces.forces_figures",
+    "cardan.analysis.drive_forces.Forces": "forces.forces_figures",
     "cardan.analysis.moving_forces.MovingForces": "moving_forces.moving_forces_figures",
     "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
     "cardan.analysis.losses.Losses": "losses.losses_figures",
