@@ -34,6 +34,7 @@ WITH = {
     "overconstrained-pump": {"forces", "losses", "assembly", "bending"},
     "truck-power-unit": {"torsion"},
     "pto-flywheel": {"torsion", "bending"},
+    "pto-flywheel-absorber": {"torsion", "bending"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
 }
