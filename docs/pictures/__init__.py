@@ -12,6 +12,7 @@ MODULES = (
     "theory",
     "movements",
     "absorbers",
+    "calm",
     "parametric",
     "torsion",
     "transient",

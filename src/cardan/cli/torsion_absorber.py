@@ -181,11 +181,11 @@ def _sentence(drive: Drive, file: Path, found: Absorber) -> tuple[Tone, str]:
         "high": significant(float(found.speed[-1]) / rpm, 3),
     }
     if found.tuned_speed is not None:
-        text = _("{name}: at {speed} rpm {what} lowers the swing of the torque from {before} to {after} N·m.")
+        text = _("{name}: with {what} the torque at {speed} rpm swings by {after} N·m, not by {before} N·m.")
         text = text.format(speed=significant(found.tuned_speed / rpm), **values)
     else:
         text = _(
-            "{name}: {what} lowers the largest swing of the torque from {before} to {after} N·m, {low}–{high} rpm."
+            "{name}: with {what} the largest swing of a torque falls from {before} to {after} N·m, {low}–{high} rpm."
         )
         text = text.format(**values)
     return ("good" if found.reduction < LITTLE else "warning"), text
