@@ -195,28 +195,3 @@ def test_ranges_that_are_none_are_refused() -> None:
     with pytest.raises(InputError) as caught:
         unstable_speeds(drive(), -1.0, -2.0)
     assert [problem.field for problem in caught.value.problems] == ["lowest", "highest"]
-
-
-def test_a_drift_of_the_mean_speed_is_no_instability() -> None:
-    load = Torque(station=3, law=Constant(value=-40.0))
-    model = torsional_line(
-        [[1.5, 0.02], [0.02, 0.4]],
-        stiffness=[[4000.0], [6000.0]],
-        damping=[[1.0], [1.0]],
-        bend=[np.radians(18.0)],
-        torques=[load],
-    )
-    found = floquet(periodic_response(model, speed=75.0))
-    # left in, the drift would be 1.00003: the losses of the elements fall a little with the speed
-    assert (int(found.removed), int(found.verdict)) == (2, Verdict.STABLE)
-    assert float(found.spectral_radius) < 0.99
-
-
-def test_a_rigid_free_drive_has_nothing_to_disturb() -> None:
-    model = torsional_line(
-        [[1.5], [0.4]],
-        stiffness=[[], []],
-        bend=[np.radians(18.0)],
-        torques=[Torque(station=1, law=Constant(value=-40.0))],
-    )
-    assert int(floquet(periodic_response(model, speed=75.0)).verdict) == Verdict.NEUTRAL

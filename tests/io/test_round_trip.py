@@ -80,6 +80,11 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
     (Hooke, "type"): st.just("") | st.just("medium"),
     (Material, "grade"): st.just(""),
     (Settings, "catalogues"): st.just(()),
+    (Shaft, "finish"): st.just("machined"),
+    (Shaft, "notch"): st.none(),
+    (Shaft, "layup"): st.none(),
+    (Cross, "journal_bore"): st.just(0.0) | st.just(0.004),
+    (Hooke, "needles"): st.none(),
 }
 """Fields that name a row or a file, and names that are there."""
 

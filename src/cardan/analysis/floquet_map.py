@@ -16,7 +16,7 @@ from cardan.maths.periodic import Status
 from cardan.texts import _
 
 from .orbit import Orbit
-from .stability import Floquet, Verdict, Zone, floquet, judged, second_near, shaped, values_of
+from .stability import Floquet, Verdict, Zone, floquet, judged, shaped, values_of
 from .stability_kernel import fits, harmonics_for, mapped
 from .steady import periodic_response, speeds_of, started
 from .steady_start import straight_frequencies
@@ -211,7 +211,7 @@ class _Table:
             tangent = np.concatenate([rate, -np.sum((order**2 * coefficient).real, axis=-1)], axis=-1)
             frequencies = frequencies[:, 1:]
             coefficient = started(coefficient, part.period)
-        values, removed = _values(found.matrix[sure], tangent, second_near(part.model), threads)
+        values, removed = _values(found.matrix[sure], tangent, threads)
         nothing = np.full(len(values), np.nan)
         self.put(
             rows[sure],
@@ -242,7 +242,7 @@ class _Table:
         )
 
 
-def _values(matrix: Array, tangent: Array | None, near: float, threads: int | None) -> tuple[Array, Array]:
+def _values(matrix: Array, tangent: Array | None, threads: int | None) -> tuple[Array, Array]:
     """Return `cardan.analysis.stability.values_of` matrices, found by several threads."""
     count = len(matrix)
     values = np.empty((count, matrix.shape[-1] - (tangent is not None)), dtype=complex)
@@ -250,7 +250,7 @@ def _values(matrix: Array, tangent: Array | None, near: float, threads: int | No
 
     def work(first: int, last: int) -> None:
         some = None if tangent is None else tangent[first:last]
-        values[first:last], removed[first:last] = values_of(matrix[first:last], some, near)
+        values[first:last], removed[first:last] = values_of(matrix[first:last], some)
 
     share(work, count, threads=threads, least=64)
     return values, removed

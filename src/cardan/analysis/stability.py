@@ -14,18 +14,13 @@ from cardan.texts import _
 from .orbit import Orbit
 from .steady_result import SteadyResponse
 from .steady_start import straight_frequencies
-from .torques import Constant, Swinging
 from .torsional_balance import slopes
-from .torsional_model import TorsionalModel
 
 NEUTRAL = 1e-7
 """A multiplier this close to modulus 1 neither grows nor dies out."""
 
 LOOSE = 1e-6
 """A second multiplier of a free drive this close to 1 says that it may turn at any speed."""
-
-DRIFT = 0.05
-"""So near 1 is the multiplier of the mean speed where no torque depends on the speed and only elements damp."""
 
 FADED = 20.0
 """What has died out by e to this power over a period leaves no digits to check."""
@@ -190,8 +185,7 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
         parts.append((rows, *_multipliers(orbit, rows)))
     for row, pieces in orbit.pieces.items():
         whole, alone = pieces.monodromy[None], np.asarray([row])
-        values, gone = values_of(whole, _tangent(orbit, alone, pieces.heavy), second_near(orbit.model))
-        parts.append((alone, values, gone, np.full(1, np.nan)))
+        parts.append((alone, *values_of(whole, _tangent(orbit, alone, pieces.heavy)), np.full(1, np.nan)))
     width = max((part[1].shape[-1] for part in parts), default=0)
     multipliers = np.full((count, width), np.nan + 0j)
     removed, residual = np.zeros(count, dtype=int), np.full(count, np.nan)
@@ -200,8 +194,7 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
         multipliers[rows], removed[rows], residual[rows] = values, gone, missed
     frequencies = frequencies[:, 1:] if free else frequencies
     found = judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period)
-    empty = ~np.isfinite(multipliers).any(axis=-1)  # nothing but turning as a whole is left to disturb
-    verdict = np.where(there, np.where(empty, Verdict.NEUTRAL, found.verdict), Verdict.UNKNOWN)
+    verdict = np.where(there, found.verdict, Verdict.UNKNOWN)
     return shaped(replace(found, verdict=verdict), lead)
 
 
@@ -226,18 +219,7 @@ def _multipliers(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
     matrix = monodromy(coefficients, duration)
     residual = _liouville(coefficients, duration, matrix)
     heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
-    return *values_of(matrix, _tangent(orbit, rows, heavy), second_near(orbit.model)), residual
-
-
-def second_near(model: TorsionalModel) -> float:
-    """Return how near 1 the multiplier of a free drive's mean speed is left out.
-
-    Torques that do not depend on the speed leave it to the losses of the elements alone, which change with it a
-    little: it drifts slowly, and no vibration grows.
-    """
-    laws = (torque.law for torque in model.torques)
-    steady = all(isinstance(law, Constant | Swinging) for law in laws) and not np.any(model.ground_damping)
-    return DRIFT if steady else LOOSE
+    return *values_of(matrix, _tangent(orbit, rows, heavy)), residual
 
 
 def _tangent(orbit: Orbit, rows: Array, heavy: Array) -> Array | None:
@@ -248,7 +230,7 @@ def _tangent(orbit: Orbit, rows: Array, heavy: Array) -> Array | None:
     return np.concatenate([rate, acceleration[:, heavy]], axis=-1)
 
 
-def values_of(matrix: Array, tangent: Array | None, loose: float = LOOSE) -> tuple[Array, Array]:
+def values_of(matrix: Array, tangent: Array | None) -> tuple[Array, Array]:
     """Return the multipliers of monodromy matrices, the largest first, and how many were left out.
 
     Parameters
@@ -256,8 +238,6 @@ def values_of(matrix: Array, tangent: Array | None, loose: float = LOOSE) -> tup
     matrix : array (b, m, m)
     tangent : array (b, m), optional
         Disturbances by a shift in time, of free drives: they are left out, and a second multiplier of 1 becomes nan.
-    loose : float
-        How near 1 the second one is.
     """
     removed = np.zeros(len(matrix), dtype=int)
     if tangent is not None:
@@ -267,9 +247,9 @@ def values_of(matrix: Array, tangent: Array | None, loose: float = LOOSE) -> tup
     if tangent is not None:
         near = np.abs(values - 1.0)
         best = np.argmin(near, axis=-1)
-        second = near[np.arange(len(matrix)), best] < loose
-        values[np.flatnonzero(second), best[second]] = np.nan
-        removed += second
+        loose = near[np.arange(len(matrix)), best] < LOOSE
+        values[np.flatnonzero(loose), best[loose]] = np.nan
+        removed += loose
     size = np.where(np.isfinite(values), np.abs(values), -1.0)
     return np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1), removed
 
