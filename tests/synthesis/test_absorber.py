@@ -118,7 +118,8 @@ def test_pendulums_follow_the_speed() -> None:
     hung_there = found.station.pendulum
     assert hung_there is not None
     assert hung_there.count == 2
-    assert 2 * hung_there.mass * (0.15 + hung_there.length) ** 2 == pytest.approx(found.best.inertia)
+    inertia = 2 * hung_there.mass * (0.15 + hung_there.length) ** 2
+    assert inertia == pytest.approx(found.best.inertia, rel=1e-4)  # the mass is rounded
     assert found.closed_form.arm == pytest.approx(0.15 / 4)
     assert found.best.peak < 0.2 * found.bare.peak
     again = torsion_response(found.drive, speed=found.speed[::23])

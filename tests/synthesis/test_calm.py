@@ -185,3 +185,19 @@ def test_steps_end_at_the_last_that_fits() -> None:
     free = Free(path="a", low=0.0, high=10.0, step=3.0, built=0.0)
     assert [free.value(x) for x in (0.0, 0.14, 0.16, 1.0)] == [0.0, 0.0, 3.0, 9.0]
     np.testing.assert_allclose(free.places(99), [0.0, 0.3, 0.6, 0.9])
+
+
+def test_what_swings_in_no_way_has_no_calm_design() -> None:
+    straight = replace(DRIVE, joints=tuple(replace(one, bend=0.0) for one in DRIVE.joints))
+    with pytest.raises(InputError, match="nothing swings in this band"):
+        calm(straight, free=FREE)
+
+
+def test_stations_that_meet_are_no_design() -> None:
+    """Two discs on one shaft: where one reaches the other the line has a station less."""
+    tube = replace(DRIVE.shafts[1], length=1.0)
+    discs = (Station(shaft=2, position=0.3, inertia=0.1), Station(shaft=2, position=0.5, inertia=0.1))
+    drive = replace(DRIVE, shafts=(DRIVE.shafts[0], tube, DRIVE.shafts[2]), stations=(*DRIVE.stations, *discs))
+    found = calm(drive, free={"stations[1].position_mm": (100.0, 900.0)}, method=Grid(points=5))
+    assert found.infeasible == 1
+    assert found.peak_after.torque < found.peak_before.torque

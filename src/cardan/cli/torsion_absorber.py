@@ -183,6 +183,11 @@ def _sentence(drive: Drive, file: Path, found: Absorber) -> tuple[Tone, str]:
     if found.tuned_speed is not None:
         text = _("{name}: with {what} the torque at {speed} rpm swings by {after} N·m, not by {before} N·m.")
         text = text.format(speed=significant(found.tuned_speed / rpm), **values)
+    elif found.reduction > LITTLE:
+        text = _(
+            "{name}: {what} does little here: torques swing by {after} N·m, by {before} N·m without, {low}–{high} rpm."
+        )
+        text = text.format(**values)
     else:
         text = _(
             "{name}: with {what} the largest swing of a torque falls from {before} to {after} N·m, {low}–{high} rpm."
@@ -278,6 +283,8 @@ def _remarks(file: Path, found: Absorber, given: tuple[str, ...]) -> Iterator[Re
             speed=significant(found.omega / found.order / rpm, 3),
         )
     )
+    if found.tuned_speed is None and not found.speed[0] <= found.omega / found.order <= found.speed[-1]:
+        yield Remark(text=_("Warning: no resonance lies in this band; this one is the nearest."), tone="warning")
     swing, torque = float(np.nanmax(found.twist)) / deg, float(np.nanmax(found.torque))
     if found.kind == "pendulum":
         text = _("The pendulums swing by ± {swing}° at most and pull with ± {torque} N·m.")

@@ -20,7 +20,7 @@ from .absorber_choice import KINDS as KINDS
 from .absorber_choice import closed_form, meeting, mode_problems, problems, served, still
 from .absorber_curves import Curves
 from .absorber_search import Setting, Settings, Task, highest, rounded
-from .band import band_speeds, excited, fine_speeds, lines, wanted_band
+from .band import band_speeds, check_swings, excited, fine_speeds, lines, wanted_band
 from .hosts import Host, host_named, hosts
 from .least_swing import LeastSwing, Stopped, Watched
 
@@ -254,6 +254,7 @@ def absorber(
     start = bare.swings(searched[None])
     watch.share(WATCHED[0])
     worst, at, _element = highest(start.swing, searched, judged)
+    check_swings(worst)
     serves = served(kind, asked.duty, band, single, at)
     task = Task(
         drive=asked,

@@ -164,6 +164,7 @@ class Settings:
     def __init__(self, task: Task, bare: float) -> None:
         self.task, self.lost = task, LOST * bare
         self.line, self.element = task.line(task.closed_form)
+        self._known: tuple[Array, TorsionalModel] | None = None
 
     @property
     def start(self) -> Array:
@@ -179,7 +180,9 @@ class Settings:
     def _models(self, places: Array, speed: Array) -> TorsionalModel:
         """Return the drives of places (D, v) at speeds (S,), in one axis (D·S,)."""
         width, count = len(speed), len(places)
-        model = chosen(self.line.at(speed[None]), (width,), np.tile(np.arange(width), count), moments=False)
+        if self._known is None or not np.array_equal(self._known[0], speed):
+            self._known = speed, self.line.at(speed[None])
+        model = chosen(self._known[1], (width,), np.tile(np.arange(width), count), moments=False)
         reach, middle = np.asarray(self.task.ranges), self.task.closed_form
         factor = np.repeat(reach ** (2.0 * places - 1.0), width, axis=0)
         stiffness, damping = model.stiffness.copy(), model.damping.copy()

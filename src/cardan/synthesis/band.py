@@ -262,6 +262,13 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
     return worst
 
 
+def check_swings(peak: float) -> None:
+    """Refuse a drive whose torques do not swing in the band."""
+    if not peak > STILL:
+        text = _("nothing swings in this band: the joints are straight, and no engine or torque has orders")
+        raise refuse("duty.speed_range", text)
+
+
 def wanted_band(duty: Duty, speeds: tuple[float, float] | None) -> tuple[float, float] | None:
     """Return lowest and highest speed of a band: as asked, else the range or the speed of the duty; None without."""
     if speeds is not None:
@@ -276,6 +283,9 @@ def wanted_band(duty: Duty, speeds: tuple[float, float] | None) -> tuple[float, 
         raise refuse("speeds", _("a band of speeds above 0 is needed"))
     return max(low, LOWEST * high), high
 
+
+STILL = 1e-9
+"""Torque [N·m] that counts as none."""
 
 LOWEST = 0.02
 """Share of the highest speed below which a band does not reach: nothing vibrates at standstill."""

@@ -226,7 +226,7 @@ def calm(
     chosen = designs.drive_at(best, made=True) if np.isfinite(found.cost) else asked
     chosen = asked if chosen is None else chosen
     curves = Curves(designs, chosen)
-    if curves.peaks[1].torque >= curves.peaks[0].torque and not curves.unstable[0].size:  # as built it runs calmest
+    if not curves.calmer:  # as built it runs calmest
         chosen, best = asked, None
         curves = Curves(designs, chosen)
     if progress is not None and not stopped:

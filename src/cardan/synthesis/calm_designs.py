@@ -16,8 +16,8 @@ from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .absorber_search import rounded
-from .band import Lines, band_speeds, built, excited, growth, lines, train_at
+from .absorber_search import highest, rounded
+from .band import Lines, band_speeds, built, check_swings, excited, growth, lines, train_at
 
 TURN = 90.0
 """How far yokes may turn either way where nothing else is said [°]: beyond, they stand as before."""
@@ -160,11 +160,13 @@ class Designs:
         self.middle = 0.5 * (band[0] + band[1])
         self.built = lines([drive], self.middle)
         self.elements = self.built.elements if elements is None else elements
+        self.count = len(self.built.trains[0].model.elements)
         self.orders = excited(drive, drive.duty)
         self.infeasible = 0
         self.asked = 0
         speed = self.speeds(self.built)
-        self.peak = self._peaks(self.built.swings(speed), 1, 1.0)[0]
+        self.peak = highest(self.built.swings(speed).swing, speed[0], self.elements)[0]
+        check_swings(self.peak)
 
     @property
     def start(self) -> Array:
@@ -192,13 +194,13 @@ class Designs:
         for k, at in enumerate(places):
             drive = self.drive_at(at)
             try:
-                if drive is not None:
-                    train = train_at(drive, self.middle)
-                    found.setdefault(built(train), []).append((k, drive, train))
-                    continue
+                train = None if drive is None else train_at(drive, self.middle)
             except InputError:
-                pass
-            self.infeasible += 1
+                train = None
+            if drive is None or train is None or len(train.model.elements) != self.count:  # stations that meet are one
+                self.infeasible += 1
+                continue
+            found.setdefault(built(train), []).append((k, drive, train))
         for members in found.values():
             rows, drives, trains = zip(*members, strict=True)
             yield np.asarray(rows), Lines(drives=drives, trains=trains, speed=self.middle)

@@ -159,6 +159,16 @@ class Curves:
         self.swing = [found.swing[:, line.elements] for found, line in zip(runs, both, strict=True)]
         self.peaks = [_peak(one, self.speed, designs.elements) for one in self.swing]
         self.unstable = [unstable_speeds(found, line.omega, self.speed) for found, line in zip(runs, both, strict=True)]
+        self.lost = [int(np.sum(~found.found)) for found in runs]
+
+    @property
+    def calmer(self) -> bool:
+        """Whether the other drive runs calmer than the one as built: by stability, by motions found, by its peak."""
+        before, after = (
+            (bool(grown.size), lost, peak.torque)
+            for grown, lost, peak in zip(self.unstable, self.lost, self.peaks, strict=True)
+        )
+        return after < before
 
 
 def _peak(swing: Array, speed: Array, elements: Array) -> Peak:
