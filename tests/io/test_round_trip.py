@@ -79,6 +79,7 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
     (Hooke, "size"): st.just(""),
     (Hooke, "type"): st.just("") | st.just("medium"),
     (Material, "grade"): st.just(""),
+    (Material, "yield_strength"): st.none(),
     (Settings, "catalogues"): st.just(()),
     (Shaft, "finish"): st.just("machined"),
     (Shaft, "notch"): st.none(),
