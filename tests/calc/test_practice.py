@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 from cardan.analysis.angle_limits import angle_limits
-from cardan.calc.practice import CALCULATIONS
+from cardan.calc import calc
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair
 from cardan.errors import InputError
 from cardan.synthesis.selection import Need, select_joint
-
-NAMED = {one.name: one for one in CALCULATIONS}
 
 
 def test_the_printed_table_of_angles_follows_its_law_to_one_digit() -> None:
@@ -41,15 +39,15 @@ def test_the_exact_acceleration_is_the_largest_over_a_turn(phased: bool) -> None
 
 
 def test_limits_are_inclusive() -> None:
-    assert NAMED["angle_rule_6_1p5"]({"theta1_deg": 4.5, "theta2_deg": 6.0})["ok"]
-    assert NAMED["accuracy_check"]({"part": "cross", "coaxiality_mm": 0.05})["ok"]
-    assert NAMED["lubrication_due"]({"item": "needle_bearings", "hours": 250.0, "severe": True})["by"] == ["hours"]
-    assert NAMED["balance_norm_book"]({"vehicle_class": "gaz_66", "unbalance_Ncm": 0.5})["ok"]
+    assert calc("angle_rule_6_1p5", {"theta1_deg": 4.5, "theta2_deg": 6.0})["ok"]
+    assert calc("accuracy_check", {"part": "cross", "coaxiality_mm": 0.05})["ok"]
+    assert calc("lubrication_due", {"item": "needle_bearings", "hours": 250.0, "severe": True})["by"] == ["hours"]
+    assert calc("balance_norm_book", {"vehicle_class": "gaz_66", "unbalance_Ncm": 0.5})["ok"]
 
 
 def test_a_measure_of_the_other_part_is_refused() -> None:
     with pytest.raises(InputError, match="no measure of a cross"):
-        NAMED["accuracy_check"]({"part": "cross", "coaxiality_mm": 0.05, "axis_offset_mm": 0.1})
+        calc("accuracy_check", {"part": "cross", "coaxiality_mm": 0.05, "axis_offset_mm": 0.1})
 
 
 def test_every_type_is_judged_once_and_says_why() -> None:

@@ -138,3 +138,9 @@ def test_the_thrust_alone_is_that_in_the_joint():
     joint = calc("spline_axial_force", {"alpha_deg": 12, "phi1_deg": 30, "M2_Nm": 400, "mu": 0.1, "d_spline_m": 0.04})
     alone = calc("spline_axial_force", {"torque_Nm": 400, "friction": 0.1, "d_m_mm": 40})
     assert joint["T_N"] == pytest.approx(alone["axial_force_N"], rel=1e-12) == pytest.approx(2 * 0.1 * 400 / 0.04)
+
+
+def test_a_bore_too_wide_is_named_as_it_was_given():
+    segment = {"length_m": 1.0, "d_out_m": 0.05, "d_in_m": 0.06}
+    found = refused("shaft_twist", {"torque_Nm": 1.0, "G_GPa": 80.0, "segments": [segment]})
+    assert found == {("segments[0].d_in_m", "out_of_range")}

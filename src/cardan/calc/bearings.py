@@ -8,8 +8,8 @@ from cardan.analysis.needle_bearing import book_load, critical_swing, needle_con
 from cardan.analysis.single_joint_forces import cross_loads
 from cardan.texts import _
 
-from .calculation import Calculation, Values, given, gives
-from .life import ARM, BEND, SIDE, WARNINGS, at_least_zero, positive, said
+from .calculation import Calculation, Values, at_least_zero, given, gives, positive
+from .life import ARM, BEND, SIDE, WARNINGS, said
 
 NEEDLES = given("needles", _("number of needles in a bearing"), kind="whole", above=0.0)
 NEEDLE = positive("needle_d_mm", _("diameter of a needle"), "length")

@@ -11,10 +11,21 @@ import numpy as np
 
 from cardan.errors import InputError, Problem, check
 
-from .keys import Given, Gives, Values, given, gives, record, rows
+from .keys import Given, Gives, Values, at_least_zero, given, gives, positive, record, rows
 from .reading import read
 
-__all__ = ["Calculation", "Given", "Gives", "Values", "given", "gives", "record", "rows"]
+__all__ = [
+    "Calculation",
+    "Given",
+    "Gives",
+    "Values",
+    "at_least_zero",
+    "given",
+    "gives",
+    "positive",
+    "record",
+    "rows",
+]
 
 PYTHON = {
     "bend": ("alpha",),

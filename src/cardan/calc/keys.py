@@ -142,6 +142,16 @@ def given(
     return Given(key=key, meaning=meaning, kind=kind, axes=axes, width=width, default=default, entries=entries)
 
 
+def positive(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+    """Declare an input above zero."""
+    return given(key, doc, dimension, above=0.0, **options)
+
+
+def at_least_zero(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
+    """Declare an input that is not negative."""
+    return given(key, doc, dimension, low=0.0, **options)
+
+
 def rows(
     key: str,
     doc: str,

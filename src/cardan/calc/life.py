@@ -25,7 +25,7 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .calculation import Calculation, Given, Values, given, gives, rows
+from .calculation import Calculation, Values, at_least_zero, given, gives, positive, rows
 from .kinematics import RIGHT
 
 HOUR = 3600.0
@@ -34,16 +34,6 @@ SLACK = 1e-12
 """What sums of decimal fractions may be off."""
 
 WARNINGS = gives("warnings", _("what to mind, in alphabetical order"))
-
-
-def positive(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
-    """Declare an input above zero."""
-    return given(key, doc, dimension, above=0.0, **options)
-
-
-def at_least_zero(key: str, doc: str, dimension: str | None = None) -> Given:
-    """Declare an input that is not negative."""
-    return given(key, doc, dimension, low=0.0)
 
 
 CAPACITY = positive("C_N", _("dynamic capacity of one bearing"), "force")

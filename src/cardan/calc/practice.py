@@ -1,26 +1,21 @@
-"""Calculations of practice: joint angles, balance, accuracy of parts, layout, upkeep, materials, types of joints."""
+"""Calculations of practice: balance, accuracy of parts, layout, upkeep, materials, types of joints."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
 
-from cardan.analysis.angle_limits import TABLE_INERTIA, angle_limits, broken_rules, compound_angle
 from cardan.analysis.balance import allowed_unbalance
 from cardan.analysis.upkeep import lubrication_shares, shaft_sections
 from cardan.catalogue import catalogue
-from cardan.catalogue.rows import AnglePair, BalanceNorm, Lubrication, PartLimit, SpeedAngleLimit
+from cardan.catalogue.rows import BalanceNorm, Lubrication, PartLimit
 from cardan.errors import Problem
 from cardan.synthesis.selection import Need, select_joint
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
-from .calculation import Calculation, Given, Values, given, gives
-from .kinematics import RIGHT
-from .strength import at_least_zero, positive
-
-SLACK = 1e-12
-"""A measure may exceed its limit by this share: what is left of rounding."""
+from .angles import SLACK, angle
+from .calculation import Calculation, Values, at_least_zero, given, gives, positive
 
 MEASURES = {
     "yoke": {
@@ -36,64 +31,6 @@ MEASURES = {
     },
 }
 """Part -> row of its limits -> key of the measure."""
-
-
-def _angle(key: str, doc: str) -> Given:
-    return given(key, doc, "angle", low=0.0, below=RIGHT)
-
-
-def _limits(values: Values) -> Values:
-    found = angle_limits(
-        values["speed"],
-        values["theta1"],
-        values["theta2"],
-        phased=values["phased"],
-        torsional=values["limit_torsional"],
-    )
-    return {
-        "theta_residual_deg": found.residual,
-        "torsional_rad_s2": found.torsional,
-        "inertia_drive_rad_s2": found.inertia_drive,
-        "inertia_coast_rad_s2": found.inertia_coast,
-        "torsional_exact_rad_s2": found.torsional_exact,
-        "theta2_min_deg": found.least,
-        "theta2_max_deg": found.most,
-    }
-
-
-def _table(values: Values) -> Values:
-    found = angle_limits(values["speed"], values["theta1"], values["theta1"])
-    speeds = [row.speed for row in catalogue().rows(AnglePair).values()]
-    warnings = []
-    if not min(speeds) - 1e-9 <= values["speed"] <= max(speeds) + 1e-9:
-        warnings.append("extrapolated")
-    if values["speed"] ** 2 * found.most**2 > TABLE_INERTIA:
-        warnings.append("inertia_limit")
-    return {"theta2_max_deg": found.most, "warnings": warnings}
-
-
-def _rule(values: Values) -> Values:
-    broken = broken_rules(values["theta1"], values["theta2"])
-    return {"ok": not broken, "violated": list(broken)}
-
-
-def _product(values: Values) -> Values:
-    row = catalogue().rows(SpeedAngleLimit)[values["joint"]]
-    product = values["speed"] * values["alpha"]
-    violated = ["n_alpha"] if product > row.max_speed_angle * (1.0 + SLACK) else []
-    if row.max_speed is not None and values["speed"] > row.max_speed * (1.0 + SLACK):
-        violated.append("speed")
-    return {
-        "n_alpha_rpm_deg": product,
-        "limit_rpm_deg": row.max_speed_angle,
-        "ok": not violated,
-        "violated": violated,
-    }
-
-
-def _compound(values: Values) -> Values:
-    exact, small = compound_angle(values["top_view"], values["side_view"])
-    return {"angle_deg": exact, "angle_small_deg": small}
 
 
 def _balance(values: Values) -> Values:
@@ -115,11 +52,8 @@ def _convert(values: Values) -> Values:
 
 
 def _norm(values: Values) -> Values:
-    row = catalogue().rows(BalanceNorm)[values["vehicle_class"]]
-    return {
-        "ok": values["unbalance"] <= row.max_unbalance * (1.0 + SLACK),
-        "limit_Ncm": row.max_unbalance / DIMENSIONS["unbalance"]["N_cm"],
-    }
+    limit = catalogue().rows(BalanceNorm)[values["vehicle_class"]].max_unbalance / DIMENSIONS["unbalance"]["N_cm"]
+    return {"ok": values["unbalance_Ncm"] <= limit * (1.0 + SLACK), "limit_Ncm": limit}
 
 
 def _accuracy(values: Values) -> Values:
@@ -226,81 +160,6 @@ MEASURE = {
 
 CALCULATIONS = (
     Calculation(
-        name="joint_angle_limits",
-        doc=_("angular accelerations of two joints, and the second angle that keeps the torsional limit"),
-        source=_("small angles as in shop practice, and exactly by the equivalent joint"),
-        takes=(
-            positive("speed_rpm", _("input speed"), "angular_speed"),
-            _angle("theta1_deg", _("angle of joint 1")),
-            _angle("theta2_deg", _("angle of joint 2")),
-            given("phased", _("whether the joints are set to cancel"), kind="flag", default=True),
-            positive("limit_torsional_rad_s2", _("largest acceleration"), "angular_acceleration", default=400.0),
-        ),
-        returns=(
-            gives("theta_residual_deg", _("angle of one joint as uneven"), "angle"),
-            gives("torsional_rad_s2", _("acceleration of the output"), "angular_acceleration"),
-            gives("inertia_drive_rad_s2", _("of the middle shaft when driving"), "angular_acceleration"),
-            gives("inertia_coast_rad_s2", _("of the middle shaft when coasting"), "angular_acceleration"),
-            gives("torsional_exact_rad_s2", _("acceleration of the output, exact"), "angular_acceleration"),
-            gives("theta2_min_deg", _("smallest second angle"), "angle"),
-            gives("theta2_max_deg", _("largest second angle; none where none keeps the limit"), "angle"),
-        ),
-        answer=_limits,
-    ),
-    Calculation(
-        name="joint_angle_table",
-        doc=_("largest second angle beside a first one, the articles' table as a formula"),
-        source=_("θ_2 = √(θ_1² + 400/ω²), which gives the table of the web articles, section 26.1, to one digit"),
-        takes=(
-            positive("speed_rpm", _("input speed"), "angular_speed"),
-            _angle("theta1_deg", _("angle of joint 1")),
-        ),
-        returns=(
-            gives("theta2_max_deg", _("largest angle of joint 2"), "angle"),
-            gives("warnings", _("extrapolated: not a speed of the table; inertia_limit: beyond its rows")),
-        ),
-        answer=_table,
-    ),
-    Calculation(
-        name="angle_rule_6_1p5",
-        doc=_("whether two angles keep the rule of 6° each and 1.5° difference"),
-        source=_("web articles on drive shafts"),
-        takes=(_angle("theta1_deg", _("angle of joint 1")), _angle("theta2_deg", _("angle of joint 2"))),
-        returns=(gives("ok", _("whether they do")), gives("violated", _("angle, difference"))),
-        answer=_rule,
-    ),
-    Calculation(
-        name="speed_angle_product",
-        doc=_("product of speed and bend against the limit of a joint"),
-        source=_("Book pp. 64-65 for ball joints; Dana catalogue for its sizes"),
-        takes=(
-            positive("speed_rpm", _("speed"), "angular_speed"),
-            _angle("alpha_deg", _("bend")),
-            given("joint", _("row of the catalogue"), kind="word", choices=tuple(catalogue().rows(SpeedAngleLimit))),
-        ),
-        returns=(
-            gives("n_alpha_rpm_deg", _("product"), "speed_angle"),
-            gives("limit_rpm_deg", _("its limit"), "speed_angle"),
-            gives("ok", _("whether speed and product keep their limits")),
-            gives("violated", _("n_alpha, speed")),
-        ),
-        answer=_product,
-    ),
-    Calculation(
-        name="compound_angle",
-        doc=_("angle between two shafts from its top and side view"),
-        source=_("tan θ = √(tan²T + tan²S)"),
-        takes=(
-            given("top_view_deg", _("angle in the top view"), "angle", above=-RIGHT, below=RIGHT),
-            given("side_view_deg", _("angle in the side view"), "angle", above=-RIGHT, below=RIGHT),
-        ),
-        returns=(
-            gives("angle_deg", _("exact"), "angle"),
-            gives("angle_small_deg", _("by the shop's formula √(T² + S²)"), "angle"),
-        ),
-        answer=_compound,
-    ),
-    Calculation(
         name="balance",
         doc=_("unbalance that a balance grade allows"),
         source="ISO 21940-11",
@@ -337,7 +196,7 @@ CALCULATIONS = (
             at_least_zero("unbalance_Ncm", _("unbalance [N cm]")),
         ),
         returns=(gives("ok", _("whether it does")), gives("limit_Ncm", _("the norm [N cm]"))),
-        answer=lambda values: _norm({**values, "unbalance": values["unbalance_Ncm"] * DIMENSIONS["unbalance"]["N_cm"]}),
+        answer=_norm,
     ),
     Calculation(
         name="accuracy_check",
@@ -408,7 +267,7 @@ CALCULATIONS = (
         source=_("catalogue of types; Book, chapter 1"),
         takes=(
             positive("torque_Nm", _("torque"), "torque"),
-            _angle("angle_deg", _("bend of the joint")),
+            angle("angle_deg", _("bend of the joint")),
             at_least_zero("speed_rpm", _("speed"), "angular_speed"),
             given("synchronous", _("whether the output must turn evenly"), kind="flag", default=False),
             positive("service_factor", _("factor on the torque"), default=1.0),

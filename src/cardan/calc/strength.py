@@ -1,10 +1,9 @@
-"""Calculations of strength: design torque, shafts, splines, yokes, journals, fatigue, tubes of composite."""
+"""Calculations of the strength of shafts: design torque, stress, diameter, twist, fatigue, tubes of composite."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -13,38 +12,12 @@ from cardan.analysis.composite_tube import composite_tube
 from cardan.analysis.critical_speed import uniform_speed
 from cardan.analysis.design_torque import design_torque, wheel_load
 from cardan.analysis.fatigue import FINISHES, RELIABILITIES, shaft_fatigue
-from cardan.analysis.joint_strength import journal_stress, yoke_stress
 from cardan.analysis.shaft_strength import RATED_TWIST, shaft_diameter, shaft_stress, shaft_twist
-from cardan.analysis.spline_strength import spline_stress
 from cardan.drive.shaft import Layup, Ply
-from cardan.drive.train import spline_grip
 from cardan.errors import Problem
 from cardan.texts import _
 
-from .calculation import Calculation, Given, Values, given, gives, record, rows
-from .joint_forces import SPLINE_THRUST
-
-
-def positive(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
-    """Declare an input above zero."""
-    return given(key, doc, dimension, above=0.0, **options)
-
-
-def at_least_zero(key: str, doc: str, dimension: str | None = None, **options: Any) -> Given:
-    """Declare an input that is not negative."""
-    return given(key, doc, dimension, low=0.0, **options)
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Forms(Calculation):
-    """A calculation that is asked in several ways, told apart by the keys given."""
-
-    forms: tuple[Calculation, ...]
-
-    def __call__(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the answer of the form that knows most of the keys, the first one of equals."""
-        known = [sum(item.key in inputs for item in form.takes) for form in self.forms]
-        return self.forms[known.index(max(known))](inputs)
+from .calculation import Calculation, Values, at_least_zero, given, gives, positive, rows
 
 
 def bores(outer: str, inner: str) -> Callable[[Values, Callable[[str], str]], Iterator[Problem]]:
@@ -115,66 +88,7 @@ def segment_problems(values: Values, key: Callable[[str], str]) -> Iterator[Prob
     if segments is not None and not segments:
         yield Problem(key("segments"), _("empty; a shaft has at least one segment"), "empty")
     for k, row in enumerate(segments or ()):
-        for problem in bores("d_out", "d_in")(row, lambda name: name):
-            yield Problem(f"{key('segments')}[{k}].{problem.field}_mm", problem.message, problem.code)
-
-
-def _spline(values: Values) -> Values:
-    found = spline_stress(
-        values["torque"],
-        outer=values["D"],
-        root=values["d"],
-        teeth=values["teeth"],
-        tooth_width=values["tooth_width"],
-        length=values["length"],
-        chamfer=values["chamfer"],
-        load_share=values["load_share"],
-    )
-    return {
-        "d_m_mm": found.mean_diameter,
-        "h_mm": found.height,
-        "sigma_crush_MPa": found.pressure,
-        "tau_tooth_MPa": found.tooth_shear,
-        "tau_core_MPa": found.core_shear,
-    }
-
-
-def _flanks(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    wrong = list(bores("D", "d")(values, key))
-    yield from wrong
-    if wrong or not {"D", "d", "chamfer"} <= values.keys():
-        return
-    if 0.5 * (values["D"] - values["d"]) <= 2.0 * values["chamfer"]:
-        text = _("{chamfer:.6g} mm leaves no height of the flanks: (D - d)/2 - 2c must be more than 0")
-        yield Problem(key("chamfer"), text.format(chamfer=1e3 * values["chamfer"]), "out_of_range")
-
-
-def _thrust(values: Values) -> Values:
-    return {
-        "axial_force_N": spline_grip(values["friction"], values["d_m"], values["pressure_angle"]) * values["torque"]
-    }
-
-
-SHAPES = {"rect": "rectangle", "ellipse": "ellipse"}
-
-
-def _yoke(values: Values) -> Values:
-    section = values["section"]
-    found = yoke_stress(
-        values["journal_force"],
-        bending_arm=values["bending_arm"],
-        torsion_arm=values["torsion_arm"],
-        height=section["height"],
-        width=section["width"],
-        shape=SHAPES[section["shape"]],
-    )
-    return {"sigma_bending_MPa": found.bending, "tau_torsion_MPa": found.shear, "sigma_mises_MPa": found.mises}
-
-
-def _journal(values: Values) -> Values:
-    arm = 0.5 * values["length"] if values["arm"] is None else values["arm"]
-    found = journal_stress(values["journal_force"], diameter=values["d"], arm=arm, bore=values["bore"])
-    return {"sigma_bending_MPa": found.bending, "tau_mean_MPa": found.mean_shear, "tau_max_MPa": found.shear}
+        yield from bores("d_out", "d_in")(row, lambda name, k=k: key(f"segments[{k}].{name}"))  # type: ignore[misc]
 
 
 def _fatigue(values: Values) -> Values:
@@ -255,7 +169,6 @@ SEGMENT = (
 )
 OUTER = positive("d_out_mm", _("outer diameter"), "length")
 INNER = at_least_zero("d_in_mm", _("inner diameter"), "length", default=0.0)
-FORCE = at_least_zero("journal_force_N", _("force on a journal"), "force")
 
 CALCULATIONS = (
     Calculation(
@@ -342,72 +255,6 @@ CALCULATIONS = (
         check=segment_problems,
     ),
     Calculation(
-        name="spline",
-        doc=_("stresses of a straight-sided spline"),
-        source=_("Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter"),
-        takes=(
-            positive("D_mm", _("outer diameter"), "length"),
-            positive("d_mm", _("root diameter"), "length"),
-            positive("teeth", _("number of teeth"), kind="whole"),
-            positive("tooth_width_mm", _("width of a tooth"), "length"),
-            positive("length_mm", _("length of the teeth"), "length"),
-            TORQUE,
-            at_least_zero("chamfer_mm", _("chamfer"), "length", default=0.0),
-            positive("load_share", _("share of the teeth that carry"), default=0.75, high=1.0),
-        ),
-        returns=(
-            gives("d_m_mm", _("mean diameter"), "length"),
-            gives("h_mm", _("height of the flanks that bear"), "length"),
-            gives("sigma_crush_MPa", _("pressure on the flanks"), "stress"),
-            gives("tau_tooth_MPa", _("shear at the roots of the teeth"), "stress"),
-            gives("tau_core_MPa", _("torsion at the root diameter"), "stress"),
-        ),
-        answer=_spline,
-        check=_flanks,
-    ),
-    Calculation(
-        name="yoke",
-        doc=_("stresses of the arm of a yoke"),
-        source=_("Book (263); Saint-Venant's torsion"),
-        takes=(
-            FORCE,
-            at_least_zero("bending_arm_mm", _("arm of the force for bending"), "length"),
-            at_least_zero("torsion_arm_mm", _("arm of the force for torsion"), "length"),
-            record(
-                "section",
-                _("weakest section"),
-                given("shape", _("shape of the section"), kind="word", choices=tuple(SHAPES)),
-                positive("height_mm", _("height along the force"), "length"),
-                positive("width_mm", _("width across the force"), "length"),
-            ),
-        ),
-        returns=(
-            gives("sigma_bending_MPa", _("bending stress"), "stress"),
-            gives("tau_torsion_MPa", _("shear stress of torsion"), "stress"),
-            gives("sigma_mises_MPa", _("equivalent stress by von Mises"), "stress"),
-        ),
-        answer=_yoke,
-    ),
-    Calculation(
-        name="journal",
-        doc=_("stresses at the root of a journal of the cross"),
-        source="Book (264), (265), with the grease bore",
-        takes=(
-            FORCE,
-            positive("length_mm", _("length of the journal"), "length"),
-            positive("d_mm", _("diameter"), "length"),
-            at_least_zero("bore_mm", _("diameter of the grease bore"), "length", default=0.0),
-            at_least_zero("arm_mm", _("arm of the force; half the length when not given"), "length", default=None),
-        ),
-        returns=(
-            gives("sigma_bending_MPa", _("bending stress"), "stress"),
-            gives("tau_mean_MPa", _("mean shear stress"), "stress"),
-            gives("tau_max_MPa", _("largest shear stress"), "stress"),
-        ),
-        answer=_journal,
-        check=bores("d", "bore"),
-    ),
-    Calculation(
         name="fatigue",
         doc=_("fatigue of a shaft under swinging torque and turning bending"),
         source=_("Goodman with Marin's factors, Shigley, chapter 6"),
@@ -467,42 +314,6 @@ CALCULATIONS = (
         ),
         answer=_composite,
         check=_plies,
-    ),
-    Forms(
-        name="spline_axial_force",
-        doc=_("friction thrust of a spline: its parts in the joint, or the thrust alone"),
-        source=SPLINE_THRUST.source,
-        takes=(
-            *SPLINE_THRUST.takes,
-            *(
-                thrust_keys := (
-                    at_least_zero("torque_Nm", _("torque at the spline, for the thrust alone"), "torque"),
-                    positive("d_m_mm", _("its mean diameter"), "length"),
-                    at_least_zero("friction", _("its coefficient of friction")),
-                    given(
-                        "pressure_angle_deg",
-                        _("pressure angle of its teeth"),
-                        "angle",
-                        default=0.0,
-                        low=0.0,
-                        below=0.5 * math.pi,
-                    ),
-                )
-            ),
-        ),
-        returns=(*SPLINE_THRUST.returns, gives("axial_force_N", _("friction thrust"), "force")),
-        answer=dict,
-        forms=(
-            SPLINE_THRUST,
-            Calculation(
-                name="spline_axial_force",
-                doc=_("friction thrust of a spline"),
-                source="Book (123)",
-                takes=thrust_keys,
-                returns=(gives("axial_force_N", _("friction thrust"), "force"),),
-                answer=_thrust,
-            ),
-        ),
     ),
 )
 """Calculations of this part."""
