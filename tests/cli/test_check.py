@@ -109,6 +109,14 @@ def test_the_command_line_changes_the_duty(cardan, car):
     assert light.code == 0
 
 
+def test_a_torque_on_the_command_line_is_steady(cardan, drive_file):
+    """It stands in place of a duty cycle, as in the other commands."""
+    cycle = "blocks = [{ torque_Nm = 900, speed_rpm = 600, share_percent = 100 }]\n"
+    steady = cardan("check", drive_file(CAR), "--torque-Nm", 300, "--only", "tube_strength", "--json")
+    blocks = cardan("check", drive_file(CAR + cycle), "--torque-Nm", 300, "--only", "tube_strength", "--json")
+    assert blocks.content["verdicts"] == steady.content["verdicts"]
+
+
 def test_the_list_names_every_check(cardan):
     said = cardan("check", "--list", "--json").content
     assert [row["name"] for row in said["checks"]] == list(CHECKS)

@@ -73,6 +73,23 @@ ROUNDING = 1e-9
 """Values below this share of the largest are nothing but rounding."""
 
 
+def check_options(
+    speed_rpm: float | None = None,
+    torque: float | None = None,
+    *,
+    json: bool,
+    csv: bool,
+    plot: Path | None = None,
+) -> None:
+    """Refuse common options that cannot be, before anything is read."""
+    from .output import check_speed
+    from .show import check_common
+
+    check_common(json=json, csv=csv, plot=plot)
+    check_speed(speed_rpm)
+    check_torque(torque)
+
+
 def check_torque(torque: float | None) -> None:
     """Refuse a torque that is not a finite number, or one that no drive has."""
     from math import isfinite
@@ -91,7 +108,10 @@ def check_torque(torque: float | None) -> None:
 
 
 def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Drive:
-    """Return a drive with the speed [rpm] and torque [N·m] of the command line instead of its own."""
+    """Return a drive with the speed [rpm] and torque [N·m] of the command line instead of its own.
+
+    A torque there is steady, and stands in place of a duty cycle and of a measured torque too.
+    """
     from dataclasses import replace
 
     from cardan.units import rpm
@@ -100,7 +120,7 @@ def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Driv
     if speed_rpm is not None:
         duty = replace(duty, speed=speed_rpm * rpm)
     if torque is not None:
-        duty = replace(duty, torque=torque)
+        duty = replace(duty, torque=torque, blocks=(), torque_history=None)
     return replace(drive, duty=duty)
 
 

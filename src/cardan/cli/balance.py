@@ -36,12 +36,10 @@ def balance(
     csv: AsCsv = False,
 ) -> int:
     """Tell what unbalance each shaft may have, the force of it, and the masses that cancel what was measured."""
-    from .asked import keys_of, on_duty
-    from .output import check_speed
-    from .show import check_common, show
+    from .asked import check_options, keys_of, on_duty
+    from .show import show
 
-    check_common(json=json, csv=csv)
-    check_speed(speed_rpm)
+    check_options(speed_rpm, json=json, csv=csv)
 
     from cardan.analysis.shaft_balance import balance as question
     from cardan.errors import InputError

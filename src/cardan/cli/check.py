@@ -10,7 +10,7 @@ import typer
 from cardan.texts import _
 
 from .asked import TorqueNm
-from .options import AsCsv, AsJson, Plot, SpeedRpm
+from .options import AsCsv, AsJson, MoreRows, Plot, SpeedRpm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,15 +30,7 @@ def check(
     listed: Annotated[
         bool, typer.Option("--list", help=_("List all checks, and do nothing else."), show_default=False)
     ] = False,
-    catalogue: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--catalogue",
-            metavar="FILE",
-            help=_("Catalogue file with more sizes, types, grades or norms; may be repeated."),
-            show_default=False,
-        ),
-    ] = None,
+    catalogue: MoreRows = None,
     sources: Annotated[
         bool, typer.Option("--sources", help=_("Say of every verdict where it comes from."), show_default=False)
     ] = False,
@@ -49,13 +41,10 @@ def check(
     plot: Plot = None,
 ) -> int:
     """Judge the drive by every check that its file has data for, and say what cures what fails."""
-    from .asked import check_torque, keys_of, on_duty
-    from .output import check_speed
-    from .show import check_common, show
+    from .asked import check_options, keys_of, on_duty
+    from .show import show
 
-    check_common(json=json, csv=csv, plot=plot)
-    check_speed(speed_rpm)
-    check_torque(torque)
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
 
     from .check_answer import Judged, answer, listing
 

@@ -44,3 +44,6 @@ MoreRows: TypeAlias = Annotated[
         show_default=False,
     ),
 ]
+Force: TypeAlias = Annotated[
+    bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
+]

@@ -73,13 +73,10 @@ def select(
     csv: AsCsv = False,
 ) -> int:
     """Tell which types and sizes of joints do a job: accepted, under conditions, or rejected, and why."""
-    from .asked import check_torque, keys_of
-    from .output import check_speed
-    from .show import check_common, show
+    from .asked import check_options, keys_of
+    from .show import show
 
-    check_common(json=json, csv=csv)
-    check_speed(speed_rpm)
-    check_torque(torque)
+    check_options(speed_rpm, torque, json=json, csv=csv)
 
     from cardan.catalogue import catalogue, with_files
     from cardan.errors import InputError
@@ -178,8 +175,6 @@ def _of_drive(
 
     from .asked import on_duty
 
-    if torque is not None:
-        drive = replace(drive, duty=replace(drive.duty, blocks=(), torque_history=None))
     try:
         return replace(need_of(on_duty(drive, speed_rpm, torque), joint=joint, known=known), **changes)
     except InputError as error:

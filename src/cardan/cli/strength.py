@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import typer
 
 from cardan.texts import _
 
 from .asked import TorqueNm
-from .options import AsCsv, AsJson, DriveFile, MoreRows, Plot, SpeedRpm
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
+from .options import AsCsv, AsJson, DriveFile, Force, MoreRows, Plot, SpeedRpm
 
 Hold: TypeAlias = Literal["ratio", "wall", "outer"]
 
@@ -56,9 +53,7 @@ def strength(
             show_default=False,
         ),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
-    ] = False,
+    force: Force = False,
     more: MoreRows = None,
     torque: TorqueNm = None,
     speed_rpm: SpeedRpm = None,
@@ -67,13 +62,10 @@ def strength(
     plot: Plot = None,
 ) -> int:
     """Tell what every part uses of its limits, the torque rating of the whole drive, or how large a part must be."""
-    from .asked import check_torque, keys_of
-    from .output import check_speed
-    from .show import check_common, show
+    from .asked import check_options, keys_of, on_duty
+    from .show import show
 
-    check_common(json=json, csv=csv, plot=plot)
-    check_speed(speed_rpm)
-    check_torque(torque)
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
     _check(part, out)
     if out is not None:
         from .apply import check_copy
@@ -86,7 +78,7 @@ def strength(
     from .source import STDIN, read_with_text
 
     given, text = read_with_text(file, tuple(more or ()))
-    drive = _asked(given, speed_rpm, torque)
+    drive = on_duty(given, speed_rpm, torque)
     known = known_to(drive, "." if file == STDIN else file.parent, tuple(more or ()))
     if part is None:
         from .strength_answer import answer
@@ -120,14 +112,3 @@ def _check(part: str | None, out: Path | None) -> None:
 
     if out is not None and part is None:
         raise refuse("--out", _("there is nothing to write; say --size PART"))
-
-
-def _asked(drive: Drive, speed_rpm: float | None, torque: float | None) -> Drive:
-    """Return a drive with what the command line says; a torque there is steady, instead of a duty cycle."""
-    from dataclasses import replace
-
-    from .asked import on_duty
-
-    if torque is not None:
-        drive = replace(drive, duty=replace(drive.duty, blocks=(), torque_history=None))
-    return on_duty(drive, speed_rpm, torque)
