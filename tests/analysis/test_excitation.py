@@ -120,6 +120,22 @@ def test_harmonics_as_given_come_back_by_rank() -> None:
     assert value == pytest.approx(300.0 + 90.0 * math.sin(0.6 + 0.5) + 20.0 * math.sin(1.2))
 
 
+def test_many_speeds_at_once_are_as_each_alone() -> None:
+    """With the same orders at all of them, though what is small at one need not be so at another."""
+    engine = replace(ENGINE, cylinders=1, mean_pressure=2e3)
+    speeds = np.asarray([30.0, 150.0, 900.0])
+    alone = [engine_torque(engine, speed) for speed in speeds]
+    assert len({len(one.order) for one in alone}) > 1
+    whole = engine_torque(engine, speeds)
+    assert whole.amplitude.shape == (3, len(whole.order))
+    assert set(whole.order) == set().union(*(one.order for one in alone))
+    for row, one in enumerate(alone):
+        at = np.searchsorted(whole.order, one.order)
+        np.testing.assert_allclose(whole.amplitude[row, at], one.amplitude)
+        np.testing.assert_allclose(whole.phase[row, at], one.phase)
+    assert np.shape(whole.laws[1].amplitude) == (3,)
+
+
 def test_masses_need_a_speed() -> None:
     with pytest.raises(InputError, match=r"duty\.speed"):
         engine_torque(ENGINE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -50,9 +51,9 @@ class EngineTorque:
         None where the engine does not say.
     order : array (h,)
         k, swings in one turn of the crank, rising.
-    amplitude : array (h,) [N·m]
-        M_k.
-    phase : array (h,) [rad]
+    amplitude : array (..., h) [N·m]
+        M_k; leading axes are those of the speed.
+    phase : array (..., h) [rad]
         δ_k, cylinder 1 at its top dead centre in the start position.
     speed_ratio : float
         ξ: a harmonic has the order kξ of the input shaft.
@@ -69,18 +70,18 @@ class EngineTorque:
         """Laws of the torque on the input shaft, its mean first where there is one."""
         mean: tuple[Law, ...] = () if self.mean is None else (Constant(value=self.mean),)
         return mean + tuple(
-            Swinging(amplitude=float(a), frequency=float(k) * self.speed_ratio, phase=float(p))
-            for k, a, p in zip(self.order, self.amplitude, self.phase, strict=True)
+            Swinging(amplitude=self.amplitude[..., h], frequency=float(k) * self.speed_ratio, phase=self.phase[..., h])
+            for h, k in enumerate(self.order)
         )
 
 
-def engine_torque(engine: Engine, speed: float | None = None) -> EngineTorque:
+def engine_torque(engine: Engine, speed: ArrayLike | None = None) -> EngineTorque:
     """Return the torque of an engine on the input shaft by its harmonics, as given or from its crank drive.
 
     Parameters
     ----------
     engine : Engine
-    speed : float, optional [rad/s]
+    speed : array (...), optional [rad/s]
         Of the input shaft; the oscillating masses need it.
 
     Raises
@@ -113,29 +114,43 @@ def engine_torque(engine: Engine, speed: float | None = None) -> EngineTorque:
         )
     if engine.piston_mass and speed is None:
         raise refuse("duty.speed", _("missing; the oscillating masses of the engine need it"))
-    stroke, cylinders = float(engine.stroke or 0.0), int(engine.cylinders or 1)  # given, by Engine.problems
-    step = 2.0 / engine.strokes
-    order = np.arange(1, round(HIGHEST / step) + 1) * step
-    gas, inertia = _gas_harmonics(engine, order), np.zeros_like(order) + 0.0j
+    order, gas, inertia = _crank_harmonics(engine)
+    one = gas
     if engine.piston_mass:
-        whole = np.abs(order - np.round(order)) < 1e-9
-        crank_speed = engine.speed_ratio * float(speed or 0.0)
-        inertia[whole] = engine.piston_mass * crank_speed**2 * _inertia_harmonics(engine, order[whole])
-    together = order * engine.strokes / (2.0 * cylinders)
-    adds = np.abs(together - np.round(together)) < 1e-9
-    one = np.where(adds, cylinders * (gas + inertia) * engine.speed_ratio, 0.0)
-    kept = np.abs(one) > SMALL * np.max(np.abs(one), initial=0.0)
+        one = gas + inertia * (engine.speed_ratio * np.asarray(speed, dtype=float)[..., None]) ** 2
+    size = np.abs(one)
+    small = size <= SMALL * np.max(size, axis=-1, keepdims=True, initial=0.0)
+    kept = ~np.all(small.reshape(-1, len(order)), axis=0)
     mean = engine.mean_torque
     if engine.mean_pressure is not None:
-        volume = 0.25 * math.pi * float(engine.bore or 0.0) ** 2 * stroke
-        mean = engine.speed_ratio * cylinders * engine.mean_pressure * volume / (engine.strokes * math.pi)
+        volume = 0.25 * math.pi * float(engine.bore or 0.0) ** 2 * float(engine.stroke or 0.0)
+        share = engine.speed_ratio * int(engine.cylinders or 1) / (engine.strokes * math.pi)
+        mean = share * engine.mean_pressure * volume
     return EngineTorque(
         mean=mean,
         order=order[kept],
-        amplitude=np.abs(one[kept]),
-        phase=np.angle(one[kept]) + 0.5 * math.pi,
+        amplitude=size[..., kept],
+        phase=np.angle(one[..., kept]) + 0.5 * math.pi,
         speed_ratio=engine.speed_ratio,
     )
+
+
+@cache
+def _crank_harmonics(engine: Engine) -> tuple[Array, Array, Array]:
+    """Return orders of the crank and what they carry, as coefficients of e^(ikφ) of the torque on the input shaft.
+
+    Arrays (h,): orders, complex torques of the gas [N·m], and those of the masses over ω² of the crank [N·m·s²].
+    """
+    cylinders, step = int(engine.cylinders or 1), 2.0 / engine.strokes  # given, by Engine.problems
+    order = np.arange(1, round(HIGHEST / step) + 1) * step
+    together = order * engine.strokes / (2.0 * cylinders)
+    adds = np.abs(together - np.round(together)) < 1e-9
+    scale = np.where(adds, cylinders * engine.speed_ratio, 0.0)
+    inertia = np.zeros_like(order) + 0.0j
+    if engine.piston_mass:
+        whole = np.abs(order - np.round(order)) < 1e-9
+        inertia[whole] = engine.piston_mass * _inertia_harmonics(engine, order[whole])
+    return order, scale * _gas_harmonics(engine, order), scale * inertia
 
 
 def piston(angle: ArrayLike, radius: float, rod_ratio: float) -> tuple[Array, Array, Array]:
