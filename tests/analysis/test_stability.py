@@ -167,6 +167,53 @@ def test_free_drives_lose_the_multipliers_that_say_nothing() -> None:
     assert two.stable
 
 
+def test_a_drift_of_the_speed_is_left_out_where_nothing_changes_with_it() -> None:
+    """A drag of almost nothing makes it one multiplier of many: the others are the same."""
+    model = drive(free=True)
+    loose = replace(model, torques=model.torques[:1])
+    dragged = replace(loose, ground_damping=loose.ground_damping + 1e-12)
+    two, one = (floquet(periodic_response(each, speed=48.0)) for each in (loose, dragged))
+    assert (int(two.removed), int(one.removed)) == (2, 1)
+    kept, all_of_them = (each.multipliers[np.isfinite(each.multipliers)] for each in (two, one))
+    drift = int(np.argmin(np.abs(all_of_them - 1.0)))
+    assert abs(all_of_them[drift] - 1.0) > 1e-6  # what dampers take changes with the speed
+    np.testing.assert_allclose(kept, np.delete(all_of_them, drift), rtol=1e-8, atol=1e-12)
+
+
+def test_where_nothing_can_be_disturbed_everything_is_stable() -> None:
+    load = Torque(station=1, law=Constant(value=-20.0))
+    rigid = torsional_line([[1.0], [0.5]], stiffness=[[], []], bend=[0.3], torques=[load])
+    found = floquet(periodic_response(rigid, speed=[40.0, -40.0]))
+    assert found.stable.tolist() == [True, True]
+    assert found.removed.tolist() == [2, 2]
+    assert found.spectral_radius.tolist() == [0.0, 0.0]
+    dragged = floquet(periodic_response(replace(rigid, ground_damping=np.asarray([0.1, 0.0])), speed=40.0))
+    assert dragged.spectral_radius == pytest.approx(np.exp(-0.1 / 1.5 * np.pi / 40.0), rel=0.01)  # inertia changes
+
+
+@pytest.mark.parametrize(
+    ("damped", "backlash", "count"),
+    [
+        ((0.0, 0.0), 0.0, 2),
+        ((50.0, 0.0), 0.0, 3),
+        ((0.0, 50.0), 0.0, 3),
+        ((50.0, 0.0), 0.02, 3),
+        ((0.0, 1.0), 0.02, 2),  # out of contact this damper holds nothing back
+    ],
+)
+def test_what_has_neither_inertia_nor_damper_is_no_state(damped: tuple, backlash: float, count: int) -> None:
+    model = torsional_line(
+        [[1.0, 0.0], [0.0, 0.5]], stiffness=[[3000.0], [4000.0]], damping=[[damped[0]], [damped[1]]],
+        backlash=[[0.0], [backlash]], bend=[0.4], torques=[Torque(station=3, law=Constant(value=-30.0))],
+        input_speed=40.0, ground_damping=[[0.0, 0.0], [0.0, 0.4]],
+    )  # fmt: skip
+    steady = periodic_response(model)
+    assert len(steady.orbit.pieces) == (backlash > 0.0)
+    found = floquet(steady)
+    assert np.sum(np.isfinite(found.multipliers)) == count
+    assert np.all(found.modulus[:count] > 1e-12)
+
+
 def test_the_product_of_the_multipliers_is_what_the_damping_says() -> None:
     found = floquet(periodic_response(drive(damping=0.2)))
     assert abs(found.determinant_residual) < 1e-9

@@ -61,7 +61,11 @@ def test_a_free_drive_tells_its_constant_torque() -> None:
     found = calc("periodic_response", changed(input_speed_rad_s=None, mean_speed_rad_s=30.0))
     assert found["constant_drive_torque_Nm"] == pytest.approx(found["elements"][0]["mean_Nm"], rel=1e-9)
     assert "drive_torque_mean_Nm" not in found
-    assert calc("floquet_stability", changed(input_speed_rad_s=None, mean_speed_rad_s=30.0))["multipliers_removed"] == 1
+    free = changed(input_speed_rad_s=None, mean_speed_rad_s=30.0)
+    assert calc("floquet_stability", free)["multipliers_removed"] == 2
+    governed = {"shaft": 1, "station": 1, "kind": "linear_speed", "M0_Nm": 90.0, "slope_Nms_per_rad": 1.0}
+    found = calc("floquet_stability", free | {"torques": [*free["torques"], governed]})
+    assert found["multipliers_removed"] == 1
 
 
 def test_stability_leaves_out_an_order_that_does_not_repeat() -> None:

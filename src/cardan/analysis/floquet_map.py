@@ -15,9 +15,10 @@ from cardan.maths.compiled.threads import share
 from cardan.maths.periodic import Status
 from cardan.texts import _
 
+from .multipliers import Turns, values_of
 from .orbit import Orbit
-from .stability import Floquet, Verdict, Zone, floquet, judged, shaped, values_of
-from .stability_kernel import fits, harmonics_for, mapped
+from .stability import Floquet, Verdict, Zone, floquet, judged, shaped
+from .stability_kernel import SURE, fits, harmonics_for, mapped
 from .steady import periodic_response, speeds_of, started
 from .steady_start import straight_frequencies
 from .torsional_batch import Turning, leading, period_of
@@ -37,9 +38,6 @@ MOST = 4_000_000
 
 PACE, WEIGHT = 1e-4, 1000
 """Seconds and bytes that a point takes, about."""
-
-SURE = 2e-5
-"""Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
 
 ROUGH = 5e-7
 """Error of the kernel's multipliers, about: so close to modulus 1 they count as neutral."""
@@ -201,21 +199,22 @@ class _Table:
         if not np.any(sure):
             return rows
         part, coefficient = part.part(np.flatnonzero(sure)), found.coefficient[sure]
-        tangent = None
-        frequencies = straight_frequencies(part.drives(np.arange(len(part.speed))))
+        turns, drives = None, part.drives(np.arange(len(part.speed)))
+        frequencies = straight_frequencies(drives)
         size = np.max(np.abs(coefficient), axis=1)
         tail = np.max(size[:, -max(2, harmonics // 4) :], axis=-1)
         if part.model.free:
             order = np.arange(coefficient.shape[-1]) * part.frequency[:, None, None]
             rate = part.speed[:, None] + np.sum((1j * order * coefficient).real, axis=-1)
             tangent = np.concatenate([rate, -np.sum((order**2 * coefficient).real, axis=-1)], axis=-1)
+            turns = Turns.of(drives, part.speed, tangent)
             frequencies = frequencies[:, 1:]
             coefficient = started(coefficient, part.period)
-        values, removed = _values(found.matrix[sure], tangent, threads)
+        values, removed = _values(found.matrix[sure], turns, threads)
         nothing = np.full(len(values), np.nan)
         self.put(
             rows[sure],
-            judged(values, removed, nothing, frequencies, part.speed, part.period, ROUGH),
+            judged(values, removed, nothing, frequencies, part.speed, part.period, np.isfinite(part.speed), ROUGH),
             np.pad(coefficient, ((0, 0), (part.first, 0), (0, 0))),
             found.force[sure],
             np.where(tail <= SMALL * np.max(size, axis=-1), int(Status.CONVERGED), int(Status.COARSE)),
@@ -242,15 +241,15 @@ class _Table:
         )
 
 
-def _values(matrix: Array, tangent: Array | None, threads: int | None) -> tuple[Array, Array]:
-    """Return `cardan.analysis.stability.values_of` matrices, found by several threads."""
+def _values(matrix: Array, turns: Turns | None, threads: int | None) -> tuple[Array, Array]:
+    """Return `cardan.analysis.multipliers.values_of` matrices, found by several threads."""
     count = len(matrix)
-    values = np.empty((count, matrix.shape[-1] - (tangent is not None)), dtype=complex)
+    values = np.empty((count, matrix.shape[-1] - (turns is not None)), dtype=complex)
     removed = np.empty(count, dtype=int)
 
     def work(first: int, last: int) -> None:
-        some = None if tangent is None else tangent[first:last]
-        values[first:last], removed[first:last] = values_of(matrix[first:last], some)
+        some = slice(first, last)
+        values[some], removed[some] = values_of(matrix[some], None if turns is None else turns.part(some))
 
     share(work, count, threads=threads, least=64)
     return values, removed

@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from enum import IntEnum
 
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.floquet import Coefficients, monodromy, without_direction
 from cardan.texts import _
 
+from .multipliers import CHUNK, multipliers_in_pieces, multipliers_of
 from .orbit import Orbit
 from .steady_result import SteadyResponse
 from .steady_start import straight_frequencies
-from .torsional_balance import slopes
 
 NEUTRAL = 1e-7
 """A multiplier this close to modulus 1 neither grows nor dies out."""
 
-LOOSE = 1e-6
-"""A second multiplier of a free drive this close to 1 says that it may turn at any speed."""
-
-FADED = 20.0
-"""What has died out by e to this power over a period leaves no digits to check."""
-
 ZONES = 4
 """Zones that are named: m = 1 … 4."""
-
-CHUNK = 64
-"""Drives whose periods are integrated at once."""
 
 
 class Verdict(IntEnum):
@@ -95,14 +85,15 @@ class Floquet:
     Attributes
     ----------
     multipliers : array (..., m), complex
-        What each disturbance is multiplied by over a period, the largest first. Of a free drive the 1 of a shift in
-        time is left out, and a second 1 where any speed is possible (then nan stands at the end).
+        What each disturbance is multiplied by over a period, the largest first; nan at the end where it is left out.
+        So are of a free drive the 1 of a shift in time and, where no torque changes with the speed, the drift to
+        another speed; of any drive what has neither inertia nor damper, which cannot be disturbed by itself.
     removed : array of int (...)
-        How many were left out.
+        How many were left out of a free drive.
     period : float [rad]
         Shaft angle of a period.
     growth_rate : array (...) [1/s]
-        ln max|ρ| over the duration of a period; negative where disturbances die out.
+        ln max|ρ| over the duration of a period; negative where disturbances die out, -inf where there are none.
     verdict : array of int (...)
         A `Verdict` each.
     kind : array of int (...)
@@ -133,10 +124,9 @@ class Floquet:
 
     @property
     def spectral_radius(self) -> Array:
-        """Largest |ρ|, array (...); not a number where no motion was found."""
-        if not self.multipliers.shape[-1]:
-            return np.full(self.multipliers.shape[:-1], np.nan)
-        return self.modulus[..., 0]
+        """Largest |ρ|, array (...); 0 where nothing can be disturbed, not a number where no motion was found."""
+        largest = np.max(np.nan_to_num(self.modulus), axis=-1, initial=0.0)
+        return np.where(self.verdict == Verdict.UNKNOWN, np.nan, largest)[()]
 
     @property
     def stable(self) -> Array:
@@ -160,7 +150,9 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     -----
     The balance linearised about the motion, M δq̈ + C δq̇ + K δq = 0 with K holding the torque that the drive carries,
     integrated over a period; the eigenvalues of the matrix that maps the disturbance at its beginning to that at its
-    end.
+    end. A free drive may run a moment later. Where no torque changes with the speed it may run at any other one too,
+    but for what vibration takes, and a drive that nothing governs drifts up or down; the mean speed is given here, so
+    something governs it, and such a drift is no vibration.
 
     Examples
     --------
@@ -175,97 +167,25 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     orbit = response.orbit if isinstance(response, SteadyResponse) else response
     lead, count = orbit.lead, orbit.count
     there = np.isfinite(orbit.coefficient).all(axis=(-1, -2)).reshape(-1)
-    free = orbit.model.free
     smooth = np.asarray([there[k] and k not in orbit.pieces for k in range(count)])
     order = np.argsort(-orbit.time.reshape(-1), kind="stable")
     order = order[smooth[order]]
     parts: list[tuple[Array, Array, Array, Array]] = []
     for first in range(0, len(order), CHUNK):
         rows = order[first : first + CHUNK]
-        parts.append((rows, *_multipliers(orbit, rows)))
-    for row, pieces in orbit.pieces.items():
-        whole, alone = pieces.monodromy[None], np.asarray([row])
-        parts.append((alone, *values_of(whole, _tangent(orbit, alone, pieces.heavy)), np.full(1, np.nan)))
+        parts.append((rows, *multipliers_of(orbit, rows)))
+    for row in orbit.pieces:
+        parts.append((np.asarray([row]), *multipliers_in_pieces(orbit, row)))
     width = max((part[1].shape[-1] for part in parts), default=0)
     multipliers = np.full((count, width), np.nan + 0j)
     removed, residual = np.zeros(count, dtype=int), np.full(count, np.nan)
     frequencies = straight_frequencies(orbit.drives(np.arange(count)))
     for rows, values, gone, missed in parts:
         multipliers[rows], removed[rows], residual[rows] = values, gone, missed
-    frequencies = frequencies[:, 1:] if free else frequencies
-    found = judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period)
-    verdict = np.where(there, found.verdict, Verdict.UNKNOWN)
-    return shaped(replace(found, verdict=verdict), lead)
-
-
-def _multipliers(orbit: Orbit, rows: Array) -> tuple[Array, Array, Array]:
-    """Return the multipliers of some drives, how many were left out, and the residual of their product."""
-    drives = orbit.drives(rows)
-    omega = orbit.speed.reshape(-1)[rows]
-    duration = orbit.period / np.abs(omega)
-    first = 0 if drives.free else 1
-    forward = np.where(omega < 0.0, -orbit.period, orbit.period)
-    turned = bool(np.any(omega < 0.0))
-
-    def coefficients(share: Array) -> tuple[Array, Array, Array]:
-        q, rate, acceleration = orbit.of(rows, share * orbit.period)
-        if turned:  # the phase runs backwards where the shaft does
-            back = orbit.of(rows, -share * orbit.period)
-            mask = (forward < 0.0)[:, None, None]
-            q, rate, acceleration = (np.where(mask, b, a) for a, b in zip((q, rate, acceleration), back, strict=True))
-        found = slopes(drives, q, rate, acceleration)
-        return found.mass[..., first:], found.damping[..., first:, first:], found.stiffness[..., first:, first:]
-
-    matrix = monodromy(coefficients, duration)
-    residual = _liouville(coefficients, duration, matrix)
-    heavy = np.any(coefficients(np.linspace(0.0, 1.0, 5))[0] != 0.0, axis=(0, 1))
-    return *values_of(matrix, _tangent(orbit, rows, heavy)), residual
-
-
-def _tangent(orbit: Orbit, rows: Array, heavy: Array) -> Array | None:
-    """Return the disturbance that a shift in time makes of free drives."""
-    if not orbit.model.free:
-        return None
-    _q, rate, acceleration = (one[:, 0] for one in orbit.of(rows, [0.0]))
-    return np.concatenate([rate, acceleration[:, heavy]], axis=-1)
-
-
-def values_of(matrix: Array, tangent: Array | None) -> tuple[Array, Array]:
-    """Return the multipliers of monodromy matrices, the largest first, and how many were left out.
-
-    Parameters
-    ----------
-    matrix : array (b, m, m)
-    tangent : array (b, m), optional
-        Disturbances by a shift in time, of free drives: they are left out, and a second multiplier of 1 becomes nan.
-    """
-    removed = np.zeros(len(matrix), dtype=int)
-    if tangent is not None:
-        matrix = without_direction(matrix, tangent)
-        removed += 1
-    values: Array = np.linalg.eigvals(matrix)
-    if tangent is not None:
-        near = np.abs(values - 1.0)
-        best = np.argmin(near, axis=-1)
-        loose = near[np.arange(len(matrix)), best] < LOOSE
-        values[np.flatnonzero(loose), best[loose]] = np.nan
-        removed += loose
-    size = np.where(np.isfinite(values), np.abs(values), -1.0)
-    return np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1), removed
-
-
-def _liouville(coefficients: Coefficients, duration: Array, matrix: Array) -> Array:
-    """Return ln det of the monodromy matrix plus the integral of tr C/M; nan where that says nothing.
-
-    So where a coordinate has no mass, and where what is left of a disturbance is smaller than rounding.
-    """
-    share = (np.arange(128) + 0.5) / 128
-    mass, damping, _stiffness = coefficients(share)
-    if np.any(mass == 0.0):
-        return np.full(len(duration), np.nan)
-    lost = np.mean(np.einsum("bprr,bpr->bp", damping, 1.0 / mass), axis=-1) * duration
-    with np.errstate(divide="ignore"):
-        return np.where(lost < FADED, np.linalg.slogdet(matrix)[1] + lost, np.nan)
+    frequencies = frequencies[:, 1:] if orbit.model.free else frequencies
+    return shaped(
+        judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period, there), lead
+    )
 
 
 def judged(
@@ -275,13 +195,15 @@ def judged(
     frequencies: Array,
     speed: Array,
     period: float,
+    there: Array,
     neutral: float = NEUTRAL,
 ) -> Floquet:
-    """Return what the multipliers (b, m) of drives say, known to ``neutral``; see `Floquet`."""
+    """Return what multipliers (b, m) of drives say, known to ``neutral``, where a motion is there; see `Floquet`."""
     first = multipliers[:, 0] if multipliers.shape[-1] else np.zeros(len(multipliers), dtype=complex)
+    first = np.where(there, np.where(np.isfinite(first), first, 0.0), np.nan)
     radius, omega = np.abs(first), np.abs(speed)
     verdict = np.where(radius > 1.0 + neutral, Verdict.UNSTABLE, np.where(radius < 1.0 - neutral, 0, Verdict.NEUTRAL))
-    verdict = np.where(np.isfinite(radius), verdict, Verdict.UNKNOWN)
+    verdict = np.where(there, verdict, Verdict.UNKNOWN)
     plain = np.abs(first.imag) <= 1e-7 * radius
     kind = np.where(plain, np.where(first.real < 0.0, Kind.DOUBLING, Kind.REPEATING), Kind.COMBINATION)
     wanted = np.where(verdict == Verdict.UNSTABLE, kind, -1)

@@ -36,6 +36,9 @@ TAIL = 1e-5
 ROUNDS = 12
 """Newton steps at most."""
 
+SURE = 2e-5
+"""Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Mapped:

@@ -17,12 +17,10 @@ from cardan.maths.periodic import HarmonicBalance
 from cardan.maths.pieces import Shooting
 from cardan.texts import _
 
-from .stability import Floquet, Verdict, floquet, judged, shaped
+from .stability import Floquet, floquet
 from .steady import periodic_response
 from .steady_result import SteadyResponse
-from .steady_start import straight_frequencies
-from .torques import Constant, Swinging, base_period
-from .torsional_batch import chosen as some_of
+from .torques import Swinging, base_period
 from .torsional_model import Torque, TorsionalModel
 from .torsional_train import TorsionalTrain, in_time, stacked, torsional_train
 from .torsional_waves import straight_waves
@@ -147,8 +145,7 @@ def torsion_response(
     Notes
     -----
     Exact equations of motion with their periodic solution; structural damping counts as viscous, b = ηc/(2Ω), equal at
-    order 2. See `steady.periodic_response` and `stability.floquet`. Where no torque of a free drive changes with its
-    speed, something must hold that: its slow drift is left out of the verdict.
+    order 2. See `steady.periodic_response` and `stability.floquet`.
 
     Examples
     --------
@@ -165,7 +162,7 @@ def torsion_response(
     train, model = loaded_model(drive, chosen, speeds, pieces=pieces)
     model, loose = parted(model)
     steady = periodic_response(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
-    verdict = at_held_speed(floquet(steady), model, speeds)
+    verdict = floquet(steady)
     if progress is not None:
         progress(1.0)
     return TorsionResponse(
@@ -228,45 +225,6 @@ def parted(model: TorsionalModel) -> tuple[TorsionalModel, tuple[Torque, ...]]:
     fits = [torque.law.order is not None and base_period((torque.law.order,)) is not None for torque in model.torques]
     loose = tuple(torque for torque, fit in zip(model.torques, fits, strict=True) if not fit)
     return replace(model, torques=tuple(t for t, fit in zip(model.torques, fits, strict=True) if fit)), loose
-
-
-def at_held_speed(found: Floquet, model: TorsionalModel, speed: Array) -> Floquet:
-    """Return multipliers without that of a drift in speed, where nothing in a free drive depends on the speed.
-
-    Parameters
-    ----------
-    found : Floquet (...)
-        At speeds of one axis at most.
-    model : TorsionalModel (...)
-    speed : array (...) [rad/s]
-
-    Notes
-    -----
-    With constant torques any speed is possible, but for what vibration takes: near a resonance that changes with the
-    speed, and a drive that nothing governs drifts up or down. The mean speed is given here, so something governs it.
-    """
-    plain = all(isinstance(torque.law, Constant | Swinging) for torque in model.torques)
-    if not model.free or not plain or np.any(model.ground_damping) or not found.multipliers.shape[-1]:
-        return found
-    lead, count = found.verdict.shape, found.verdict.size
-    values = found.multipliers.reshape(count, -1).copy()
-    removed = found.removed.reshape(count)
-    rows = np.flatnonzero((removed == 1) & np.isfinite(values[:, 0]))
-    best = np.argmin(np.abs(np.nan_to_num(values[rows], nan=np.inf) - 1.0), axis=-1)
-    values[rows, best] = np.nan
-    size = np.where(np.isfinite(values), np.abs(values), -1.0)
-    values = np.take_along_axis(values, np.argsort(-size, axis=-1, kind="stable"), axis=-1)
-    drives = some_of(replace(model, input_speed=None), lead, np.arange(count), moments=False)
-    whole = judged(
-        values,
-        removed + np.isin(np.arange(count), rows),
-        found.determinant_residual.reshape(count),
-        straight_frequencies(drives)[:, 1:],
-        np.broadcast_to(speed, lead).reshape(count),
-        found.period,
-    )
-    verdict = np.where(found.verdict.reshape(count) == Verdict.UNKNOWN, Verdict.UNKNOWN, whole.verdict)
-    return shaped(replace(whole, verdict=verdict), lead)
 
 
 def _apart(model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array) -> Iterator[Apart]:

@@ -19,7 +19,7 @@ from cardan.units import deg
 from .floquet_map import floquet_map
 from .motion import phase_angles
 from .stability import Verdict, Zone
-from .torsion_response import Progress, at_held_speed, loaded_model, parted
+from .torsion_response import Progress, loaded_model, parted
 from .torsional_batch import chosen as some_of
 from .torsional_model import TorsionalModel
 from .torsional_train import TorsionalTrain, chained
@@ -168,7 +168,7 @@ def stability(
 
 def _judged(model: TorsionalModel, speed: Array) -> dict[str, Array]:
     """Return what is known of some points."""
-    verdict = at_held_speed(floquet_map(model, speed=speed).floquet, model, speed)
+    verdict = floquet_map(model, speed=speed).floquet
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
     return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}

@@ -7,24 +7,16 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.maths.floquet import monodromy
 
+from .multipliers import CHUNK, linear_motion, vibrating
 from .orbit import Orbit
-from .stability_kernel import fits, harmonics_for, mapped
+from .stability_kernel import SURE, fits, harmonics_for, mapped
 from .steady_start import straight_frequencies
-from .torsional_balance import slopes
+from .torsional_balance import gathered
 from .torsional_batch import Turning, chosen
 from .torsional_model import TorsionalModel
 
-SURE = 2e-5
-"""Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
-
 WORTH = 3000.0
 """Oscillations of the fastest mode in all motions together, in radians, from which the kernel is worth loading."""
-
-RIGID = 0.7
-"""Share of turning as a whole in a disturbance from which it is one of the mean speed, not of vibration."""
-
-CHUNK = 64
-"""Motions whose periods are integrated at once as array expressions."""
 
 
 def vibration_growth(orbit: Orbit, rows: Array) -> Array:
@@ -44,9 +36,9 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
 
     Notes
     -----
-    As `cardan.analysis.stability.floquet`, but for one thing: where torques turn a drive freely, what drifts to another
-    mean speed, as behind a weak motor above a resonance, is no vibration and left out. Such disturbances turn the drive
-    as a whole: |Σ M x| > 0.7 √(Σ M Σ M |x|²). Compiled where it is worth it.
+    As `cardan.analysis.stability.floquet`, but that the drift of free drives to another mean speed is always left out,
+    also where a motor or load governs it, as a weak motor fails to above a resonance: that is no vibration, and the
+    speeds of a search are given. Compiled where it is worth it.
 
     Examples
     --------
@@ -81,41 +73,14 @@ def _smooth(orbit: Orbit, rows: Array) -> Array:
     left = np.flatnonzero(np.isnan(found))
     for first in range(0, len(left), CHUNK):
         some = left[first : first + CHUNK]
-        found[some] = _largest(orbit.drives(rows[some]), _matrix(orbit, rows[some]))
+        matrix = monodromy(linear_motion(orbit, rows[some]), orbit.time.reshape(-1)[rows[some]])
+        found[some] = _largest(orbit.drives(rows[some]), matrix)
     return found
-
-
-def _matrix(orbit: Orbit, rows: Array) -> Array:
-    """Return the monodromy matrices of motions, array (b, m, m)."""
-    drives, omega = orbit.drives(rows), orbit.speed.reshape(-1)[rows]
-    first, backward = 0 if drives.free else 1, (omega < 0.0)[:, None, None]
-
-    def coefficients(share: Array) -> tuple[Array, Array, Array]:
-        ahead = orbit.of(rows, share * orbit.period)
-        if np.any(backward):
-            back = orbit.of(rows, -share * orbit.period)
-            ahead = tuple(np.where(backward, b, a) for a, b in zip(ahead, back, strict=True))
-        at = slopes(drives, *ahead)
-        return at.mass[..., first:], at.damping[..., first:, first:], at.stiffness[..., first:, first:]
-
-    return monodromy(coefficients, orbit.period / np.abs(omega))
 
 
 def _largest(drives: TorsionalModel, matrix: Array) -> Array:
     """Return ln of the largest modulus of the multipliers of drives, array (b,)."""
-    if not drives.free:
-        return _log(np.max(np.abs(np.linalg.eigvals(matrix)), axis=-1))
-    values, vectors = np.linalg.eig(matrix)
-    place = vectors[:, : drives.coordinates]
-    mass = np.zeros((len(matrix), drives.coordinates))
-    for k, r in enumerate(drives.coordinate):
-        mass[:, r] += drives.inertia[:, k]
-    whole = np.abs(np.einsum("br,brk->bk", mass, place))
-    size = np.sqrt(np.sum(mass, axis=-1)[:, None] * np.einsum("br,brk->bk", mass, np.abs(place) ** 2))
-    return _log(np.max(np.where(whole > RIGID * size, 0.0, np.abs(values)), axis=-1))
-
-
-def _log(radius: Array) -> Array:
+    values = vibrating(matrix, gathered(drives, drives.inertia)) if drives.free else np.linalg.eigvals(matrix)
     with np.errstate(divide="ignore"):
-        found: Array = np.log(radius)
+        found: Array = np.log(np.max(np.abs(values), axis=-1, initial=0.0))
     return found
