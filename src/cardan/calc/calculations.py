@@ -18,6 +18,7 @@ from . import (
     bearings,
     bending,
     book,
+    couplings,
     dynamic_book,
     forces,
     joint_forces,
@@ -87,6 +88,7 @@ CALCULATIONS: dict[str, Calculation] = {
         book,
         mathieu,
         dynamic_book,
+        couplings,
     )
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
