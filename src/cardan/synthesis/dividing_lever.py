@@ -65,7 +65,7 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
 
     Notes
     -----
-    The error grows with c at every bend; it is negative below the bend at which it vanishes, and positive above. So it is
+    The error grows with c at every bend; it is negative below the bend at which it vanishes, and positive above. It is
     least where both extremes are of one size, a root in c between the exact values for the ends of the range.
 
     Examples
