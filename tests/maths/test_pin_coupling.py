@@ -80,6 +80,14 @@ def test_pins_alike_run_evenly_within_the_range_of_slants(angle, bend, within):
     assert least * (1 - 1e-9) <= found.first <= most * (1 + 1e-9)
 
 
+def test_pins_alike_have_closed_forms():
+    phi = np.linspace(0.1, 2 * np.pi, 40)  # in the plane of the shafts the normal of the general form is 0/0
+    for bend, slant in ((30 * deg, 40 * deg), (70 * deg, 37 * deg), (5 * deg, 80 * deg)):
+        found = pin_coupling.pin_contact(phi[:-1], bend, 0.04, 0.04, slant, slant)
+        np.testing.assert_allclose(found.first, pin_coupling.along_alike(phi[:-1], bend, 0.04, slant), rtol=1e-10)
+        np.testing.assert_allclose(found.force, pin_coupling.force_alike(phi[:-1], bend, 0.04, slant), rtol=1e-10)
+
+
 def test_the_stroke_is_reached_on_both_sides_of_the_bend():
     found = pin_coupling.pin_contact(np.array([0.0, np.pi]), 0.5, 0.04, 0.04, 0.7, 0.7)
     np.testing.assert_allclose(found.first, pin_coupling.stroke(0.5, 0.04, 0.7), rtol=1e-14)

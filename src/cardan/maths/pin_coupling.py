@@ -222,6 +222,78 @@ def stroke(bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tuple[Arra
     return inner / xp.cos(theta - half), inner / xp.cos(theta + half)
 
 
+def along_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
+    """Return where the contact of pins alike stands along them, x = y; see `stroke`.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        Input angle φ1.
+    bend : array (...) [rad]
+        Bend α.
+    distance : array (...) [m]
+        Distance a of the start of both pins from O.
+    slant : array (...) [rad]
+        Slant θ of both pins.
+
+    Returns
+    -------
+    array (...) [m]
+
+    Notes
+    -----
+    x = a/(cos θ + sin θ cos φ tan(α/2)): where a pin passes through the halving plane.
+
+    Examples
+    --------
+    >>> print(f"{along_alike(math.pi / 2, 0.5, 0.05, math.pi / 3):.6f}")
+    0.100000
+    """
+    phi, alpha, a, theta = floats(angle, bend, distance, slant)
+    xp = namespace(phi, alpha, a, theta)
+    return a / (xp.cos(theta) + xp.sin(theta) * xp.cos(phi) * xp.tan(0.5 * alpha))
+
+
+def force_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
+    """Return the contact force without friction of pins alike for each unit of torque.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        Input angle φ1.
+    bend : array (...) [rad]
+        Bend α.
+    distance : array (...) [m]
+        Distance a of the start of both pins from O.
+    slant : array (...) [rad]
+        Slant θ of both pins, within `slant_range`.
+
+    Returns
+    -------
+    array (...) [1/m]
+
+    Notes
+    -----
+    |d1 × m| c/(a cos(α/2) sin θ (sin θ - cos θ cos φ tan(α/2))), c = cos θ + sin θ cos φ tan(α/2), with
+    |d1 × m|² = sin² θ sin² φ + (cos θ sin(α/2) - sin θ cos φ cos(α/2))²: the pins are each other's image in the halving
+    plane, so that d1 × d2 is twice (d1·m)(d1 × m), m its normal. In the plane of the shafts the force is one over the
+    distance of the contact from the axis.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(f"{force_alike(math.pi, 30 * deg, 0.05, 40 * deg):.6f} {1 / (0.0842020143 * math.sin(40 * deg)):.6f}")
+    18.476088 18.476088
+    """
+    phi, alpha, a, theta = floats(angle, bend, distance, slant)
+    xp = namespace(phi, alpha, a, theta)
+    ch, th = xp.cos(0.5 * alpha), xp.tan(0.5 * alpha)
+    c = xp.cos(theta) + xp.sin(theta) * xp.cos(phi) * th
+    across = xp.sin(theta) - xp.cos(theta) * xp.cos(phi) * th
+    flat = (xp.sin(theta) * xp.sin(phi)) ** 2 + (ch * (xp.cos(theta) * th - xp.sin(theta) * xp.cos(phi))) ** 2
+    return xp.sqrt(flat) * c / (a * ch * xp.sin(theta) * across)
+
+
 def eccentricity(bend: ArrayLike, slant: ArrayLike) -> Array:
     """Return the eccentricity of the ellipse on which the contact of pins alike runs, sin(α/2)/cos θ.
 
