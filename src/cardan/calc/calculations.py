@@ -35,6 +35,7 @@ from . import (
     stepped,
     straight_line,
     strength,
+    structure,
     synthesis,
     varying,
 )
@@ -89,6 +90,7 @@ CALCULATIONS: dict[str, Calculation] = {
         mathieu,
         dynamic_book,
         couplings,
+        structure,
     )
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
