@@ -20,6 +20,7 @@ CODES = (
     "singular",
     "empty",
     "unknown_key",
+    "unknown_kind",
 )
 """What can be wrong with an input, in one word."""
 

@@ -11,7 +11,7 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
-from cardan.drive.drives import Drives, kinematics
+from cardan.drive.drives import Drives, crosses
 from cardan.errors import Problem, check, refuse
 from cardan.maths import loops
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
@@ -212,7 +212,7 @@ def transmission_error(
     >>> (found.error / deg).round(6), (found.error_linear / deg).round(6)
     (array([0.05]), array([0.05]))
     """
-    chain = kinematics(drive)
+    chain = crosses(drive, _("errors and tolerances"))
     xp = namespace(chain.bend, turns, ways)
     phi = xp.asarray(one_turn()) if angle is None else real(angle, xp)
     phi = phi if phi.ndim else phi[None]

@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.validity import movement_problems, range_problems, shown
 from cardan.errors import BendLimitError, Problem, check, refuse
@@ -192,6 +193,7 @@ def articulation(
     >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
     (20.0, True)
     """
+    refuse_kinds(drive, _("motion while the points move"))
     path, at, start, chosen, moves = _plan(drive, movement, times, until)
     place = geometry(drive)
     omega = drive.duty.speed if speed is None else speed

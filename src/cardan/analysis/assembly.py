@@ -10,6 +10,7 @@ import numpy as np
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.train import Train, lengths_off, train
 from cardan.drive.validity import wrong_count
 from cardan.errors import check, refuse
@@ -260,6 +261,7 @@ def _keys(holds: tuple[tuple[int, Hold], ...]) -> tuple[str, ...]:
 
 
 def _question(drive: Drive, errors: Sequence[Error | None] | None) -> _Question:
+    refuse_kinds(drive, _("forces from misfit"))
     if not drive.supports:
         raise refuse("supports", _("missing; assembly forces come from how the shafts are held"))
     given = [joint.error for joint in drive.joints] if errors is None else list(errors)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
-from cardan.drive.drives import Drives, kinematics
+from cardan.drive.drives import Drives, crosses
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.quadrature import mean_between
@@ -165,7 +165,7 @@ def chain_friction(
     >>> print(found.efficiency, found.first_order)
     0.988600148 0.988633125
     """
-    chain = kinematics(drive)
+    chain = crosses(drive, _("losses"))
     xp = namespace(chain.bend, drag)
     kappa = _each_joint(drag, chain, xp)
     locked = kappa * xp.tan(chain.bend) >= 1.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.chain import chain
+from cardan.drive.chain import turning_chain
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
 
@@ -63,7 +63,7 @@ def closure(drive: Drive) -> Closure:
     >>> found.closes, found.longest, round(found.bend_allowed / deg, 2)
     (False, 2, 22.27)
     """
-    length = -np.log(np.cos(np.asarray(chain(drive).bend)))
+    length = -np.log(np.cos(np.asarray(turning_chain(drive).bend)))
     longest = int(np.argmax(length))
     others = float(np.sum(length) - length[longest])
     # cos x = e^-S, as 2 asin √((1 - e^-S)/2): accurate for small bends.

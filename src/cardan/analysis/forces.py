@@ -10,6 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.train import Train, mass_problems, place_of, train
 from cardan.errors import Problem, check, refuse
@@ -221,6 +222,7 @@ def _moving(
     drive: Drive, whole: Train, duty: Duty, angle: Array, movement: Movement | Sequence[Movement] | Path
 ) -> Forces:
     """Return the forces while the points move: the input turns evenly meanwhile."""
+    refuse_kinds(drive, _("forces while the points move"))
     if duty.speed is None or duty.speed == 0.0:
         raise refuse("duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"))
     if duty.acceleration:

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.train import train
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -221,6 +222,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     simple 1259.9 h
     book 1015.0 h
     """
+    refuse_kinds(drive, _("bearing life"))
     used = drive.duty if duty is None else duty
     if method is not None and method not in METHODS:
         names = ", ".join(METHODS)

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.train import Train, train
 from cardan.errors import InputError, Problem, check
@@ -61,6 +62,7 @@ def counted(
     drive: Drive, duty: Duty, movement: Movement | Sequence[Movement] | None
 ) -> tuple[Parts, tuple[Uncounted, ...]]:
     """Return what can be counted, and what cannot; refuse a drive of which nothing can."""
+    refuse_kinds(drive, _("losses"))
     try:
         machine, short = train(drive), []
     except InputError as error:

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
+from cardan.drive.laws import unmapped
 from cardan.errors import refuse
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.texts import _
+
+from .joint_by_joint import followed
 
 TURN = 361
 """Positions of one turn, both ends included, when no angles are given."""
@@ -33,9 +37,11 @@ class Motion:
     shaft_slope : array (..., n+1, p) [1/rad]
         Derivative of the speed ratio by φ_1.
     joint_angle : array (..., n, p) [rad]
-        θ_i, angle of the driving yoke of joint i from the plane of the joint.
+        θ_i, angle of the driving yoke or mark of joint i from the plane of the joint.
     bend : array (..., n) [rad]
         α_i.
+    crossed : tuple of bool (n)
+        Which joints are Hooke joints, whose crosses turn as the properties below tell; all of them when empty.
     speed : float or array (...) [rad/s]
         ω_1; None when the drive does not say.
     acceleration : float or array (...) [rad/s²]
@@ -50,6 +56,7 @@ class Motion:
     bend: Array
     speed: ArrayLike | None = None
     acceleration: ArrayLike = 0.0
+    crossed: tuple[bool, ...] = ()
 
     @property
     def output_angle(self) -> Array:
@@ -85,13 +92,13 @@ class Motion:
     def cross_driving(self) -> Array:
         """Turn η' of each cross in its driving yoke about u_i, array (..., n, p) [rad]; tan η' = tan α sin θ."""
         xp = namespace(self.bend)
-        return xp.atan(xp.tan(self.bend)[..., None] * xp.sin(self.joint_angle))
+        return self._of_crosses(xp.atan(xp.tan(self.bend)[..., None] * xp.sin(self.joint_angle)))
 
     @property
     def cross_driven(self) -> Array:
         """Turn η'' of each cross in its driven yoke about v_{i+1}, array (..., n, p) [rad]; sin η'' = -sin α cos θ."""
         xp = namespace(self.bend)
-        return -xp.asin(xp.sin(self.bend)[..., None] * xp.cos(self.joint_angle))
+        return self._of_crosses(-xp.asin(xp.sin(self.bend)[..., None] * xp.cos(self.joint_angle)))
 
     @property
     def cross_driving_rate(self) -> Array:
@@ -99,7 +106,7 @@ class Motion:
         xp = namespace(self.bend)
         tangent = xp.tan(self.bend)[..., None]
         sine, cosine = xp.sin(self.joint_angle), xp.cos(self.joint_angle)
-        return self.shaft_ratio[..., :-1, :] * tangent * cosine / (1.0 + (tangent * sine) ** 2)
+        return self._of_crosses(self.shaft_ratio[..., :-1, :] * tangent * cosine / (1.0 + (tangent * sine) ** 2))
 
     @property
     def cross_driven_rate(self) -> Array:
@@ -107,7 +114,14 @@ class Motion:
         xp = namespace(self.bend)
         sine = xp.sin(self.bend)[..., None]
         across = xp.sqrt(1.0 - (sine * xp.cos(self.joint_angle)) ** 2)
-        return self.shaft_ratio[..., :-1, :] * sine * xp.sin(self.joint_angle) / across
+        return self._of_crosses(self.shaft_ratio[..., :-1, :] * sine * xp.sin(self.joint_angle) / across)
+
+    def _of_crosses(self, values: Array) -> Array:
+        """Return values (..., n, p) with nan for joints that are no Hooke joints."""
+        if all(self.crossed):
+            return values
+        xp = namespace(values)
+        return xp.where(xp.asarray(self.crossed)[:, None], values, xp.nan)
 
     def _each(self, value: ArrayLike | None) -> Array:
         if value is None:
@@ -146,9 +160,14 @@ def motion(
     ------
     BendLimitError
         A joint bends 90 degrees or more.
+    InputError
+        A joint with its sizes does not turn at its bend.
 
     Notes
     -----
+    Joints of other kinds whose map is tan θ' = κ tan θ count as the Hooke joints that turn alike, see
+    `cardan.drive.laws`; a drive with a joint that turns by another law is followed joint by joint.
+
     Every shaft directly from φ_1 by the product of the joints' Möbius matrices: i = 1/\\|b̄ w + ā\\|², w = e^(2iφ_1);
     equal to the recurrences of Book (32), (33), (38) to rounding, and the cost of a position does not grow with n.
 
@@ -159,6 +178,13 @@ def motion(
     >>> motion(single, [0.0]).ratio
     array([1.06417777])
     """
+    duty = drive.duty if isinstance(drive, Drive) else None
+    given: dict[str, Any] = {
+        "speed": speed if speed is not None or duty is None else duty.speed,
+        "acceleration": acceleration if acceleration is not None else duty.acceleration if duty else 0.0,
+    }
+    if isinstance(drive, Drive) and unmapped(drive.joints):
+        return Motion(**followed(drive, positions(angle, np)), **given)
     chain = kinematics(drive)
     xp = namespace(chain.bend, angle)
     phi = positions(angle, xp)
@@ -180,16 +206,16 @@ def motion(
         slopes.append(slope)
         if i + 1 < chain.joints:
             psi = _next_phase(psi, chain.bend[..., i]) + mu[..., i + 1]
-    duty = drive.duty if isinstance(drive, Drive) else None
+    at, laws = xp.stack(before, axis=-2), chain.laws
     return Motion(
         angle=phi,
         shaft_angle=_stacked(turns, shape, xp),
         shaft_ratio=_stacked(ratios, shape, xp),
         shaft_slope=_stacked(slopes, shape, xp),
-        joint_angle=xp.stack(before, axis=-2),
-        bend=chain.bend,
-        speed=speed if speed is not None or duty is None else duty.speed,
-        acceleration=acceleration if acceleration is not None else duty.acceleration if duty else 0.0,
+        joint_angle=at if laws is None else at - laws.ahead[..., None],
+        bend=chain.bend if laws is None else laws.bend,
+        crossed=() if laws is None else tuple(not own for own in laws.own),
+        **given,
     )
 
 
@@ -206,7 +232,8 @@ def phase_angles(drive: Drive | Drives | Chain) -> Array:
     phases = [mu[..., 0]]
     for i in range(1, chain.joints):
         phases.append(_next_phase(phases[-1], chain.bend[..., i - 1]) + mu[..., i])
-    return xp.stack(phases, axis=-1)
+    found = xp.stack(phases, axis=-1)
+    return found if chain.laws is None else found - chain.laws.ahead
 
 
 def _next_phase(psi: Array, bend: Array) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths import frames
@@ -197,6 +198,7 @@ def moving_forces(
     >>> print(f"{found.extreme(found.forces.bending_couple[1]).high:.1f} N·m")
     22.7 N·m
     """
+    refuse_kinds(drive, _("forces while the points move"))
     used = drive.duty if duty is None else duty
     moves = drive.movements if movements is None else tuple(movements)
     if not moves:

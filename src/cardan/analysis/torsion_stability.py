@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from cardan.drive.chain import chain
+from cardan.drive.chain import given_chain, turning
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.paths import place, read, with_values
@@ -213,15 +213,15 @@ def _bend_problems(drive: Drive, values: Array) -> Iterator[Problem]:
     """Yield bends that no joint can have, or that none of the drive grows with."""
     if values.ndim == 1 and np.any((values < 0.0) | (values >= 90.0)):
         yield Problem(BEND, _("a joint bends from 0° to less than 90°"))
-    if not np.max(chain(drive).bend):
+    if not np.max(given_chain(drive).bend):
         yield Problem(BEND, _("all joints are straight; there is nothing to bend in proportion"))
 
 
 def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
     """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
-    whole = chain(drive)
-    bends = replace(whole, bend=whole.bend * (largest / np.max(whole.bend)))
-    return replace(model, bend=bends.bend, phase=phase_angles(bends))
+    whole = given_chain(drive)
+    bends = turning(replace(whole, bend=whole.bend * (largest / np.max(whole.bend))), drive.joints)
+    return replace(model, bend=bends.bend, phase=phase_angles(replace(bends, laws=None)))
 
 
 class _Variants:
@@ -243,7 +243,7 @@ class _Variants:
             if np.any(self.speeds == 0.0):
                 raise refuse(path, _("0 is given; steady running needs a speed other than 0"))
         self.others = [k for k in range(len(axes)) if k != self.speeding]
-        largest = float(np.max(chain(drive).bend, initial=0.0)) / deg
+        largest = float(np.max(given_chain(drive).bend, initial=0.0)) / deg
         own = {path: largest if path == BEND else read(drive, path) for path, _values in axes}
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)

@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.chain import chain
+from cardan.drive.chain import turning_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
+from cardan.drive.joints import ElasticHalfCardan, Joint
+from cardan.drive.laws import has_map, refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
@@ -143,7 +145,9 @@ def torsional_train(
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
+    refuse_kinds(drive, _("torsional vibration"), known=has_map)
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
+    lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
     base = _joined(drive, lines)
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
@@ -158,6 +162,24 @@ def torsional_train(
         ends = [start + len(line.inertia) - 1 for line, start in _starts(lines)]
         model = replace(model, torques=machine_torques(drive, asked, named, last, ends, speed=turning, free=free))
     return replace(base, model=model)
+
+
+def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:
+    """Return the shaft behind an elastic joint, with a station before the joint's own spring."""
+    if not isinstance(joint, ElasticHalfCardan) or joint.stiffness is None:
+        return line
+    return replace(
+        line,
+        inertia=[0.0, *line.inertia],
+        ground_damping=[0.0, *line.ground_damping],
+        stiffness=[joint.stiffness, *line.stiffness],
+        damping=[joint.damping, *line.damping],
+        backlash=[0.0, *line.backlash],
+        loss_factor=[0.0, *line.loss_factor],
+        share=[line.share[0], *line.share],
+        names=[_("{name}, before the elastic joint").format(name=line.names[0]), *line.names],
+        held=[(), *line.held],
+    )
 
 
 def torsional_model(
@@ -189,7 +211,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
         if joint.backlash:  # beside the joint: at the end of its driving shaft, else at the start of its driven one
             side, at = (i, -1) if play[i] else (i + 1, 0)
             play[side][at] += joint.backlash
-    bends = chain(drive)
+    bends = turning_chain(drive)
     model = TorsionalModel(
         inertia=_row([line.inertia for line in lines]),
         driven=tuple(driven),
@@ -198,7 +220,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
         damping=_row([line.damping for line in lines]),
         backlash=_row(play),
         bend=np.asarray(bends.bend, dtype=float),
-        phase=np.asarray(phase_angles(bends), dtype=float),
+        phase=np.asarray(phase_angles(replace(bends, laws=None)), dtype=float),
         ground_damping=_row([line.ground_damping for line in lines]),
         loss_factor=_row([line.loss_factor for line in lines]),
         shaft=tuple(i for i, line in enumerate(lines) for _k in line.inertia),

@@ -117,7 +117,8 @@ def _sized(joint: Joint, rows: Catalogue) -> Joint:
     if not joint.size:
         return joint
     row = rows.row(JointSize, joint.size)
-    filled = {name: _over(getattr(joint, name), getattr(row, name)) for name in SIZED}
+    own = [name for name in SIZED if name not in joint.foreign]
+    filled = {name: _over(getattr(joint, name), getattr(row, name)) for name in own}
     return replace(joint, **filled, type=joint.type or row.type)
 
 

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace
+from cardan.texts import _
 
 from .drive import Drive
 from .geometry import geometry, given_angles
+from .joints import Joint
+from .laws import Laws, alike, mixed, refuse_kinds
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Chain:
-    """Bends, plane twists and yoke angles of one drive (n,) or of many (..., n).
+    """Bends, plane twists and yoke angles of one drive of Hooke joints (n,) or of many (..., n).
+
+    Joints of other kinds stand in it as the Hooke joints that turn alike, see `cardan.drive.laws`.
 
     Attributes
     ----------
@@ -27,12 +33,15 @@ class Chain:
         γ_2 … γ_n, from the driving to the driven yoke of a shaft.
     start_phase : array (...) [rad]
         ψ_1.
+    laws : Laws or None
+        The joints as they are, where any is of another kind.
     """
 
     bend: Array
     plane_twist: Array
     yoke_angle: Array
     start_phase: Array
+    laws: Laws | None = None
 
     @property
     def joints(self) -> int:
@@ -53,7 +62,12 @@ class Chain:
 
 
 def chain(drive: Drive) -> Chain:
-    """Return the kinematic half of a drive.
+    """Return the kinematic half of a drive of Hooke joints.
+
+    Raises
+    ------
+    InputError
+        A joint of another kind: who takes the Hooke joints that turn alike asks `turning_chain`.
 
     Examples
     --------
@@ -61,6 +75,54 @@ def chain(drive: Drive) -> Chain:
     >>> chain(Drive.from_angles([20 * deg, 20 * deg])).turn_before
     array([0.        , 1.57079633])
     """
+    if mixed(drive.joints):
+        refuse_kinds(drive, _("this question"))
+    return given_chain(drive)
+
+
+def turning_chain(drive: Drive) -> Chain:
+    """Return the Hooke joints that turn like the joints of a drive, those of other kinds among them.
+
+    Parameters
+    ----------
+    drive : Drive
+
+    Raises
+    ------
+    InputError
+        The motion of a joint is no Möbius map, or it does not turn at its bend.
+
+    Examples
+    --------
+    >>> turning_chain(Drive.from_angles([0.3, 0.4])).bend
+    array([0.3, 0.4])
+    """
+    return turning(given_chain(drive), drive.joints)
+
+
+def turning(whole: Chain, joints: Sequence[Joint]) -> Chain:
+    """Return the Hooke joints that turn like joints of any kind with the bends and planes of a chain.
+
+    Parameters
+    ----------
+    whole : Chain (..., n)
+        Bends and plane twists as they are.
+    joints : sequence of n Joint
+    """
+    if not mixed(joints):
+        return whole
+    bend, twist, start, laws = alike(joints, whole.bend, whole.plane_twist)
+    return Chain(
+        bend=bend,
+        plane_twist=twist,
+        yoke_angle=whole.yoke_angle,
+        start_phase=whole.start_phase + start,
+        laws=laws,
+    )
+
+
+def given_chain(drive: Drive) -> Chain:
+    """Return bends, planes and yokes of a drive as they are, whatever the kinds of its joints."""
     if drive.form == "angles":
         bend, twist = given_angles(drive)
         twist = twist[1:]

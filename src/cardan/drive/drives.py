@@ -13,8 +13,9 @@ from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.texts import _
 
-from .chain import Chain, chain
+from .chain import Chain, turning_chain
 from .drive import Drive
+from .laws import refuse_kinds
 from .geometry import geometry_from_points
 from .validity import COINCIDENT, HUGE
 
@@ -190,7 +191,7 @@ def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
     if not drives:
         check([Problem("drives", _("an empty list has nothing to stack"))])
     lib = np if xp is None else xp
-    chains = [chain(drive) for drive in drives]
+    chains = [turning_chain(drive) for drive in drives]
     most = max(one.joints for one in chains)
 
     def padded(rows: list[Array], width: int, filler: float) -> Array:
@@ -209,7 +210,29 @@ def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
 
 
 def kinematics(drive: Drive | Drives | Chain) -> Chain:
-    """Return the kinematic half of one drive or many."""
+    """Return the kinematic half of one drive or many; joints of other kinds as the Hooke joints that turn alike."""
     if isinstance(drive, Chain):
         return drive
-    return chain(drive) if isinstance(drive, Drive) else drive.chain
+    return turning_chain(drive) if isinstance(drive, Drive) else drive.chain
+
+
+def crosses(drive: Drive | Drives | Chain, question: str) -> Chain:
+    """Return the kinematic half of drives for a question that is about the crosses of Hooke joints.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+    question : str
+        What is asked, in words.
+
+    Raises
+    ------
+    InputError
+        A joint of another kind.
+    """
+    if isinstance(drive, Drive):
+        refuse_kinds(drive, question)
+    whole = kinematics(drive)
+    if whole.laws is not None:
+        raise refuse("joints", _("{question}: answered for Hooke joints only").format(question=question))
+    return whole

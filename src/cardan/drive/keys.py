@@ -95,6 +95,7 @@ def fields_of(cls: Any) -> dict[str, Field]:
 @cache
 def _fields_of(cls: Any) -> dict[str, Field]:
     hints = get_type_hints(cls)
+    foreign: frozenset[str] = getattr(cls, "foreign", frozenset())
     return {
         one.name: Field(
             name=one.name,
@@ -104,7 +105,7 @@ def _fields_of(cls: Any) -> dict[str, Field]:
             default=None if one.default is MISSING else one.default,
         )
         for one in fields(cls)
-        if KEY in one.metadata
+        if KEY in one.metadata and one.name not in foreign
     }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from cardan.errors import Problem
@@ -62,6 +63,12 @@ def known_lengths(drive: Drive) -> dict[int, float]:
 
 
 def _joint(joint: Joint, path: str) -> Iterator[Problem]:
+    for one in fields(joint):
+        if one.name in joint.foreign and getattr(joint, one.name) != one.default:
+            text = _("a joint of kind {kind} has none")
+            yield Problem(f"{path}.{one.name}", text.format(kind=joint.kind), "unknown_key")
+    for problem in joint.own_problems():
+        yield Problem(f"{path}.{problem.field}", problem.message, problem.code)
     if joint.friction is not None and joint.material_friction is not None:
         yield Problem(f"{path}.material_friction", _("friction gives the reduced coefficient already"))
     if joint.fit != "new" and joint.material_friction is None:

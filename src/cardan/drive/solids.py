@@ -6,6 +6,7 @@ directions are the drive's.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -14,9 +15,10 @@ import numpy as np
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
 
-from .chain import Chain, chain
+from .chain import Chain, given_chain
 from .drive import Drive
 from .geometry import Geometry, geometry
+from .joints import Hooke, Joint
 
 Part: TypeAlias = Literal["driving yoke", "driven yoke", "cross", "tube"]
 
@@ -34,13 +36,14 @@ class Arms:
         u_i, direction of the cross arm that the driving yoke of joint i holds; the yoke is part of shaft i.
     driven : array (n, ..., 3)
         v_{i+1}, direction of the cross arm that the driven yoke of joint i holds; the yoke is part of shaft i+1.
+        Joints without a cross have marks instead.
     """
 
     driving: Array
     driven: Array
 
 
-def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0) -> Arms:
+def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence[Joint] = ()) -> Arms:
     """Return the directions of all cross arms.
 
     Parameters
@@ -51,6 +54,8 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0) -> Arms:
         Its yoke angles and start phase.
     angle : array (...) [rad]
         Input angle φ_1 from the start position.
+    joints : sequence of n Joint
+        Their kinds; Hooke joints when empty.
 
     Returns
     -------
@@ -60,12 +65,13 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0) -> Arms:
     Notes
     -----
     Positions alone, by plain vectors: u_1 stands φ_1 + ψ_1 from N_1 × a_1, v_{i+1} = unit(a_{i+1} × u_i), and u_i is
-    v_i turned by -γ_i about a_i. No planes are needed, so straight joints are nothing special.
+    v_i turned by -γ_i about a_i. No planes are needed, so straight joints are nothing special. Joints of another kind
+    turn by their own law, counted from their plane.
 
     Examples
     --------
     >>> drive = Drive.from_angles([0.2, 0.2])
-    >>> found = arms(geometry(drive), chain(drive))
+    >>> found = arms(geometry(drive), given_chain(drive))
     >>> np.abs(np.round(found.driven[0], 12))
     array([0., 1., 0.])
     """
@@ -74,10 +80,24 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0) -> Arms:
     start = np.asarray(angle, dtype=float) + train.start_phase
     driving, driven = [frames.rotate(first, axis[0], start)], []
     for i in range(train.joints):
-        driven.append(frames.unit(frames.cross(axis[i + 1], driving[-1])))
+        if joints and type(joints[i]) is not Hooke:
+            driven.append(_driven_mark(joints[i], place, i, driving[-1], np.asarray(train.bend)[i]))
+        else:
+            driven.append(frames.unit(frames.cross(axis[i + 1], driving[-1])))
         if i + 1 < train.joints:
             driving.append(frames.rotate(driven[-1], axis[i + 1], -train.yoke_angle[i]))
     return Arms(driving=np.stack(driving), driven=np.stack(driven))
+
+
+def _driven_mark(joint: Joint, place: Geometry, i: int, driving: Array, bend: Array) -> Array:
+    """Return the direction of the driven mark of a joint that turns by a law of its own, array (..., 3)."""
+    normal, before, after = place.normal[i], place.axis[i], place.axis[i + 1]
+    across = frames.cross(normal, before)
+    theta = np.arctan2(frames.dot(driving, normal), frames.dot(driving, across))
+    turned = theta + joint.deviation(theta, bend)[0] + (0.5 * np.pi if joint.crossed else 0.0)
+    plane = frames.cross(normal, after)
+    found: Array = np.cos(turned)[..., None] * plane + np.sin(turned)[..., None] * normal
+    return found
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -157,8 +177,8 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     >>> sorted({body.part for body in solids(drive).bodies})
     ['cross', 'driven yoke', 'driving yoke', 'tube']
     """
-    place, train = geometry(drive), chain(drive)
-    stand = arms(place, train, angle)
+    place, train = geometry(drive), given_chain(drive)
+    stand = arms(place, train, angle, drive.joints)
     centres = place.points[1:-1]
     size, radius = _sizes(place)
     reach = np.clip(place.length[[0, -1]], 2.4 * radius, size)
@@ -172,6 +192,9 @@ def solids(drive: Drive, angle: float = 0.0) -> Solids:
     for i, centre in enumerate(centres):
         u, v = stand.driving[i], stand.driven[i]
         before, after = place.axis[i], place.axis[i + 1]
+        if not drive.joints[i].crossed:
+            bodies += _bells(i, centre, before, after, radius)
+            continue
         bodies.append(_yoke("driving yoke", i + 1, centre, -before, u, radius))
         bodies.append(_yoke("driven yoke", i + 2, centre, after, v, radius))
         bodies.append(_beam(i + 1, centre, u, frames.unit(frames.cross(v, u)), radius))
@@ -232,6 +255,16 @@ def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, rad
     return _prism(part, shaft, corners, count, cap)
 
 
+def _bells(joint: int, centre: Array, before: Array, after: Array, radius: float) -> list[Body]:
+    """Return a joint without a cross: a bell on the driving shaft and a thinner piece on the driven one."""
+    return [
+        _tube(
+            joint + 1, centre - _NECK * radius * before, centre + 0.35 * radius * before, 0.95 * radius, "driving yoke"
+        ),
+        _tube(joint + 2, centre - 0.1 * radius * after, centre + _NECK * radius * after, 0.7 * radius, "driven yoke"),
+    ]
+
+
 def _beam(joint: int, centre: Array, arm: Array, across: Array, radius: float) -> Body:
     """Return one arm of a cross, from ear to ear."""
     third = frames.cross(arm, across)
@@ -242,7 +275,7 @@ def _beam(joint: int, centre: Array, arm: Array, across: Array, radius: float) -
     return _prism("cross", joint, corners, 4, ((0, 1, 2), (0, 2, 3)))
 
 
-def _tube(shaft: int, start: Array, end: Array, radius: float) -> Body:
+def _tube(shaft: int, start: Array, end: Array, radius: float, part: Part = "tube") -> Body:
     """Return a round bar; of no length where the yokes of a short shaft meet."""
     along = frames.unit(end - start) if float(np.linalg.norm(end - start)) > 0.0 else np.asarray([1.0, 0.0, 0.0])
     one = frames.perpendicular(along)
@@ -250,7 +283,7 @@ def _tube(shaft: int, start: Array, end: Array, radius: float) -> Body:
     turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
     ring = radius * (np.cos(turn)[:, None] * one + np.sin(turn)[:, None] * two)
     cap = tuple((0, k, k + 1) for k in range(1, SIDES - 1))
-    return _prism("tube", shaft, np.concatenate((end + ring, start + ring)), SIDES, cap, smooth=True)
+    return _prism(part, shaft, np.concatenate((end + ring, start + ring)), SIDES, cap, smooth=True)
 
 
 def _prism(

@@ -141,7 +141,7 @@ def tables() -> tuple[tuple[str, type], ...]:
     Examples
     --------
     >>> [title for title, cls in tables()][:5]
-    ['the head of the file', '[settings]', '[input]', '[output]', '[[joints]]']
+    ['the head of the file', '[settings]', '[input]', '[output]', "[[joints]] kind = 'hooke'"]
     """
     return tuple(_tables(Drive, ""))
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import geometry
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.validity import axis_points
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
@@ -117,6 +118,7 @@ def layout(
     >>> found.feasible, found.status.value
     (True, 'converged')
     """
+    refuse_kinds(drive, _("layout"))
     check(_problems(drive, weights, shortest))
     before = geometry(drive)
     low, high = _boxes(drive)

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cardan.analysis.equivalence import SYNCHRONOUS as EVEN
-from cardan.drive.chain import Chain, chain
+from cardan.drive.chain import Chain, turning_chain
 from cardan.drive.drive import Drive
+from cardan.drive.laws import has_map, refuse_kinds
 from cardan.drive.validity import wrong_count
 from cardan.errors import InputError, Problem, check
 from cardan.maths import polygon
@@ -111,14 +112,14 @@ def phases(
     Raises
     ------
     InputError
-        ``fixed`` names a shaft that has no yokes to set, or a value that is not finite; the goal has too many or too
-        few weights; a pose has another number of
-        joints.
+        A joint turns by a law of its own; ``fixed`` names a shaft that has no yokes to set, or a value that is not
+        finite; the goal has too many or too few weights; a pose has another number of joints.
 
     Notes
     -----
     Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of
-    the others. Joints with held yokes between them count as one. Replaces the first-order Book (77)-(86).
+    the others; joints of other kinds count as the Hooke joints that turn alike. Joints with held yokes between them
+    count as one. Replaces the first-order Book (77)-(86).
 
     Examples
     --------
@@ -127,7 +128,8 @@ def phases(
     >>> found.feasible, [s.irregularity < 1e-14 for s in found.settings]
     (True, [True, True])
     """
-    whole = chain(drive)
+    refuse_kinds(drive, _("yoke angles"), known=has_map)
+    whole = turning_chain(drive)
     as_built = np.asarray(whole.yoke_angle)
     if goal.weights is not None:
         check(wrong_count("goal.weights", goal.weights, whole.joints - 1))
@@ -250,7 +252,7 @@ def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, 
     even = np.ones(len(said)) / max(1, len(said))
     return (
         tuple(name for name, _one in given),
-        [chain(one) for _name, one in given],
+        [turning_chain(one) for _name, one in given],
         weight / weight.sum() if weight.sum() > 0 else even,
     )
 

@@ -16,8 +16,8 @@ class Hooke(Joint):
     """Universal joint of Hooke: two yokes held at right angles by a cross."""
 
     kind: ClassVar[str] = "hooke"
+    crossed: ClassVar[bool] = True
 
-    @staticmethod
-    def pair(bend: Array) -> mobius.Pair:
+    def pair(self, bend: Array) -> mobius.Pair:
         """Return the joint's Möbius map, see `cardan.maths.mobius`."""
         return mobius.hooke(bend)

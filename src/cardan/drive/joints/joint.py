@@ -1,8 +1,9 @@
-"""What every kind of joint has: a place in the drive."""
+"""What every kind of joint has: a place in the drive, and a law of motion."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
@@ -10,17 +11,39 @@ from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.cross import Cross
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Yoke
+from cardan.errors import Problem
+from cardan.maths import mobius
+from cardan.maths.arrays import Array, unit_complex
+from cardan.texts import _
 from cardan.units import plain, quantity
 
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
 
+CROSS_ONLY = frozenset(
+    ("friction", "material_friction", "fit", "cross", "needles", "yoke", "inspection", "error", "tolerance")
+)
+"""Fields that only a joint with one cross can use."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Joint:
-    """A joint and its place, in one of three forms: its centre, or its bend and plane, or neither (slopes)."""
+    """A joint and its place, in one of three forms: its centre, or its bend and plane, or neither (slopes).
+
+    A kind says how it turns by `pair`, or by `deviation` where its map of the circle is no Möbius map. Its marks are a
+    line on the driving side and one on the driven side, from which yoke angles count: the yokes of a cross joint.
+    """
 
     kind: ClassVar[str]
+
+    foreign: ClassVar[frozenset[str]] = frozenset()
+    """Fields of every joint that mean nothing in one of this kind."""
+
+    crossed: ClassVar[bool] = False
+    """Whether its marks are the arms of one cross, a quarter turn apart; else they lie on one line when straight."""
+
+    steepest: ClassVar[float] = math.pi / 4
+    """Bend [rad] above which no real joint of this kind works."""
 
     name: str = plain("", doc="name of the joint, for tables and pictures")
     type: str = plain("", doc="type of joint in the catalogue, with its limits")
@@ -58,3 +81,39 @@ class Joint:
     inspection: Inspection | None = plain(None, doc="what was measured on yoke and cross")
     error: Error | None = plain(None, doc="manufacturing errors of the joint, as measured")
     tolerance: Tolerance | None = plain(None, doc="tolerances of the joint, each to both sides")
+
+    def pair(self, bend: Array) -> mobius.Pair | None:
+        """Return the joint's Möbius map, with real parts, for bends (...) [rad]; None where it has none."""
+        raise NotImplementedError
+
+    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+        """Return how far the driven side runs ahead of the driving side, with two derivatives.
+
+        Parameters
+        ----------
+        angle : array (...) [rad]
+            θ, angle of the driving mark from the plane of the shafts.
+        bend : array (...) [rad]
+            α.
+
+        Returns
+        -------
+        lead, ratio, slope : arrays (...) [rad, 1, 1/rad]
+            T(θ) - θ, T' and T'', T the angle of the driven mark, less a quarter turn where the joint has a cross.
+        """
+        pair = self.pair(bend)
+        assert pair is not None, self.kind
+        return mobius.course(pair, unit_complex(2.0 * angle))
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield what contradicts itself in the fields of this kind, each path from the joint on."""
+        yield from ()
+
+
+def both_or_none(joint: Joint, *names: str) -> Iterator[Problem]:
+    """Yield those fields that are missing where another one of them is given."""
+    missing = [name for name in names if getattr(joint, name) is None]
+    if len(missing) < len(names):
+        given = next(name for name in names if name not in missing)
+        for name in missing:
+            yield Problem(name, _("missing; it goes with {other}").format(other=given), "missing")

@@ -1,0 +1,61 @@
+"""The Rzeppa joint: balls in grooves, kept in a plane by a lever or by the grooves themselves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from cardan.errors import Problem
+from cardan.maths import dividing_lever, mobius, shared_turn, tilted_plane
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import plain, quantity
+
+from .joint import CROSS_ONLY, Joint, both_or_none
+from .weiss import groove_course
+
+LEVER = ("lever_b", "lever_c")
+GROOVES = ("driving_offset", "driven_offset", "groove_radius")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Rzeppa(Joint):
+    """Rzeppa joint: even where its balls lie in the bisecting plane, nearly even where lever or grooves miss it."""
+
+    kind: ClassVar[str] = "rzeppa"
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
+    steepest: ClassVar[float] = math.radians(47.0)
+
+    balls: int = plain(6, doc="number of balls, all of which carry", low=3)
+    lever_b: float | None = plain(None, doc="arm of the lever beyond the cage over that before it, b/a", above=0.0)
+    lever_c: float | None = plain(
+        None, doc="distance of the lever's fixed end from the joint centre over its arm before the cage, c/a", above=0.0
+    )
+    driving_offset: float | None = quantity(
+        "length", None, doc="from the joint centre to the centre of the grooves on the driving shaft", above=0.0
+    )
+    driven_offset: float | None = quantity(
+        "length", None, doc="from the joint centre to the centre of the grooves on the driven shaft", above=0.0
+    )
+    groove_radius: float | None = quantity("length", None, doc="radius of the grooves' middle line", above=0.0)
+
+    def own_problems(self) -> Iterator[Problem]:
+        """Yield a lever or grooves that are half given, and both at once."""
+        yield from both_or_none(self, *LEVER)
+        yield from both_or_none(self, *GROOVES)
+        if self.lever_b is not None and self.groove_radius is not None:
+            yield Problem("lever_b", _("the offset grooves place the balls already"), "inconsistent")
+
+    def pair(self, bend: Array) -> mobius.Pair | None:
+        """Return the identity where nothing is said or the offsets are equal, else None."""
+        even = self.lever_b is None and self.driving_offset == self.driven_offset
+        return mobius.turn(0.0 * bend) if even else None
+
+    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+        """Return the mean of what the balls ask for."""
+        if self.lever_b is not None and self.lever_c is not None:
+            tilt = dividing_lever.plane_error(bend, self.lever_b, self.lever_c)
+            return shared_turn.course(angle, tilted_plane.tau(bend, tilt), shared_turn.places(self.balls))
+        return groove_course(angle, bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
