@@ -63,6 +63,7 @@ FIRST = {case["capability"]: case["inputs"] for case in reversed(CASES)} | {
     "rule_of_practice": {key: CHAIN[key] for key in ("alpha_deg", "beta_deg", "gamma_deg")},
     "double_joint": {"alpha12_deg": 20, "alpha23_deg": 15, "arrangement": "a"},
     "collinear_joints": {"alpha_deg": [20, 15], "sign": [1, -1]},
+    "groove_offset": {"alpha_deg": 40, "plane_tilt_deg": 0.5, "axial_play_m": 1e-4},
     "length_compensation": {
         "points0_m": [[-1, 0, 0], [0, 0, 0], [1, 0, -0.2], [2, 0, -0.2]],
         "amplitude_m": [[0, 0, 0], [0, 0, 0], [0, 0, 0.1], [0, 0, 0.1]],

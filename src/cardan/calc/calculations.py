@@ -18,9 +18,11 @@ from . import (
     bearings,
     bending,
     book,
+    constant_velocity,
     couplings,
     dynamic_book,
     forces,
+    instruments,
     joint_forces,
     kinematics,
     life,
@@ -91,6 +93,8 @@ CALCULATIONS: dict[str, Calculation] = {
         dynamic_book,
         couplings,
         structure,
+        constant_velocity,
+        instruments,
     )
     for calculation in part.CALCULATIONS
 } | {ERRORS.name: ERRORS}
