@@ -54,5 +54,4 @@ class Clemens(Joint):
             profile_coupling.Circle(axial=side.axial, radial=side.radial, radius=side.radius)
             for side in (self.driving, self.driven)
         )
-        found = profile_coupling.profile_contact(angle, bend, one, other)
-        return found.deviation, found.ratio, profile_coupling.ratio_slope(angle, bend, one, other)
+        return profile_coupling.course(angle, bend, one, other)
