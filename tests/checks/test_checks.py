@@ -333,6 +333,27 @@ def test_what_a_movement_makes_of_bends_and_splines_counts():
     assert spline.limit == pytest.approx(0.150)
 
 
+@pytest.mark.parametrize("name", ["truck-rear-axle", "pto-hitch"])
+def test_many_drives_that_move_and_have_poses_are_judged_as_one_by_one(name):
+    drive = example(name)
+    drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01, output_error=0.1 * deg))
+    only = ["bend", "irregularity", "output_error", "acceleration"]
+    for path, values in {"joints[0].centre_mm[2]": [-9.0, 6.0], "joints[1].centre_mm[2]": [-300.0, 20.0]}.items():
+        many = check(drive, only=only, vary={path: values})
+        for k, value in enumerate(values):
+            for a, b in zip(many, check(with_values(drive, {path: value}), only=only), strict=True):
+                assert np.broadcast_to(a.utilisation, 2)[k] == pytest.approx(b.utilisation, rel=1e-12), (path, a.title)
+
+
+def test_a_joint_that_passes_a_right_angle_while_it_moves_is_seen():
+    turn = replace(example("pto-hitch").movements[0], yaw=200 * deg)
+    drive = replace(example("pto-hitch"), movements=(turn,))
+    drive = replace(drive, limits=replace(drive.limits, bend=45 * deg, irregularity=0.5))
+    bend, _other, uneven = check(drive, only=["bend", "irregularity"])
+    assert bend.value > 90 * deg
+    assert (uneven.value, uneven.state) == (math.inf, "failed")
+
+
 def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
     rows = '[[joint_sizes]]\nid = "own"\nsource = "s"\ncross = { span_mm = 60, journal_mm = 20 }\n'
     (tmp_path / "own.toml").write_text(rows, "utf-8")

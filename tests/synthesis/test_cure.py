@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from cardan import Drive
+from cardan import Drive, example
 from cardan.catalogue import completed
 from cardan.checks import Verdict, check
 from cardan.drive.cross import Cross
@@ -136,3 +136,26 @@ def test_the_most_helpful_changes_come_first_and_ask_no_less_of_the_drive():
 
 def test_a_drive_that_passes_needs_no_cure():
     assert cures(replace(Drive.from_angles([0.1, 0.1]), duty=Duty(speed=100.0))) == ()
+
+
+def test_what_fails_only_in_a_pose_while_moving_is_cured_where_one_key_can():
+    """The poses set where the axle is, so that only the other joint can be moved."""
+    drive = example("truck-rear-axle")
+    drive = replace(drive, limits=replace(drive.limits, bend=9 * deg))
+    verdicts = check(drive)
+    failed = [one for one in verdicts if one.check == "bend" and one.state == "failed"]
+    assert {one.note for one in failed} == {"while the drive moves; in the pose empty"}
+    found = [cure for cure in cures(drive, [one for one in verdicts if one.check == "bend"])]
+    assert {one.title for one in failed} == {cure.title for cure in found}
+    for cure in found:
+        after = next(one for one in check(cured(drive, cure), only=["bend"]) if one.title == cure.title)
+        assert after.state in ("passed", "close"), cure
+
+
+def test_a_search_of_cures_tells_how_far_it_is_and_can_be_stopped():
+    drive, verdicts, found = solved(plain)
+    told = []
+    part = cures(drive, verdicts, progress=lambda share: told.append(share) or "stop")
+    assert 0.0 < told[0] < 1.0
+    first = next(one.check for one in verdicts if one.state == "failed" and not one.advice)
+    assert part == tuple(one for one in found if one.check == first)

@@ -85,10 +85,13 @@ def _relative(design: Design, i: int) -> Array:
         capacity = needle_rating(*(design.value(f"joints[{i}].{name}") for name in SIZES)).dynamic
     strength = np.asarray(capacity) * design.value(f"joints[{i}].cross.span") / design.shock
     damage = np.zeros((2, *design.shape))
+    swung: dict[tuple[int, str], tuple[Array, Array]] = {}
     for case in design.running:
-        swings = swing_damage(case.bend[..., i], torque_at=case.torque_at)
+        turned = id(case.chain), case.torque_at
+        if turned not in swung:
+            swung[turned] = swing_damage(case.bend[..., i], torque_at=case.torque_at)
         load = np.asarray(case.share) * case.speed * (np.asarray(case.torque) / strength) ** POWER
-        damage = damage + np.stack([np.broadcast_to(load * swing, design.shape) for swing in swings])
+        damage = damage + np.stack([np.broadcast_to(load * swing, design.shape) for swing in swung[turned]])
     found: Array = np.max(damage, axis=0)
     return found
 

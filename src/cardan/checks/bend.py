@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit, source = given[0]
         bends = [np.asarray(case.bend)[..., i] for case in design.cases] or [design.bend[..., i]]
         moved = largest_bend(design, i)
-        note = _("while the drive moves") if moved > np.max(largest(bends)) else ""
+        note = _("while the drive moves") if np.all(moved > largest(bends)) else ""
         yield made(value=largest([*bends, moved]), limit=limit, source=source, levers=design.bends_of(i), note=note)
 
 

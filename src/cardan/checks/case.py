@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -40,6 +40,8 @@ class Case:
         Whether it is part of a duty cycle.
     chain : Chain
         Kinematic half of the drives.
+    unit : dict of str to TurnLoads
+        Loads that a torque of 1 at either end makes; ways of running that share their chain share them.
     torque_at : str
         At which end the torque is given.
     harmonics : tuple of Harmonic
@@ -49,6 +51,7 @@ class Case:
     """
 
     chain: Chain
+    unit: dict[str, TurnLoads] = field(default_factory=dict)
     name: str = ""
     torque: Array | float | None = None
     speed: Array | float | None = None
@@ -111,8 +114,10 @@ class Case:
         torque = np.asarray(self.torque, dtype=float)
         if self.harmonics:
             return turn_loads(self.chain, torque, torque_at=self.torque_at, harmonics=self.harmonics, scale=self.scale)
-        unit, size = _unit_loads(self.chain, self.torque_at), np.abs(torque)[..., None]
-        return TurnLoads(**{name: size * values for name, values in vars(unit).items()})
+        if self.torque_at not in self.unit:
+            self.unit[self.torque_at] = _unit_loads(self.chain, self.torque_at)
+        size = np.abs(torque)[..., None]
+        return TurnLoads(**{name: size * values for name, values in vars(self.unit[self.torque_at]).items()})
 
 
 def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
@@ -129,7 +134,7 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
     }
     parts = []
     for start in range(0, count, BLOCK):
-        part = Chain(**{name: values[start : start + BLOCK] for name, values in flat.items()})
+        part = replace(chain, **{name: values[start : start + BLOCK] for name, values in flat.items()})  # type: ignore[arg-type]
         parts.append(vars(turn_loads(part, 1.0, torque_at=torque_at, look=MANY)))
     whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     return TurnLoads(**{name: values.reshape(*lead, values.shape[-1]) for name, values in whole.items()})

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.paths import pose_drives
 from cardan.errors import Problem
 from cardan.errors import check as refuse_all
 from cardan.maths.arrays import ArrayLike
@@ -53,7 +51,7 @@ from . import (
 )
 from .check import Check
 from .design import Design, design
-from .moving import worst_of_poses
+from .moving import posed, worst_of_poses
 from .verdict import Verdict
 
 CHECKS: dict[str, Check] = {
@@ -124,7 +122,7 @@ def check(
     -------
     tuple of Verdict
         A verdict that could not be reached names what is missing. A drive with poses is judged as drawn and in each
-        pose, and the worst counts; where values vary it is judged as drawn.
+        pose, and the worst counts.
 
     Raises
     ------
@@ -142,12 +140,7 @@ def check(
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
-    verdicts = _judged(subject, only)
-    if vary or not subject.drive.poses:
-        return verdicts
-    names = [pose.name or str(k) for k, pose in enumerate(subject.drive.poses, start=1)]
-    posed = [replace(subject, drive=one) for one in pose_drives(subject.drive)]
-    return worst_of_poses(verdicts, [(name, _judged(one, only)) for name, one in zip(names, posed, strict=True)])
+    return worst_of_poses(_judged(subject, only), [(name, _judged(one, only)) for name, one in posed(subject)])
 
 
 def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:

@@ -10,18 +10,20 @@ from typing import Any
 
 import numpy as np
 
+from cardan.analysis.turn_loads import TurnLoads
 from cardan.catalogue import Catalogue, catalogue, completed
 from cardan.drive.chain import Chain, chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import geometry, geometry_from_points
+from cardan.drive.geometry import geometry, geometry_from_points, points_from_angles
 from cardan.drive.parts import known_lengths
-from cardan.drive.paths import place
+from cardan.drive.paths import bare_path, place
 from cardan.errors import InputError, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
+from .carried import largest_bends, largest_irregularity
 from .case import Case, largest
 
 _STEP = re.compile(r"([a-z_]+)((?:\[\d+\])*)$")
@@ -92,13 +94,12 @@ class Design:
     @cached_property
     def chain(self) -> Chain:
         """Kinematic half of the drives."""
-        base = chain(self.drive)
-        moved = {path: values for path, values in self.varied.items() if _GEOMETRY.match(path)}
+        base, moved = chain(self.drive), self.replaced
         if not moved:
             return base
         bend, twist = base.bend, base.plane_twist
         if self.drive.form != "angles":
-            found = geometry_from_points(self._points)
+            found = geometry_from_points(self.points)
             bend, twist = found.bend, found.plane_twist
         return Chain(
             bend=self._over(bend, moved, r"joints\[(\d+)\]\.bend$", 0),
@@ -108,10 +109,19 @@ class Design:
         )
 
     @cached_property
-    def _points(self) -> Array:
-        """Points of the axis of drives given by points or slopes, array (..., n+2, 3) [m]."""
+    def replaced(self) -> dict[str, Array]:
+        """What varies of where joints and yokes are."""
+        return {path: values for path, values in self.varied.items() if _GEOMETRY.match(path)}
+
+    @cached_property
+    def points(self) -> Array:
+        """Points of the axis, array (..., n+2, 3) [m]."""
         place_of = geometry(self.drive)
         base = np.asarray(place_of.points, dtype=float)
+        if self.drive.form == "angles":
+            twist = np.asarray(self.value("joints[0].plane_twist") or 0.0)
+            length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
+            return points_from_angles(self.chain.bend, self.chain.plane_twist, length, first_twist=twist)
         if self.drive.form == "slopes":
             length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
             slopes = [
@@ -127,13 +137,23 @@ class Design:
             steps = length[..., None] * axis
             after = np.cumsum(steps[..., 1:, :], axis=-2)
             return np.concatenate((-steps[..., :1, :], 0.0 * steps[..., :1, :], after), axis=-2)
-        points = np.broadcast_to(base, (*self.shape, *base.shape)).copy()
-        for path, values in self.varied.items():
+        points = np.broadcast_to(base, (*(self.shape if self.replaced else ()), *base.shape)).copy()
+        for path, values in self.replaced.items():
             row = _row(path, self.joints)
             if row is not None:
                 part = re.search(r"\[(\d)\]$", path.partition(".")[2])
                 points[..., row, int(part[1]) if part else slice(None)] = values
         return points
+
+    @cached_property
+    def moving_bend(self) -> Array:
+        """Largest bend of every joint over the movements of the drive, array (..., n) [rad]."""
+        return largest_bends(self.points, self.drive.movements)
+
+    @cached_property
+    def moving_irregularity(self) -> Array:
+        """Largest irregularity of the output over the movements of the drive, array (...)."""
+        return largest_irregularity(self.chain, self.points, self.drive.movements)
 
     def _over(self, values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:
         """Return values (..., k) with the varied ones in their places."""
@@ -159,7 +179,7 @@ class Design:
         moved = any(_row(path, self.joints) is not None for path in self.varied)
         if known is None or not moved:
             return known
-        found: Array = frames.norm(self._points[..., k + 1, :] - self._points[..., k, :])
+        found: Array = frames.norm(self.points[..., k + 1, :] - self.points[..., k, :])
         return found
 
     @cached_property
@@ -168,10 +188,11 @@ class Design:
         duty = self.duty
         torque, speed = self.value("duty.torque"), self.value("duty.speed")
         scale = 0.0 if torque is None else torque
-        cases = []
+        cases, unit = [], dict[str, TurnLoads]()
         if torque is not None or speed is not None or not duty.blocks:
             steady = Case(
                 chain=self.chain,
+                unit=unit,
                 torque=_size(torque),
                 speed=_size(speed),
                 torque_at=duty.torque_at,
@@ -189,6 +210,7 @@ class Design:
             cases.append(
                 Case(
                     chain=whole,
+                    unit=unit if bend is None else {},
                     name=_("part {number} of the duty cycle").format(number=k + 1),
                     torque=self.value(f"{path}.torque"),
                     speed=self.value(f"{path}.speed"),
@@ -202,7 +224,7 @@ class Design:
         if history is not None and history.torques:
             most = max(abs(one) for one in history.torques)
             name = _("the peak of the torque history")
-            cases.append(Case(chain=self.chain, name=name, torque=most, speed=_size(speed), share=0.0))
+            cases.append(Case(chain=self.chain, unit=unit, name=name, torque=most, speed=_size(speed), share=0.0))
         return tuple(cases)
 
     @property
@@ -337,12 +359,11 @@ def design(
     made = whole(drive, drive.duty if duty is None else duty, rows)
     varied: dict[str, Array] = {}
     for path, values in (vary or {}).items():
-        there = place(made, path)
-        bare = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in there.steps)
+        factor, bare = place(made, path).factor, bare_path(made, path)
         given = np.asarray(values, dtype=float)
         if not np.all(np.isfinite(given)):
             raise refuse(path, _("not every value is finite"))
-        varied[bare.removeprefix(".")] = given * there.factor
+        varied[bare] = given * factor
     return Design(drive=made, duty=made.duty, known=rows, varied=varied)
 
 

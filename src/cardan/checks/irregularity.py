@@ -39,7 +39,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
         levers=(*design.yoke_levers, *design.bend_levers),
-        note=_("while the drive moves") if moved > np.max(drawn) else "",
+        note=_("while the drive moves") if np.all(moved > drawn) else "",
     )
 
 

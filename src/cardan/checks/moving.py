@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
+
+import numpy as np
 
 from cardan.analysis.articulation import Articulation, articulation
 from cardan.drive.drive import Drive
+from cardan.drive.paths import bare_path, pose_drives
+from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .design import Design
@@ -23,16 +28,28 @@ def movement(drive: Drive) -> Articulation | None:
     return articulation(drive) if drive.movements else None
 
 
-def largest_bend(design: Design, i: int) -> float:
-    """Return the largest bend of a joint while the drive moves, counted from 0 [rad]; 0 where nothing moves."""
-    found = movement(design.drive)
-    return 0.0 if found is None else float(found.envelope["bend"][1][i])
+def largest_bend(design: Design, i: int) -> Array | float:
+    """Return the largest bend of a joint while the drive moves, counted from 0 (...) [rad]; 0 where nothing moves."""
+    return design.moving_bend[..., i] if design.drive.movements else 0.0
 
 
-def largest_irregularity(design: Design) -> float:
-    """Return the largest irregularity of the output while the drive moves; 0 where nothing moves."""
-    found = movement(design.drive)
-    return 0.0 if found is None else float(found.envelope["irregularity"][1])
+def largest_irregularity(design: Design) -> Array | float:
+    """Return the largest irregularity of the output while the drive moves (...); 0 where nothing moves."""
+    return design.moving_irregularity if design.drive.movements else 0.0
+
+
+def posed(design: Design) -> list[tuple[str, Design]]:
+    """Return the name of every pose of a drive and the design in it; what the pose sets does not vary there."""
+    found = []
+    for k, (pose, drive) in enumerate(zip(design.drive.poses, pose_drives(design.drive), strict=True), start=1):
+        own = [bare_path(design.drive, path) for path, _value in pose.set]
+        varied = {
+            path: values
+            for path, values in design.varied.items()
+            if not any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in own)
+        }
+        found.append((pose.name or str(k), replace(design, drive=drive, duty=drive.duty, varied=varied)))
+    return found
 
 
 def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence[Verdict]]]) -> tuple[Verdict, ...]:
@@ -41,7 +58,7 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence
     Parameters
     ----------
     drawn : sequence of Verdict
-        Of one drive as drawn.
+        Of the drive as drawn, or of many.
     poses : sequence of (str, sequence of Verdict)
         Name of each pose, and the verdicts in it.
     """
@@ -50,8 +67,20 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence
         worst = one
         for name, verdicts in poses:
             other = next((its for its in verdicts if (its.check, its.title) == (one.check, one.title)), None)
-            if one.run and other is not None and other.run and other.utilisation > worst.utilisation * WORSE:
-                said = _("in the pose {name}").format(name=name)
-                worst = replace(other, note=f"{other.note}; {said}" if other.note else said)
+            if one.run and other is not None and other.run:
+                worst = _worse(worst, other, _("in the pose {name}").format(name=name))
         found.append(worst)
     return tuple(found)
+
+
+def _worse(worst: Verdict, other: Verdict, said: str) -> Verdict:
+    """Return the worse of two verdicts, of many drives place by place; the other one with a word on its pose."""
+    worse = np.asarray(other.utilisation > np.asarray(worst.utilisation) * WORSE)
+    if not np.any(worse):
+        return worst
+    if np.all(worse):
+        return replace(other, note=f"{other.note}; {said}" if other.note else said)
+    limit: Any = np.where(worse, other.limit, worst.limit)
+    if isinstance(other.limit, tuple) and isinstance(worst.limit, tuple):
+        limit = tuple(np.where(worse, *ends) for ends in zip(other.limit, worst.limit, strict=True))
+    return replace(worst, value=np.where(worse, other.value, worst.value), limit=limit)

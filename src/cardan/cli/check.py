@@ -60,15 +60,16 @@ def check(
     from cardan.io.drive_file import known_to
     from cardan.synthesis.cure import cures
 
+    from .progress import watching
     from .source import STDIN, read
 
     more = tuple(catalogue or ())
     _check_only(only or ())
     drive: Drive = on_duty(read(file, more), speed_rpm, torque)
     known = known_to(drive, "." if file == STDIN else file.parent, more)
-    with keys_of(file):
+    with keys_of(file), watching(_("searching cures")) as progress:
         verdicts = question(drive, only=only or (), known=known)
-        found = cures(drive, verdicts, known=known)
+        found = cures(drive, verdicts, known=known, progress=progress)
     judged = Judged(drive=drive, file=file, verdicts=verdicts, cures=found, sources=sources)
     return show(answer(judged), json=json, csv=csv, plot=plot)
 

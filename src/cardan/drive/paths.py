@@ -143,7 +143,7 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
     try:
         return replace(drive, **tops)
     except InputError as error:
-        given = {_steps(drive, path): path for path in values}
+        given = {bare_path(drive, path): path for path in values}
         raise error.renamed(lambda field: _as_given(field, given)) from None
 
 
@@ -163,7 +163,7 @@ def _with_tops(drive: Drive, values: Mapping[str, Any]) -> dict[str, Any]:
     return tops
 
 
-def _steps(drive: Drive, path: str) -> str:
+def bare_path(drive: Drive, path: str) -> str:
     """Return a path as Python writes it, without its unit."""
     words = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in place(drive, path).steps)
     return "".join(words).removeprefix(".")

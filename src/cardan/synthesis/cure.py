@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,11 @@ from .cure_search import of_check
 
 
 def cures(
-    drive: Drive, verdicts: Sequence[Verdict] | None = None, *, known: Catalogue | None = None
+    drive: Drive,
+    verdicts: Sequence[Verdict] | None = None,
+    *,
+    known: Catalogue | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> tuple[Cure, ...]:
     """Return the smallest changes of single keys that make each failed verdict pass.
 
@@ -30,6 +34,8 @@ def cures(
         Of this drive; those of `cardan.check` when not given. Advice is left alone.
     known : Catalogue, optional
         The shipped one when not given.
+    progress : function, optional
+        Called with the share done; answering "stop" leaves the checks that come after without cures.
 
     Returns
     -------
@@ -51,8 +57,11 @@ def cures(
     judged = check(whole, known=rows) if verdicts is None else verdicts
     failed = [one for one in judged if one.state == "failed" and not one.advice]
     found: list[Cure] = []
-    for name in dict.fromkeys(one.check for one in failed):
+    names = list(dict.fromkeys(one.check for one in failed))
+    for k, name in enumerate(names, start=1):
         found += of_check(whole, name, [one for one in failed if one.check == name], rows)
+        if progress is not None and progress(k / (len(names) + 1)) == "stop":
+            break
     found = _with_effects(whole, found, judged, rows)
     order = {one.title: k for k, one in enumerate(failed)}
     return tuple(sorted(found, key=lambda cure: (order[cure.title], cure.cost)))

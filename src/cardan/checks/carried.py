@@ -1,0 +1,110 @@
+"""What a movement makes of the joints of a drive, or of many that differ in where their joints are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.analysis.equivalence import equivalent_joint
+from cardan.analysis.moving_points import default_times, moving_points
+from cardan.drive.chain import Chain
+from cardan.drive.geometry import geometry_from_points
+from cardan.drive.movement import Movement
+from cardan.maths import frames
+from cardan.maths.arrays import Array
+
+FEW = 40
+"""Up to so many drives are looked at at all instants of a movement."""
+
+INSTANTS = 61
+"""Instants at which each of more drives is looked at, at most: enough for what swings a few times."""
+
+TOGETHER = 50_000
+"""Drives times instants looked at together."""
+
+
+def largest_bends(points: Array, movements: Sequence[Movement]) -> Array:
+    """Return the largest bend of every joint over the instants of a movement, array (..., n) [rad].
+
+    Parameters
+    ----------
+    points : array (..., n+2, 3) [m]
+        Points of the axis as drawn.
+    movements : sequence of Movement
+
+    Notes
+    -----
+    Where a movement carries points is an affine function of where they are.
+    """
+    found = [np.max(_bends(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
+    return np.concatenate(found).reshape(*points.shape[:-2], -1)
+
+
+def largest_irregularity(kinematic: Chain, points: Array, movements: Sequence[Movement]) -> Array:
+    """Return the largest irregularity of the output over the instants of a movement, array (...).
+
+    Parameters
+    ----------
+    kinematic : Chain (..., n)
+        With the yoke angles and the start phase.
+    points : array (..., n+2, 3) [m]
+        Points of the axis as drawn.
+    movements : sequence of Movement
+
+    Returns
+    -------
+    array (...)
+        Infinite where a joint bends 90° or more at an instant.
+    """
+    lead = points.shape[:-2]
+    yokes = np.broadcast_to(kinematic.yoke_angle, (*lead, kinematic.joints - 1)).reshape(-1, 1, kinematic.joints - 1)
+    phase = np.broadcast_to(kinematic.start_phase, lead).reshape(-1, 1)
+    found = []
+    for part, moved in _moved(points, movements):
+        possible = np.all(_bends(moved)[1] > 1e-15, axis=-1)
+        straight = np.arange(moved.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
+        frozen = geometry_from_points(np.where(possible[..., None, None], moved, straight))
+        turned = Chain(
+            bend=frozen.bend, plane_twist=frozen.plane_twist, yoke_angle=yokes[part], start_phase=phase[part]
+        )
+        uneven = np.where(possible, equivalent_joint(turned).irregularity, np.inf)
+        found.append(np.max(uneven, axis=-1))
+    return np.concatenate(found).reshape(lead)
+
+
+def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice, Array]]:
+    """Yield which of the drives, one after another, and their points at the instants of a movement (m, t, n+2, 3)."""
+    count = points.shape[-2]
+    rows = points.reshape(-1, count, 3)
+    times = default_times(movements)
+    if rows.shape[0] == 1:
+        yield slice(0, 1), moving_points(rows[0], movements, times)[0][None]
+        return
+    every = -(-times.size // INSTANTS) if rows.shape[0] > FEW else 1
+    still, slopes = _carried(tuple(movements), count, every)
+    size = still.size // (3 * count)
+    step = max(1, TOGETHER // size)
+    for first in range(0, rows.shape[0], step):
+        part = slice(first, first + step)
+        yield part, (rows[part].reshape(-1, 3 * count) @ slopes + still).reshape(-1, size, count, 3)
+
+
+@lru_cache(maxsize=8)
+def _carried(movements: tuple[Movement, ...], count: int, every: int) -> tuple[Array, Array]:
+    """Return where movements carry points at the origin (k,), and how that goes with each coordinate (3(n+2), k)."""
+    times = default_times(movements)[::every]
+    still = moving_points(np.zeros((count, 3)), movements, times)[0].ravel()
+    units = np.eye(3 * count).reshape(3 * count, count, 3)
+    return still, np.stack([moving_points(unit, movements, times)[0].ravel() - still for unit in units])
+
+
+def _bends(points: Array) -> tuple[Array, Array]:
+    """Return the bends of points (..., n+2, 3) and their cosines, arrays (..., n); a bend may be 90° and more."""
+    along = np.diff(points, axis=-2)
+    length = frames.norm(along)
+    axis = along / np.where(length > 0.0, length, 1.0)[..., None]
+    before, after = axis[..., :-1, :], axis[..., 1:, :]
+    cosine = frames.dot(before, after)
+    return np.arctan2(frames.norm(frames.cross(before, after)), cosine), cosine
