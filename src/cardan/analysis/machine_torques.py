@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.machine import MachineTorque
+from cardan.maths.arrays import ArrayLike
 
 from .excitation import engine_torque, law_of
 from .torques import Constant, Law, Swinging
@@ -38,7 +39,7 @@ def machine_torques(
     last: int,
     ends: Sequence[int],
     *,
-    speed: float | None = None,
+    speed: ArrayLike | None = None,
     free: bool = True,
 ) -> tuple[Torque, ...]:
     """Return the torques on the stations of a drive.
@@ -53,7 +54,7 @@ def machine_torques(
         Station of the output end.
     ends : sequence of n+1 int
         Last station of every shaft, for what resists its turning.
-    speed : float, optional [rad/s]
+    speed : float or array (s,), optional [rad/s]
         Of the input.
     free : bool
         Whether torques turn the input; torques there are left out when its speed is forced.

@@ -22,7 +22,7 @@ from .steady import periodic_response
 from .steady_result import SteadyResponse
 from .torques import Swinging, base_period
 from .torsional_model import Torque, TorsionalModel
-from .torsional_train import TorsionalTrain, in_time, stacked, torsional_train
+from .torsional_train import TorsionalTrain, in_time, torsional_train
 from .torsional_waves import straight_waves
 
 Progress: TypeAlias = Callable[[float], object]
@@ -196,12 +196,10 @@ def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) ->
         field = "speed" if speeds.ndim else "duty.speed"
         raise refuse(field, _("steady running needs a speed other than 0, and a finite one"))
     train = torsional_train(drive, duty, speed=float(flat[0]), pieces=pieces)
+    model = train.model
     masses = duty.engine is not None and bool(duty.engine.piston_mass)
     if speeds.ndim and (train.pendulums or masses):  # what changes with the speed
-        parts = [torsional_train(drive, duty, speed=float(one), pieces=pieces).model for one in flat]
-        model = stacked(parts)
-    else:
-        model = train.model
+        model = torsional_train(drive, duty, speed=speeds, pieces=pieces).model
     if not model.elements:
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
         raise refuse("shafts[0].stiffness", text)

@@ -93,7 +93,7 @@ class TorsionalTrain:
 
 
 def torsional_train(
-    drive: Drive, duty: Duty | None = None, *, speed: float | None = None, pieces: int = 1, loaded: bool = True
+    drive: Drive, duty: Duty | None = None, *, speed: ArrayLike | None = None, pieces: int = 1, loaded: bool = True
 ) -> TorsionalTrain:
     """Return the torsional model of a drive with the places of its stations.
 
@@ -103,8 +103,8 @@ def torsional_train(
         With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
     duty : Duty, optional
         What it does; that of the drive by default.
-    speed : float, optional [rad/s]
-        Of the input, in place of that of the duty.
+    speed : float or array (s,), optional [rad/s]
+        Of the input, in place of that of the duty; at many, what changes with it has that axis.
     pieces : int
         Into how many equal stretches the body between two stations is divided.
     loaded : bool
@@ -244,24 +244,26 @@ def _row(parts: Sequence[Sequence[float]]) -> Array:
 
 
 def _with_branches(
-    drive: Drive, train: TorsionalTrain, lines: Sequence[ShaftLine], speed: float | None, problems: list[Problem]
+    drive: Drive, train: TorsionalTrain, lines: Sequence[ShaftLine], speed: ArrayLike | None, problems: list[Problem]
 ) -> TorsionalTrain:
     """Return the model with absorbers and pendulums, each a station behind those of the line."""
     model = train.model
-    inertia, stiffness, damping = list(model.inertia), list(model.stiffness), list(model.damping)
+    inertia, stiffness, damping = list(model.inertia), [*map(np.asarray, model.stiffness)], list(model.damping)
     elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
     pendulums: list[int] = []
     for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
         station = drive.stations[k]
         if station.absorber is not None:
-            mass, spring, damper = station.absorber.inertia, station.absorber.stiffness, station.absorber.damping
+            mass, damper = station.absorber.inertia, station.absorber.damping
+            spring = np.asarray(station.absorber.stiffness)
             name = _("absorber on {name}")
         elif station.pendulum is not None:
             if speed is None:
                 problems.append(Problem("duty.speed", _("missing; the stiffness of a pendulum comes from it")))
             hung = station.pendulum
             mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
-            spring, damper = mass * float(speed or 0.0) ** 2 * hung.radius / hung.length, 0.0
+            turning = np.asarray(0.0 if speed is None else speed, dtype=float)
+            spring, damper = mass * turning**2 * hung.radius / hung.length, 0.0
             name = _("pendulum on {name}")
             pendulums.append(len(elements))
         else:
@@ -278,7 +280,7 @@ def _with_branches(
         inertia=np.asarray(inertia),
         driven=(*model.driven, *[None] * more),
         elements=tuple(elements),
-        stiffness=np.asarray(stiffness),
+        stiffness=np.stack(np.broadcast_arrays(*stiffness), axis=-1) if stiffness else np.zeros(0),
         damping=np.asarray(damping),
         backlash=np.append(model.backlash, [0.0] * more),
         loss_factor=np.append(model.loss_factor, [0.0] * more),
