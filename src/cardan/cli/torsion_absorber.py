@@ -86,15 +86,12 @@ def torsion_absorber(
     plot: Plot = None,
 ) -> int:
     """Tell how an absorber, damper or pendulum is to be set on the drive, and what it does."""
-    from .asked import check_torque, on_duty
-    from .output import check_speed
-    from .show import check_common, show
+    from .asked import check_options, on_duty
+    from .show import show
     from .torsion_band import asked_of, band_of, check_out, elements_of, repeated
     from .torsion_parts import ended, keeping
 
-    check_common(json=json, csv=csv, plot=plot)
-    check_speed(speed_rpm)
-    check_torque(torque)
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
     check_out(out, file, force=force)
     band = band_of(speeds)
 
