@@ -124,9 +124,10 @@ class Floquet:
 
     @property
     def spectral_radius(self) -> Array:
-        """Largest |ρ|, array (...); 0 where nothing can be disturbed, not a number where no motion was found."""
-        largest = np.max(np.nan_to_num(self.modulus), axis=-1, initial=0.0)
-        return np.where(self.verdict == Verdict.UNKNOWN, np.nan, largest)[()]
+        """Largest |ρ|, array (...); not a number where nothing can be disturbed, and where no motion was found."""
+        if not self.multipliers.shape[-1]:
+            return np.full(self.multipliers.shape[:-1], np.nan)
+        return self.modulus[..., 0]
 
     @property
     def stable(self) -> Array:
