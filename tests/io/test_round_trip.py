@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import is_dataclass, replace
 from typing import Any, get_args, get_origin
 
@@ -14,7 +15,8 @@ from cardan import Drive
 from cardan.catalogue import completed, material
 from cardan.drive.body import Lump
 from cardan.drive.cross import Cross
-from cardan.drive.duty import Block, Duty, Limits
+from cardan.drive.duty import Block, Duty, Limits, Vehicle
+from cardan.drive.joint_parts import Rating
 from cardan.drive.joints import Hooke
 from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.machine import (
@@ -63,7 +65,7 @@ def holding(kind: Any, one: Field) -> st.SearchStrategy[Any]:
             return st.lists(holding(parts[0], one), min_size=2, max_size=4).map(tuple)
         return st.tuples(*(holding(part, one) for part in parts))
     if is_dataclass(kind):
-        return things(kind)  # type: ignore[arg-type]
+        return WAYS.get(kind, things)(kind)
     if kind is float:
         return inside(one)
     if kind is int:
@@ -88,6 +90,17 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
     (Hooke, "needles"): st.none(),
 }
 """Fields that name a row or a file, and names that are there."""
+
+
+WAYS: dict[Any, Callable[[type], st.SearchStrategy[Any]]] = {
+    Rating: lambda cls: (
+        things(cls, torque=st.none(), convention=st.just("Tc")) | things(cls, torque=st.floats(1.0, 1e5))
+    ),
+    Vehicle: lambda cls: (
+        things(cls, engine_torque=st.none()) | things(cls, engine_power=st.none(), engine_speed=st.none())
+    ),
+}
+"""Tables of which some keys rule out others: every way to give them."""
 
 
 def things(cls: type, **known: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
@@ -120,16 +133,19 @@ def test_movements(kind: type, data: st.DataObject) -> None:
 
 
 bodies = st.sampled_from([{}, {"outer": 0.07}, {"outer": 0.07, "wall": 0.002}, {"outer": 1 / 3, "inner": 0.1}])
-splines = things(
-    Spline,
-    mean_diameter=st.just(0.04),
-    friction=st.floats(0.0, 0.3),
-    position=st.just(0.25),
-    stiffness=st.none(),
+spline_parts = {
+    "mean_diameter": st.just(0.04),
+    "friction": st.floats(0.0, 0.3),
+    "position": st.just(0.25),
+    "stiffness": st.none(),
+}
+splines = things(Spline, outer=st.none(), **spline_parts) | things(
+    Spline, outer=st.just(0.043), root=st.none() | st.just(0.037), chamfer=st.floats(0.0, 1e-3), **spline_parts
 )
 ends = st.lists(st.floats(0.0, 1e4, allow_subnormal=False), min_size=2, max_size=2, unique=True)
 ranges = ends.map(lambda two: tuple(sorted(two)))
 run_ups = things(RunUp, start=st.just(0.0), end=st.floats(1.0, 1e3))
+vehicles = things(Vehicle, engine_torque=st.none()) | things(Vehicle, engine_power=st.none(), engine_speed=st.none())
 duties = things(
     Duty,
     torque=st.floats(-1e5, 1e5, allow_subnormal=False),
@@ -140,6 +156,7 @@ duties = things(
     blocks=st.just(())
     | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
     torque_history=st.none(),
+    vehicle=st.none() | vehicles,
 )
 
 
@@ -179,6 +196,7 @@ def test_all_other_tables(
 
 
 crosses = things(Cross, span=st.just(0.08), journal=st.just(0.018))
+ratings = things(Rating, torque=st.floats(1.0, 1e5)) | things(Rating, torque=st.none(), convention=st.just("Tc"))
 hookes = things(
     Hooke,
     bend=st.just(0.2),
@@ -188,6 +206,7 @@ hookes = things(
     material_friction=st.none(),
     fit=st.just("new"),
     cross=st.none() | crosses,
+    rating=st.none() | ratings,
 )
 places = things(Support, shaft=st.just(2), position=st.just(0.5), bore=st.just(0.06), radial=st.just(True))
 
