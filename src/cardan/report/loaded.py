@@ -9,12 +9,13 @@ from .assembly import straining
 from .bending import whirling
 from .block import Page
 from .forces import carrying
+from .life import lasting
 from .losses import rubbing
 from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
-PAGES = (carrying, rubbing, bearing_up, erring, straining, twisting, whirling)
+PAGES = (carrying, rubbing, bearing_up, lasting, erring, straining, twisting, whirling)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 

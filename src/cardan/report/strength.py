@@ -14,12 +14,15 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .balance import refused
-from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, key, number, of_shaft, words
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, of_shaft, words
 from .subject import Subject
 
 MPA = 1e6
 
 HOUR = 3600.0
+
+AMBER = 0.9
+"""Share of the torque rating from which the drive is close to it."""
 
 
 def bearing_up(on: Subject) -> Page | None:
@@ -50,11 +53,20 @@ def _loaded(drive: Drive) -> bool:
 
 
 def _keys(found: Strength) -> Iterator[list[Cell]]:
-    tone: Tone = "good" if found.enough else "failed"
     first = found.governing
-    said = words("" if first is None else _("then {title} ends it").format(title=first.title), tone)
-    if math.isfinite(found.rated_torque):
-        yield key(_("torque rating of the whole drive"), found.rated_torque, "N·m", said)
+    if first is None or not math.isfinite(found.rated_torque):
+        return
+    used = found.torque / found.rated_torque
+    tone: Tone = "failed" if used > 1.0 else "warning" if used >= AMBER else "good"
+    said = {"failed": _("too weak"), "warning": _("near the limit"), "good": _("passed")}[tone]
+    yield [
+        words(_("torque rating of the whole drive, ended by {title}").format(title=first.title)),
+        number(significant(found.rated_torque), found.rated_torque),
+        words("N·m"),
+        number(f"≥ {significant(found.torque)}", found.torque),
+        number(fixed(used), used),
+        words(said, tone),
+    ]
 
 
 def _cell(value: float | None, digits: int = 4) -> Cell:
