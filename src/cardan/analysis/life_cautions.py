@@ -93,8 +93,20 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             yield Caution(code="extrapolated", joint=i + 1, message=text.format(number=i + 1))
         most = float(np.max(found.journal_force[running, i]))
         if most > HEAVY * own.capacity[i]:
-            text = _("journals of joint {number} carry up to {force:.4g} N, over half the capacity; ISO 281 ends there")
-            yield Caution(code="heavy_load", joint=i + 1, message=text.format(number=i + 1, force=most))
+            text = _("journals of joint {number} carry up to {force} N, over half the capacity; ISO 281 ends there")
+            yield Caution(code="heavy_load", joint=i + 1, message=text.format(number=i + 1, force=_grouped(most)))
     if beyond:
         text = _("{share:.6g} % reliability is beyond the table of ISO 281, which ends at 99.95 %")
         yield Caution(code="extrapolated", joint=0, message=text.format(share=100.0 * found.reliability))
+
+
+def _grouped(value: float) -> str:
+    """Return a number with four digits, in thin groups.
+
+    Examples
+    --------
+    >>> _grouped(51086.7), _grouped(12.3456)
+    ('51\u202f090', '12.35')
+    """
+    text = f"{float(f'{value:.4g}'):,.10g}"
+    return text.replace(",", "\u202f")
