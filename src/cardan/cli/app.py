@@ -93,6 +93,16 @@ COMMANDS = {
             "cardan select truck.toml --catalogue my-maker.toml",
         ),
     ),
+    "joint": Entry(
+        "joint",
+        QUESTIONS,
+        _("How kinds of joints turn by themselves, one or several beside each other."),
+        (
+            "cardan joint",
+            "cardan joint double_cardan centring_ratio=0.5 --bend-deg 30",
+            "cardan joint hooke rzeppa tracta --bend-deg 25 --speed-rpm 1000 --plot joints.svg",
+        ),
+    ),
     "tolerance": Entry(
         "tolerance",
         QUESTIONS,

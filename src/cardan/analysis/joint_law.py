@@ -1,0 +1,239 @@
+"""How one joint of any kind turns by itself: over a turn at a bend, over bends, and what else moves in it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, catalogue
+from cardan.catalogue.rows import JointType
+from cardan.drive.joints import Joint
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+from cardan.units import deg
+
+TURN = np.arange(721) * (0.5 * deg)
+"""Angles of a turn [rad]."""
+
+COARSE = np.arange(120) * (3.0 * deg)
+"""Angles of a turn [rad] where many bends are asked at once; extremes then miss 0.1 % at most for order 2."""
+
+EVEN = 1e-12
+"""Leads [rad] and swings of the ratio below this are rounding."""
+
+TYPES = {
+    "hooke": (
+        "light",
+        "medium",
+        "heavy",
+        "super_heavy",
+        "rubber_bush_cross",
+        "hooke_bolt_cross",
+        "instrument_ring_tip",
+        "instrument_ball_disc",
+        "mill_rolling",
+    ),
+    "offset_cross": ("hooke_offset_cross",),
+    "double_cardan": ("double_centred", "double_frame"),
+    "constant_velocity": ("block_double_disc",),
+    "tracta": ("tracta",),
+    "rzeppa": ("rzeppa_lever", "rzeppa_offset", "rzeppa_fixed_modern", "plunging_ball_modern"),
+    "weiss": ("weiss_curved", "weiss_straight"),
+    "tripod": ("tripod_plunging",),
+    "half_cardan": ("half_bell", "half_gear", "gear_crowned_modern"),
+    "elastic_half_cardan": (
+        "el_disc",
+        "el_link",
+        "el_bush",
+        "el_hexagon",
+        "el_tyre_split",
+        "el_tyre_solid",
+        "el_petal3",
+        "el_petal8",
+        "el_circular_teeth",
+        "el_balls",
+        "disc_pack_modern",
+    ),
+    "pin_coupling": ("pin_ball",),
+    "clemens": ("clemens",),
+}
+"""Kind -> rows of the catalogue's joint types that turn by its law."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointTurn:
+    """One joint over a turn at one bend.
+
+    Attributes
+    ----------
+    joint : Joint
+    bend : float [rad]
+        α.
+    angle : array (p,) [rad]
+        Angle of the driving side from the plane of the shafts.
+    lead : array (p,) [rad]
+        How far the driven side runs ahead.
+    ratio : array (p,)
+        Speed ratio.
+    slope : array (p,) [1/rad]
+        Its derivative: acceleration of the driven side over the square of a constant speed.
+    """
+
+    joint: Joint
+    bend: float
+    angle: Array
+    lead: Array
+    ratio: Array
+    slope: Array
+
+    @property
+    def error(self) -> float:
+        """Half of what lies between the greatest lead and the greatest lag [rad]."""
+        found = 0.5 * float(np.ptp(self.lead))
+        return 0.0 if found < EVEN else found
+
+    @property
+    def irregularity(self) -> float:
+        """Largest less smallest speed ratio."""
+        found = float(np.ptp(self.ratio))
+        return 0.0 if found < EVEN else found
+
+    @property
+    def acceleration(self) -> float:
+        """Greatest acceleration of the driven side over the square of a constant speed."""
+        return float(np.max(np.abs(self.slope))) if self.irregularity else 0.0
+
+    @property
+    def order(self) -> int:
+        """How often a turn the driven side mostly runs ahead and back; 0 where it turns evenly."""
+        if not self.error:
+            return 0
+        wave = np.abs(np.fft.rfft(self.lead[:-1]))
+        return int(np.argmax(wave[1:])) + 1
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointBends:
+    """One joint over its bends.
+
+    Attributes
+    ----------
+    joint : Joint
+    bend : array (m,) [rad]
+        α; not a number in the others where the joint does not turn.
+    error : array (m,) [rad]
+        Half of what lies between the greatest lead and the greatest lag of a turn.
+    irregularity : array (m,)
+        Largest less smallest speed ratio.
+    acceleration : array (m,)
+        Greatest acceleration over the square of a constant speed.
+    """
+
+    joint: Joint
+    bend: Array
+    error: Array
+    irregularity: Array
+    acceleration: Array
+
+
+def joint_turn(joint: Joint, bend: float, angle: ArrayLike | None = None) -> JointTurn:
+    """Return how one joint of any kind turns at a bend.
+
+    Parameters
+    ----------
+    joint : Joint
+        A joint of any kind.
+    bend : float [rad]
+        α in [0, π/2), whatever bend the joint itself says.
+    angle : array (p,) [rad], optional
+        Angles of the driving side from the plane of the shafts; a turn by default.
+
+    Returns
+    -------
+    JointTurn
+
+    Raises
+    ------
+    InputError
+        The bend is 90 degrees or more, or the joint does not turn at it.
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import DoubleCardan, Hooke
+    >>> for joint in (Hooke(), DoubleCardan(centring_ratio=0.5)):
+    ...     found = joint_turn(joint, 30 * deg)
+    ...     print(f"{found.error / deg:.4f}° {found.irregularity:.5f}, order {found.order}")
+    4.1172° 0.28868, order 2
+    0.1400° 0.00977, order 2
+    """
+    if not 0.0 <= bend < 0.5 * math.pi:
+        text = _("{value}° is not at least 0° and below 90°")
+        raise refuse("bend", text.format(value=f"{bend / deg:.6g}"), "out_of_range")
+    phi = np.asarray(TURN if angle is None else angle, dtype=float)
+    law = _law(joint, bend, phi)
+    if not all(np.all(np.isfinite(one)) for one in law):
+        text = _("a joint of kind {kind} with these sizes does not turn at {bend}°")
+        raise refuse("bend", text.format(kind=joint.kind, bend=f"{bend / deg:.6g}"), "out_of_range")
+    return JointTurn(joint=joint, bend=bend, angle=phi, lead=law[0], ratio=law[1], slope=law[2])
+
+
+def joint_bends(joint: Joint, bends: ArrayLike | None = None) -> JointBends:
+    """Return how uneven one joint of any kind is over its bends.
+
+    Parameters
+    ----------
+    joint : Joint
+        A joint of any kind.
+    bends : array (m,) [rad], optional
+        Bends α in [0, π/2); by default from 0 to the steepest its kind works at.
+
+    Returns
+    -------
+    JointBends
+        arrays (m,).
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import DoubleCardan
+    >>> joint_bends(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).irregularity
+    array([0.00011651, 0.00977419, 0.08078532])
+    """
+    alpha = np.linspace(0.0, min(joint.steepest, 75.0 * deg), 31) if bends is None else np.asarray(bends, dtype=float)
+    rows = []
+    for bend in alpha:
+        law = _law(joint, float(bend), COARSE)
+        found = JointTurn(joint=joint, bend=float(bend), angle=COARSE, lead=law[0], ratio=law[1], slope=law[2])
+        turns = bool(np.all(np.isfinite(law[0])))
+        rows.append((found.error, found.irregularity, found.acceleration) if turns else (math.nan,) * 3)
+    error, irregularity, acceleration = np.asarray(rows, dtype=float).reshape(-1, 3).T
+    return JointBends(joint=joint, bend=alpha, error=error, irregularity=irregularity, acceleration=acceleration)
+
+
+def _law(joint: Joint, bend: float, angle: Array) -> tuple[Array, Array, Array]:
+    """Return lead, ratio and slope over angles, each (p,); not numbers where the joint does not turn."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = joint.deviation(angle, np.asarray(bend))
+    lead, ratio, slope = (np.broadcast_to(np.asarray(one, dtype=float), angle.shape) for one in found)
+    return lead, ratio, slope
+
+
+def types_of(kind: str, known: Catalogue | None = None) -> tuple[JointType, ...]:
+    """Return the types of the catalogue that turn by the law of a kind.
+
+    Parameters
+    ----------
+    kind : str
+        A name of `JOINTS`.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Examples
+    --------
+    >>> [row.id for row in types_of("weiss")]
+    ['weiss_curved', 'weiss_straight']
+    """
+    rows = (known or catalogue()).rows(JointType)
+    return tuple(rows[name] for name in TYPES.get(kind, ()) if name in rows)
