@@ -13,8 +13,8 @@ from cardan.texts import _, plural
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.equivalence import EquivalentJoint
     from cardan.analysis.motion import Motion
+    from cardan.analysis.swing import Evenness
     from cardan.drive.drive import Drive
 
     from .answer import Answer, Remark, Table
@@ -67,8 +67,8 @@ def motion(
     check_positions(angle, step)
     check_speed(speed_rpm)
 
-    from cardan.analysis.equivalence import after_each_joint
     from cardan.analysis.motion import motion as question
+    from cardan.analysis.swing import each_shaft
     from cardan.units import rpm
 
     from .source import read
@@ -77,7 +77,7 @@ def motion(
     speed = drive.duty.speed if speed_rpm is None else speed_rpm * rpm
     finely = question(drive, positions(angle, step or 1.0), speed=speed)
     coarse = finely if json or csv else question(drive, positions(angle, step or STEP), speed=speed)
-    answer = _answer(drive, file, coarse, after_each_joint(drive), finely)
+    answer = _answer(drive, file, coarse, each_shaft(drive), finely)
     return show(answer, json=json, csv=csv, plot=plot)
 
 
@@ -110,7 +110,7 @@ def positions(angle: list[float] | None, step: float) -> Any:
     return deg * (np.asarray(angle) if angle else step * np.arange(int(360.0 / step + 1e-9) + 1))
 
 
-def _answer(drive: Drive, file: Path, found: Motion, each: EquivalentJoint, drawn: Motion) -> Answer:
+def _answer(drive: Drive, file: Path, found: Motion, each: Evenness, drawn: Motion) -> Answer:
     from .answer import Answer
 
     return Answer(
@@ -130,19 +130,20 @@ def _answer(drive: Drive, file: Path, found: Motion, each: EquivalentJoint, draw
 
 def _figures(drive: Drive, found: Motion) -> Any:
     from cardan.analysis.equivalence import equivalent_joint
+    from cardan.drive.laws import unmapped
     from cardan.figures import for_result
 
-    return (*for_result(found), *for_result(equivalent_joint(drive)))
+    return for_result(found) if unmapped(drive.joints) else (*for_result(found), *for_result(equivalent_joint(drive)))
 
 
-def _even(each: EquivalentJoint) -> bool:
+def _even(each: Evenness) -> bool:
     from cardan.analysis.equivalence import SYNCHRONOUS
 
     return bool(each.irregularity[-1] < SYNCHRONOUS)
 
 
-def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
-    """Return in one sentence how even a drive is; ``each`` as of `after_each_joint`."""
+def sentence(drive: Drive, file: Path, each: Evenness) -> str:
+    """Return in one sentence how even a drive is; ``each`` as of `each_shaft`."""
     from cardan.units import deg
 
     from .answer import percent
@@ -154,7 +155,11 @@ def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
         if drive.movements:
             text = _("{name}: {count}, the output turns exactly evenly as drawn, standing still.")
         return text.format(name=title(drive, file), count=count)
-    if len(drive.joints) == 1:
+    from cardan.drive.laws import unmapped
+
+    if unmapped(drive.joints):
+        text = _("{name}: {count}, {share} irregular, as much as one cross joint bent {bend:.2f}°.")
+    elif len(drive.joints) == 1 and drive.joints[0].kind == "hooke":
         text = _("{name}: one joint bent {bend:.2f}°, {share} irregular.")
     else:
         text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share} irregular.")
@@ -165,20 +170,29 @@ def sentence(drive: Drive, file: Path, each: EquivalentJoint) -> str:
 def _joint_table(drive: Drive) -> Table:
     import numpy as np
 
-    from cardan.analysis.motion import phase_angles
-    from cardan.drive.chain import chain
+    from cardan.analysis.motion import motion
+    from cardan.drive.chain import given_chain
+    from cardan.drive.laws import mixed
 
     from .answer import Column, Table, named
 
-    whole = chain(drive)
+    whole = given_chain(drive)
     bend, twist = np.rad2deg(whole.bend), np.rad2deg(whole.plane_twist)
-    phase = half_turn(np.rad2deg(phase_angles(drive)))
+    phase = half_turn(np.rad2deg(motion(drive, [0.0]).joint_angle[:, 0]))
+    kinds = mixed(drive.joints)
     rows = [
-        (named(k + 1, joint.name), float(bend[k]), float(twist[k - 1]) if k else None, float(phase[k]))
+        (
+            named(k + 1, joint.name),
+            *((joint.kind,) if kinds else ()),
+            float(bend[k]),
+            float(twist[k - 1]) if k else None,
+            float(phase[k]),
+        )
         for k, joint in enumerate(drive.joints)
     ]
     columns = (
         Column(key="joint", heading=_("joint"), left=True),
+        *((Column(key="kind", heading=_("kind"), left=True),) if kinds else ()),
         Column(key="bend_deg", heading=_("bend"), unit="°", form=".2f"),
         Column(key="plane_twist_deg", heading=_("plane twist"), unit="°", form=".2f"),
         Column(key="phase_angle_deg", heading=_("phase angle"), unit="°", form=".2f"),
@@ -186,7 +200,7 @@ def _joint_table(drive: Drive) -> Table:
     return Table(columns=columns, rows=rows)
 
 
-def _shaft_table(drive: Drive, found: Motion, each: EquivalentJoint, *, tidy: bool = False) -> Table:
+def _shaft_table(drive: Drive, found: Motion, each: Evenness, *, tidy: bool = False) -> Table:
     from cardan.units import deg
 
     from .answer import Column, Table, named
@@ -273,7 +287,7 @@ def _acceleration_rows(found: Motion) -> Any:
     return found.shaft_slope if found.speed is None else found.shaft_acceleration
 
 
-def _accelerations(found: Motion, each: EquivalentJoint, *, tidy: bool = False) -> list[float]:
+def _accelerations(found: Motion, each: Evenness, *, tidy: bool = False) -> list[float]:
     """Return the largest acceleration of shafts 2 … n+1 at uniform input [rad/s²], over ω² without a speed.
 
     ``tidy`` makes it 0 where a shaft is even but for rounding.
@@ -289,13 +303,15 @@ def _unit(found: Motion) -> str:
     return "ω²" if found.speed is None else "rad/s²"
 
 
-def _remarks(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> Iterator[Remark]:
+def _remarks(drive: Drive, file: Path, found: Motion, each: Evenness) -> Iterator[Remark]:
+    from cardan.drive.laws import unmapped
     from cardan.units import deg, rpm
 
     from .answer import Remark, significant
 
     if not _even(each):
-        text = _("The output runs ahead and back by {lead:.3f}° twice a turn").format(
+        twice = _("The output runs ahead and back by {lead:.3f}° twice a turn")
+        text = (twice if unmapped(drive.joints) == () else _("The output runs ahead and back by {lead:.3f}°")).format(
             lead=float(each.max_lead[-1]) / deg
         )
         if found.speed is not None:
@@ -306,35 +322,54 @@ def _remarks(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> 
             text += _("; --speed-rpm gives its acceleration in rad/s².")
         yield Remark(text=text)
     if not _even(each):
-        waves = [float(wave) / deg for wave in each.harmonics(ORDERS)[-1]]
         text = _("Its orders: {orders}.")
-        shown = (_("{order} with {size}°").format(order=2 * k, size=significant(w, 3)) for k, w in enumerate(waves, 1))
+        shown = (_("{order} with {size}°").format(order=k, size=significant(w / deg, 3)) for k, w in _orders(each))
         yield Remark(text=text.format(orders=", ".join(shown)))
+    yield from _own_motion(drive)
     yield from steep_joints(drive)
     if _even(each):
         yield Remark(text=_("The whole drive on one page:"), command=("cardan", "report", str(file)), tone="next")
     elif len(drive.joints) == 1:
-        yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
-    else:
+        if drive.joints[0].kind == "hooke":
+            yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
+    elif not unmapped(drive.joints):
         text = _("Find the yoke angles that leave least:")
         yield Remark(text=text, command=("cardan", "phases", str(file)), tone="next")
 
 
 def steep_joints(drive: Drive) -> Iterator[Remark]:
-    """Yield a warning for every joint that bends more than a cross joint can."""
-    from cardan.analysis.equivalence import WARN_BEND
-    from cardan.drive.chain import chain
-    from cardan.units import deg
+    """Yield a warning for every joint that bends more than one of its kind can."""
+    from cardan.drive.chain import given_chain
+    from cardan.figures.kinds import too_steep
 
     from .answer import Remark
 
-    for number, bend in enumerate(chain(drive).bend, start=1):
-        if bend > WARN_BEND * deg:
-            text = _("Warning: joint {number} bends {bend:.1f}°; above {limit:g}° no real cross joint works.")
-            yield Remark(text=text.format(number=number, bend=float(bend) / deg, limit=WARN_BEND), tone="warning")
+    for number, (joint, bend) in enumerate(zip(drive.joints, given_chain(drive).bend, strict=True), start=1):
+        text = too_steep(joint, number, float(bend))
+        if text:
+            yield Remark(text=_("Warning: {text}").format(text=text[:1].lower() + text[1:]), tone="warning")
 
 
-def _content(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> dict[str, Any]:
+def _orders(each: Evenness) -> list[tuple[int, float]]:
+    """Return orders of the output's angle error with their amplitudes [1/turn, rad]."""
+    from cardan.analysis.swing import Swing
+
+    if isinstance(each, Swing):
+        return each.orders(ORDERS)
+    return [(2 * k, float(wave)) for k, wave in enumerate(each.harmonics(ORDERS)[-1], start=1)]
+
+
+def _own_motion(drive: Drive) -> Iterator[Remark]:
+    """Yield what joints do beside turning."""
+    from cardan.figures.kinds import beside_turning
+
+    from .answer import Remark
+
+    for text in beside_turning(drive):
+        yield Remark(text=text)
+
+
+def _content(drive: Drive, file: Path, found: Motion, each: Evenness) -> dict[str, Any]:
     from cardan.units import deg, rpm
 
     from .show import records
@@ -352,10 +387,7 @@ def _content(drive: Drive, file: Path, found: Motion, each: EquivalentJoint) -> 
         "ratio_max": each.ratio_max[-1],
         "max_lead_deg": each.max_lead[-1] / deg,
         "max_acceleration_per_speed_squared": each.max_acceleration[-1],
-        "orders": [
-            {"order": 2 * k, "lead_deg": float(wave) / deg, "ratio": 2.0 * k * float(wave)}
-            for k, wave in enumerate(each.harmonics(ORDERS)[-1], start=1)
-        ],
+        "orders": [{"order": k, "lead_deg": wave / deg, "ratio": k * wave} for k, wave in _orders(each)],
         "joints": records(_joint_table(drive), [(k, joint.name) for k, joint in enumerate(drive.joints, 1)]),
         "shafts": records(_shaft_table(drive, found, each), [(shaft.number, shaft.name) for shaft in drive.shafts[1:]]),
         "motion": {column.key: [row[k] for row in trace.rows] for k, column in enumerate(trace.columns)},

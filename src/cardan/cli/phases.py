@@ -159,7 +159,7 @@ def _ask(drive: Drive, held: dict[int, float], goal: Goal) -> Phasing:
             wish = NEAREST if goal == "nearest" else SYNCHRONOUS
             return question(drive, fixed=held, goal=wish, progress=progress)
     except InputError as error:
-        raise error.renamed(lambda field: field.replace("fixed[", "--fix ").replace("]", "")) from error
+        raise error.renamed(_as_option) from error
 
 
 def _with_layout(drive: Drive, held: dict[int, float], goal: Goal) -> Layout:
@@ -183,3 +183,8 @@ def _with_layout(drive: Drive, held: dict[int, float], goal: Goal) -> Layout:
     with watching(_("searching joint centres")) as progress:
         wish = NEAREST if goal == "nearest" else SYNCHRONOUS
         return question(replace(drive, shafts=shafts), goal=wish, progress=progress)
+
+
+def _as_option(field: str) -> str:
+    """Return the option that gave a field of the question."""
+    return "--fix " + field.removeprefix("fixed[").removesuffix("]") if field.startswith("fixed[") else field

@@ -158,7 +158,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     """Yield why no yoke angles make the drive even, and what would."""
     from math import degrees
 
-    from cardan.drive.chain import chain
+    from cardan.drive.chain import given_chain
     from cardan.figures.wording import LITTLE, excess
     from cardan.units import deg
 
@@ -169,7 +169,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
         return
     if found.limiting_joint is None or not found.free:
         return
-    bend = degrees(float(chain(drive).bend[found.limiting_joint - 1]))
+    bend = degrees(float(given_chain(drive).bend[found.limiting_joint - 1]))
     if len(found.limiting_joints) > 1:
         tied = ", ".join(str(k) for k in found.limiting_joints)
         text = _(
@@ -177,7 +177,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             "joint {number} ({bend:.2f}°) less."
         ).format(tied=tied, number=found.limiting_joint, bend=bend)
     else:
-        text = excess(found, len(drive.joints), bend * deg)
+        text = excess(found, len(drive.joints), bend * deg, drive.joints[found.limiting_joint - 1].kind)
     yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
 
 

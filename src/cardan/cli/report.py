@@ -57,7 +57,7 @@ def report(
     with watching(_("writing the report")) as progress:
         write(drive, None, place, source_text=text, interactive=interactive, progress=progress)
 
-    from cardan.analysis.equivalence import after_each_joint
+    from cardan.analysis.swing import each_shaft
 
     from .answer import Answer, Remark
     from .motion import sentence
@@ -69,7 +69,7 @@ def report(
         hint = _("No browser answered; open {path} yourself.")
     return show(
         Answer(
-            sentence=sentence(drive, file, after_each_joint(drive)),
+            sentence=sentence(drive, file, each_shaft(drive)),
             remarks=(
                 Remark(text=_("Report written: {path}, {size} kB.").format(path=place, size=_kilobytes(place))),
                 Remark(text=hint.format(path=place), tone="next"),

@@ -121,6 +121,32 @@ def turning(whole: Chain, joints: Sequence[Joint]) -> Chain:
     )
 
 
+def as_hooke(drive: Drive) -> Drive:
+    """Return a drive of Hooke joints that turns like a drive, itself where it has no other joints.
+
+    Raises
+    ------
+    InputError
+        The motion of a joint is no Möbius map, or it does not turn at its bend.
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import ConstantVelocity, Hooke
+    >>> [joint.bend for joint in as_hooke(Drive(joints=(Hooke(bend=0.3), ConstantVelocity(bend=0.4)))).joints]
+    [0.3, 0.0]
+    """
+    if not mixed(drive.joints):
+        return drive
+    whole = turning_chain(drive)
+    return Drive.from_angles(
+        np.asarray(whole.bend).tolist(),
+        plane_twists=np.asarray(whole.plane_twist).tolist(),
+        yoke_angles=np.asarray(whole.yoke_angle).tolist(),
+        start_phase=float(whole.start_phase),
+        name=drive.name,
+    )
+
+
 def given_chain(drive: Drive) -> Chain:
     """Return bends, planes and yokes of a drive as they are, whatever the kinds of its joints."""
     if drive.form == "angles":

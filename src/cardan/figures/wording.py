@@ -84,7 +84,7 @@ LITTLE = 0.01
 """An irregularity below which what the yokes leave is called little."""
 
 
-def excess(found: Phasing, joints: int, bend: float) -> str:
+def excess(found: Phasing, joints: int, bend: float, kind: str = "hooke") -> str:
     """Return in one sentence which joint keeps a drive from being even, and at what bend it would not.
 
     Parameters
@@ -95,11 +95,16 @@ def excess(found: Phasing, joints: int, bend: float) -> str:
         Number of joints.
     bend : float [rad]
         Bend of that joint.
+    kind : str
+        Its kind; of another than Hooke's no bend is named.
 
     Notes
     -----
     The side L = -ln cos α of that joint is asinh(δ/2) too long.
     """
+    if kind != "hooke":
+        text = _("Joint {number} is more uneven than the others can undo. What remains is {left}.")
+        return text.format(number=found.limiting_joint, left=percent(found.irregularity_min))
     spare = math.asinh(0.5 * found.irregularity_min)
     closing, now = math.degrees(math.acos(min(1.0, math.cos(bend) * math.exp(spare)))), math.degrees(bend)
     digits = next((d for d in (2, 3, 4, 5) if fixed(closing, d) != fixed(now, d)), 6)

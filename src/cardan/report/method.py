@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import __version__
+from cardan.figures.kinds import kind_name
 from cardan.figures.wording import fixed, significant
 from cardan.texts import _
 from cardan.units import deg
@@ -25,6 +26,7 @@ def method(on: Subject, source_text: str | None) -> Page:
                 "so it moves exactly like one joint. Nothing here is a small-angle approximation unless it says so."
             )
         ),
+        *_kinds(on),
         _equations(on),
         _checks(on),
     ]
@@ -37,6 +39,37 @@ def method(on: Subject, source_text: str | None) -> Page:
         else _("Reckoned by cardan {version}; a self-check leaves more than rounding.")
     )
     return Page(name="method", title=_("Method and evidence"), answer=answer.format(version=__version__), blocks=blocks)
+
+
+def _kinds(on: Subject) -> Iterator[Block]:
+    """Yield how joints of other kinds count; nothing where there are none."""
+    if not on.mixed:
+        return
+    yield Words(
+        text=_(
+            "A joint of another kind with tan θ′ = κ tan θ turns exactly like a Hooke joint with cos α = 1/κ, or with "
+            "cos α = κ and its yoke a quarter turn ahead where κ is below 1. With these in place of the joints the "
+            "drive is a chain of Hooke joints; their bends stand in the equations."
+        )
+    )
+    rows = [
+        [words(str(k)), words(kind_name(joint)), number(fixed(float(own) / deg), float(own) / deg), _equal(float(bend))]
+        for k, (joint, own, bend) in enumerate(zip(on.drive.joints, on.bend, on.train.bend, strict=True), start=1)
+    ]
+    yield Table(
+        title=_("Joints and the Hooke joints that turn alike"),
+        columns=(
+            Column(heading=_("joint")),
+            Column(heading=_("kind"), left=True),
+            Column(heading=_("bend α"), unit="°"),
+            Column(heading=_("of the Hooke joint"), unit="°"),
+        ),
+        rows=rows,
+    )
+
+
+def _equal(bend: float) -> Cell:
+    return number(fixed(bend / deg, 3), bend / deg)
 
 
 def _equations(on: Subject) -> Table:

@@ -16,6 +16,7 @@ from cardan.figures.drive import space_figure
 from cardan.files import write_text
 from cardan.texts import _
 
+from .balance import refused
 from .block import Listing, Page, Picture, Points, Table, Words
 from .loaded import loaded
 from .method import method
@@ -94,6 +95,8 @@ def page(
     pages: list[Page] = [understood(on), turning(on), phasing(on)]
     if on.moving is not None:
         pages.append(moving(on))
+    if on.unmoved is not None:
+        pages.append(refused("moving", _("While moving"), on.unmoved))
     pages += loaded(on)
     limits = judged(on) if on.complete else Judged()
     if limits.page is not None:

@@ -13,11 +13,13 @@ from cardan.analysis.closure import Closure, closure
 from cardan.analysis.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
 from cardan.analysis.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.analysis.motion import Motion, motion, phase_angles
-from cardan.drive.chain import Chain, chain
+from cardan.drive.chain import Chain, as_hooke, turning_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import Geometry, geometry
+from cardan.drive.laws import mixed
 from cardan.drive.solids import Solids, solids
+from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.synthesis.phases import Phasing, phases
 from cardan.synthesis.setting import YokeSetting
@@ -42,6 +44,10 @@ class Subject:
         Swing of the output's ratio at the best setting, by plain vectors.
     moving : Articulation or None
         None when the drive does not move.
+    unmoved : InputError or None
+        Why its movement was not reckoned.
+    train : Chain
+        The Hooke joints that turn like its joints.
     complete : bool
         False when the reader stopped the work; what was found by then is shown.
     """
@@ -61,6 +67,7 @@ class Subject:
     alone: tuple[tuple[int, YokeSetting], ...] = ()
     replayed: float | None = None
     moving: Articulation | None = None
+    unmoved: InputError | None = None
     complete: bool = True
 
     @property
@@ -77,6 +84,16 @@ class Subject:
     def best(self) -> YokeSetting | None:
         """The best setting, None for a single joint."""
         return self.phasing.settings[0] if self.phasing.settings else None
+
+    @property
+    def bend(self) -> Array:
+        """Bend of every joint, array (n) [rad]."""
+        return np.asarray(self.place.bend)
+
+    @property
+    def mixed(self) -> bool:
+        """Whether any joint is of another kind than Hooke's."""
+        return mixed(self.drive.joints)
 
     @property
     def joints(self) -> int:
@@ -120,12 +137,20 @@ def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject
         held = {k: built[k] for k in phasing.free if k != number}
         best = phases(whole, fixed=held, poses={}).settings
         alone += [(number, one) for one in best[:1]]
-    moving = articulation(whole) if whole.movements and told(0.35) else None
+    moving, unmoved = None, None
+    if whole.movements and told(0.35):
+        try:
+            moving = articulation(whole)
+        except InputError as error:
+            if not mixed(whole.joints):
+                raise
+            unmoved = error
+    law = as_hooke(whole)
     best_yokes = phasing.settings[0].yoke_angle if phasing.settings else None
     return Subject(
         drive=whole,
         place=geometry(whole),
-        train=chain(whole),
+        train=turning_chain(whole),
         seen=solids(whole),
         found=motion(whole),
         whole=equivalent_joint(whole),
@@ -134,9 +159,10 @@ def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject
         phasing=phasing,
         closing=closure(whole),
         compared=book_comparison(whole),
-        checks=evidence(whole),
+        checks=evidence(law),
         alone=tuple(sorted(alone, key=lambda pair: pair[1].irregularity)),
-        replayed=None if best_yokes is None else swing_by_vectors(whole, best_yokes),
+        replayed=None if best_yokes is None else swing_by_vectors(law, best_yokes),
         moving=moving,
+        unmoved=unmoved,
         complete=not stopped,
     )

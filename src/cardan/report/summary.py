@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.analysis.equivalence import WARN_BEND
+from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent, significant
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
@@ -45,7 +46,7 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     name = on.drive.name or _("The drive")
     share = percent(float(on.whole.irregularity))
     best = on.best
-    steep = float(np.max(on.train.bend)) > WARN_BEND * deg
+    steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
     tone: Tone
     if on.even:
         tone = "good"
@@ -59,9 +60,10 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
         ).format(name=name, share=share)
     elif best is None:
         tone = "warning"
-        text = _("{name} has one joint and turns {share} irregularly; one joint alone is never even.").format(
-            name=name, share=share
-        )
+        text = _("{name} has one joint and turns {share} irregularly; one joint alone is never even.")
+        if on.mixed:
+            text = _("{name} has one joint and turns {share} irregularly.")
+        text = text.format(name=name, share=share)
     elif float(on.whole.irregularity) - best.irregularity > UTMOST:
         tone = "warning"
         text = _(
@@ -106,8 +108,11 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         Parts of the report that may have such of their own.
     """
     yield from (alarm for page in pages for alarm in page.alarms)
-    for k, bend in enumerate(np.asarray(on.train.bend) / deg, start=1):
-        if bend > ILL:
+    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend / deg, strict=True), start=1):
+        if joint.kind != "hooke":
+            text = too_steep(joint, k, bend * deg)
+            yield from [Words(text=text, tone="failed")] if text else []
+        elif bend > ILL:
             yield Words(
                 text=_(
                     "Joint {k} bends {bend}°: the motion is so steep that rounding costs digits; see the residuals in "
@@ -126,7 +131,8 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if on.joints > 1 and uneven and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why = _("Joints tied by held yokes act as one that is too uneven for the others.")
         if len(on.phasing.limiting_joints) == 1:
-            why = excess(on.phasing, on.joints, float(on.train.bend[on.phasing.limiting_joint - 1]))
+            limiting = on.phasing.limiting_joint - 1
+            why = excess(on.phasing, on.joints, float(on.bend[limiting]), on.drive.joints[limiting].kind)
         yield Words(text=_("It cannot be made synchronous. {why}").format(why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
@@ -174,21 +180,23 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
 
 
 def _bend(on: Subject) -> list[Cell]:
-    bends = np.asarray(on.train.bend) / deg
-    joint, bend = int(np.argmax(bends)) + 1, float(np.max(bends))
+    bends = on.bend / deg
+    limits = [one.steepest / deg for one in on.drive.joints]
+    worst = int(np.argmax(bends / limits))
+    joint, bend, limit = worst + 1, float(bends[worst]), round(limits[worst], 6)
     name = _("largest bend, joint {k}")
     steeper = [one for one in on.moving.worst if one.what == "bend" and one.value > bend * deg] if on.moving else []
     if steeper:
         most = max(steeper, key=lambda one: one.value)
         joint, bend, name = most.number, most.value / deg, _("largest bend while moving, joint {k}")
-    use = bend / WARN_BEND
+    use = bend / limit
     tone: Tone = "failed" if use > 1.0 else "warning" if use >= 0.9 else "good"
     verdict = {"failed": _("too much"), "warning": _("near the limit"), "good": _("passed")}[tone]
     return [
         words(name.format(k=joint)),
         number(significant(bend), bend),
         words("°"),
-        number(f"{WARN_BEND:g}"),
+        number(f"{limit:g}"),
         number(fixed(use, 2), use),
         words(verdict, tone),
     ]
@@ -264,6 +272,8 @@ def changes(on: Subject) -> Table | Words:
     if not rows and now < SPECK:
         return Words(text=f"{_('Nothing needs to be changed for an even output.')} {drawn}".strip())
     if not rows:
+        if on.joints == 1 and on.mixed:
+            return Words(text=_("Nothing but other sizes or another bend of the joint helps."))
         if on.joints == 1:
             return Words(
                 text=_("Add a second joint of the same bend, its yokes set to undo the first: then the output is even.")
@@ -298,9 +308,10 @@ def _changes(on: Subject) -> Iterator[tuple[str, float]]:
             continue
         angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
         yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
-    if on.joints > 1 and not on.phasing.feasible and not on.phasing.fixed:
+    plain = on.drive.joints[on.closing.longest - 1].kind == "hooke"
+    if on.joints > 1 and plain and not on.phasing.feasible and not on.phasing.fixed:
         bend = fixed(on.closing.bend_allowed / deg)
-        now = fixed(float(on.train.bend[on.closing.longest - 1]) / deg)
+        now = fixed(float(on.bend[on.closing.longest - 1]) / deg)
         text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew")
         if bend != now:
             yield text.format(k=on.closing.longest, bend=bend, now=now), 0.0

@@ -11,7 +11,7 @@ from cardan.analysis.stability import Verdict
 from cardan.analysis.torsion import TorsionModes, torsion_modes
 from cardan.analysis.torsion_response import TorsionResponse, torsion_response
 from cardan.analysis.torsion_stability import BEND, Stability, stability
-from cardan.drive.chain import chain
+from cardan.drive.chain import given_chain
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.torsion import campbell_figure, shapes_figure
@@ -88,7 +88,7 @@ def _swept(drive: Drive) -> TorsionResponse | None:
 
 def _mapped(drive: Drive) -> Stability | None:
     """Return where vibration grows, about the speed and the bends of the drive; None where it has none of them."""
-    bend = float(np.max(chain(drive).bend))
+    bend = float(np.max(given_chain(drive).bend))
     if not drive.duty.speed or bend < LITTLE:
         return None
     runs = abs(drive.duty.speed) / rpm

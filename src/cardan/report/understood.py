@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.equivalence import WARN_BEND
+from cardan.analysis.joint_inside import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
+from cardan.figures.kinds import figure_of, inside, kind_name, too_steep
 from cardan.figures.wording import fixed, half_turn, percent, significant
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
@@ -30,6 +31,9 @@ def understood(on: Subject) -> Page:
         _joints(on),
         _shafts(on),
     ]
+    told = list(inside(on.drive))
+    if told:
+        blocks.append(_inside(told))
     if on.joints > 1:
         blocks.append(Picture(figure=yoke_figure(on.drive, on.seen)))
     blocks.append(
@@ -58,17 +62,18 @@ def understood(on: Subject) -> Page:
 
 def _joints(on: Subject) -> Table:
     centre = np.asarray(on.place.points[1:-1]) / mm
-    bend = np.asarray(on.train.bend) / deg
-    twist = np.asarray(on.train.plane_twist) / deg
+    bend = on.bend / deg
+    twist = np.asarray(on.place.plane_twist) / deg
     phase = np.asarray(on.phase) / deg
     named = any(joint.name for joint in on.drive.joints)
     rows: list[list[Cell]] = []
     for k, joint in enumerate(on.drive.joints):
-        steep = bend[k] > WARN_BEND
+        steep = bool(too_steep(joint, k + 1, float(on.bend[k])))
         rows.append(
             [
                 words(str(k + 1)),
                 *([words(joint.name)] if named else []),
+                *([words(kind_name(joint))] if on.mixed else []),
                 *(number(fixed(float(x), 1), float(x)) for x in centre[k]),
                 number(fixed(float(bend[k])), float(bend[k]), "failed" if steep else "plain"),
                 number(fixed(float(twist[k - 1])), float(twist[k - 1])) if k else words("–"),
@@ -80,6 +85,7 @@ def _joints(on: Subject) -> Table:
         columns=(
             Column(heading=_("joint")),
             *([Column(heading=_("name"), left=True)] if named else []),
+            *([Column(heading=_("kind"), left=True)] if on.mixed else []),
             Column(heading="x", unit="mm"),
             Column(heading="y", unit="mm"),
             Column(heading="z", unit="mm"),
@@ -91,6 +97,23 @@ def _joints(on: Subject) -> Table:
         note=_("A joint of bend 0 has no plane of its own; it takes that of the joint before.")
         if np.any(bend == 0.0)
         else "",
+    )
+
+
+def _inside(told: Sequence[tuple[int, Inside]]) -> Table:
+    rows: list[list[Cell]] = []
+    for joint, one in told:
+        value, unit = figure_of(one)
+        rows.append([words(str(joint)), words(one.meaning), number(significant(value), value), words(unit)])
+    return Table(
+        title=_("Inside the joints"),
+        columns=(
+            Column(heading=_("joint")),
+            Column(heading=_("what"), left=True),
+            Column(heading=_("value")),
+            Column(heading="", left=True),
+        ),
+        rows=rows,
     )
 
 

@@ -74,8 +74,9 @@ def motion_columns(motion: Motion) -> dict[str, Any]:
             columns[f"shaft_{k + 1}_acceleration_rad_s2"] = motion.shaft_acceleration[k]
     for i in range(motion.joint_angle.shape[-2]):
         columns[f"joint_{i + 1}_angle_deg"] = motion.joint_angle[i] * deg
-        columns[f"joint_{i + 1}_cross_driving_deg"] = motion.cross_driving[i] * deg
-        columns[f"joint_{i + 1}_cross_driven_deg"] = motion.cross_driven[i] * deg
+        if not motion.crossed or motion.crossed[i]:
+            columns[f"joint_{i + 1}_cross_driving_deg"] = motion.cross_driving[i] * deg
+            columns[f"joint_{i + 1}_cross_driven_deg"] = motion.cross_driven[i] * deg
     return columns
 
 
