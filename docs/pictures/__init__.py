@@ -10,6 +10,7 @@ import matplotlib
 MODULES = (
     "conventions",
     "theory",
+    "constant_velocity",
     "movements",
     "absorbers",
     "calm",

@@ -29,7 +29,7 @@ def _axles(values: Values) -> Values:
     known = values["stiffness"] is not None and wound.rate > 0.0
     return {
         "differentials": count - 1,
-        "simple_ratios": ratios,
+        "simple_ratios": ratios if share is not None else list(range(count - 1, 0, -1)),
         "torque_share": cascade_shares(ratios),
         "redundant_loops_without_differentials": count - 1,
         "windup_rad_per_m": wound.rate,
