@@ -20,6 +20,8 @@ _HOMES = {
     "Drive": "drive.drive",
     "Drives": "drive.drives",
     "stack": "drive.drives",
+    "Mechanism": "mechanism.mechanism",
+    "Pair": "mechanism.pair",
     "TransmissionError": "analysis.accuracy",
     "transmission_error": "analysis.accuracy",
     "Articulation": "analysis.articulation",
@@ -77,6 +79,16 @@ _HOMES = {
     "FixedStep": "analysis.fixed_steps",
     "Compiled": "maths.compiled.method",
     "Plain": "maths.compiled.method",
+    "FiniteMobility": "analysis.finite_mobility",
+    "finite_mobility": "analysis.finite_mobility",
+    "Mobility": "analysis.mobility",
+    "mobility": "analysis.mobility",
+    "MobilityTurn": "analysis.mobility_turn",
+    "mobility_over_turn": "analysis.mobility_turn",
+    "Release": "analysis.release",
+    "release": "analysis.release",
+    "Repair": "analysis.repair",
+    "repairs": "analysis.repair",
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
     "check": "checks.checks",
@@ -112,7 +124,9 @@ _HOMES = {
     "TradeOff": "synthesis.trade_off",
     "trade_off": "synthesis.trade_off",
     "example": "io.examples",
+    "example_mechanism": "io.examples",
     "load": "io.drive_file",
+    "load_mechanism": "io.mechanism_file",
     "save": "io.drive_file",
     "report": "report.report",
 }
@@ -135,6 +149,8 @@ if TYPE_CHECKING:
     from .analysis.equivalence import equivalent_joint as equivalent_joint
     from .analysis.extremes import Extremes as Extremes
     from .analysis.extremes import extremes as extremes
+    from .analysis.finite_mobility import FiniteMobility as FiniteMobility
+    from .analysis.finite_mobility import finite_mobility as finite_mobility
     from .analysis.fixed_steps import FixedStep as FixedStep
     from .analysis.forces import forces as forces
     from .analysis.life import Life as Life
@@ -143,6 +159,10 @@ if TYPE_CHECKING:
     from .analysis.losses import LossMap as LossMap
     from .analysis.losses import loss_map as loss_map
     from .analysis.losses import losses as losses
+    from .analysis.mobility import Mobility as Mobility
+    from .analysis.mobility import mobility as mobility
+    from .analysis.mobility_turn import MobilityTurn as MobilityTurn
+    from .analysis.mobility_turn import mobility_over_turn as mobility_over_turn
     from .analysis.motion import Motion as Motion
     from .analysis.motion import motion as motion
     from .analysis.moving_forces import MovingForces as MovingForces
@@ -151,6 +171,10 @@ if TYPE_CHECKING:
     from .analysis.rainflow import Levels as Levels
     from .analysis.rainflow import rainflow as rainflow
     from .analysis.rainflow import time_at_level as time_at_level
+    from .analysis.release import Release as Release
+    from .analysis.release import release as release
+    from .analysis.repair import Repair as Repair
+    from .analysis.repair import repairs as repairs
     from .analysis.sampling import MonteCarlo as MonteCarlo
     from .analysis.shaft_balance import Balance as Balance
     from .analysis.shaft_balance import balance as balance
@@ -186,10 +210,14 @@ if TYPE_CHECKING:
     from .io.drive_file import load as load
     from .io.drive_file import save as save
     from .io.examples import example as example
+    from .io.examples import example_mechanism as example_mechanism
+    from .io.mechanism_file import load_mechanism as load_mechanism
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
     from .maths.periodic import HarmonicBalance as HarmonicBalance
     from .maths.pieces import Shooting as Shooting
+    from .mechanism.mechanism import Mechanism as Mechanism
+    from .mechanism.pair import Pair as Pair
     from .report.report import report as report
     from .synthesis.absorber import Absorber as Absorber
     from .synthesis.absorber import absorber as absorber

@@ -17,11 +17,14 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 from cardan.units import deg, nearest
 
-STEP = 2 * deg
+STEP = 4 * deg
 """Largest step of the driven joint; loops are followed from one position to the next."""
 
 ROUNDS = 200
 """Most rounds of one closure; where loops close a few do."""
+
+SHUT, NEAR = 1e-30, 1e-22
+"""Sum of squares at which a closure is complete, and below which it ends when it hardly gets better: rounding."""
 
 CLOSED = 1e-8
 """Misfit of the loops below which they count as closed [m, rad]."""
@@ -97,9 +100,14 @@ def finite_mobility(
     tolerance : float
         Residual up to which loops count as closed [m, rad].
     steps : int, optional
-        Number of steps; as many as keep each below 2° by default.
+        Number of steps; as many as keep each below 4° by default.
     progress : function, optional
         Called with the share done; answering "stop" ends there.
+
+    Returns
+    -------
+    FiniteMobility
+        residual, gap, turn : arrays (p,); displacement : array (p, n, 4, 4)
 
     Raises
     ------
@@ -243,7 +251,7 @@ class _Loops:
         error, damping = float(rest @ rest), 1e-9
         for _round in range(ROUNDS):
             normal, right = slope.T @ slope, slope.T @ rest
-            if not rest.size or not self.free.size or error < 1e-30:
+            if not rest.size or not self.free.size or error < SHUT:
                 break
             weight = damping * max(float(np.max(np.diag(normal))), 1e-30)
             step = np.linalg.solve(normal + weight * np.eye(len(normal)), right)
@@ -251,15 +259,16 @@ class _Loops:
             trial[self.free] -= step
             ahead, steeper = self._misfit(trial)
             better = float(ahead @ ahead)
+            near = error < NEAR
             if better < error:
-                done = error - better < 1e-14 * error
+                done = error - better < (0.5 if near else 1e-12) * error
                 state, rest, slope, error = trial, ahead, steeper, better
                 damping = max(0.1 * damping, 1e-14)
                 if done:
                     break
             else:
                 damping *= 10.0
-                if damping > 1e6:
+                if near or damping > 1e6:
                     break
         self.state = state
         return self._told(state)

@@ -57,6 +57,10 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
     axis : array (3,)
         Direction, of any length.
 
+    Returns
+    -------
+    Release
+
     Raises
     ------
     InputError

@@ -306,7 +306,7 @@ CALCULATIONS = (
             _word("driven_joint", _("joint that is driven; it turns")),
             given("drive_deg", _("how far"), "angle"),
             given("closure_tolerance", _("residual below which loops are closed"), above=0.0, default=CLOSED),
-            given("steps", _("steps on the way; below 2° each by default"), kind="whole", low=1.0, default=None),
+            given("steps", _("steps on the way; below 4° each by default"), kind="whole", low=1.0, default=None),
         ),
         returns=(
             gives("closes", _("whether they close at every step")),

@@ -123,15 +123,15 @@ def _spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
     }
 
 
-def spelled(path: str) -> str:
-    """Return the path of a field as we write it in a file, with the unit we prefer.
+def spelled(path: str, root: Any = Drive) -> str:
+    """Return the path of a field of a file that describes a ``root`` as we write it, with the unit we prefer.
 
     Examples
     --------
     >>> spelled("joints[1].centre[2]"), spelled("shafts[1].spline.teeth")
     ('joints[1].centre_mm[2]', 'shafts[1].spline.teeth')
     """
-    classes: list[Any] = [Drive]
+    classes: list[Any] = [root]
     steps = []
     for step in path.split("."):
         name = step.partition("[")[0]

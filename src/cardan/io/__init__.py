@@ -4,19 +4,27 @@ from __future__ import annotations
 
 from .drive_file import dumps, load, loads, save
 from .edit import edit
-from .examples import example, example_names, example_text
+from .examples import example, example_mechanism, example_names, example_text, mechanism_names
+from .mechanism_file import load_either, load_mechanism, loads_either, loads_mechanism
 from .reference import reference
-from .schema import schema
+from .schema import mechanism_schema, schema
 from .starter import starter
 
 __all__ = [
     "dumps",
     "edit",
     "example",
+    "example_mechanism",
     "example_names",
     "example_text",
     "load",
+    "load_either",
+    "load_mechanism",
     "loads",
+    "loads_either",
+    "loads_mechanism",
+    "mechanism_names",
+    "mechanism_schema",
     "reference",
     "save",
     "schema",

@@ -1,10 +1,10 @@
-"""The drive file: load and save, TOML and JSON."""
+"""The drive file, and what it shares with the mechanism file: load and save, TOML and JSON."""
 
 from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_fi
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check, refuse
 from cardan.files import write_text
+from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
 from .reader import drive_from_tree
@@ -50,6 +51,18 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
     'angles'
     """
     where = Path(path)
+    text, form = text_of(where)
+    return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
+
+
+def text_of(where: Path) -> tuple[str, str]:
+    """Return the text of a file, and whether it is ``"toml"`` or ``"json"``.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, is too large, or is no text.
+    """
     try:
         with where.open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
@@ -60,8 +73,7 @@ def load(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Drive:
         raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
     except UnicodeDecodeError as error:
         raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
-    form = where.suffix.lower().lstrip(".") or "toml"
-    return loads(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
+    return text, where.suffix.lower().lstrip(".") or "toml"
 
 
 def loads(
@@ -102,7 +114,10 @@ def loads(
     >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
     0.3490658503988659
     """
-    drive = drive_from_tree(_parsed(text.removeprefix("\ufeff"), form, name), folder=Path(folder))
+    tree = parsed(text, form, name)
+    if describes_mechanism(tree):
+        raise refuse(name, _("describes a mechanism, not a drive; only cardan mobility reads it"))
+    drive = drive_from_tree(tree, folder=Path(folder))
     return completed(drive, known_to(drive, folder, catalogues))
 
 
@@ -126,28 +141,34 @@ def known_to(drive: Drive, folder: str | Path = ".", catalogues: Sequence[str | 
     return with_files(catalogue(), files) if files else catalogue()
 
 
-def dumps(drive: Drive, *, form: str = "toml") -> str:
-    """Return the text of a drive file; ``loads`` of it gives an equal drive.
+def describes_mechanism(tree: Mapping[str, Any]) -> bool:
+    """Tell whether nested tables are those of a mechanism file: it names a frame, or links of its joints."""
+    joints = tree.get("joints")
+    linked = isinstance(joints, list) and any(isinstance(one, dict) and "links" in one for one in joints)
+    return "frame" in tree or linked
+
+
+def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
+    """Return the text of a drive file, or of a mechanism file; reading it gives an equal one.
 
     Parameters
     ----------
-    drive : Drive
-        The drive.
+    thing : Drive or Mechanism
     form : str
         ``"toml"`` or ``"json"``.
     """
-    tree = tree_of(shortened(drive))
+    tree = tree_of(shortened(thing) if isinstance(thing, Drive) else thing)
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
 
 
 def save(thing: Any, path: str | Path) -> None:
-    """Write a drive, or a result, to a file; the suffix says how.
+    """Write a drive, a mechanism or a result to a file; the suffix says how.
 
     Parameters
     ----------
-    thing : Drive or result
-        A drive is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where there are none
-        yet; a result in one of the formats of `cardan.io.formats`.
+    thing : Drive, Mechanism or result
+        A drive or a mechanism is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where
+        there are none yet; a result in one of the formats of `cardan.io.formats`.
     path : str or Path
         Replaced as a whole or not at all.
 
@@ -165,7 +186,7 @@ def save(thing: Any, path: str | Path) -> None:
     'angles'
     """
     where = Path(path)
-    if not isinstance(thing, Drive):
+    if not isinstance(thing, Drive | Mechanism):
         from .formats import write
 
         write(thing, where)
@@ -174,11 +195,20 @@ def save(thing: Any, path: str | Path) -> None:
     if form not in ("toml", "json"):
         raise refuse(str(where), _("a drive is saved as .toml or .json"))
     text = dumps(thing, form=form)
-    keep_rows(thing, where.parent)
+    if isinstance(thing, Drive):
+        keep_rows(thing, where.parent)
     write_text(where, text)
 
 
-def _parsed(text: str, form: str, name: str) -> dict[str, Any]:
+def parsed(text: str, form: str, name: str) -> dict[str, Any]:
+    """Return the nested tables of a text.
+
+    Raises
+    ------
+    InputError
+        It is no TOML or JSON, or a table has a key twice.
+    """
+    text = text.removeprefix("\ufeff")
     title = "JSON" if form == "json" else "TOML"
     twice: list[str] = []
     try:

@@ -7,10 +7,12 @@ from pathlib import Path
 
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
+from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 from cardan.units import nearest
 
 from .drive_file import load
+from .mechanism_file import load_mechanism
 
 
 @cache
@@ -32,14 +34,27 @@ def example_names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
 
 
+def mechanism_names() -> tuple[str, ...]:
+    """Return the names of the shipped examples of mechanisms.
+
+    Examples
+    --------
+    >>> "hooke-stiff-bearings" in mechanism_names()
+    True
+    """
+    return tuple(sorted(path.stem for path in (_folder() / "mechanisms").glob("*.toml")))
+
+
 def example_file(name: str) -> Path:
-    """Return the file of a shipped example.
+    """Return the file of a shipped example, a drive or a mechanism.
 
     Raises
     ------
     InputError
         There is no example of that name; the message names the nearest.
     """
+    if name in mechanism_names():
+        return _folder() / "mechanisms" / f"{name}.toml"
     if name not in example_names():
         near = nearest(name, example_names())
         hint = _("; the nearest is {near}").format(near=near) if near else ""
@@ -80,3 +95,28 @@ def example(name: str) -> Drive:
     'single joint at 20 degrees'
     """
     return load(example_file(name))
+
+
+def example_mechanism(name: str) -> Mechanism:
+    """Return a shipped example of a mechanism.
+
+    Parameters
+    ----------
+    name : str
+        One of `mechanism_names`.
+
+    Returns
+    -------
+    Mechanism
+
+    Raises
+    ------
+    InputError
+        There is no example of that name, or it is a drive.
+
+    Examples
+    --------
+    >>> example_mechanism("hooke-stiff-bearings").links
+    ('shaft 1', 'cross', 'shaft 2')
+    """
+    return load_mechanism(example_file(name))

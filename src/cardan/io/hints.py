@@ -127,6 +127,8 @@ def _alike(one: str, two: str) -> float:
 
 def _owners(cls: type, key: str) -> list[str]:
     """Return the tables that know a key, as a file names them: first those of the same sort."""
+    if cls not in {other for _title, other in tables()}:
+        return []  # of a file that is no drive
     return [title for title, other in tables() if other is not cls and _knows(other, key)]
 
 

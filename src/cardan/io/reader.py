@@ -42,12 +42,15 @@ class Findings:
         Path in Python -> path as written.
     doubtful : set of str
         Paths in Python of fields that were refused.
+    root : type
+        What the file describes.
     """
 
     folder: Path
     problems: list[Problem] = field(default_factory=list)
     spelled: dict[str, str] = field(default_factory=dict)
     doubtful: set[str] = field(default_factory=set)
+    root: Any = Drive
 
     def refuse(self, written: str, message: str, path: str = "") -> None:
         """Note a problem at the path as written, and that the field at ``path`` is not to be trusted."""
@@ -71,7 +74,7 @@ class Findings:
                 break
             whole = whole[: whole.rindex("[")]
             rest = path[len(whole) :]
-        return spelled(path)
+        return spelled(path, self.root)
 
 
 def _within(path: str, other: str) -> bool:
@@ -95,29 +98,50 @@ def drive_from_tree(tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Dri
         Everything that is wrong with it.
     """
     _too_long(tree)
-    found = Findings(folder)
+    drive: Drive = read_as(Drive, tree, folder=folder)
+    return drive
+
+
+def read_as(root: Any, tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Any:
+    """Return the drive, or other thing of a class with the keys of a file, that a tree describes.
+
+    Parameters
+    ----------
+    root : type
+        Class of what the file describes.
+    tree : mapping
+        The file as nested tables.
+    folder : Path
+        Where the CSV files that it names are looked for.
+
+    Raises
+    ------
+    InputError
+        Everything that is wrong with it.
+    """
+    found = Findings(folder, root=root)
     _format(tree, found)
-    values = _values(Drive, {key: value for key, value in tree.items() if key != "format"}, "", "", found)
-    drive: Drive | None = None
+    values = _values(root, {key: value for key, value in tree.items() if key != "format"}, "", "", found)
+    thing = None
     try:
-        drive = Drive(**values)
+        thing = root(**values)
     except InputError as error:
         for problem in error.problems:
             found.follow(problem)
         if not found.problems:  # pragma: no cover - a problem of a placeholder has its own in the file
             raise
     check(found.problems)
-    assert drive is not None
-    return drive
+    return thing
 
 
 def _format(tree: Mapping[str, Any], found: Findings) -> None:
     given = tree.get("format", _MISSING)
     if given is _MISSING:
-        found.refuse("format", _("missing; write format = {format} at the top").format(format=Drive.format))
-    elif isinstance(given, bool) or given != Drive.format:
+        text = _("missing; write format = {format} at the top").format(format=found.root.format)
+        found.refuse("format", text)
+    elif isinstance(given, bool) or given != found.root.format:
         message = _("{given} is not known; this version reads format = {format}")
-        found.refuse("format", message.format(given=_shown(given), format=Drive.format))
+        found.refuse("format", message.format(given=_shown(given), format=found.root.format))
 
 
 def _too_long(tree: Mapping[str, Any]) -> None:

@@ -8,6 +8,7 @@ from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
 from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.mechanism.mechanism import Mechanism
 from cardan.units import label
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -28,6 +29,23 @@ def schema() -> dict[str, Any]:
     }
     head["required"] = ["format", *head.get("required", [])]
     return {"$schema": DIALECT, "title": "cardan drive file", **head}
+
+
+def mechanism_schema() -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of the mechanism file.
+
+    Examples
+    --------
+    >>> mechanism_schema()["properties"]["joints"]["items"]["required"]
+    ['id', 'type', 'links']
+    """
+    head = _table(Mechanism)
+    head["properties"] = {
+        "format": {"const": Mechanism.format, "description": "version of the file format"},
+        **head["properties"],
+    }
+    head["required"] = ["format", *head.get("required", [])]
+    return {"$schema": DIALECT, "title": "cardan mechanism file", **head}
 
 
 def _table(cls: type) -> dict[str, Any]:

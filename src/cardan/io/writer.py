@@ -1,4 +1,4 @@
-"""From a `Drive` to the tree and text of its file: preferred units, defaults left out, every number exact."""
+"""From a drive or a mechanism to the text of its file: preferred units, defaults left out, every number exact."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from cardan.drive.keys import NAMED, Field, exact_in_unit, fields_of, in_unit
 from cardan.drive.machine import MachineTorque
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
+from cardan.mechanism.mechanism import Mechanism
 from cardan.units import DIMENSIONS
 
 
-def tree_of(drive: Drive) -> dict[str, Any]:
-    """Return a drive as the nested tables of its file."""
-    return {"format": Drive.format, **_table(drive)}
+def tree_of(thing: Drive | Mechanism) -> dict[str, Any]:
+    """Return a drive, or a mechanism, as the nested tables of its file."""
+    return {"format": thing.format, **_table(thing)}
 
 
 def written(value: float, dimension: str) -> tuple[str, float]:
