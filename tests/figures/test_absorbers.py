@@ -11,8 +11,8 @@ from cardan.analysis.absorbers import absorber_response
 from cardan.analysis.joint_run_up import joint_run_up
 from cardan.analysis.run_up import run_up
 from cardan.figures.figure import Curve, Rule
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.units import deg
 
 

@@ -10,8 +10,8 @@ from cardan import figures
 from cardan.analysis.assembly import assembly
 from cardan.figures.assembly import misfit_figure
 from cardan.figures.figure import Curve
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.figures.wording import significant
 from cardan.io import example
 from cardan.maths import frames

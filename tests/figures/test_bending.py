@@ -12,8 +12,8 @@ from cardan.analysis.speed_map import critical_speed_map
 from cardan.drive.duty import Duty
 from cardan.figures.bending import shapes_figure, speed_map_figure, speeds_figure
 from cardan.figures.figure import Band, Bars, Curve, Rule, Shape
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.units import rpm
 
 VAN = example("two-piece-rubber-bearing")

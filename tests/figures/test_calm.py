@@ -14,8 +14,8 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
 from cardan.figures.calm import logarithmic
 from cardan.figures.figure import Curve, Figure, Rule
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.synthesis.absorber import absorber
 from cardan.synthesis.calm import Grid, calm
 from cardan.units import deg, rpm

@@ -16,8 +16,9 @@ from cardan.analysis.motion import motion
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.figure import Bars, Curve, axis, steps, written
-from cardan.figures.render_matplotlib import inline_svg, render
+from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names
 from cardan.synthesis.phases import phases
 from cardan.units import deg

@@ -15,8 +15,8 @@ from cardan.figures.figure import Curve
 from cardan.figures.force_arrows import loads_figures, worst
 from cardan.figures.forces import forces_figures, reactions_figure, torques_figure
 from cardan.figures.projection import onto
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.figures.turning import support_dashes
 from cardan.figures.wording import significant
 from cardan.io import example

@@ -9,8 +9,8 @@ from cardan.analysis.joint_law import joint_bends, joint_turn
 from cardan.drive.joints import DoubleCardan, Hooke, Tripod
 from cardan.figures.figure import Curve
 from cardan.figures.joint_law import joint_figure
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.units import deg
 
 JOINTS = (Hooke(), DoubleCardan(centring_ratio=0.5), Tripod())

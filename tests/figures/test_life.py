@@ -14,8 +14,8 @@ from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.joints import Hooke
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.life import SHOWN, history_figure, load_figure, parts_figure
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 
 HOUR = 3600.0
 JOINTS = tuple(

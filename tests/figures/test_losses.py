@@ -13,8 +13,8 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.losses import SHOWN, heat_figure, heat_parts, map_figure
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.io import example
 from cardan.units import rpm
 

@@ -11,8 +11,8 @@ from cardan import figures
 from cardan.analysis.mathieu_reduction import mathieu_reduction
 from cardan.figures.figure import Curve, Shape
 from cardan.figures.mathieu import chart_figure
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.maths.mathieu import exponents
 from cardan.units import deg, rpm
 

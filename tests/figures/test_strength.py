@@ -12,8 +12,8 @@ from cardan.drive.duty import Duty
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft
 from cardan.figures.figure import Bars, Curve
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.synthesis.sizing import size
 from cardan.synthesis.trade_off import trade_off
 from cardan.units import mm, rpm

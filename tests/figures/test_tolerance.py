@@ -13,8 +13,8 @@ from cardan.analysis.tolerance import Linear, WorstCase, tolerance
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.drive import Drive
 from cardan.figures.figure import Bars, Curve, Shape
-from cardan.figures.render_matplotlib import inline_svg
 from cardan.figures.render_plotly import described
+from cardan.figures.render_svg import inline_svg
 from cardan.figures.tolerance import MICRON, band_figure, error_figure, pareto_figure
 from cardan.io import example
 from cardan.units import arcmin

@@ -1,4 +1,4 @@
-"""Figures: a library-neutral description made from a result, and two renderers that draw any of them."""
+"""Figures: a library-neutral description made from a result, and renderers that draw any of them."""
 
 from __future__ import annotations
 
@@ -112,6 +112,11 @@ def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
         from .render_plotly import render as page
 
         write_bytes(place, page(several).encode("utf-8"))
+        return place
+    if suffix == ".svg":
+        from .render_svg import document
+
+        write_bytes(place, document(several).encode("utf-8"))
         return place
     import io
 

@@ -99,6 +99,28 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
     )
 
 
+def ranges(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ranges of a panel's axes, widened about their middles where both have the same scale.
+
+    Parameters
+    ----------
+    panel : Panel
+        The panel.
+    box : Box
+        Its frame.
+    """
+    x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
+    if not panel.equal:
+        return x, y
+    scale = min(box.width / (x[1] - x[0]), box.height / (y[1] - y[0]))
+
+    def about(span: tuple[float, float], size: float) -> tuple[float, float]:
+        middle, half = 0.5 * (span[0] + span[1]), 0.5 * size / scale
+        return middle - half, middle + half
+
+    return about(x, box.width), about(y, box.height)
+
+
 def _rooms(figure: Figure) -> dict[int, list[float]]:
     """Return what ticks need to the left of each column, by the number of columns: frames below each other align."""
     rooms: dict[int, list[float]] = {}

@@ -1,28 +1,24 @@
-"""Draws any figure with matplotlib: SVG, PNG, PDF."""
+"""Draws any figure with matplotlib: PNG, PDF."""
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import palette
 from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import Box, Entry, Page, laid_out
+from .page import Box, Entry, Page, laid_out, ranges
 from .projection import facets, onto
-from .svg import element, tidied
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Canvas
 
-Format: TypeAlias = Literal["svg", "png", "pdf"]
+Format: TypeAlias = Literal["png", "pdf"]
 
 STYLE = {
     "font.family": "DejaVu Sans",
     "font.size": 8.0,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "cardan",
     "pdf.fonttype": 42,
     "axes.unicode_minus": True,
     "path.simplify": True,
@@ -40,9 +36,7 @@ _SIDES = {"left": "left", "centre": "center", "right": "right"}
 _LEVELS = {"top": "top", "middle": "center", "bottom": "bottom"}
 
 
-def render(
-    figures: Figure | Sequence[Figure], target: IO[bytes], format: Format, *, words: bool = True, dpi: float = 160.0
-) -> None:
+def render(figures: Figure | Sequence[Figure], target: IO[bytes], format: Format, *, dpi: float = 160.0) -> None:
     """Draw figures, one below the other, in a PDF one a page.
 
     Parameters
@@ -51,17 +45,15 @@ def render(
         What to draw.
     target : binary stream
         Where the picture goes.
-    format : "svg", "png" or "pdf"
+    format : "png" or "pdf"
         Kind of picture.
-    words : bool
-        Draw title, sentence and source too.
     dpi : float
         Dots per inch of a PNG.
     """
     from matplotlib import rc_context
 
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
-    pages = [laid_out(figure, words=words) for figure in several]
+    pages = [laid_out(figure, words=True) for figure in several]
     with rc_context(STYLE):  # type: ignore[arg-type]
         if format == "pdf":
             _pdf(pages, several, target)
@@ -71,40 +63,7 @@ def render(
         for page in pages:
             _draw(canvas, page, top)
             top += page.height
-        if format == "svg":
-            target.write(_svg(canvas).encode("utf-8"))
-            return
-        _halos(canvas)
         canvas.savefig(target, format=format, dpi=dpi, metadata={"Software": "cardan"}, facecolor="white")
-
-
-def _halos(canvas: Canvas) -> None:
-    """Give words over lines a white rim; in an SVG the style does it, so that words stay words."""
-    from matplotlib.patheffects import withStroke
-    from matplotlib.text import Text
-
-    for text in canvas.findobj(Text):
-        if str(text.get_gid() or "").startswith("halo"):
-            text.set_path_effects([withStroke(linewidth=2.4, foreground="white")])
-
-
-def inline_svg(figure: Figure) -> str:
-    """Return a figure as an SVG element for a page, without its title and sentence.
-
-    Parameters
-    ----------
-    figure : Figure
-        What to draw.
-    """
-    stream = io.BytesIO()
-    render(figure, stream, "svg", words=False)
-    return element(stream.getvalue().decode("utf-8"), figure)
-
-
-def _svg(canvas: Canvas) -> str:
-    stream = io.BytesIO()
-    canvas.savefig(stream, format="svg", metadata={"Date": None, "Creator": "cardan"}, facecolor="white")
-    return tidied(stream.getvalue().decode("utf-8"))
 
 
 def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) -> None:
@@ -115,7 +74,6 @@ def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) ->
         for page in pages:
             canvas = _canvas(page.width, page.height)
             _draw(canvas, page, 0.0)
-            _halos(canvas)
             book.savefig(canvas)
 
 
@@ -181,7 +139,7 @@ def _sign(axes: Axes, entry: Entry) -> None:
 
 
 def _panel(axes: Axes, panel: Panel, box: Box) -> None:
-    _frame(axes, panel)
+    _frame(axes, panel, box)
     meshes = [item for item in panel.series if isinstance(item, Mesh)]
     if meshes and panel.view is not None:
         _solids(axes, panel, meshes)
@@ -202,8 +160,8 @@ def _panel(axes: Axes, panel: Panel, box: Box) -> None:
         )
 
 
-def _frame(axes: Axes, panel: Panel) -> None:
-    x, y = _ranges(panel, axes)
+def _frame(axes: Axes, panel: Panel, box: Box) -> None:
+    x, y = ranges(panel, box)
     axes.set_xlim(*x)
     axes.set_ylim(*y)
     axes.set_facecolor("none")
@@ -232,22 +190,6 @@ def _scale(axes: Axes, name: str, one: Axis) -> None:
     scale.set_ticks(list(one.ticks), list(one.texts) or [""] * len(one.ticks))
     if one.grid:
         scale.grid(True, color=palette.colour("grid"), linewidth=0.7)
-
-
-def _ranges(panel: Panel, axes: Axes) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the ranges of the axes, widened about their middles where both have the same scale."""
-    x, y = (panel.x.low, panel.x.high), (panel.y.low, panel.y.high)
-    if not panel.equal:
-        return x, y
-    box = axes.get_window_extent()
-    across, upright = box.width / (x[1] - x[0]), box.height / (y[1] - y[0])
-    scale = min(across, upright)
-
-    def about(span: tuple[float, float], size: float) -> tuple[float, float]:
-        middle, half = 0.5 * (span[0] + span[1]), 0.5 * size / scale
-        return middle - half, middle + half
-
-    return about(x, box.width), about(y, box.height)
 
 
 def _flat(panel: Panel, x: Any, y: Any, z: Any) -> tuple[Any, Any]:
@@ -329,7 +271,9 @@ def _curve(axes: Axes, panel: Panel, item: Curve, order: float) -> None:
 
 def _note(axes: Axes, panel: Panel, item: Note) -> None:
     x, y = _flat(panel, item.x, item.y, item.z)
-    text = axes.annotate(
+    from matplotlib.patheffects import withStroke
+
+    axes.annotate(
         item.text,
         (float(x), float(y)),
         xytext=item.shift,
@@ -341,9 +285,8 @@ def _note(axes: Axes, panel: Panel, item: Note) -> None:
         va=_LEVELS[item.level],
         zorder=6.0,
         annotation_clip=False,
+        path_effects=[withStroke(linewidth=2.4, foreground="white")] if item.halo else [],
     )
-    if item.halo:
-        text.set_gid(f"halo{id(text)}")
 
 
 def _bars(axes: Axes, item: Bars, order: float) -> None:

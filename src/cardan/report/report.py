@@ -108,7 +108,7 @@ def page(
             from cardan.figures.render_plotly import fragment
 
             return fragment(figure)
-        from cardan.figures.render_matplotlib import inline_svg
+        from cardan.figures.render_svg import inline_svg
 
         return inline_svg(figure)
 
