@@ -116,6 +116,9 @@ def test_a_row_of_a_maker_is_taken(cardan, winch, drive_file, tmp_path):
     said = cardan("strength", winch, "--size", "joint", "--catalogue", maker, "--json").content
     assert said["as_made"] == {"joints[0].size": "mine-60", "joints[1].size": "mine-60"}
     assert said["tried"][0]["size"] == "example-58"
+    made = cardan("strength", winch, "--size", "joint", "--catalogue", maker, "-o", "own.toml")
+    again = cardan("strength", "own.toml", "--size", "tube:2", "--catalogue", maker, "-o", "own.toml")
+    assert (made.code, again.code) == (0, 0)
     own = cardan("select", winch, "--catalogue", maker, "--json").content
     assert [row["fits"] for row in own["sizes"] if row["size"] == "mine-60"] == [True]
     shown = cardan("catalogue", "joint_sizes", "mine-60", "--catalogue", maker)

@@ -94,3 +94,12 @@ def test_reads_files_beside_the_drive_file(tmp_path: Path) -> None:
 def test_refuses_what_makes_no_drive(values: dict[str, Any]) -> None:
     with pytest.raises(InputError):
         edit(FORMS, values)
+
+
+def test_takes_a_key_out() -> None:
+    text = FORMS + '[[shafts]]\nnumber = 2\nouter_m = 0.05 # wide\nwall_in = 0.1 # thin\nmaterial = "C45"\n'
+    changed = edit(text, {"shafts[1].wall_mm": None, "shafts[1].outer_mm": 40})
+    assert "wall" not in changed
+    assert "outer_mm = 40 # wide" in changed
+    with pytest.raises(InputError, match="does not fit"):
+        edit(text, {"shafts[1].number": None})

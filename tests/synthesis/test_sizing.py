@@ -12,12 +12,14 @@ from cardan.analysis.strength import strength
 from cardan.catalogue import catalogue, completed
 from cardan.catalogue.rows import JointSize
 from cardan.checks import check
+from cardan.drive.body import Segment
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles
 from cardan.drive.material import Material
 from cardan.drive.paths import with_values
 from cardan.drive.shaft import Layup, Ply, Shaft
+from cardan.io import dumps, edit, loads
 from cardan.synthesis.preferred import R20, R40, round_up
 from cardan.synthesis.sized import CHECKS
 from cardan.synthesis.sizing import size
@@ -238,3 +240,43 @@ def test_no_tube_of_the_front_is_beaten():
         assert not np.any(beaten & truly)
     assert found.lightest[2] == np.min(found.mass[found.passes])
     assert front(np.ones((1, 2)), np.ones((1, 2)), np.ones((1, 2)), np.ones((1, 2), dtype=bool)).all()  # equals stay
+
+
+def stepped():
+    stretches = (
+        Segment(length=0.2, outer=40 * mm, material=C45),
+        Segment(length=0.9, outer=60 * mm, inner=52 * mm, material=C45),
+    )
+    return drive(shafts=(Shaft(number=2, length=1.1, segments=stretches),), limits=Limits(critical_speed=0.5))
+
+
+def test_a_stepped_shaft_is_sized_in_proportion():
+    base = stepped()
+    found = size(base, None, "tube:2")
+    now = {"segments[0].outer": 40.0, "segments[1].outer": 60.0, "segments[1].inner": 52.0}
+    shares = {found.exact[f"shafts[1].{name}_mm"] / value for name, value in now.items()}
+    assert max(shares) == pytest.approx(min(shares), rel=1e-12)
+    at = worst(with_values(base, found.exact), "tube", "shafts[1]")
+    assert float(at.utilisation) == pytest.approx(1.0, rel=1e-9)
+    assert float(worst(found.drive, "tube", "shafts[1]").utilisation) <= 1.0
+    assert found.values["shafts[1].segments[1].inner_mm"] <= found.exact["shafts[1].segments[1].inner_mm"]
+    full = size(base, None, "shaft:2")
+    assert full.values["shafts[1].segments[1].inner_mm"] is None
+    assert [one.inner for one in with_values(base, full.values).shafts[1].segments] == [0.0, 0.0]
+    with pytest.raises(InputError, match="ratio alone"):
+        size(base, None, "tube:2", hold="wall")
+
+
+@pytest.mark.parametrize("part", ["tube:2", "shaft:2"])
+@pytest.mark.parametrize("hold", ["ratio", "wall", "outer"])
+@pytest.mark.parametrize("body", [{"wall": 3 * mm}, {"inner": 64 * mm}, {}])
+def test_the_sizes_put_into_the_file_are_those_of_the_part(part, hold, body):
+    """Whatever the file gives beside the outer diameter: nothing of it is left to make another part of it."""
+    base = drive(
+        shafts=(Shaft(number=2, outer=70 * mm, length=1.1, material=C45, **body),), limits=Limits(critical_speed=0.5)
+    )
+    found = size(base, None, part, hold=hold)
+    text = dumps(base)
+    for whole in (with_values(base, found.values), loads(edit(text, found.values))):
+        for a, b in zip(check(whole, only=CHECKS["tube"]), check(found.drive, only=CHECKS["tube"]), strict=True):
+            assert (a.title, a.utilisation) == (b.title, pytest.approx(b.utilisation, rel=1e-9))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -38,13 +38,13 @@ def _figure(drive: Drive, found: Sizing, known: Catalogue) -> Any:
 
     from .asked import figures
 
-    if found.part not in ("tube", "shaft"):
+    if found.part not in ("tube", "shaft") or _stepped(found):
         return figures(found)
     from cardan.synthesis.trade_off import trade_off
 
     from .progress import watching
 
-    number = int(found.subject[len("shafts[") : -1]) + 1
+    number = _number(found)
     if not 1 < number <= len(drive.joints):
         raise refuse("--plot", _("only shafts between two joints are compared with other tubes"))
     with watching(_("comparing tubes")) as progress:
@@ -68,6 +68,10 @@ def sizes(found: Sizing) -> str:
     """Return the sizes found, in words."""
     if found.tried:
         return str(next(iter(found.values.values())))
+    if _stepped(found):
+        path, value = next(iter(found.exact.items()))
+        factor = significant(value / float(found.before[path] or value))
+        return _("all diameters times {factor}").format(factor=factor)
     words = {
         "outer_mm": _("outer diameter {value} mm"),
         "wall_mm": _("wall {value} mm"),
@@ -92,14 +96,21 @@ def _tables(found: Sizing) -> Iterator[Table]:
         Column(key="value", heading=_("as made")),
     )
     rows: list[list[Cell]] = [
-        [path, found.before.get(path), exact, _value(found.values[path])] for path, exact in found.exact.items()
+        [path, found.before.get(path), found.exact.get(path), _value(made)] for path, made in found.values.items()
     ]
     yield Table(columns=columns, rows=rows)
     yield _verdicts(found)
 
 
-def _value(value: float | str) -> str:
+def _value(value: float | str | None) -> str:
+    if value is None:
+        return _("left out")
     return value if isinstance(value, str) else f"{value:.10g}"
+
+
+def _stepped(found: Sizing) -> bool:
+    """Tell whether it is the stretches of a stepped shaft that were sized."""
+    return any(".segments[" in path for path in found.exact)
 
 
 def _verdicts(found: Sizing) -> Table:
@@ -185,7 +196,7 @@ def _rows(found: Sizing) -> Table:
             rows=[[one.id, *row[1:]] for one, row in zip(found.tried, _catalogued(found).rows, strict=True)],
         )
     rows: list[list[Cell]] = [
-        [path, found.before.get(path), exact, found.values[path]] for path, exact in found.exact.items()
+        [path, found.before.get(path), found.exact.get(path), made] for path, made in found.values.items()
     ]
     return Table(columns=tuple(Column(key=key) for key in ("path", "now", "at_limit", "as_made")), rows=rows)
 
@@ -240,7 +251,9 @@ def _content(drive: Drive, file: Path, found: Sizing) -> dict[str, Any]:
     }
 
 
-def written(answer: Answer, found: Sizing, drive: Drive, text: str, out: Path) -> Answer:
+def written(
+    answer: Answer, found: Sizing, drive: Drive, text: str, out: Path, *, folder: Path, catalogues: Sequence[Path]
+) -> Answer:
     """Write the size into a drive file, its comments kept, and return the answer with a word on it.
 
     Parameters
@@ -253,6 +266,10 @@ def written(answer: Answer, found: Sizing, drive: Drive, text: str, out: Path) -
         The file.
     out : path
         Where to write, TOML or JSON.
+    folder : path
+        Where files are looked for that the file names.
+    catalogues : sequence of path
+        Catalogue files beside those that it names.
     """
     from cardan.drive.paths import with_values
     from cardan.errors import refuse
@@ -267,7 +284,7 @@ def written(answer: Answer, found: Sizing, drive: Drive, text: str, out: Path) -
         form = "json" if out.suffix.lower() == ".json" else "toml"
         whole = dumps(with_values(drive, values), form=form)
     else:
-        whole = edit(text, values)
+        whole = edit(text, values, folder=folder, catalogues=catalogues)
     write_text(out, whole, "--out")
     kept = [remark for remark in answer.remarks if remark.tone != "next"]
     done = Remark(text=_("{path}: {sizes} written.").format(path=out, sizes=_listed(values)), tone="good")

@@ -79,7 +79,8 @@ def strength(
 
     given, text = read_with_text(file, tuple(more or ()))
     drive = on_duty(given, speed_rpm, torque)
-    known = known_to(drive, "." if file == STDIN else file.parent, tuple(more or ()))
+    folder, files = Path(".") if file == STDIN else file.parent, tuple(more or ())
+    known = known_to(drive, folder, files)
     if part is None:
         from .strength_answer import answer
 
@@ -102,7 +103,7 @@ def strength(
             raise error.renamed(lambda field: options.get(field, field)) from error
     said = sized(drive, file, made, known)
     if out is not None:
-        said = written(said, made, given, text, out)
+        said = written(said, made, given, text, out, folder=folder, catalogues=files)
     return show(said, json=json, csv=csv, plot=plot)
 
 

@@ -121,7 +121,7 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
     drive : Drive
         The drive to start from.
     values : mapping of str to value
-        Path -> number, list of numbers, flag or word.
+        Path -> number, list of numbers, flag or word; None where a key is to be left out.
 
     Returns
     -------
@@ -222,6 +222,8 @@ def _fitting(there: Place, value: Any, path: str) -> Any:
     kind = there.field.type
     for _step in range(there.inside):
         kind = get_args(kind)[0]
+    if value is None and not there.inside and not there.field.required:
+        return there.field.default
     if there.steps[-1] == "file":
         raise _lost(path, _("names a file that is read with the drive; change it in the drive file"))
     return _shaped(kind, value, there, path)

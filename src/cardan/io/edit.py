@@ -12,7 +12,9 @@ from cardan.drive.paths import place, read, with_values
 from .drive_file import loads
 
 
-def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> str:
+def edit(
+    text: str, values: Mapping[str, Any], *, folder: str | Path = ".", catalogues: Sequence[str | Path] = ()
+) -> str:
     """Return a TOML drive file with other values; comments and layout stay.
 
     Parameters
@@ -21,9 +23,11 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
         The drive file.
     values : mapping of str to value
         Path with unit -> value in that unit, as in `cardan.drive.paths`. A field given in another unit, or by its
-        opposite (``yoke_lead``), is replaced.
+        opposite (``yoke_lead``), is replaced; None takes it out.
     folder : str or Path
         Where files that the drive file names are looked for.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that it names.
 
     Returns
     -------
@@ -45,7 +49,7 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
     """
     import tomlkit
 
-    drive = loads(text, folder=folder)
+    drive = loads(text, folder=folder, catalogues=catalogues)
     wanted = with_values(drive, values)
     document = tomlkit.parse(text)
     for path in values:
@@ -54,6 +58,10 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
             _table(document, there.steps[:-2])[there.steps[-2]] = values[path]
             continue
         table = _table(document, there.steps[: len(there.steps) - there.inside - 1])
+        if values[path] is None:
+            for spelling in there.field.spellings.keys() & table.keys():
+                del table[spelling]
+            continue
         inner = there.steps[len(there.steps) - there.inside :]
         others = [spelling for spelling in there.field.spellings if spelling in table and spelling != there.spelling]
         comment = "".join(_removed(table, spelling) for spelling in others)
@@ -65,7 +73,7 @@ def edit(text: str, values: Mapping[str, Any], *, folder: str | Path = ".") -> s
         if comment:
             table[there.spelling].comment(comment)
     changed = tomlkit.dumps(document)
-    loads(changed, folder=folder)
+    loads(changed, folder=folder, catalogues=catalogues)
     return changed
 
 

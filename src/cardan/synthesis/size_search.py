@@ -16,7 +16,7 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .preferred import round_up
+from .preferred import SLACK, round_up
 from .sized import CHECKS, STEPS, Sizing, used
 
 REACH = (1e-4, 1e4)
@@ -81,14 +81,14 @@ def solved(
 
     factor = settled(alone, factor)
     exact = {name: value * factor for name, value in free.items()}
-    values = {name: round_up(one, step=STEPS[_bare(name)], series=series) for name, one in exact.items()}
+    values = {name: _made(name, one, series) for name, one in exact.items()}
     for _try in range(20):  # a thicker wall can cost what a thicker tube gains
         whole = with_values(base, values)
         made = _of(check(whole, only=names, known=rows), subject)
         if all(one.utilisation <= 1.0 for one in made):
             break
         values = {
-            name: round_up(value + STEPS[_bare(name)], step=STEPS[_bare(name)], series=series)
+            name: value if _bare(name) == "inner" else _made(name, value + STEPS[_bare(name)], series)
             for name, value in values.items()
         }
     limits = _of(check(with_values(base, exact), only=names, known=rows), subject)
@@ -188,6 +188,14 @@ def _counted(
 
 def _of(verdicts: Sequence[Verdict], subject: str) -> tuple[Verdict, ...]:
     return tuple(one for one in verdicts if one.subject in ("", subject) and one.run and not one.advice)
+
+
+def _made(path: str, value: float, series: str) -> float:
+    """Return a size as it is made: rounded up, bores down."""
+    step = STEPS[_bare(path)]
+    if _bare(path) == "inner":
+        return step * math.floor(value / step * (1.0 + SLACK))
+    return round_up(value, step=step, series=series)
 
 
 def _bare(path: str) -> str:

@@ -39,7 +39,15 @@ CHECKS = {
 }
 """Part -> checks that its size must pass."""
 
-STEPS = {"outer": 1.0, "wall": 0.1, "ply_thickness": 0.01, "journal": 0.5, "capacity": 100.0, "static_capacity": 100.0}
+STEPS = {
+    "outer": 1.0,
+    "inner": 1.0,
+    "wall": 0.1,
+    "ply_thickness": 0.01,
+    "journal": 0.5,
+    "capacity": 100.0,
+    "static_capacity": 100.0,
+}
 """Steps of a drawing, by the key that is sized, in its unit: mm and N."""
 
 
@@ -80,8 +88,8 @@ class Sizing:
         What was sized, as ``tube`` and ``shafts[1]``; the subject is empty for all joints alike.
     exact : mapping of str to float
         Paths with units -> the values at which the part is just at its limit.
-    values : mapping of str to float or str
-        The same as they are made, rounded up; the row of the catalogue of a joint.
+    values : mapping of str to float, str or None
+        The same as they are made, rounded up; the row of the catalogue of a joint; None where a key is to be left out.
     before : mapping of str to float or None
         What the drive says now.
     limits : tuple of Verdict
@@ -101,7 +109,7 @@ class Sizing:
     part: str
     subject: str
     exact: Mapping[str, float]
-    values: Mapping[str, float | str]
+    values: Mapping[str, float | str | None]
     before: Mapping[str, float | str | None]
     limits: tuple[Verdict, ...]
     made: tuple[Verdict, ...]

@@ -40,9 +40,9 @@ def size(
     duty : Duty or None
         The drive's own when None.
     part : str
-        ``tube:2`` or ``shaft:2`` (a solid one), ``journal:1``, ``needles:1`` (capacities of its bearings), ``joint:1``
-        (a row of the catalogue); ``joint`` gives all joints the same row. The number may be left out where there is
-        only one such part.
+        ``tube:2`` or ``shaft:2`` (a solid one), all stretches of a stepped shaft in proportion; ``journal:1``,
+        ``needles:1`` (capacities of its bearings), ``joint:1`` (a row of the catalogue); ``joint`` gives all joints
+        the same row. The number may be left out where there is only one such part.
     hold : "ratio", "wall" or "outer"
         What a tube keeps: wall over outer diameter, its wall, or its outer diameter.
     series : str
@@ -115,7 +115,7 @@ def _tube(drive: Drive, number: int, hold: Hold, series: str, rows: Catalogue, *
         raise refuse("hold", _("{value} is none of {choices}").format(value=repr(hold), choices=", ".join(HOLDS)))
     shaft = drive.shafts[k]
     if shaft.segments:
-        raise refuse(f"{path}.segments", _("a stepped shaft has no single size; give outer and wall instead"))
+        return _stepped(drive, number, hold, series, rows, solid=solid)
     before = {f"{path}.outer_mm": _mm(shaft.outer), f"{path}.wall_mm": _mm(shaft.wall)}
     layered = shaft.layup is not None
     thin = "layup.ply_thickness" if shaft.layup is not None else "wall"
@@ -146,7 +146,33 @@ def _tube(drive: Drive, number: int, hold: Hold, series: str, rows: Catalogue, *
     most = _most_wall(free, kept, plies, thin)
     kind = "shaft" if solid else "tube"
     need = ("tube_buckling",) if layered else ("tube_strength",)
-    return solved(base, kind, path, free, before, series, rows, need=need, most=most)
+    found = solved(base, kind, path, free, before, series, rows, need=need, most=most)
+    given = {f"{path}.{name}_mm": getattr(shaft, name) for name in ("outer", "wall", "inner")}
+    beside = {name: round(value, 9) for name, value in kept.items() if given.get(name, value) is None}
+    left_out = [f"{path}.inner_mm", *([f"{path}.wall_mm"] if solid else [])]
+    return replace(
+        found,
+        exact={**found.exact, **beside},
+        values={**found.values, **beside, **{name: None for name in left_out if given[name] is not None}},
+        before={**found.before, **{name: _mm(given[name]) for name in left_out if given[name] is not None}},
+    )
+
+
+def _stepped(drive: Drive, number: int, hold: Hold, series: str, rows: Catalogue, *, solid: bool) -> Sizing:
+    """Size all stretches of a shaft together, each in proportion."""
+    k, path = number - 1, f"shafts[{number - 1}]"
+    if hold != "ratio":
+        raise refuse("hold", _("a stepped shaft keeps the proportions of its stretches; it is sized by ratio alone"))
+    shaft = drive.shafts[k]
+    bores = {f"{path}.segments[{s}].inner_mm": 1e3 * one.inner for s, one in enumerate(shaft.segments) if one.inner}
+    outers = {f"{path}.segments[{s}].outer_mm": 1e3 * one.outer for s, one in enumerate(shaft.segments)}
+    before = {**outers, **bores}
+    if not solid:
+        return solved(drive, "tube", path, before, before, series, rows, need=("tube_strength",))
+    stretches = tuple(replace(one, inner=0.0) for one in shaft.segments)
+    full = replace(drive, shafts=(*drive.shafts[:k], replace(shaft, segments=stretches), *drive.shafts[k + 1 :]))
+    found = solved(full, "shaft", path, outers, before, series, rows, need=("tube_strength",))
+    return replace(found, values={**found.values, **dict.fromkeys(bores)})
 
 
 def _most_wall(free: Mapping[str, float], kept: Mapping[str, float], plies: int, thin: str) -> float:
