@@ -89,6 +89,10 @@ _HOMES = {
     "release": "analysis.release",
     "Repair": "analysis.repair",
     "repairs": "analysis.repair",
+    "JointBends": "analysis.joint_law",
+    "JointTurn": "analysis.joint_law",
+    "joint_bends": "analysis.joint_law",
+    "joint_turn": "analysis.joint_law",
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
     "check": "checks.checks",
@@ -123,6 +127,11 @@ _HOMES = {
     "size": "synthesis.sizing",
     "TradeOff": "synthesis.trade_off",
     "trade_off": "synthesis.trade_off",
+    "Centring": "synthesis.centring",
+    "best_centring": "synthesis.centring",
+    "PinGeometry": "synthesis.pin_geometry",
+    "best_pins": "synthesis.pin_geometry",
+    "pin_choices": "synthesis.pin_geometry",
     "example": "io.examples",
     "example_mechanism": "io.examples",
     "load": "io.drive_file",
@@ -153,6 +162,10 @@ if TYPE_CHECKING:
     from .analysis.finite_mobility import finite_mobility as finite_mobility
     from .analysis.fixed_steps import FixedStep as FixedStep
     from .analysis.forces import forces as forces
+    from .analysis.joint_law import JointBends as JointBends
+    from .analysis.joint_law import JointTurn as JointTurn
+    from .analysis.joint_law import joint_bends as joint_bends
+    from .analysis.joint_law import joint_turn as joint_turn
     from .analysis.life import Life as Life
     from .analysis.life import life as life
     from .analysis.losses import Losses as Losses
@@ -228,6 +241,8 @@ if TYPE_CHECKING:
     from .synthesis.calm import Calm as Calm
     from .synthesis.calm import calm as calm
     from .synthesis.calm_search import Grid as Grid
+    from .synthesis.centring import Centring as Centring
+    from .synthesis.centring import best_centring as best_centring
     from .synthesis.change import Cure as Cure
     from .synthesis.change import cured as cured
     from .synthesis.cure import cures as cures
@@ -241,6 +256,9 @@ if TYPE_CHECKING:
     from .synthesis.layout import layout as layout
     from .synthesis.phases import Phasing as Phasing
     from .synthesis.phases import phases as phases
+    from .synthesis.pin_geometry import PinGeometry as PinGeometry
+    from .synthesis.pin_geometry import best_pins as best_pins
+    from .synthesis.pin_geometry import pin_choices as pin_choices
     from .synthesis.selection import Candidate as Candidate
     from .synthesis.selection import Need as Need
     from .synthesis.selection import select_joint as select_joint
