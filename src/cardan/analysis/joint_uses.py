@@ -106,7 +106,8 @@ def judged_joints(
     for i in range(len(drive.joints)):
         one = _Judge(drive, duty, known, cases, torque, couple, bend, i, lives)
         joints.append(one.strength())
-        uses += list(one.uses())
+        own = tuple(f"joints[{i}].{name}" for name in drive.joints[i].foreign)
+        uses += [use for use in one.uses() if not any(path.startswith(own) for path in use.missing)]
     return tuple(joints), tuple(uses)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan.catalogue import Catalogue, catalogue, filled
-from cardan.drive.chain import chain
+from cardan.drive.chain import given_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.train import train
@@ -159,11 +159,10 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     cases = tuple(load_cases(used))
     if not cases:
         check([Problem("duty.torque", _("missing; how strong a drive must be depends on it"), "missing")])
-    kinematic = chain(whole)
-    loads = [case_loads(kinematic, case) for case in cases]
+    loads = [case_loads(whole, case) for case in cases]
     shafts = shaft_loads(loads)
     couple = np.stack([one.couple for one in loads])
-    own = np.asarray(kinematic.bend, dtype=float)
+    own = np.asarray(given_chain(whole).bend, dtype=float)
     bend = np.stack([own if case.bend is None else np.full(own.shape, case.bend) for case in cases])
     of_shafts, shaft_uses = judged_shafts(whole, used, cases, shafts)
     of_joints, joint_uses = judged_joints(whole, used, rows, cases, shafts.torque, couple, bend)

@@ -10,8 +10,11 @@ from math import lcm
 
 import numpy as np
 
-from cardan.drive.chain import Chain
+from cardan.drive.chain import Chain, given_chain, turning
+from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.joints import Joint
+from cardan.drive.laws import Laws
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
@@ -19,6 +22,9 @@ from .motion import motion
 
 LOOK = 120
 """Places in half a turn at which loads are looked at, before a curve is laid through the largest."""
+
+STRAIGHT = 1e-9
+"""Sine of the bend below which a joint passes on a torque as a straight one."""
 
 LONGEST = 12
 """Turns over which torques that swing out of step with the turning are followed at most."""
@@ -141,7 +147,7 @@ def turn_loads(
     angle = np.arange(places) * (period / places)
     found = motion(chain, angle)
     ratio, theta = found.shaft_ratio, found.joint_angle
-    bend = np.asarray(chain.bend, dtype=float)[..., None]
+    bend = np.asarray(found.bend, dtype=float)[..., None]
     end = -1 if torque_at == "output" else 0
     mean = np.asarray(torque, dtype=float)[..., None]
     turned = found.shaft_angle[..., end, :]
@@ -153,10 +159,14 @@ def turn_loads(
     passing = given[..., None, :] * ratio[..., [end], :] / ratio
     size = np.abs(passing)
     before, after = size[..., :-1, :], size[..., 1:, :]
-    lean = np.sqrt(1.0 + (np.tan(bend) * np.sin(theta)) ** 2)
-    couple = before * lean
-    on_driving = before * np.tan(bend) * np.abs(np.sin(theta))
-    on_driven = couple * np.sin(bend) * np.abs(np.cos(theta))
+    if chain.laws is None:
+        lean = np.sqrt(1.0 + (np.tan(bend) * np.sin(theta)) ** 2)
+        couple = before * lean
+        on_driving = before * np.tan(bend) * np.abs(np.sin(theta))
+        on_driven = couple * np.sin(bend) * np.abs(np.cos(theta))
+    else:
+        one, other = across(chain.laws, theta, ratio[..., 1:, :] / ratio[..., :-1, :])
+        couple, on_driving, on_driven = before * np.hypot(1.0, one), before * one, before * other
     # K² = T² + M_b² on either shaft, so 4 M_b² + 3 T² = 4 K² - T².
     mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
     high = peak(passing)
@@ -171,9 +181,58 @@ def turn_loads(
     )
 
 
-def case_loads(chain: Chain, case: LoadCase) -> TurnLoads:
+def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
+    """Return what a joint of any kind bends its shafts with, over the torque of its driving shaft.
+
+    Parameters
+    ----------
+    laws : Laws (..., n)
+        The joints.
+    theta, ratio : arrays (..., n, p) [rad, 1]
+        Angles of their driving marks, and the speed ratio i of each joint.
+
+    Returns
+    -------
+    driving, driven : arrays (..., n, p)
+        Couples across the driving and the driven shaft.
+
+    Notes
+    -----
+    A joint holds one turn of the driven shaft against the driving one, φ' = f(φ, α). No couple that it carries works on
+    a motion it allows: on turning, i e' - e, and on bending, N + f_α e'. So the couple is
+    (e, N×e, N): T (1, (1 - i cos α)/(i sin α), -f_α/i), and across the driven shaft ((cos α - i)/(i sin α), f_α/i) T:
+    T tan(α/2) across both where i = 1 and f_α = 0, and for a Hooke joint T tan α |sin φ|.
+    """
+    bend, steep, growth = (np.asarray(part)[..., None] for part in (laws.bend, laws.steepness, laws.growth))
+    sine, cosine = np.sin(theta), np.cos(theta)
+    swept = growth * sine * cosine / (cosine**2 + (steep * sine) ** 2)
+    bent = np.sin(bend)
+    uneven = np.where(bent > STRAIGHT, (ratio - 1.0) / np.where(bent > STRAIGHT, bent, 1.0), 0.0)
+    half = np.tan(0.5 * bend)
+    return np.hypot(ratio * half - uneven, swept) / ratio, np.hypot(half + uneven, swept) / ratio
+
+
+def at_bend(chain: Chain, bend: Array, joints: Sequence[Joint]) -> Chain:
+    """Return a chain with other bends of its joints, array (..., n) [rad], its planes and yokes as they are.
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+        As the joints are given, not as they turn.
+    bend : array (..., n) [rad]
+    joints : sequence of n Joint
+        Their kinds.
+    """
+    return turning(
+        replace(chain, bend=np.broadcast_to(bend, np.broadcast_shapes(bend.shape, chain.bend.shape))), joints
+    )
+
+
+def case_loads(drive: Drive, case: LoadCase) -> TurnLoads:
     """Return the largest loads of a drive over a turn in one way of running."""
-    whole = chain if case.bend is None else replace(chain, bend=np.full(np.shape(chain.bend), case.bend))
+    given = given_chain(drive)
+    own = given.bend if case.bend is None else np.full(np.shape(given.bend), case.bend)
+    whole = at_bend(given, own, drive.joints)
     return turn_loads(whole, case.torque, torque_at=case.torque_at, harmonics=case.harmonics, scale=case.scale)
 
 

@@ -40,5 +40,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="angle_rule", doc=_("rule of thumb: bends at most 6°, those of two joints within 1.5°"), judge=_judge
+    name="angle_rule",
+    doc=_("rule of thumb: bends at most 6°, those of two joints within 1.5°"),
+    judge=_judge,
+    crosses="all",
 )

@@ -52,4 +52,6 @@ def _phased(design: Design) -> bool:
     return bool(np.all(np.abs(np.cos(turned)) < SET))
 
 
-CHECK = Check(name="angle_table", doc=_("table of joint angles by speed, for two joints set right"), judge=_judge)
+CHECK = Check(
+    name="angle_table", doc=_("table of joint angles by speed, for two joints set right"), judge=_judge, crosses="all"
+)

@@ -100,4 +100,5 @@ CHECK = Check(
     name="bearing_life",
     doc=_("life of the needle bearings of every joint by ISO 281 against the life asked for"),
     judge=_judge,
+    crosses="each",
 )

@@ -45,5 +45,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="bend_at_speed", doc=_("largest bend of one joint at the highest speed, a maker's guide"), judge=_judge
+    name="bend_at_speed",
+    doc=_("largest bend of one joint at the highest speed, a maker's guide"),
+    judge=_judge,
+    crosses="all",
 )

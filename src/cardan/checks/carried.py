@@ -9,8 +9,9 @@ import numpy as np
 
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.analysis.moving_points import default_times, moving_points
-from cardan.drive.chain import Chain
+from cardan.drive.chain import Chain, turning
 from cardan.drive.geometry import geometry_from_points
+from cardan.drive.joints import Joint
 from cardan.drive.movement import Movement
 from cardan.maths import frames
 from cardan.maths.arrays import Array
@@ -42,7 +43,9 @@ def largest_bends(points: Array, movements: Sequence[Movement]) -> Array:
     return np.concatenate(found).reshape(*points.shape[:-2], -1)
 
 
-def largest_irregularity(kinematic: Chain, points: Array, movements: Sequence[Movement]) -> Array:
+def largest_irregularity(
+    kinematic: Chain, points: Array, movements: Sequence[Movement], joints: Sequence[Joint]
+) -> Array:
     """Return the largest irregularity of the output over the instants of a movement, array (...).
 
     Parameters
@@ -52,6 +55,8 @@ def largest_irregularity(kinematic: Chain, points: Array, movements: Sequence[Mo
     points : array (..., n+2, 3) [m]
         Points of the axis as drawn.
     movements : sequence of Movement
+    joints : sequence of n Joint
+        Their kinds.
 
     Returns
     -------
@@ -69,7 +74,7 @@ def largest_irregularity(kinematic: Chain, points: Array, movements: Sequence[Mo
         turned = Chain(
             bend=frozen.bend, plane_twist=frozen.plane_twist, yoke_angle=yokes[part], start_phase=phase[part]
         )
-        uneven = np.where(possible, equivalent_joint(turned).irregularity, np.inf)
+        uneven = np.where(possible, equivalent_joint(turning(turned, joints)).irregularity, np.inf)
         found.append(np.max(uneven, axis=-1))
     return np.concatenate(found).reshape(lead)
 

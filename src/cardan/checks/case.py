@@ -64,7 +64,7 @@ class Case:
     @cached_property
     def bend(self) -> Array:
         """Bend of every joint, array (..., n) [rad]."""
-        return self.chain.bend
+        return self.chain.bend if self.chain.laws is None else self.chain.laws.bend
 
     def between(self, first: int, last: int) -> mobius.Pair:
         """Return the Möbius pair of the joints from ``first`` on, counted from 0, up to before ``last``."""
@@ -132,9 +132,14 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
         "yoke_angle": np.broadcast_to(chain.yoke_angle, (*lead, joints - 1)).reshape(count, joints - 1),
         "start_phase": np.broadcast_to(chain.start_phase, lead).reshape(count),
     }
+    laws = chain.laws
+    tables = {} if laws is None else {k: v for k, v in vars(laws).items() if k != "own"}
+    tables = {name: np.broadcast_to(value, (*lead, joints)).reshape(count, joints) for name, value in tables.items()}
     parts = []
     for start in range(0, count, BLOCK):
-        part = replace(chain, **{name: values[start : start + BLOCK] for name, values in flat.items()})  # type: ignore[arg-type]
+        rows = slice(start, start + BLOCK)
+        own = None if laws is None else replace(laws, **{name: values[rows] for name, values in tables.items()})
+        part = replace(chain, laws=own, **{name: values[rows] for name, values in flat.items()})
         parts.append(vars(turn_loads(part, 1.0, torque_at=torque_at, look=MANY)))
     whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     return TurnLoads(**{name: values.reshape(*lead, values.shape[-1]) for name, values in whole.items()})

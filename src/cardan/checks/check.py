@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from cardan.drive.joints import Hooke
+from cardan.drive.laws import mixed
+from cardan.texts import _
 
 from .design import Design
 from .verdict import Verdict
@@ -21,8 +26,30 @@ class Check:
         One sentence on what it judges.
     judge : function
         From a design to its verdicts; a verdict that lacks data names the paths that are missing.
+    crosses : str
+        "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others.
     """
 
     name: str
     doc: str
     judge: Callable[[Design], Iterable[Verdict]]
+    crosses: str = ""
+
+    def verdicts(self, design: Design) -> Iterator[Verdict]:
+        """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""
+        joints = design.drive.joints
+        if not self.crosses or not mixed(joints):
+            yield from self.judge(design)
+            return
+        others = [i for i, joint in enumerate(joints) if type(joint) is not Hooke]
+        for one in self.judge(design):
+            number = re.match(r"joints\[(\d+)\]", one.subject)
+            whole = self.crosses == "all" or any(path.endswith(".kind") for path in one.missing)
+            concerned = others if whole else [int(number[1])] if number else []
+            kinds = [joints[i].kind for i in concerned if i in others]
+            yield _unfit(one, kinds[0]) if kinds else one
+
+
+def _unfit(one: Verdict, kind: str) -> Verdict:
+    why = _("judges Hooke joints, not a joint of kind {kind}").format(kind=kind)
+    return replace(one, value=float("nan"), limit=float("nan"), missing=(), levers=(), note="", unfit=why)

@@ -144,7 +144,9 @@ def check(
 
 
 def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:
-    return tuple(verdict for name, one in CHECKS.items() if not only or name in only for verdict in one.judge(subject))
+    return tuple(
+        verdict for name, one in CHECKS.items() if not only or name in only for verdict in one.verdicts(subject)
+    )
 
 
 def _unknown(name: str) -> str:

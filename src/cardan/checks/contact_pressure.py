@@ -45,4 +45,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="contact_pressure", doc=_("pressure of Hertz on the needles of every joint"), judge=_judge)
+CHECK = Check(
+    name="contact_pressure", doc=_("pressure of Hertz on the needles of every joint"), judge=_judge, crosses="each"
+)

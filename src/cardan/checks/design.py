@@ -10,12 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from cardan.analysis.turn_loads import TurnLoads
+from cardan.analysis.turn_loads import TurnLoads, at_bend
 from cardan.catalogue import Catalogue, catalogue, completed
-from cardan.drive.chain import Chain, chain
+from cardan.drive.chain import Chain, given_chain, turning
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry, geometry_from_points, points_from_angles
+from cardan.drive.joints import Joint
+from cardan.drive.keys import fields_of
 from cardan.drive.parts import known_lengths
 from cardan.drive.paths import bare_path, place
 from cardan.errors import InputError, refuse
@@ -93,8 +95,13 @@ class Design:
 
     @cached_property
     def chain(self) -> Chain:
-        """Kinematic half of the drives."""
-        base, moved = chain(self.drive), self.replaced
+        """Kinematic half of the drives; joints of other kinds as the Hooke joints that turn alike."""
+        return turning(self.given, self.drive.joints)
+
+    @cached_property
+    def given(self) -> Chain:
+        """Bends, planes and yokes of the drives as they are."""
+        base, moved = given_chain(self.drive), self.replaced
         if not moved:
             return base
         bend, twist = base.bend, base.plane_twist
@@ -121,7 +128,7 @@ class Design:
         if self.drive.form == "angles":
             twist = np.asarray(self.value("joints[0].plane_twist") or 0.0)
             length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
-            return points_from_angles(self.chain.bend, self.chain.plane_twist, length, first_twist=twist)
+            return points_from_angles(self.given.bend, self.given.plane_twist, length, first_twist=twist)
         if self.drive.form == "slopes":
             length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
             slopes = [
@@ -153,7 +160,7 @@ class Design:
     @cached_property
     def moving_irregularity(self) -> Array:
         """Largest irregularity of the output over the movements of the drive, array (...)."""
-        return largest_irregularity(self.chain, self.points, self.drive.movements)
+        return largest_irregularity(self.given, self.points, self.drive.movements, self.drive.joints)
 
     def _over(self, values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:
         """Return values (..., k) with the varied ones in their places."""
@@ -168,7 +175,7 @@ class Design:
     @property
     def bend(self) -> Array:
         """Bend of every joint, array (..., n) [rad]."""
-        return self.chain.bend
+        return self.given.bend
 
     def length(self, k: int) -> Array | float | None:
         """Return the length of a shaft between two joints, counted from 0 [m]; None where the drive does not say it."""
@@ -206,7 +213,7 @@ class Design:
             bend = self.value(f"{path}.bend")
             if bend is not None:
                 flat = np.asarray(bend, dtype=float)[..., None] + np.zeros(self.joints)
-                whole = replace(whole, bend=np.broadcast_to(flat, np.broadcast_shapes(flat.shape, whole.bend.shape)))
+                whole = at_bend(self.given, flat, self.drive.joints)
             cases.append(
                 Case(
                     chain=whole,
@@ -363,8 +370,17 @@ def design(
         given = np.asarray(values, dtype=float)
         if not np.all(np.isfinite(given)):
             raise refuse(path, _("not every value is finite"))
+        _variable(made, bare, path)
         varied[bare] = given * factor
     return Design(drive=made, duty=made.duty, known=rows, varied=varied)
+
+
+def _variable(drive: Drive, bare: str, path: str) -> None:
+    """Refuse to vary sizes by which a joint of another kind turns: they are the same in all drives."""
+    match = re.match(r"joints\[(\d+)\]\.(\w+)", bare)
+    own = fields_of(type(drive.joints[int(match[1])])).keys() - fields_of(Joint).keys() if match else ()
+    if match is not None and match[2] in own:
+        raise refuse(path, _("is not varied in a batch; the law of motion of the joint depends on it"))
 
 
 @lru_cache(maxsize=64)

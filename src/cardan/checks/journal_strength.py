@@ -49,4 +49,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="journal_strength", doc=_("stress at the roots of the journals against yielding"), judge=_judge)
+CHECK = Check(
+    name="journal_strength", doc=_("stress at the roots of the journals against yielding"), judge=_judge, crosses="each"
+)

@@ -77,5 +77,8 @@ def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="needle_static", doc=_("largest load of the needle bearings against ISO 76 and the book's rule"), judge=_judge
+    name="needle_static",
+    doc=_("largest load of the needle bearings against ISO 76 and the book's rule"),
+    judge=_judge,
+    crosses="each",
 )

@@ -45,4 +45,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
 
 
-CHECK = Check(name="part_accuracy", doc=_("what was measured on yokes and crosses against GOST 2752-74"), judge=_judge)
+CHECK = Check(
+    name="part_accuracy",
+    doc=_("what was measured on yokes and crosses against GOST 2752-74"),
+    judge=_judge,
+    crosses="each",
+)

@@ -62,5 +62,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="rated_torque", doc=_("torque of the duty against the rated torque of every joint for the life"), judge=_judge
+    name="rated_torque",
+    doc=_("torque of the duty against the rated torque of every joint for the life"),
+    judge=_judge,
+    crosses="each",
 )

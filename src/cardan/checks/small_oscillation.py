@@ -43,4 +43,5 @@ CHECK = Check(
     name="small_oscillation",
     doc=_("bend of every joint against that from which needles share their tracks"),
     judge=_judge,
+    crosses="each",
 )

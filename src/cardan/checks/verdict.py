@@ -44,6 +44,8 @@ class Verdict:
         Paths of the drive file whose change moves the value.
     missing : tuple of str
         Paths that the check needs and the drive does not give; then there is no value.
+    unfit : str
+        Why the check does not fit a joint of this kind; then there is no value either.
     note : str
         One sentence on what it means or assumes.
     advice : bool
@@ -61,13 +63,14 @@ class Verdict:
     source: str = ""
     levers: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
+    unfit: str = ""
     note: str = ""
     advice: bool = False
 
     @property
     def run(self) -> bool:
-        """Whether the drive had what the check needs."""
-        return not self.missing
+        """Whether the drive had what the check needs, and joints of the kind it judges."""
+        return not self.missing and not self.unfit
 
     @property
     def utilisation(self) -> Array | float:

@@ -50,4 +50,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="yoke_strength", doc=_("stress of the yokes of every joint against yielding"), judge=_judge)
+CHECK = Check(
+    name="yoke_strength", doc=_("stress of the yokes of every joint against yielding"), judge=_judge, crosses="each"
+)

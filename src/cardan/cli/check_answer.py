@@ -233,6 +233,13 @@ def _lacking(verdicts: Sequence[Verdict]) -> Iterator[list[Cell]]:
         yield [keys + several, members[0].title if len(members) == 1 else _plain(members)]
 
 
+def _unfit(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
+    """Yield which checks do not fit joints of which kinds."""
+    for why in dict.fromkeys(one.unfit for one in verdicts if one.unfit):
+        titles = "; ".join(dict.fromkeys(one.title for one in verdicts if one.unfit == why))
+        yield Remark(text=_("Not run ({why}): {titles}.").format(why=why, titles=titles))
+
+
 def _plain(members: Sequence[Verdict]) -> str:
     from cardan.checks import CHECKS
 
@@ -260,6 +267,7 @@ def _remarks(judged: Judged) -> Iterator[Remark]:
                 effect=effect(change),
             )
         )
+    yield from _unfit(judged.verdicts)
     kept = sum(one.state == "passed" for one in judged.advice)
     if kept and not judged.sources:
         text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)
@@ -322,6 +330,7 @@ def _content(judged: Judged) -> dict[str, Any]:
                 "source": one.source,
                 "levers": [key_of(path) for path in one.levers],
                 "missing": [key_of(path) for path in one.missing],
+                "unfit": one.unfit,
                 "note": one.note,
             }
         )

@@ -16,7 +16,7 @@ from cardan.texts import _, plural
 from cardan.units import factor, label
 
 from .balance import refused
-from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, number, words
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, words
 from .subject import Subject
 
 LIGHTS = 10
@@ -71,6 +71,9 @@ def judged(on: Subject) -> Judged:
     lacking = [one for one in verdicts if one.missing]
     if lacking:
         blocks.append(_lacking(lacking))
+    unfit = [f"{one.title}: {one.unfit}" for one in verdicts if one.unfit]
+    if unfit:
+        blocks.append(Points(title=_("Not judged for joints of these kinds"), items=unfit))
     failed = [one for one in binding if one.state == "failed"]
     return Judged(
         page=Page(

@@ -12,7 +12,7 @@ from cardan.analysis.turn_loads import case_loads, load_cases
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize
 from cardan.checks import design
-from cardan.drive.chain import chain
+from cardan.drive.chain import given_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import Problem, check
@@ -113,10 +113,10 @@ def need_of(
         )
     check(problems)
     own = list(range(n)) if joint is None else [joint - 1]
-    base = chain(whole)
+    base = given_chain(whole)
     torque, bend = [], []
     for case in cases:
-        loads = case_loads(base, case).torque
+        loads = case_loads(whole, case).torque
         torque.append(np.maximum(loads[:-1], loads[1:])[own])
         bend.append(np.asarray(base.bend if case.bend is None else np.full(n, case.bend), dtype=float)[own])
     outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]

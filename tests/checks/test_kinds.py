@@ -1,0 +1,127 @@
+"""Loads and verdicts of drives with joints of other kinds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, check, strength
+from cardan.analysis.turn_loads import across, turn_loads
+from cardan.checks.design import design
+from cardan.drive.chain import given_chain, turning, turning_chain
+from cardan.drive.cross import Cross
+from cardan.drive.drive import Input
+from cardan.drive.duty import Block, Duty
+from cardan.drive.joint_parts import Needles, Rating
+from cardan.drive.joints import ConstantVelocity, DoubleCardan, Hooke, Rzeppa, Tripod
+from cardan.drive.laws import alike
+from cardan.drive.shaft import Shaft
+from cardan.errors import InputError
+
+DRIVE = Drive(
+    joints=(
+        Hooke(bend=0.2, cross=Cross(span=0.08, journal=0.02), needles=Needles(capacity=20e3)),
+        Rzeppa(bend=0.4, plane_twist=0.3, rating=Rating(max_bend=0.3, max_torque=900.0)),
+        DoubleCardan(bend=0.5, centring_ratio=0.5),
+    ),
+    shafts=(Shaft(number=2, yoke_angle=0.4, outer=0.06, wall=0.003, length=1.0),),
+    input=Input(start_phase=0.2),
+    duty=Duty(torque=500.0, speed=100.0, life=3.6e6),
+)
+
+
+def test_a_constant_velocity_joint_bends_both_shafts_alike():
+    found = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(bend=0.6),))), 100.0)
+    assert found.high == pytest.approx([100.0, 100.0])
+    assert found.bending == pytest.approx([100.0 * np.tan(0.3)] * 2)
+    assert found.couple == pytest.approx([100.0 / np.cos(0.3)])
+
+
+def test_the_law_of_any_kind_gives_the_couples_of_a_cross():
+    bend, theta = np.asarray([0.5]), np.linspace(0.0, 6.0, 40)[None]
+    _bend, _twist, _start, laws = alike((Hooke(),), bend, np.zeros(0))
+    ratio = np.cos(0.5) / (1.0 - (np.sin(0.5) * np.cos(theta)) ** 2)
+    driving, driven = across(laws, theta, ratio)
+    assert np.abs(driving - np.tan(0.5) * np.abs(np.sin(theta))).max() < 1e-14
+    couple = np.hypot(1.0, driving)
+    assert np.abs(driven - couple * np.sin(0.5) * np.abs(np.cos(theta))).max() < 1e-14
+
+
+def test_couples_of_a_double_joint_work_on_no_motion_that_it_allows():
+    """The law differentiated by the bend numerically: the couple's power is nought on every allowed motion."""
+    joint, alpha = DoubleCardan(centring_ratio=0.4), 0.5
+    theta = np.linspace(0.1, 3.0, 9)
+
+    def law(bend):
+        return theta + joint.deviation(theta, np.asarray(bend))[0]
+
+    step = 1e-6
+    swept = (law(alpha + step) - law(alpha - step)) / (2.0 * step)
+    _lead, ratio, _slope = joint.deviation(theta, np.asarray(alpha))
+    one = np.asarray([1.0, 0.0, 0.0])
+    two = np.asarray([np.cos(alpha), np.sin(alpha), 0.0])
+    normal = np.asarray([0.0, 0.0, 1.0])
+    couple = np.cross(ratio[:, None] * two - one, normal + swept[:, None] * two)
+    couple /= couple[:, :1]  # a torque of 1 in the driving shaft
+    _equal, _twist, _start, laws = alike((joint,), np.asarray([alpha]), np.zeros(0))
+    driving, driven = across(laws, theta[None], ratio[None])
+    assert np.abs(driving[0] - np.linalg.norm(couple - np.outer(couple @ one, one), axis=-1)).max() < 1e-7
+    assert np.abs(driven[0] - np.linalg.norm(couple - np.outer(couple @ two, two), axis=-1)).max() < 1e-7
+
+
+def test_checks_of_crosses_say_that_they_were_not_run():
+    found = check(DRIVE)
+    unfit = {(one.check, one.subject) for one in found if one.unfit}
+    assert ("yoke_strength", "joints[1]") in unfit
+    assert ("yoke_strength", "joints[0]") not in unfit
+    assert all("rzeppa" in one.unfit for one in found if one.unfit and one.subject == "joints[1]")
+    assert all(one.state == "not_run" and not one.missing for one in found if one.unfit)
+    assert {one.check for one in found if one.unfit and not one.subject} == {"angle_rule", "bend_at_speed"}
+
+
+def test_own_bends_are_judged_not_those_that_turn_alike():
+    found = {one.subject: one for one in check(DRIVE, only=["bend"])}
+    assert found["joints[1]"].value == pytest.approx(0.4)
+    assert found["joints[1]"].state == "failed"
+    torque = {one.subject: one for one in check(DRIVE, only=["joint_torque"])}["joints[1]"]
+    assert torque.value == pytest.approx(500.0, rel=0.03)  # what the double joint leaves uneven, below 3 %
+
+
+def test_many_bends_are_judged_as_one_by_one():
+    bends = [5.0, 25.0, 40.0]
+    many = design(DRIVE, vary={"joints[2].bend_deg": bends})
+    for k, bend in enumerate(bends):
+        joint = replace(DRIVE.joints[2], bend=np.radians(bend))
+        one = design(replace(DRIVE, joints=(*DRIVE.joints[:2], joint)))
+        assert many.chain.bend[k] == pytest.approx(one.chain.bend)
+        assert many.cases[0].end_bending[k] == pytest.approx(one.cases[0].end_bending, rel=1e-6)
+    lots = design(DRIVE, vary={"joints[2].bend_deg": np.linspace(1.0, 40.0, 700)})
+    assert lots.cases[0].end_bending[[0, -1]] == pytest.approx(
+        design(DRIVE, vary={"joints[2].bend_deg": [1.0, 40.0]}).cases[0].end_bending, rel=1e-5
+    )
+
+
+def test_sizes_of_a_law_are_not_varied():
+    with pytest.raises(InputError, match="law of motion"):
+        check(DRIVE, vary={"joints[2].centring_ratio": [0.4, 0.5]})
+
+
+def test_blocks_bend_other_kinds_too():
+    duty = Duty(blocks=(Block(torque=100.0, speed=50.0, share=1.0, bend=0.3),))
+    case = design(Drive(joints=(ConstantVelocity(bend=0.6), Hooke(bend=0.1))), duty).cases[-1]
+    assert case.bend == pytest.approx([0.3, 0.3])
+    assert case.chain.bend == pytest.approx([0.0, 0.3])
+
+
+def test_strength_counts_what_other_kinds_put_on_shafts():
+    found = strength(DRIVE)
+    loads = turn_loads(turning(given_chain(DRIVE), DRIVE.joints), 500.0)
+    assert found.shafts[1].bending == pytest.approx(max(loads.driven[0], loads.driving[1]))
+    assert not any("joints[1].cross" in path for use in found.uses for path in use.missing)
+
+
+def test_a_straight_joint_of_any_kind_bends_nothing():
+    for joint in (ConstantVelocity(bend=0.0), Tripod(bend=0.0), DoubleCardan(bend=0.0, centring_ratio=0.5)):
+        assert turn_loads(turning_chain(Drive(joints=(joint,))), 1.0).bending == pytest.approx([0.0, 0.0])
