@@ -97,3 +97,25 @@ def test_every_fault_of_a_file_is_named_at_once(tmp_path: Path) -> None:
         "stuff",
         str(tmp_path / "none.toml"),
     ]
+
+
+def test_a_row_of_a_file_takes_over_its_own_id_alone(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text('[[materials]]\nid = "mine"\neuropean = "C45"\nsource = "s"\n', encoding="utf-8")
+    assert with_files(catalogue(), [own]).grade("C45").id == "45"
+    own.write_text('[[materials]]\nid = "C45"\nsource = "s"\n', encoding="utf-8")
+    assert with_files(catalogue(), [own]).grade("C45").id == "C45"
+
+
+def test_figures_that_contradict_each_other_are_refused(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[[materials]]\nid = "a"\nsource = "s"\nyield_strength_MPa = 500\nultimate_strength_MPa = 400\n'
+        '[[joint_types]]\nid = "b"\nsource = "s"\nname = "n"\nfamily = "f"\nsynchronous = "no"\n'
+        "min_torque_Nm = 10\nmax_torque_Nm = 5\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError) as caught:
+        with_files(catalogue(), [own])
+    fields = [problem.field.removeprefix(f"{own}: ") for problem in caught.value.problems]
+    assert fields == ["materials[0].ultimate_strength_MPa", "joint_types[0].max_torque_Nm"]

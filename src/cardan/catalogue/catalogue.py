@@ -64,7 +64,7 @@ class Catalogue:
         raise refuse(field, text + _near(name, {one: one for one in rows}), "unknown_key")
 
     def grade(self, name: str, *, field: str = "material") -> Grade:
-        """Return a grade by its id or by its name in another standard.
+        """Return a grade by its id, or by its name in another standard: of the first row that has it.
 
         Raises
         ------
@@ -77,7 +77,8 @@ class Catalogue:
         '20'
         """
         rows = self.rows(Grade)
-        by_name = {other.casefold(): row for row in rows.values() for other in row.every_name}
+        # A row added later takes over no name of an earlier one, but for its own id.
+        by_name = {other.casefold(): row for row in reversed(list(rows.values())) for other in row.every_name}
         by_name |= {row.id.casefold(): row for row in rows.values()}
         found = by_name.get(name.casefold())
         if found is not None:

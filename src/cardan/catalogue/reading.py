@@ -63,8 +63,14 @@ def read(cls: type, table: Mapping[str, Any], path: str, problems: list[Problem]
     try:
         return cls(**values)
     except InputError as error:
-        problems += [Problem(f"{path}.{problem.field}", problem.message) for problem in error.problems]
+        problems += [Problem(f"{path}.{_spelled(cls, problem.field)}", problem.message) for problem in error.problems]
         return None
+
+
+def _spelled(cls: type, field: str) -> str:
+    """Return the key of a field, the name itself where it is none of the class."""
+    own = fields_of(cls).get(field)
+    return field if own is None else own.spelling
 
 
 def _value(one: Field, kind: Any, value: Any, key: str, factor: float, here: str, problems: list[Problem]) -> Any:

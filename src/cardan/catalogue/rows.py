@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cardan.drive.cross import Cross
 from cardan.drive.joint_parts import Needles, Rating, Yoke
+from cardan.errors import Problem, check
+from cardan.texts import _
 from cardan.units import plain, quantity
+
+
+def _below(value: float | None, least: float | None, field: str, message: str) -> Iterator[Problem]:
+    """Yield that a field is less than what it must at least be, where both are known."""
+    if value is not None and least is not None and value < least:
+        yield Problem(field, message, "inconsistent")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -43,6 +52,11 @@ class Grade(Row):
     yield_strength: float | None = quantity("stress", None, doc="yield strength or 0.2 % proof stress", above=0.0)
     ultimate_strength: float | None = quantity("stress", None, doc="tensile strength", above=0.0)
 
+    def __post_init__(self) -> None:
+        check(
+            _below(self.ultimate_strength, self.yield_strength, "ultimate_strength", _("is below the yield strength"))
+        )
+
     @property
     def every_name(self) -> tuple[str, ...]:
         """Its names in all standards, its own first."""
@@ -67,6 +81,9 @@ class JointType(Row):
     )
     max_rim_speed: float | None = quantity("speed", None, doc="largest speed of its rim", above=0.0)
     uses: tuple[str, ...] = plain((), doc="what it is used for")
+
+    def __post_init__(self) -> None:
+        check(_below(self.max_torque, self.min_torque, "max_torque", _("is below the smallest torque")))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
