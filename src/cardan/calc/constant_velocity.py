@@ -182,8 +182,8 @@ CALCULATIONS = (
         returns=(
             gives("c_over_a", _("distance of the fixed ball end over the part of the lever beside the other")),
             gives("plane_error_max_rad", _("largest error of the cage, of either sign"), "angle"),
-            gives("bend_of_largest_lag_deg", _("bend at which the cage leans least"), "angle"),
-            gives("bend_of_largest_lead_deg", _("bend at which the cage leans too much"), "angle"),
+            gives("bend_of_largest_lag_deg", _("bend at which the cage leans too little by most"), "angle"),
+            gives("bend_of_largest_lead_deg", _("bend at which the cage leans too much by most"), "angle"),
             gives("exact_bend_deg", _("bend that is halved exactly"), "angle"),
         ),
         answer=_best_lever,
