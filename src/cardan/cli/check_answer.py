@@ -79,7 +79,10 @@ def sentence(judged: Judged) -> str:
 
     name, count, failed = title(judged.drive, judged.file), len(judged.binding), judged.failed
     if not count:
-        return _("{name}: nothing could be judged; the keys that are missing stand below.").format(name=name)
+        text = _("{name}: nothing could be judged; the keys that are missing stand below.")
+        if judged.advice:
+            text = _("{name}: no limit that must be kept was judged; rules of thumb stand below.")
+        return text.format(name=name)
     worst = judged.binding[0]
     used = f"{float(worst.utilisation):.2f}"
     if failed:
@@ -220,7 +223,7 @@ def effect(one: Cure) -> str:
 
 
 def _lacking(verdicts: Sequence[Verdict]) -> Iterator[list[Cell]]:
-    """Yield keys to add, those that differ only by their number together, and what each tells."""
+    """Yield keys to add, one a row, those that differ only by their number together, and what they tell."""
     from cardan.synthesis.lever import key_of
 
     groups: dict[tuple[str, ...], list[Verdict]] = {}
@@ -228,9 +231,11 @@ def _lacking(verdicts: Sequence[Verdict]) -> Iterator[list[Cell]]:
         if one.missing:
             groups.setdefault(tuple(re.sub(r"\[\d+\]", "[]", path) for path in one.missing), []).append(one)
     for members in groups.values():
-        keys = ", ".join(key_of(path) for path in members[0].missing)
-        several = _(" and so on") if len({one.missing for one in members}) > 1 else ""
-        yield [keys + several, members[0].title if len(members) == 1 else _plain(members)]
+        keys = [key_of(path) for path in members[0].missing]
+        if len({one.missing for one in members}) > 1:
+            keys = list(dict.fromkeys(re.sub(r"\[\d+\]", "[…]", key) for key in keys))
+        yield [keys[0], members[0].title if len(members) == 1 else _plain(members)]
+        yield from ([key, ""] for key in keys[1:])
 
 
 def _unfit(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
