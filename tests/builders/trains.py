@@ -65,7 +65,7 @@ def one(train: Train, index: int) -> Train:
         for field in fields(train)
         if isinstance(getattr(train, field.name), np.ndarray) and field.name != "gravity"
     }
-    whole = Chain(**{name: getattr(train.chain, name)[index] for name in vars(train.chain)})
+    whole = Chain(**{name: table[index] for name, table in vars(train.chain).items() if table is not None})
     return replace(train, chain=whole, **picked)
 
 

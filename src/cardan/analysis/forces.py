@@ -10,7 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
-from cardan.drive.laws import refuse_kinds
+from cardan.drive.laws import has_map, refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.train import Train, mass_problems, place_of, train
 from cardan.errors import Problem, check, refuse
@@ -75,7 +75,8 @@ def forces(
     """
     if isinstance(drive, Drive):
         used = drive.duty if duty is None else duty
-        whole = train(drive)
+        refuse_kinds(drive, _("forces"), known=lambda joint: joint.fixed and has_map(joint))
+        whole = train(drive, kinds=True)
         if drive.supports:
             check(mass_problems(drive))
     else:

@@ -13,6 +13,8 @@ from cardan.drive.train import Train
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 
+from .kind_stand import kind_arms
+from .motion import motion
 from .moving_chain import Spins, moving_axes
 from .swing_couple import swing_couple
 
@@ -30,7 +32,9 @@ class Stand:
     speed, acceleration : arrays (..., p, n+1) [rad/s, rad/s²]
         ω_i, ε_i about the axes.
     driving_arm, driven_arm : arrays (..., p, n, 3)
-        u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke.
+        u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke, or marks of joints without a cross.
+    way : array (..., p, n, 3) or None
+        Directions of the couples that the joints pass on; None where all are normals u×v of crosses.
     """
 
     axis: Array
@@ -40,6 +44,13 @@ class Stand:
     acceleration: Array
     driving_arm: Array
     driven_arm: Array
+    way: Array | None = None
+
+    def couple_way(self, i: int) -> Array:
+        """Direction of the couple that joint i passes on, array (..., p, 3)."""
+        if self.way is not None:
+            return self.way[..., i, :]
+        return frames.cross(self.driving_arm[..., i, :], self.driven_arm[..., i, :])
 
     def turning(self, i: int) -> Array:
         """Angular velocity Ω_i of shaft i, array (..., p, 3) [rad/s]."""
@@ -112,8 +123,11 @@ def standing(
 
     Notes
     -----
-    The exact step u_1 = rot(e_1, φ_1+ψ_1) (N_1×e_1), v_{i+1} = unit(e_{i+1}×u_i), u_i = rot(e_i, -γ_i) v_i.
+    The exact step u_1 = rot(e_1, φ_1+ψ_1) (N_1×e_1), v_{i+1} = unit(e_{i+1}×u_i), u_i = rot(e_i, -γ_i) v_i; joints of
+    other kinds turn by their laws.
     """
+    if chain.laws is not None:
+        return standing_kinds(chain, axis, normal, angle, speed=speed, acceleration=acceleration)
     xp = namespace(axis, angle)
     first = frames.cross(normal[..., 0, :], axis[..., 0, :])[..., None, :]
     along = axis[..., None, 0, :]
@@ -130,6 +144,27 @@ def standing(
         acceleration=real(acceleration, xp)[..., None],
     )
     return _stand(still, None, None, spins)
+
+
+def standing_kinds(
+    chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike
+) -> Stand:
+    """Return how drives with joints of any kinds turn, their axes at rest; see `standing`."""
+    xp = namespace(axis, angle)
+    omega, gain = real(speed, xp)[..., None, None], real(acceleration, xp)[..., None, None]
+    found = motion(chain, angle)
+    ratio, slope = (xp.moveaxis(part, -2, -1) for part in (found.shaft_ratio, found.shaft_slope))
+    driving, driven, way = kind_arms(chain, axis, normal, found)
+    return Stand(
+        axis=axis[..., None, :, :],
+        axis_rate=None,
+        axis_acceleration=None,
+        speed=omega * ratio,
+        acceleration=gain * ratio + omega * omega * slope,
+        driving_arm=driving,
+        driven_arm=driven,
+        way=way,
+    )
 
 
 def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> Stand:
@@ -179,7 +214,7 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     entering = [tau]
     for i in reversed(range(n)):
         u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
-        normal = frames.cross(u, v)
+        normal = stand.couple_way(i)
         lean = frames.dot(u, e[..., i + 1, :])
         into = frames.dot(normal, e[..., i + 1, :])
         swing = _cross_swing(train, stand, i, (u, v, normal))
@@ -251,7 +286,7 @@ def resisted(train: Train, stand: Stand, drive: Array) -> Array:
     tau = drive + 0.0 * stand.speed[..., 0]
     for i in range(train.joints):
         u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
-        normal = frames.cross(u, v)
+        normal = stand.couple_way(i)
         lean, back = frames.dot(u, e[..., i + 1, :]), frames.dot(v, e[..., i, :])
         out, into = frames.dot(normal, e[..., i, :]), frames.dot(normal, e[..., i + 1, :])
         swing = _cross_swing(train, stand, i, (u, v, normal))

@@ -40,7 +40,7 @@ def reaction_groups(drive: Drive) -> tuple[tuple[int, ...], ...]:
     """
     if not drive.supports:
         return ()
-    whole = train(drive)
+    whole = train(drive, kinds=True)
     place = place_of(whole)
     turn = np.arange(LOOK) * (2.0 * np.pi / LOOK)
     stand = standing(whole.chain, place.axis, place.normal, turn, speed=1.0)

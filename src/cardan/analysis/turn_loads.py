@@ -204,12 +204,32 @@ def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
     T tan(α/2) across both where i = 1 and f_α = 0, and for a Hooke joint T tan α |sin φ|.
     """
     bend, steep, growth = (np.asarray(part)[..., None] for part in (laws.bend, laws.steepness, laws.growth))
-    sine, cosine = np.sin(theta), np.cos(theta)
-    swept = growth * sine * cosine / (cosine**2 + (steep * sine) ** 2)
-    bent = np.sin(bend)
+    aside, swept = lean(theta, ratio, bend, steep, growth)
+    # (cos α - i)/sin α = (1 - i cos α)/sin α cos α - i sin α, without a difference of near numbers
+    other = aside * np.cos(bend) - np.sin(bend)
+    return np.hypot(aside, swept), np.hypot(other, swept)
+
+
+def lean(theta: Array, ratio: Array, bend: Array, steepness: Array, growth: Array) -> tuple[Array, Array]:
+    """Return the parts of a joint's couple along N×e and against N, over that along e, arrays like ``theta``.
+
+    Parameters
+    ----------
+    theta : array [rad]
+        Angle of the driving mark.
+    ratio : array
+        Speed ratio of the joint.
+    bend, steepness, growth : arrays
+        α, κ and dκ/dα, in the shape of the angles.
+
+    Notes
+    -----
+    (1 - i cos α)/(i sin α) = tan(α/2) - (i - 1)/(i sin α), and f_α/i with f = arctan(κ tan θ).
+    """
+    sine, cosine, bent = np.sin(theta), np.cos(theta), np.sin(bend)
+    swept = growth * sine * cosine / (cosine**2 + (steepness * sine) ** 2)
     uneven = np.where(bent > STRAIGHT, (ratio - 1.0) / np.where(bent > STRAIGHT, bent, 1.0), 0.0)
-    half = np.tan(0.5 * bend)
-    return np.hypot(ratio * half - uneven, swept) / ratio, np.hypot(half + uneven, swept) / ratio
+    return np.tan(0.5 * bend) - uneven / ratio, swept / ratio
 
 
 def at_bend(chain: Chain, bend: Array, joints: Sequence[Joint]) -> Chain:

@@ -15,7 +15,7 @@ from cardan.texts import _
 
 from .accuracy import Error
 from .body import body_length, softness, weight
-from .chain import Chain, chain
+from .chain import Chain, chain, turning_chain
 from .drive import Drive
 from .geometry import Geometry, geometry, geometry_from_points
 from .joints import Joint
@@ -186,8 +186,14 @@ def place_of(whole: Train) -> Geometry:
     return found if whole.normal is None else replace(found, normal=whole.normal)
 
 
-def train(drive: Drive) -> Train:
+def train(drive: Drive, *, kinds: bool = False) -> Train:
     """Return the machine half of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+    kinds : bool
+        Take joints of other kinds too, as the Hooke joints that turn alike; a drive that has any is refused else.
 
     Raises
     ------
@@ -227,7 +233,7 @@ def train(drive: Drive) -> Train:
     heavy = bool(np.any(mass)) or bool(np.any(cross_mass))
     return Train(
         points=place.points,
-        chain=chain(drive),
+        chain=turning_chain(drive) if kinds else chain(drive),
         normal=place.normal,
         inertia=_unless_zero(inertia),
         transverse_inertia=_unless_zero(across),

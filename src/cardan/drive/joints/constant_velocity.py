@@ -16,6 +16,7 @@ class ConstantVelocity(Joint):
     """Ideal constant-velocity joint: the driven shaft turns as evenly as the driving one."""
 
     kind: ClassVar[str] = "constant_velocity"
+    fixed: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
 
     def pair(self, bend: Array) -> mobius.Pair:

@@ -18,6 +18,7 @@ class DoubleCardan(Joint):
     """Double Hooke joint, its inner yokes in one plane, centred by a ball on one shaft or by an exact device."""
 
     kind: ClassVar[str] = "double_cardan"
+    fixed: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = 0.5 * math.pi
 

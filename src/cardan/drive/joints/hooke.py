@@ -16,6 +16,7 @@ class Hooke(Joint):
     """Universal joint of Hooke: two yokes held at right angles by a cross."""
 
     kind: ClassVar[str] = "hooke"
+    fixed: ClassVar[bool] = True
     crossed: ClassVar[bool] = True
 
     def pair(self, bend: Array) -> mobius.Pair:

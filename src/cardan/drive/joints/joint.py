@@ -42,6 +42,9 @@ class Joint:
     crossed: ClassVar[bool] = False
     """Whether its marks are the arms of one cross, a quarter turn apart; else they lie on one line when straight."""
 
+    fixed: ClassVar[bool] = False
+    """Whether it holds both shafts at its centre and passes on one couple, so that forces follow from statics."""
+
     steepest: ClassVar[float] = math.pi / 4
     """Bend [rad] above which no real joint of this kind works."""
 

@@ -25,6 +25,7 @@ class Rzeppa(Joint):
     """Rzeppa joint: even where its balls lie in the bisecting plane, nearly even where lever or grooves miss it."""
 
     kind: ClassVar[str] = "rzeppa"
+    fixed: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(47.0)
 

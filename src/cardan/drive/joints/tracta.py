@@ -20,6 +20,7 @@ class Tracta(Joint):
     """Tracta joint: two forks and a grooved tongue between them; even where both forks are alike."""
 
     kind: ClassVar[str] = "tracta"
+    fixed: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(50.0)
 

@@ -49,6 +49,7 @@ class Weiss(Joint):
     """Weiss joint: balls where curved grooves cross; even where the grooves of both shafts are offset alike."""
 
     kind: ClassVar[str] = "weiss"
+    fixed: ClassVar[bool] = True
     foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(40.0)
 
