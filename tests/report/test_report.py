@@ -2,6 +2,7 @@
 
 import dataclasses
 import re
+from functools import cache
 from html.parser import HTMLParser
 
 import pytest
@@ -59,11 +60,16 @@ def parsed(text: str) -> Nesting:
     return seen
 
 
+@cache
+def of_example(name: str) -> str:
+    """Return the report of an example, made once for all tests."""
+    return page(example(name), source_text=example_text(name))
+
+
 @pytest.mark.parametrize("name", example_names())
 def test_the_report_of_every_example_is_whole(name):
     drive, source = example(name), example_text(name)
-    text = page(drive, source_text=source)
-    seen = parsed(text)
+    seen = parsed(of_example(name))
     words = "".join(seen.words)
     assert len(seen.ids) == len(set(seen.ids))
     assert {link.removeprefix("#") for link in seen.links} <= set(seen.ids)
@@ -76,7 +82,7 @@ def test_the_report_of_every_example_is_whole(name):
 
 @pytest.mark.parametrize("name", ["pto-hitch", "six-joints"])
 def test_nothing_is_fetched(name):
-    text = page(example(name), source_text="")
+    text = of_example(name)
     addresses = set(re.findall(r"https?://[^\s\"'<>]+", text))
     assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
     assert not re.search(r"(?:src|href)=\"(?!#)", text)
@@ -85,7 +91,7 @@ def test_nothing_is_fetched(name):
 
 
 def test_the_truck_says_what_is_wrong_and_what_helps():
-    words = "".join(parsed(page(example("truck-printed-angles"))).words)
+    words = "".join(parsed(of_example("truck-printed-angles")).words)
     assert "12.51" in words
     assert "20.049" in words
     assert "with its yokes set differently it turns exactly evenly" in words

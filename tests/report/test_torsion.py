@@ -10,15 +10,8 @@ import pytest
 from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.drive.shaft import Shaft
 from cardan.figures.wording import significant
-from cardan.report import torsion
 from cardan.report.subject import asked
 from cardan.report.torsion import twisting
-
-
-@pytest.fixture(autouse=True)
-def few_speeds(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Sweep over a handful of speeds: the page is the same, and its time is not."""
-    monkeypatch.setattr(torsion, "SWEEP", 5)
 
 
 def of(drive: Drive):

@@ -1,0 +1,18 @@
+"""Reports with small maps: the pages are the same, and their time is not; one report for each example."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from cardan.report import torsion
+
+
+@pytest.fixture(autouse=True, scope="session")
+def small_maps() -> Iterator[None]:
+    """Sweep over a handful of speeds, and judge stability at few of them."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name, count in (("SWEEP", 5), ("ACROSS", 9), ("UP", 4)):
+            patch.setattr(torsion, name, count)
+        yield
