@@ -38,7 +38,7 @@ def test_repairs_of_random_mechanisms_keep_their_word(seed):
 def test_the_simplest_repair_of_a_hooke_joint_is_the_books_second():
     best = repairs(hooke())[0]
     assert [(one.joint, one.after) for one in best.changes] == [("D", "SG")]
-    assert advice(best.changes[0], hooke()) == "make D, the bearing of 3, self-aligning and axially free"
+    assert advice(best.changes[0], hooke()) == "make the bearing of 3, D, self-aligning and axially free"
 
 
 def test_the_sound_repair_of_the_crank_slider_is_among_them():

@@ -38,10 +38,9 @@ class JointHold:
     turning, sliding : tuple of "free", "needed" or "strained"
         About and along each of its axes: free already; held, and needed; held, while other joints hold the same, so
         that parts that are off strain it.
-    force : array (q, 3) [N]
-        Force of the first link on the second, in its own axes, in each of the states of stress.
-    couple : array (q, 3) [N·m]
-        Couple about its point, likewise.
+    force, couple : arrays (m, 3) [N, N·m]
+        The m independent loads that errors of the parts can put on it: force of the first link on the second and couple
+        about its point, in its own axes, up to a factor.
     misfit : float [m]
         How much of what it is off the mechanism cannot take up.
     """
@@ -58,8 +57,8 @@ class JointHold:
 
     @property
     def strained(self) -> bool:
-        """Whether it takes part in any state of stress; one that none of its axes shows included."""
-        return bool(len(self.force)) and "strained" in (*self.turning, *self.sliding)
+        """Whether it takes part in any state of stress."""
+        return len(self.force) > 0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -216,7 +215,7 @@ def _mobility(mechanism: Mechanism) -> Mobility:
         parasitic=parasitic,
         joints=tuple(_hold(pair, system, shares, j) for j, pair in enumerate(mechanism.joints)),
         motion=_in_metres(system, motion),
-        adrift=_adrift(mechanism, system, matrix),
+        adrift=_adrift(mechanism, system, matrix, len(motion) - (driven or 0)),
         misfit=_misfit(mechanism.joints, system, shares),
     )
 
@@ -253,8 +252,9 @@ def left(system: Constraints, matrix: Array, held: Sequence[int]) -> int:
     return 6 * system.links - screws.rank(np.concatenate((matrix, system.holding(held)))).value
 
 
-def _adrift(mechanism: Mechanism, system: Constraints, matrix: Array) -> tuple[str, ...]:
-    if not mechanism.input_link:
+def _adrift(mechanism: Mechanism, system: Constraints, matrix: Array, freed: int) -> tuple[str, ...]:
+    """Return the links that can move in any of the motions left while the input stands still."""
+    if not mechanism.input_link or not freed:
         return ()
     held = system.holding([mechanism.links.index(mechanism.input_link)])
     free = screws.null_spaces(np.concatenate((matrix, held)))[2]

@@ -18,7 +18,7 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair, axes
 from cardan.texts import _
 
-from .mobility import TAKES_PART, stresses
+from .mobility import TAKES_PART, JointHold, stresses
 
 Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
 
@@ -179,16 +179,19 @@ def advice(change: Change, mechanism: Mechanism) -> str:
     mechanism : Mechanism
         Its frame is not told.
     """
-    others = [link for link in change.links if link != mechanism.frame]
     if change.bearing:
+        link = next(link for link in change.links if link != mechanism.frame)
+        where = change.joint
+        if link not in where:
+            where = _("the bearing of {link}, {joint},").format(link=link, joint=change.joint)
         text = {
-            "slide": _("let {joint}, the bearing of {link}, float along its axis"),
-            "align": _("make {joint}, the bearing of {link}, self-aligning"),
-            "align_slide": _("make {joint}, the bearing of {link}, self-aligning and axially free"),
-            "turn": _("let {joint}, the guide of {link}, turn about its axis too"),
-            "drop": _("leave out {joint}, a bearing of {link}"),
+            "slide": _("let {where} float along its axis"),
+            "align": _("make {where} self-aligning"),
+            "align_slide": _("make {where} self-aligning and axially free"),
+            "turn": _("let {where} turn about its axis too"),
+            "drop": _("leave out {where} one too many"),
         }[change.gain]
-        return text.format(joint=change.joint, link=others[0])
+        return text.format(where=where)
     text = {
         "slide": _("let {joint}, between {one} and {other}, slide along its axis"),
         "align": _("make {joint}, between {one} and {other}, a ball joint"),
@@ -196,6 +199,34 @@ def advice(change: Change, mechanism: Mechanism) -> str:
         "turn": _("let {joint}, between {one} and {other}, turn one way more"),
     }[change.gain]
     return text.format(joint=change.joint, one=change.links[0], other=change.links[1])
+
+
+def strain(hold: JointHold) -> str:
+    """Return what errors of the parts can load a joint with, in words; empty where nothing.
+
+    Examples
+    --------
+    >>> from .mobility import mobility
+    >>> upper = Pair(id="upper", type="R", links=("wall", "door"), point=(0.0, 0.0, 2.0), axis=(0.0, 0.0, 1.0))
+    >>> lower = Pair(id="lower", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0))
+    >>> strain(mobility(Mechanism(frame="wall", joints=(upper, lower))).joints[0])
+    'force along and across its axis, couple across it'
+    """
+    along, *across = (word == "strained" for word in hold.sliding)
+    about, *tilting = (word == "strained" for word in hold.turning)
+    force = {
+        (True, True): _("force along and across its axis"),
+        (True, False): _("force along its axis"),
+        (False, True): _("force across its axis"),
+        (False, False): "",
+    }[along, any(across)]
+    couple = {
+        (True, True): _("couple about and across it"),
+        (True, False): _("couple about it"),
+        (False, True): _("couple across it"),
+        (False, False): "",
+    }[about, any(tilting)]
+    return ", ".join(part for part in (force, couple) if part)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -128,6 +128,12 @@ COMMANDS = {
         _("Whether the drive binds: forces of parts that do not fit, and what to let go."),
         ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
     ),
+    "mobility": Entry(
+        "mobility",
+        QUESTIONS,
+        _("Whether a drive or mechanism turns, where it is held too often, and what to let go."),
+        ("cardan mobility pump.toml", "cardan mobility slider.toml --turn --plot slider.svg"),
+    ),
     "torsion": Entry(
         "",
         QUESTIONS,

@@ -17,6 +17,9 @@ def schema(
         Path | None,
         typer.Option("--out", "-o", metavar="PATH", help=_("Write it to PATH instead."), show_default=False),
     ] = None,
+    mechanism: Annotated[
+        bool, typer.Option("--mechanism", help=_("That of the mechanism file instead."), show_default=False)
+    ] = False,
     json: AsJson = False,
 ) -> int:
     """Print the JSON Schema of the drive file."""
@@ -24,13 +27,20 @@ def schema(
     from .output import check_target, write_text
     from .show import as_json, print_text, show
 
+    if out is not None:
+        check_target(out, "--out")
+
+    from cardan.io import mechanism_schema
+    from cardan.io import schema as drive_schema
+
+    text = as_json(mechanism_schema() if mechanism else drive_schema()) + "\n"
     if out is None:
-        from cardan.io import schema as described
-
-        print_text(as_json(described()) + "\n")
+        print_text(text)
         return 0
-    check_target(out, "--out")
-    from cardan.io import schema as described
-
-    write_text(out, as_json(described()) + "\n", "--out")
-    return show(Answer(sentence=_("{path}: schema of the drive file written.").format(path=out)), json=json)
+    write_text(out, text, "--out")
+    said = (
+        _("{path}: schema of the mechanism file written.")
+        if mechanism
+        else _("{path}: schema of the drive file written.")
+    )
+    return show(Answer(sentence=said.format(path=out)), json=json)

@@ -1,0 +1,103 @@
+"""cardan mobility: does it turn, does it bind, and what should be let go?"""
+
+import csv
+import io
+import json
+
+import pytest
+
+from cardan import example_mechanism
+from cardan import io as files
+from cardan.analysis.mobility import mobility
+from tests.cli.conftest import EXAMPLES
+from tests.cli.test_forces import plain, widest
+
+MECHANISMS = sorted((EXAMPLES / "mechanisms").glob("*.toml"))
+PUMP = EXAMPLES / "overconstrained-pump.toml"
+
+
+def one_line(text):
+    return " ".join(plain(text).split())
+
+
+@pytest.mark.parametrize("path", MECHANISMS, ids=lambda path: path.stem)
+def test_every_mechanism_is_answered_within_80_columns(cardan, path):
+    done = cardan("mobility", path)
+    assert (done.code, done.err) == (0, "")
+    assert widest(done.out) <= 80
+    found = mobility(example_mechanism(path.stem))
+    assert found.mechanism.name in one_line(done.out)
+    assert ("binds" in one_line(done.out) or "too often;" in one_line(done.out)) or not found.redundant
+
+
+def test_the_pump_is_told_which_keys_to_change(cardan, drive_file):
+    out = one_line(cardan("mobility", PUMP).out)
+    assert "held 3 times too often" in out
+    assert "(supports[2] taken away and supports[3].axial = false)" in out
+    text = PUMP.read_text("utf-8")
+    blocks = text.split("[[supports]]")
+    last, _dot, rest = blocks[4].partition("\n\n")
+    last = last.replace("axial = true", "axial = false")
+    last = "\n".join(line for line in last.splitlines() if "axial_stiffness" not in line)
+    cured = "[[supports]]".join([*blocks[:3], last + _dot + rest])
+    done = cardan("mobility", drive_file(cured))
+    assert done.code == 0, done.err
+    assert "held just enough (1 motion); it does not bind" in one_line(done.out)
+
+
+def test_the_faulty_three_joint_drive_is_found_out_by_all_but_the_formula(cardan):
+    said = cardan("mobility", EXAMPLES / "mechanisms" / "three-joints-e.toml", "--json").content
+    assert (said["formula"], said["mobility"], said["redundant"], said["parasitic"]) == (1, 3, 2, 2)
+    assert said["by_graph"]["overconstrained_links"] == ["cross 1", "shaft 3"]
+    assert said["by_graph"]["redundant"] == 2
+    assert said["checked_by_loops"]
+    assert "output shaft" in said["adrift"]
+    assert {one["joint"] for one in said["joints"] if one["strained_by"]} == {
+        "input bearing",
+        "cross 1, driving",
+        "cross 1, driven",
+        "bearing of shaft 3",
+    }
+
+
+def test_a_turn_tells_whether_it_comes_round(cardan):
+    path = EXAMPLES / "mechanisms" / "hooke-stiff-bearings.toml"
+    assert "comes round, held alike at every angle" in one_line(cardan("mobility", path, "--turn").out)
+    said = cardan("mobility", path, "--turn", "--json").content["turn"]
+    assert (said["comes_round"], said["redundant_everywhere"], said["special_deg"]) == (True, 3, [])
+
+
+def test_csv_has_every_joint(cardan):
+    path = EXAMPLES / "mechanisms" / "crank-slider.toml"
+    rows = list(csv.DictReader(io.StringIO(cardan("mobility", path, "--csv").out)))
+    assert [row["joint"] for row in rows] == [one.id for one in example_mechanism("crank-slider").joints]
+
+
+def test_the_figure_is_drawn(cardan, tmp_path):
+    done = cardan("mobility", EXAMPLES / "mechanisms" / "crank-slider.toml", "--plot", "graph.svg")
+    assert done.code == 0
+    assert (tmp_path / "graph.svg").read_text("utf-8").startswith("<?xml")
+
+
+def test_a_drive_without_supports_says_what_it_misses(cardan):
+    done = cardan("mobility", EXAMPLES / "single-20deg.toml", "--json")
+    assert done.code == 2
+    assert [one["field"] for one in done.complaint["problems"]] == ["supports"]
+
+
+def test_a_mechanism_file_with_mistakes_names_them_all(cardan, drive_file):
+    text = (EXAMPLES / "mechanisms" / "crank-slider.toml").read_text("utf-8")
+    bad = text.replace('type = "P"', 'type = "Q"').replace("axis = [0, 0, 1]", "axis = [0, 0, 0]", 1)
+    done = cardan("mobility", drive_file(bad), "--json")
+    assert {one["field"] for one in done.complaint["problems"]} == {"joints[0].axis", "joints[3].type"}
+
+
+def test_another_question_sends_a_mechanism_here(cardan):
+    done = cardan("motion", EXAMPLES / "mechanisms" / "crank-slider.toml")
+    assert done.code == 2
+    assert "cardan mobility" in one_line(done.err)
+
+
+def test_the_schema_of_the_mechanism_file(cardan):
+    assert json.loads(cardan("schema", "--mechanism").out) == files.mechanism_schema()
+    assert json.loads(cardan("schema").out) == files.schema()
