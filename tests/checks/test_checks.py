@@ -20,6 +20,7 @@ from cardan.drive.material import Material
 from cardan.drive.paths import pose_drives, read, with_values
 from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
 from cardan.errors import InputError
+from cardan.io.examples import example_names, example_text
 from cardan.units import deg, mm, rpm
 
 HOUR = 3600.0
@@ -362,3 +363,10 @@ def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
     drive = load(tmp_path / "drive.toml")
     assert drive.joints[0].cross.span == 0.060
     assert check(drive, Duty(torque=100.0), only=["needle_static"])[0].missing == ("joints[0].needles.static_capacity",)
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_a_shipped_drive_that_fails_says_so_in_its_file(name):
+    head = example_text(name).partition("\nformat")[0]
+    failed = any(one.state == "failed" and not one.advice for one in check(example(name)))
+    assert ("`cardan check" in head and "fails" in head) is failed
