@@ -156,6 +156,9 @@ def test_absorbers_and_pendulums_hang_on_their_stations() -> None:
     assert found.model.stiffness[-2:] == pytest.approx([900.0, mass * 100.0**2 * 4.0])
     assert found.model.damping.tolist() == [0.0, 2.0, 0.0]
     assert found.line == (0, 1, 2, 3)
+    loose = replace(DISCS[0], absorber=Absorber(inertia=0.1, damping=2.0))
+    held = torsional_train(drive(Shaft(number=2, stiffness=1e4), stations=(loose, DISCS[1])), speed=[50.0, 100.0])
+    np.testing.assert_allclose(held.model.stiffness[:, -1], [2e-3, 4e-3])  # 1e-5 of the drag at order 2
 
 
 @pytest.mark.parametrize(

@@ -85,6 +85,8 @@ def test_stations_with_a_place_follow_along_the_shaft() -> None:
             ],
             "stations[0].pendulum",
         ),
+        ([replace(DISC, absorber=Absorber(inertia=1.0))], "stations[0].absorber.stiffness"),
+        ([replace(DISC, absorber=Absorber(inertia=1.0, stiffness=-1.0))], "stations[0].absorber.stiffness"),
     ],
 )
 def test_a_station_that_cannot_be_is_named(stations: list[Station], wanted: str) -> None:

@@ -30,6 +30,9 @@ from .torques import Law
 from .torsional_batch import ARRAYS, chosen, leading
 from .torsional_model import Torque, TorsionalModel
 
+HOLDING = 1e-5
+"""Torque of what holds a damper without spring in place, over its drag at order 2: nothing else says where it is."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorsionalTrain:
@@ -123,7 +126,8 @@ def torsional_train(
     -----
     A body is a tube with G I_p/L between its stations and half its inertia at each end of every stretch. Bends and
     phase angles are those of `motion`, so that a rigid drive turns exactly as there. A pendulum counts as the absorber
-    it equals at the speed: J = m (R+l)², stiffness J Ω² R/l.
+    it equals at the speed: J = m (R+l)², stiffness J Ω² R/l. A damper without spring is held in place by one too soft
+    to matter, 10⁻⁵ of its drag at order 2.
 
     Examples
     --------
@@ -251,18 +255,19 @@ def _with_branches(
     inertia, stiffness, damping = list(model.inertia), [*map(np.asarray, model.stiffness)], list(model.damping)
     elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
     pendulums: list[int] = []
+    turning = np.asarray(0.0 if speed is None else speed, dtype=float)
+    holding = 2.0 * HOLDING * np.where(turning == 0.0, 1.0, np.abs(turning))
     for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
         station = drive.stations[k]
         if station.absorber is not None:
             mass, damper = station.absorber.inertia, station.absorber.damping
-            spring = np.asarray(station.absorber.stiffness)
+            spring = np.asarray(station.absorber.stiffness or holding * damper)
             name = _("absorber on {name}")
         elif station.pendulum is not None:
             if speed is None:
                 problems.append(Problem("duty.speed", _("missing; the stiffness of a pendulum comes from it")))
             hung = station.pendulum
             mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
-            turning = np.asarray(0.0 if speed is None else speed, dtype=float)
             spring, damper = mass * turning**2 * hung.radius / hung.length, 0.0
             name = _("pendulum on {name}")
             pendulums.append(len(elements))

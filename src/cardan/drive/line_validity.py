@@ -57,6 +57,9 @@ def _station_problems(drive: Drive, lengths: dict[int, float]) -> Iterator[Probl
             yield Problem(f"{path}.position", _("end says where it is already"))
         if station.absorber is not None and station.pendulum is not None:
             yield Problem(f"{path}.pendulum", _("an absorber is there already; put it on a station of its own"))
+        if station.absorber is not None and not (station.absorber.stiffness or station.absorber.damping):
+            text = _("missing; or damping, for a damper without spring: nothing holds the mass")
+            yield Problem(f"{path}.absorber.stiffness", text)
         if station.name in names or station.name in ENDS:
             text = _("{name} names an end of the drive") if station.name in ENDS else _("{name} names two stations")
             yield Problem(f"{path}.name", text.format(name=repr(station.name)))

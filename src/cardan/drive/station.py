@@ -19,10 +19,12 @@ class ToNext:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Absorber:
-    """Mass on a spring that takes vibration of one frequency from its station."""
+    """Mass on a spring that takes vibration of one frequency from its station; without a spring a viscous damper."""
 
     inertia: float = quantity("inertia", doc="inertia of its mass", above=0.0)
-    stiffness: float = quantity("turning_stiffness", doc="torsional stiffness of its spring", above=0.0)
+    stiffness: float = quantity(
+        "turning_stiffness", 0.0, doc="torsional stiffness of its spring; a viscous damper has none", low=0.0
+    )
     damping: float = quantity("turning_damping", 0.0, doc="torsional damping between it and its station", low=0.0)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -20,9 +20,6 @@ from .hosts import Host
 
 KINDS = ("h_infinity", "den_hartog", "viscous", "tuned", "pendulum")
 """Smallest peak, by fixed points, damper without spring, absorber without damping for one speed, pendulums."""
-
-HOLDING = 1e-3
-"""Natural frequency of a damper without spring on what holds it in place, over that of the mode."""
 
 
 def problems(
@@ -46,23 +43,19 @@ def problems(
         yield Problem("radius", _("missing; the distance of the pivots from the axis of the shaft"))
     if count < 1:
         yield Problem("count", _("{given} given; at least 1").format(given=count))
+    if kind in KINDS and kind != "pendulum":
+        for name, given in (("radius", radius is not None), ("count", count > 1)):
+            if given:
+                yield Problem(name, _("counts only with pendulums"))
     if mode is not None and mode < 1:
         yield Problem("mode", _("{given} given; modes count from 1").format(given=mode))
 
 
-def mode_problems(modes: StraightModes, mode: int | None, count: int, elements: Sequence[int] | None) -> list[Problem]:
-    """Return what the drive does not have: a mode, elements."""
-    found = []
+def mode_problems(modes: StraightModes, mode: int | None) -> Iterator[Problem]:
+    """Yield a mode that the drive does not have."""
     if mode is not None and mode > len(modes.omega):
         text = _("{given} given; the drive has {count}")
-        found.append(Problem("mode", text.format(given=mode, count=len(modes.omega))))
-    for k in elements if elements is not None else ():
-        if not 0 <= k < count:
-            text = _("element {given} given; they count from 0 to {last}")
-            found.append(Problem("elements", text.format(given=k, last=count - 1)))
-    if elements is not None and not len(elements):
-        found.append(Problem("elements", _("empty; name one at least, or leave it out")))
-    return found
+        yield Problem("mode", text.format(given=mode, count=len(modes.omega)))
 
 
 def still(host: Host, modal: Array) -> list[Problem]:
@@ -122,5 +115,4 @@ def closed_form(
         return Setting(inertia=inertia, stiffness=rounded(inertia * (order * serves) ** 2), damping=0.0)
     tuning = {"h_infinity": h_infinity, "den_hartog": den_hartog, "viscous": viscous_optimum}[kind](ratio)
     _own, spring, damper = (float(one) for one in tuning.sized(inertia / ratio, omega))
-    spring = spring or inertia * (HOLDING * omega) ** 2
     return Setting(inertia=inertia, stiffness=rounded(spring), damping=rounded(damper))

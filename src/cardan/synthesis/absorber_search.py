@@ -188,6 +188,7 @@ class Settings:
         stiffness, damping = model.stiffness.copy(), model.damping.copy()
         if self.task.kind == "viscous":
             damping[:, self.element] *= factor[:, 0]
+            stiffness[:, self.element] *= factor[:, 0]  # of what holds it
         else:
             stiffness[:, self.element] *= factor[:, 0] ** 2
         if len(reach) > 1:
