@@ -1,13 +1,16 @@
 """cardan torsion absorber and calm, on the terminal, as JSON and as CSV, and the drives that they write."""
 
 import csv
+import importlib
+import inspect
 import io
 
 import numpy as np
 import pytest
 
-from cardan import absorber, calm
 from cardan import io as files
+from cardan.synthesis import absorber as absorbers
+from cardan.synthesis import calm as calms
 from cardan.synthesis.calm import Grid
 from cardan.units import rpm
 from tests.cli.test_forces import plain, widest
@@ -33,6 +36,27 @@ speed_range_rpm = [350, 700]
 """
 YOKE = "shafts[1].yoke_angle_deg"
 
+SEARCHED = {}
+"""What was asked, and its answer."""
+
+
+@pytest.fixture(autouse=True)
+def each_search_once(monkeypatch):
+    """Let commands and tests that ask the same share the answer; what is asked otherwise is searched."""
+    for name in ("absorber", "calm"):
+        module = importlib.import_module(f"cardan.synthesis.{name}")
+        real = getattr(module, name)
+
+        def once(drive, name=name, real=real, progress=None, **options):
+            defaults = inspect.signature(real).parameters
+            own = {key: value for key, value in sorted(options.items()) if value != defaults[key].default}
+            asked = name, repr(drive), repr(own)
+            if asked not in SEARCHED:
+                SEARCHED[asked] = real(drive, **own)
+            return SEARCHED[asked]
+
+        monkeypatch.setattr(module, name, once)
+
 
 @pytest.fixture
 def rig(drive_file):
@@ -43,7 +67,7 @@ def test_an_absorber_is_set_and_written(cardan, rig, tmp_path):
     done = cardan("torsion", "absorber", rig, "--ratio", "0.15", "-o", "better.toml", "--plot", "curves.svg")
     assert done.code == 0
     assert widest(done.out) <= 80
-    found = absorber(files.load(rig), inertia_ratio=0.15)
+    found = absorbers.absorber(files.load(rig), inertia_ratio=0.15)
     text = plain(done.out)
     assert "with an absorber on mill the largest swing of a torque falls" in text
     assert f"from {found.bare.peak:,.0f} to {found.best.peak:.0f} N·m".replace(",", " ") in text.replace("\u202f", " ")
@@ -56,7 +80,7 @@ def test_an_absorber_is_set_and_written(cardan, rig, tmp_path):
 
 def test_what_an_absorber_does_for_a_program(cardan, rig):
     content = cardan("torsion", "absorber", rig, "--kind", "viscous", "--json").content
-    found = absorber(files.load(rig), kind="viscous")
+    found = absorbers.absorber(files.load(rig), kind="viscous")
     assert content["best"]["damping_Nms_per_rad"] == found.best.damping
     assert content["without"]["swing_Nm"] == pytest.approx(found.bare.peak)
     assert content["best"]["swing_Nm"] < content["without"]["swing_Nm"]
@@ -76,12 +100,24 @@ def test_pendulums_and_one_speed(cardan, rig):
     assert "It serves this speed alone" in text
 
 
+def test_a_drive_that_runs_elsewhere_is_warned(cardan, drive_file):
+    """Without a band of speeds the nearest resonance is taken, wherever the drive runs."""
+    slow = drive_file(RIG.replace("speed_range_rpm = [350, 700]", "speed_rpm = 100"))
+    done = cardan("torsion", "absorber", slow, "--kind", "tuned", "--speeds", "450:600")
+    assert "the drive runs" not in plain(done.out)
+    text = plain(cardan("torsion", "absorber", slow, "--kind", "viscous").out)
+    assert text.startswith("▲")
+    assert "the drive runs at 100.0 rpm, outside these speeds" in text
+    assert "It slips by" in text
+    assert "absorber.stiffness" not in text
+
+
 def test_a_calm_design_is_found_and_written(cardan, rig, tmp_path):
     ask = ("torsion", "calm", rig, "--free", f"{YOKE}=-45:45", "--grid", "7")
     done = cardan(*ask, "-o", "better.toml", "--plot", "calm.png")
     assert done.code == 0
     assert widest(done.out) <= 80
-    found = calm(files.load(rig), free={YOKE: (-45, 45)}, method=Grid(points=7))
+    found = calms.calm(files.load(rig), free={YOKE: (-45.0, 45.0)}, method=Grid(points=7))
     text = plain(done.out)
     assert "the largest swing of a torque falls from" in text
     assert "Joint 1 stands in the node" in text
@@ -112,6 +148,9 @@ def test_one_yoke_stands_calmest_where_it_is_and_the_file_stays(cardan, rig, tmp
         (("absorber", "--ratio", "-1"), "--ratio: -1 given"),
         (("absorber", "--element", "0"), "--element: 0 given; elements count from 1"),
         (("absorber", "--speeds", "700:300"), "--speeds: 700:300 is empty"),
+        (("absorber", "--speeds", "300:700:9"), "--speeds: 300:700:9 is no band; write LOW:HIGH"),
+        (("absorber", "--element", "2"), "--element: not all of these are there; the line has 1: shaft 2"),
+        (("absorber", "--kind", "tuned", "--radius-mm", "9"), "--radius-mm: counts only with pendulums"),
         (("calm", "--free", "shafts[1].yoke=1:2"), "shafts[1].yoke"),
         (("calm", "--free", "nonsense"), "--free: nonsense is no PATH=LOW:HIGH[:STEP]"),
         (("calm", "--grid", "1"), "--grid: 1 given; at least 2"),

@@ -43,7 +43,7 @@ def curves(figure: Figure) -> list[Curve]:
 
 @pytest.mark.parametrize("kind", ["viscous", "tuned", "pendulum"])
 def test_before_and_after_of_an_absorber(kind: str) -> None:
-    found = absorber(DRIVE, kind=kind, radius=0.2 if kind == "pendulum" else None)
+    found = absorber(DRIVE, kind=kind, radius=0.2 if kind == "pendulum" else None, progress=lambda _share: "stop")
     figure = drawn(found)
     before, closed, after, twist = curves(figure)
     for curve, swing in ((before, found.before), (closed, found.closed), (after, found.after)):
@@ -57,9 +57,19 @@ def test_before_and_after_of_an_absorber(kind: str) -> None:
     assert ("pendulums" in figure.title) == (kind == "pendulum")
 
 
+def test_what_is_judged_is_drawn() -> None:
+    tube = Shaft(number=2, stiffness=5000.0, damping=2.0, inertia=0.02)
+    line = replace(DRIVE, shafts=(tube, Shaft(number=3, stiffness=9000.0, damping=1.0)))
+    found = absorber(line, kind="viscous", elements=[1], progress=lambda _share: "stop")
+    before, *_others = curves(drawn(found))
+    np.testing.assert_array_equal(before.y, found.before[:, 1])
+    assert np.max(before.y) == found.bare.peak < np.max(found.before)
+
+
 def test_a_calm_design_shows_its_pushes() -> None:
     found = calm(DRIVE, free=YOKE, method=Grid(points=3))
     figure = drawn(found)
+    assert len(figure.panels) == 3  # a search of one round has no course
     assert [panel.heading for panel in figure.panels][1:3] == [
         "Pushes on mode 1 as built",
         "Pushes on mode 1, best values",

@@ -63,6 +63,7 @@ def content(drive: Drive, file: Path, found: Absorber) -> dict[str, Any]:
             for k, host in enumerate(found.hosts)
         ],
         "elements": list(found.elements),
+        "judged": [k + 1 for k in found.judged],
         "largest_twist_deg": float(max(found.twist)) / deg,
         "largest_torque_Nm": float(max(found.torque)),
         "largest_heat_W": float(max(found.heat)),

@@ -120,7 +120,7 @@ def torsion_absorber(
     given = {"--kind": kind, "--ratio": ratio, "--inertia-kg-m2": inertia, "--at": at, "--mode": mode, "--order": order}
     given |= {"--radius-mm": radius, "--count": None if count == 1 else count, "--speeds": speeds}
     given |= {"--speed-rpm": speed_rpm, "--torque-Nm": torque}
-    said = _answer(drive, file, found, repeated(given, {"--element": element}))
+    said = _answer(drive, file, found, repeated(given, {"--element": element}), chosen=band is not None)
     if out is not None:
         said = _written(said, file, text, found, out)
     return ended(show(said, json=json, csv=csv, plot=plot), progress)
@@ -141,21 +141,29 @@ OPTIONS = {
 """What the question calls by another name than the command."""
 
 
-def _answer(drive: Drive, file: Path, found: Absorber, given: tuple[str, ...]) -> Answer:
+def _answer(drive: Drive, file: Path, found: Absorber, given: tuple[str, ...], *, chosen: bool) -> Answer:
     from .absorber_tables import content, rows
     from .answer import Answer
     from .asked import figures
 
+    away = None if chosen else _away(drive, found)
     tone, sentence = _sentence(drive, file, found)
     return Answer(
         sentence=sentence,
-        tone=tone,
+        tone="warning" if away is not None else tone,
         tables=lambda: (_setting_table(found), _host_table(found)),
-        remarks=tuple(_remarks(file, found, given)),
+        remarks=tuple(_remarks(file, found, given, away)),
         content=lambda: content(drive, file, found),
         csv=lambda: rows(found),
         figure=lambda: figures(found),
     )
+
+
+def _away(drive: Drive, found: Absorber) -> float | None:
+    """Return the speed of a drive [rad/s] where it lies outside the band; None where it does not, or none is given."""
+    if drive.duty.speed is None or found.speed[0] <= abs(drive.duty.speed) <= found.speed[-1]:
+        return None
+    return abs(drive.duty.speed)
 
 
 def _sentence(drive: Drive, file: Path, found: Absorber) -> tuple[Tone, str]:
@@ -257,11 +265,11 @@ def _host_table(found: Absorber) -> Table:
     )
 
 
-def _remarks(file: Path, found: Absorber, given: tuple[str, ...]) -> Iterator[Remark]:
+def _remarks(file: Path, found: Absorber, given: tuple[str, ...], away: float | None) -> Iterator[Remark]:
     import numpy as np
 
     from cardan.io.stations import station_text
-    from cardan.units import deg, rpm
+    from cardan.units import rpm
 
     from .answer import Remark, percent, significant
     from .torsion_band import band_remarks
@@ -282,24 +290,12 @@ def _remarks(file: Path, found: Absorber, given: tuple[str, ...]) -> Iterator[Re
     )
     if found.tuned_speed is None and not found.speed[0] <= found.omega / found.order <= found.speed[-1]:
         yield Remark(text=_("Warning: no resonance lies in this band; this one is the nearest."), tone="warning")
-    swing, torque = float(np.nanmax(found.twist)) / deg, float(np.nanmax(found.torque))
-    if found.kind == "pendulum":
-        text = _("The pendulums swing by ± {swing}° at most and pull with ± {torque} N·m.")
-        yield Remark(text=text.format(swing=significant(swing, 3), torque=significant(torque, 3)))
-        if swing > WIDE_SWING:
-            text = _("Warning: so wide a swing on a circle lowers the order of a pendulum; give it more inertia.")
-            yield Remark(text=text, tone="warning")
-    else:
-        text = _(
-            "Its spring twists by ± {swing}° and carries ± {torque} N·m at most; its damper makes {heat} W of heat."
-        )
-        heat = significant(float(np.nanmax(found.heat)), 3)
-        yield Remark(text=text.format(swing=significant(swing, 3), torque=significant(torque, 3), heat=heat))
-    if found.kind == "viscous":
-        text = _("Its spring only holds it in place; a ring in silicone oil has none.")
-        yield Remark(text=text)
+    elif away is not None:
+        text = _("Warning: the drive runs at {speed} rpm, outside these speeds; --speeds LOW:HIGH names others.")
+        yield Remark(text=text.format(speed=significant(away / rpm)), tone="warning")
+    yield from _borne(found)
     if found.tuned_speed is not None:
-        worst = np.max(found.after, axis=-1)
+        worst = np.max(found.after[:, list(found.judged)], axis=-1)
         k = int(np.nanargmax(worst))
         text = _("It serves this speed alone: at {speed} rpm it swings itself up, and the torque by ± {torque} N·m.")
         yield Remark(
@@ -316,6 +312,31 @@ def _remarks(file: Path, found: Absorber, given: tuple[str, ...]) -> Iterator[Re
         command=("cardan", "torsion", "absorber", str(file), *given, "-o", "better.toml"),
         tone="next",
     )
+
+
+def _borne(found: Absorber) -> Iterator[Remark]:
+    """Yield what the absorber has to bear; one that serves one speed, there."""
+    import numpy as np
+
+    from cardan.units import deg
+
+    from .answer import Remark, significant
+
+    rows = slice(None) if found.tuned_speed is None else found.speed == found.tuned_speed
+    swing = float(np.nanmax(found.twist[rows])) / deg
+    values = {"swing": significant(swing, 3), "torque": significant(float(np.nanmax(found.torque[rows])), 3)}
+    text = {
+        "pendulum": _("The pendulums swing by ± {swing}° at most and pull with ± {torque} N·m."),
+        "tuned": _("There its spring twists by ± {swing}° and carries ± {torque} N·m."),
+        "viscous": _("It slips by ± {swing}° and drags with ± {torque} N·m at most; that makes {heat} W of heat."),
+    }.get(
+        found.kind,
+        _("Its spring twists by ± {swing}° and carries ± {torque} N·m at most; its damper makes {heat} W of heat."),
+    )
+    yield Remark(text=text.format(heat=significant(float(np.nanmax(found.heat[rows])), 3), **values))
+    if found.kind == "pendulum" and swing > WIDE_SWING:
+        text = _("Warning: so wide a swing on a circle lowers the order of a pendulum; give it more inertia.")
+        yield Remark(text=text, tone="warning")
 
 
 def _written(said: Answer, file: Path, text: str, found: Absorber, out: Path) -> Answer:

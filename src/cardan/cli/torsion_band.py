@@ -58,12 +58,15 @@ def band_of(text: str | None) -> tuple[float, float] | None:
     >>> [round(one, 3) for one in band_of("300:600")]
     [31.416, 62.832]
     """
+    from cardan.errors import refuse
     from cardan.units import rpm
 
     from .torsion_parts import values
 
     if text is None:
         return None
+    if text.count(":") != 1:
+        raise refuse("--speeds", _("{text} is no band; write LOW:HIGH").format(text=text))
     ends = values(text, "--speeds", count=2, low=0.0)
     return float(ends[0]) * rpm, float(ends[-1]) * rpm
 

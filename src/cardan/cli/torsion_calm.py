@@ -144,25 +144,25 @@ def _answer(drive: Drive, file: Path, found: Calm, given: tuple[str, ...]) -> An
 
 
 def _sentence(drive: Drive, file: Path, found: Calm) -> tuple[Tone, str]:
+    from cardan.figures.wording import percent
     from cardan.units import rpm
 
-    from .answer import percent, significant
+    from .answer import significant
     from .source import title
 
+    low, high = (significant(float(one) / rpm, 3) for one in found.speed[[0, -1]])
+    band = _("{low}–{high} rpm") if len(found.speed) > 1 else _("at {low} rpm")
     values = {
         "name": title(drive, file),
-        "low": significant(float(found.speed[0]) / rpm, 3),
-        "high": significant(float(found.speed[-1]) / rpm, 3),
+        "band": band.format(low=low, high=high),
         "before": significant(found.peak_before.torque, 3),
         "after": significant(found.peak_after.torque, 3),
-        "share": percent(round(found.reduction, 4)),
+        "share": percent(found.reduction, 3),
     }
     if found.reduction > LITTLE and not len(found.unstable_before):
-        text = _(
-            "{name}: nothing that may change makes it much calmer; torques swing by {after} N·m, {low}–{high} rpm."
-        )
+        text = _("{name}: nothing that may change makes it much calmer; torques swing by {after} N·m, {band}.")
         return "warning", text.format(**values)
-    text = _("{name}: the largest swing of a torque falls from {before} to {after} N·m ({share}), {low}–{high} rpm.")
+    text = _("{name}: the largest swing of a torque falls from {before} to {after} N·m ({share}), {band}.")
     return ("warning" if len(found.unstable_after) else "good"), text.format(**values)
 
 
@@ -232,7 +232,7 @@ def _remarks(file: Path, found: Calm, given: tuple[str, ...]) -> Iterator[Remark
             if agrees
             else _("Warning: of {count} designs, two independent searches end {share} % apart; take more --rounds.")
         )
-        said = text.format(count=found.evaluations, share=significant(100.0 * found.agreement, 2))
+        said = text.format(count=found.evaluations, share=significant(max(100.0 * found.agreement, 0.1), 2))
         yield Remark(text=said, tone="plain" if agrees else "warning")
     else:
         yield Remark(text=_("Searched {count} designs on the exact equations.").format(count=found.evaluations))

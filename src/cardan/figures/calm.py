@@ -46,7 +46,8 @@ def absorber_figure(found: Absorber) -> Figure:
         Of one drive.
     """
     speed = found.speed / rpm
-    curves = [np.max(one, axis=-1) for one in (found.before, found.closed, found.after)]
+    judged = list(found.judged)
+    curves = [np.max(one[:, judged], axis=-1) for one in (found.before, found.closed, found.after)]
     marks: list[Series] = []
     if found.tuned_speed is not None:
         marks.append(Rule(value=found.tuned_speed / rpm, upright=True, text=_("tuned to this speed"), role="accent"))
@@ -128,7 +129,7 @@ def calm_figure(found: Calm) -> Figure:
         x=axis(_("input speed"), "rpm", [speed], margin=0.0 if len(speed) > 1 else 0.06, count=8),
         y=logarithmic(_("Largest swing of a torque"), "N·m", curves),
     )
-    below = [_search(found)]
+    below = [_search(found)] if max(len(one) for one in found.history) > 2 else []
     if found.rules_after and found.rules_before:
         new = found.rules_after[0]
         old = next((one for one in found.rules_before if one.mode == new.mode), found.rules_before[0])
@@ -155,7 +156,7 @@ def calm_figure(found: Calm) -> Figure:
             share=percent(found.reduction, 2),
         ),
         source=_("periodic solution of the exact equations of motion; pushes of order 2 on the straight line's mode"),
-        rows=(Row(panels=(upper,), height=2.4), Row(panels=tuple(below), height=1.9)),
+        rows=(Row(panels=(upper,), height=2.4), *([Row(panels=tuple(below), height=1.9)] if below else [])),
     )
 
 
@@ -200,7 +201,6 @@ def _search(found: Calm) -> Panel:
             role="accent" if k == 0 else "second order",
             width=1.2,
             dash="solid" if k == 0 else "dashed",
-            marker=3.0 if len(one) < 3 else 0.0,
         )
         for k, one in enumerate(runs)
     )

@@ -20,9 +20,9 @@ from .absorber_choice import KINDS as KINDS
 from .absorber_choice import closed_form, meeting, mode_problems, problems, served, still
 from .absorber_curves import Curves
 from .absorber_search import Setting, Settings, Task, highest, rounded
-from .band import band_speeds, check_swings, excited, fine_speeds, lines, wanted_band
+from .band import band_speeds, check_swings, element_problems, excited, fine_speeds, lines, wanted_band
 from .hosts import Host, host_named, hosts
-from .least_swing import LeastSwing, Stopped, Watched
+from .least_swing import LeastSwing, Stopped, Watch, Watched
 
 RATIO = 0.1
 """Inertia of an absorber over that of the mode where none is given."""
@@ -73,6 +73,8 @@ class Absorber:
         Nothing: its peak.
     elements : tuple of E str
         Names of the elements of the drive.
+    judged : tuple of int
+        Those whose torque was made small, from 0.
     speed : array (s,) [rad/s]
         Of the input.
     before, closed, after : arrays (s, E) [N·m]
@@ -109,6 +111,7 @@ class Absorber:
     best: Setting
     bare: Setting
     elements: tuple[str, ...]
+    judged: tuple[int, ...]
     speed: Array
     before: Array
     closed: Array
@@ -213,7 +216,7 @@ def absorber(
     optimum of Nishihara and Asami set the absorber, J_a (ν Ω)² its spring where it serves one speed, l = R/ν² a
     pendulum. From there the largest swing of any torque over the band is made smallest on the exact equations of the
     whole drive with the absorber as one more station: sequential quadratic programming on all speeds and elements at
-    once. A damper without spring is held by one too soft to matter.
+    once.
 
     Examples
     --------
@@ -231,7 +234,7 @@ def absorber(
     single = None if band is None or band[0] < band[1] else band[0]
     rough = lines([asked], 1.0 if band is None else 0.5 * (band[0] + band[1]))
     modes = straight_modes(rough.trains[0].model, speed=rough.speed)
-    check(mode_problems(modes, mode, len(rough.elements), elements))
+    check([*mode_problems(modes, mode), *element_problems(rough, elements)])
     judged = rough.elements if elements is None else np.asarray(elements, dtype=int)
     number, nu = meeting(rough, modes, mode, order, None if single is not None else band, single)
     omega = float(modes.omega[number])
@@ -249,7 +252,7 @@ def absorber(
     check(still(host, modal))
     own = (RATIO if inertia_ratio is None else inertia_ratio) * float(modal[host.station])
     own = rounded(own if inertia is None else inertia)
-    watch = _Watch(progress)
+    watch = Watch(progress)
     searched = band_speeds(*band, bare.omega, excited(asked, asked.duty), count=COUNT)[0]
     start = bare.swings(searched[None])
     watch.share(WATCHED[0])
@@ -302,6 +305,7 @@ def absorber(
         best=curves.peaked(best, curves.after),
         bare=curves.peaked(Setting(inertia=0.0, stiffness=0.0, damping=0.0), curves.before),
         elements=bare.element_names,
+        judged=tuple(int(k) for k in judged),
         speed=curves.speed,
         before=curves.before,
         closed=curves.closed,
@@ -318,18 +322,3 @@ def absorber(
         play=bare.play,
         assumed=bare.trains[0].assumed,
     )
-
-
-class _Watch:
-    """Tells how much is done, and whether the answer was to stop."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.progress, self.stopped = progress, False
-
-    def share(self, done: float) -> object:
-        if self.progress is not None and not self.stopped and self.progress(done) == "stop":
-            self.stopped = True
-        return "stop" if self.stopped else None
-
-    def part(self, low: float, high: float) -> Progress:
-        return lambda done: self.share(low + (high - low) * done)

@@ -25,7 +25,7 @@ class Curves:
         bare = lines([task.drive], task.middle)
         (first, _at), (last, element) = task.line(task.closed_form), task.line(best)
         serves = task.speed if task.kind == "tuned" else []
-        self.task, judged = task, bare.elements
+        self.task = task
         rough = np.unique(np.append(fine_speeds(band, (bare, last)), serves))
         closer = [rough]
         for k, line in enumerate((bare, first, last)):
@@ -37,7 +37,7 @@ class Curves:
         for k, line in enumerate((bare, first, last)):
             runs.append(line.swings(self.speed[None]))
             watch(0.3 + 0.1 * (k + 1))
-        self.before, self.closed, self.after = (one.swing[:, judged] for one in runs)
+        self.before, self.closed, self.after = (one.swing[:, bare.elements] for one in runs)
         self.torque = runs[2].swing[:, element]
         self.twist, self.heat = self._swing(runs[2], last, element, best)
         self.unstable = tuple(

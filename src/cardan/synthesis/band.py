@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -18,7 +18,7 @@ from cardan.analysis.torsional_train import TorsionalTrain, chained, in_time, st
 from cardan.analysis.vibration_growth import vibration_growth
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.errors import refuse
+from cardan.errors import Problem, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -260,6 +260,16 @@ def growth(found: TorqueSwings, speed: Array, omega: Array, asked: Array) -> Arr
         grown = vibration_growth(found.orbit, judged)
         np.maximum.at(worst, judged // width, np.where(grown > GROWS, grown, 0.0))
     return worst
+
+
+def element_problems(line: Lines, elements: Sequence[int] | None) -> Iterator[Problem]:
+    """Yield what is wrong with the elements of a drive that are to be judged."""
+    names = line.element_names
+    if elements is not None and not len(elements):
+        yield Problem("elements", _("empty; name one at least, or leave it out"))
+    if any(not 0 <= k < len(names) for k in (() if elements is None else elements)):
+        text = _("not all of these are there; the line has {count}: {names}")
+        yield Problem("elements", text.format(count=len(names), names=", ".join(names)))
 
 
 def check_swings(peak: float) -> None:

@@ -15,12 +15,13 @@ from cardan.errors import check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .band import Lines, lines, wanted_band
+from .band import Lines, element_problems, lines, wanted_band
 from .calm_designs import Designs, Free, free_quantities
-from .calm_search import Curves, Method, Peak, everywhere, method_problems, refined
+from .calm_search import Curves, Method, Peak, all_refined, everywhere, method_problems
 from .calm_search import Grid as Grid
 from .evolution import Evolution as Evolution
 from .evolution import evolve
+from .least_swing import Watch
 
 SAME = 0.01
 """What differs by no more than this share is the same."""
@@ -60,7 +61,7 @@ class Calm:
     infeasible : int
         Values that made no drive.
     run_peaks : array (r,) [N·m]
-        Largest swing at the end of every independent run, as the search saw it.
+        Largest swing at the end of every independent run, its last steps done, as the search saw it.
     history : tuple of r arrays (g,) [N·m]
         The same after every generation.
     converged : bool
@@ -198,39 +199,25 @@ def calm(
         raise refuse("duty.speed_range", _("missing; the band of speeds in which the drive is to run calmly"))
     how = method or Evolution()
     quantities = free_quantities(asked, free)
-    check(method_problems(how, quantities))
-    count = len(lines([asked], 0.5 * (band[0] + band[1])).elements)
-    for k in elements if elements is not None else ():
-        if not 0 <= k < count:
-            text = _("element {given} given; they count from 0 to {last}")
-            raise refuse("elements", text.format(given=k, last=count - 1))
+    check([*method_problems(how, quantities), *element_problems(lines([asked], 0.5 * (band[0] + band[1])), elements)])
     designs = Designs(asked, quantities, band, None if elements is None else np.asarray(elements, dtype=int))
-    stopped = False
-
-    def part(low: float, high: float) -> Progress | None:
-        def told(share: float) -> object:
-            nonlocal stopped
-            assert progress is not None
-            stopped = stopped or progress(low + (high - low) * share) == "stop"
-            return "stop" if stopped else None
-
-        return None if progress is None else told
-
+    watch = Watch(progress)
+    everywhere_told = watch.part(0.0, SHARES[0])
     if isinstance(how, Grid):
-        found = everywhere(designs, how, part(0.0, SHARES[0]))
+        found = everywhere(designs, how, everywhere_told)
     else:
-        found = evolve(designs.cost, len(quantities), start=designs.start, method=how, progress=part(0.0, SHARES[0]))
-    best = found.place
-    if not stopped:
-        best = refined(designs, best, part(*SHARES))
-    chosen = designs.drive_at(best, made=True) if np.isfinite(found.cost) else asked
+        found = evolve(designs.cost, len(quantities), start=designs.start, method=how, progress=everywhere_told)
+    places, costs = found.run_places, found.run_costs
+    if not watch.stopped:
+        places, costs = all_refined(designs, found, watch.part(*SHARES))
+    best = places[int(np.argmin(costs))]
+    chosen = designs.drive_at(best, made=True) if np.min(costs) < np.inf else asked
     chosen = asked if chosen is None else chosen
     curves = Curves(designs, chosen)
     if not curves.calmer:  # as built it runs calmest
         chosen, best = asked, None
         curves = Curves(designs, chosen)
-    if progress is not None and not stopped:
-        progress(1.0)
+    watch.share(1.0)
     rules = [_rules(one, band) for one in (designs.built, lines([chosen], designs.middle))]
     return Calm(
         drive=chosen,
@@ -250,10 +237,10 @@ def calm(
         method=how,
         evaluations=designs.asked,
         infeasible=designs.infeasible,
-        run_peaks=found.run_costs,
+        run_peaks=costs,
         history=found.history,
         converged=found.converged,
-        cancelled=stopped,
+        cancelled=watch.stopped,
         play=designs.built.play,
         assumed=designs.built.trains[0].assumed,
     )

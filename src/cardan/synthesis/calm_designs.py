@@ -95,9 +95,14 @@ def free_quantities(drive: Drive, free: Mapping[str, Sequence[float]] | None) ->
         return found
     problems: list[Problem] = []
     quantities: list[Free] = []
+    known: dict[tuple[str | int, ...], str] = {}
     for path, given in free.items():
         try:
             quantities.append(_free(drive, path, [float(one) for one in given]))
+            steps = place(drive, path).steps
+            if steps in known:
+                problems.append(Problem(path, _("is the same as {other}").format(other=known[steps])))
+            known[steps] = path
         except InputError as error:
             problems += error.problems
     if not free:
@@ -121,9 +126,11 @@ def _yokes(drive: Drive) -> Iterator[Free]:
 
 
 def _free(drive: Drive, path: str, given: Sequence[float]) -> Free:
-    place(drive, path)
+    steps = place(drive, path).steps
     now = read(drive, path)
     problems = []
+    if steps[:2] in (("duty", "speed"), ("duty", "speed_range")):
+        problems.append(Problem(path, _("the speeds are given, and a design is sought for them; take a narrower band")))
     if now is None:
         problems.append(Problem(path, _("the drive gives no value; write one into it to begin with")))
     elif isinstance(now, bool) or not isinstance(now, float):

@@ -20,7 +20,7 @@ from .absorber_search import highest
 from .band import about_peaks, fine_speeds, lines, unstable_speeds
 from .calm_designs import Designs, Free
 from .evolution import Evolution, Evolved
-from .least_swing import LeastSwing, Stopped, Watched
+from .least_swing import LeastSwing, Stopped, Watch, Watched
 
 MOST = 200_000
 """Designs that an exhaustive search may have at most."""
@@ -86,7 +86,7 @@ def method_problems(method: Method, free: tuple[Free, ...]) -> list[Problem]:
     return []
 
 
-def everywhere(designs: Designs, method: Grid, progress: Progress | None) -> Evolved:
+def everywhere(designs: Designs, method: Grid, progress: Progress) -> Evolved:
     """Return the best of every combination."""
     table = np.asarray(list(product(*(one.places(method.points) for one in designs.free))))
     best, least, told = table[0], np.inf, []
@@ -97,7 +97,7 @@ def everywhere(designs: Designs, method: Grid, progress: Progress | None) -> Evo
         if float(np.min(cost)) < least:
             best, least = rows[int(np.argmin(cost))], float(np.min(cost))
         told.append(least)
-        stopped = progress is not None and progress(min(first + PART, len(table)) / len(table)) == "stop"
+        stopped = progress(min(first + PART, len(table)) / len(table)) == "stop"
         if stopped:
             break
     return Evolved(
@@ -112,12 +112,22 @@ def everywhere(designs: Designs, method: Grid, progress: Progress | None) -> Evo
     )
 
 
-def refined(designs: Designs, start: Array, progress: Progress | None) -> Array:
-    """Return a better place near one, values with steps kept; the same where there is none, or it is unstable."""
+def all_refined(designs: Designs, found: Evolved, progress: Progress) -> tuple[Array, Array]:
+    """Return the places of all runs after their last steps, array (r, v), and their costs (r,) [N·m]."""
+    watch, count = Watch(progress), len(found.run_places)
+    runs = zip(found.run_places, found.run_costs, strict=True)
+    ends = [
+        _refined(designs, at, float(cost), watch.part(k / count, (k + 1) / count)) for k, (at, cost) in enumerate(runs)
+    ]
+    return np.stack([at for at, _cost in ends]), np.asarray([cost for _at, cost in ends])
+
+
+def _refined(designs: Designs, start: Array, least: float, progress: Progress) -> tuple[Array, float]:
+    """Return a better place near one of a cost, values with steps kept; the same where none is better and stable."""
     loose = np.asarray([one.step is None for one in designs.free])
     drive = designs.drive_at(start)
     if not loose.any() or drive is None:
-        return start
+        return start, least
 
     def whole(places: Array) -> Array:
         found = np.tile(start, (len(places), 1))
@@ -138,10 +148,10 @@ def refined(designs: Designs, start: Array, progress: Progress | None) -> Array:
     with contextlib.suppress(Stopped):
         search.run(start[loose][None])
     if not search.best.size:
-        return start
-    both = np.stack([start, whole(search.best[None])[0]])
-    cost = designs.cost(both, np.full(2, np.inf))
-    return both[int(np.argmin(cost))]
+        return start, least
+    better = whole(search.best[None])
+    cost = float(designs.cost(better, np.full(1, least))[0])
+    return (better[0], cost) if cost < least else (start, least)
 
 
 class Curves:

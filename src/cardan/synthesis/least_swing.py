@@ -34,23 +34,46 @@ class Stopped(Exception):
     """The one who watches has answered "stop"."""
 
 
+class Watch:
+    """Tells how much of a work in several parts is done, and remembers the answer "stop".
+
+    Parameters
+    ----------
+    progress : function or None
+        Told the share done.
+    """
+
+    def __init__(self, progress: Progress | None) -> None:
+        self.progress, self.stopped = progress, False
+
+    def share(self, done: float) -> object:
+        """Tell the share of the whole work that is done; return "stop" once that was the answer."""
+        if self.progress is not None and not self.stopped and self.progress(done) == "stop":
+            self.stopped = True
+        return "stop" if self.stopped else None
+
+    def part(self, low: float, high: float) -> Progress:
+        """Return what tells the share of a part of the work, from one share of the whole to another."""
+        return lambda done: self.share(low + (high - low) * done)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Watched:
     """How work is watched: told the share done, Stopped where the answer is "stop".
 
     Attributes
     ----------
-    progress : function or None
+    progress : function
     expected : float
         Designs that the work takes, about.
     """
 
-    progress: Progress | None
+    progress: Progress
     expected: float
 
     def tell(self, asked: int) -> None:
         """Tell how many designs are done."""
-        if self.progress is not None and self.progress(min(asked / self.expected, 1.0)) == "stop":
+        if self.progress(min(asked / self.expected, 1.0)) == "stop":
             raise Stopped
 
 
