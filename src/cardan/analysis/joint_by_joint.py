@@ -73,5 +73,6 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
         "shaft_slope": np.stack(slopes),
         "joint_angle": np.stack(before),
         "bend": np.asarray(whole.bend),
+        "followed": True,
         "crossed": tuple(type(joint) is Hooke for joint in drive.joints),
     }

@@ -42,6 +42,8 @@ class Motion:
         α_i.
     crossed : tuple of bool (n)
         Which joints are Hooke joints, whose crosses turn as the properties below tell; all of them when empty.
+    followed : bool
+        Whether the drive was followed joint by joint, because one of them turns by a law of its own.
     speed : float or array (...) [rad/s]
         ω_1; None when the drive does not say.
     acceleration : float or array (...) [rad/s²]
@@ -57,6 +59,7 @@ class Motion:
     speed: ArrayLike | None = None
     acceleration: ArrayLike = 0.0
     crossed: tuple[bool, ...] = ()
+    followed: bool = False
 
     @property
     def output_angle(self) -> Array:

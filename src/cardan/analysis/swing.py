@@ -45,6 +45,11 @@ class Swing:
     amplitude: Array
 
     @property
+    def shaft_irregularity(self) -> Array:
+        """δ of shafts 2 … n+1, array (n)."""
+        return self.irregularity
+
+    @property
     def bend(self) -> Array:
         """Bend of the Hooke joint with the same irregularity sin α tan α, array (n) [rad]."""
         half = 0.5 * self.irregularity

@@ -202,7 +202,8 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     from .asked import listed
     from .force_tables import rubs
 
-    bare = [i for i in range(len(drive.joints)) if not np.isfinite(found.journals.size[i]).all()]
+    crossed = [i for i, joint in enumerate(drive.joints) if "cross" not in joint.foreign]
+    bare = [i for i in crossed if not np.isfinite(found.journals.size[i]).all()]
     if bare:
         text = plural(
             "Joint {numbers} gives no cross.span_mm: the loads of its journals are not known.",

@@ -53,7 +53,9 @@ def motion_figure(found: Motion) -> Figure:
         name="motion",
         title=_("Motion of every shaft over the input angle"),
         sentence=_sentence(found, lead),
-        source=_(
+        source=_("every joint by its own law, one after another")
+        if found.followed
+        else _(
             "i = 1/|b̄w + ā|², w = e^(2iφ₁), from the product of the joints' Möbius matrices; exact, equal to Book "
             "(32), (33), (38)"
         ),
@@ -107,6 +109,9 @@ def _sentence(found: Motion, lead: Array) -> str:
         return _("The output turns exactly evenly; between the ends a shaft runs ahead and back by {lead}°.").format(
             lead=significant(between, 3)
         )
-    return _(
+    text = _(
         "The output runs ahead and back by {lead}° twice a turn, its speed between {low} and {high} of the input's."
-    ).format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=percent(low, 4), high=percent(high, 4))
+    )
+    if found.followed:
+        text = _("The output runs ahead and back by {lead}°, its speed between {low} and {high} of the input's.")
+    return text.format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=percent(low, 4), high=percent(high, 4))

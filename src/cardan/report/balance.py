@@ -54,10 +54,13 @@ def refused(name: str, title: str, error: InputError) -> Page:
     """Return the page of a question that the drive file does not answer, with what is missing."""
     left = [f"{one.field}: {one.message}" for one in error.problems]
     alarm = _("{part} not reckoned: {first}").format(part=title, first=left[0])
+    answer = _("Not reckoned; the drive file leaves open:")
+    if all(one.code == "unknown_kind" for one in error.problems):
+        answer = _("Not reckoned for joints of these kinds:")
     return Page(
         name=name,
         title=title,
-        answer=_("Not reckoned; the drive file leaves open:"),
+        answer=answer,
         blocks=[Words(text=text, tone="warning") for text in left],
         alarms=[Words(text=alarm, tone="warning")],
     )

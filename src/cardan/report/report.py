@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from cardan import __version__
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.laws import unmapped
+from cardan.drive.solids import Solids
 from cardan.errors import refuse
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
@@ -18,6 +20,16 @@ from cardan.texts import _
 
 from .balance import refused
 from .block import Listing, Page, Picture, Points, Table, Words
+from .followed import (
+    asked_by_laws,
+    changes_by_laws,
+    figures_by_laws,
+    judgement_by_laws,
+    method_by_laws,
+    turning_by_laws,
+    warnings_by_laws,
+    yokes_refused,
+)
 from .loaded import loaded
 from .method import method
 from .moving import moving
@@ -91,6 +103,8 @@ def page(
     progress: Callable[[float], object] | None = None,
 ) -> str:
     """Return the report of a drive as the text of an HTML page; see `report`."""
+    if unmapped(drive.joints):
+        return _page_by_laws(drive, duty, source_text=source_text, interactive=interactive, progress=progress)
     on = asked(drive, duty, progress)
     pages: list[Page] = [understood(on), turning(on), phasing(on)]
     if on.moving is not None:
@@ -102,7 +116,51 @@ def page(
     if limits.page is not None:
         pages.append(limits.page)
     pages.append(method(on, source_text))
+    words = {
+        "judgement": judgement(on, pages),
+        "warnings": list(warnings(on, pages)),
+        "figures": key_figures(on, pages),
+        "changes": changes(on),
+        "limits": limits,
+    }
+    return _rendered(drive, on.seen, pages, words, interactive=interactive, progress=progress)
 
+
+def _page_by_laws(
+    drive: Drive,
+    duty: Duty | None,
+    *,
+    source_text: str | None,
+    interactive: bool,
+    progress: Callable[[float], object] | None,
+) -> str:
+    """Return the report of a drive with joints that turn by laws of their own."""
+    on = asked_by_laws(drive, duty)
+    alike = cast(Subject, on)  # what these pages ask for it has under the same names
+    pages = [understood(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
+    limits = judged(alike)
+    if limits.page is not None:
+        pages.append(limits.page)
+    pages.append(method_by_laws(on, source_text))
+    words = {
+        "judgement": judgement_by_laws(on, pages),
+        "warnings": list(warnings_by_laws(on, pages)),
+        "figures": figures_by_laws(on, pages),
+        "changes": changes_by_laws(on),
+        "limits": limits,
+    }
+    return _rendered(drive, on.seen, pages, words, interactive=interactive, progress=progress)
+
+
+def _rendered(
+    drive: Drive,
+    seen: Solids,
+    pages: Sequence[Page],
+    words: Mapping[str, object],
+    *,
+    interactive: bool,
+    progress: Callable[[float], object] | None,
+) -> str:
     def drawn(figure: Figure) -> str:
         if interactive:
             from cardan.figures.render_plotly import fragment
@@ -118,24 +176,16 @@ def page(
         note=drive.note,
         version=__version__,
         date=datetime.datetime.now(tz=datetime.UTC).date().isoformat(),
-        judgement=judgement(on, pages),
-        warnings=list(warnings(on, pages)),
-        figures=key_figures(on, pages),
-        changes=changes(on),
-        limits=limits,
-        sketch=_sketch(on),
+        sketch=space_figure(drive, seen, name="sketch"),
         pages=pages,
         drawn=drawn,
         kind=_kind,
         program=_program() if interactive else "",
+        **words,
     )
     if progress is not None:
         progress(1.0)
     return text
-
-
-def _sketch(on: Subject) -> Figure:
-    return space_figure(on.drive, on.seen, name="sketch")
 
 
 def _program() -> str:

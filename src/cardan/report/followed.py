@@ -1,0 +1,215 @@
+"""The report of a drive with joints that turn by laws of their own, without what a chain of Hooke joints would tell.
+
+Motion is followed from joint to joint and its extremes are seen over a turn; there is no single joint that the drive
+amounts to, and no polygon of yoke angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.analysis.equivalence import SYNCHRONOUS
+from cardan.analysis.joint_by_joint import followed as by_laws
+from cardan.analysis.motion import Motion, motion
+from cardan.analysis.swing import Swing, swing
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.geometry import Geometry, geometry
+from cardan.drive.laws import has_map, unknown_kinds
+from cardan.drive.solids import Solids, solids
+from cardan.errors import InputError
+from cardan.figures.kinds import kind_name, too_steep
+from cardan.figures.motion import motion_figure
+from cardan.figures.wording import fixed, percent, significant
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import deg, rpm
+
+from .balance import refused
+from .block import Cell, Column, Listing, Page, Picture, Points, Table, Words, key, number, of_shaft, words
+
+SPECK = 1e-6
+"""Irregularity that nobody notices."""
+
+ORDERS = 4
+"""Orders of the angle error that are listed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Followed:
+    """A drive and what is known of its motion; the names are those of `cardan.report.subject.Subject`."""
+
+    drive: Drive
+    place: Geometry
+    seen: Solids
+    found: Motion
+    whole: Swing
+    phase: Array
+    complete: bool = True
+    mixed: bool = True
+
+    @property
+    def bend(self) -> Array:
+        """Bend of every joint, array (n) [rad]."""
+        return np.asarray(self.place.bend)
+
+    @property
+    def joints(self) -> int:
+        """Number of joints."""
+        return len(self.drive.joints)
+
+
+def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
+    """Ask what can be asked about a drive with joints that turn by laws of their own."""
+    whole = drive if duty is None else replace(drive, duty=duty)
+    return Followed(
+        drive=whole,
+        place=geometry(whole),
+        seen=solids(whole),
+        found=motion(whole),
+        whole=swing(whole),
+        phase=by_laws(whole, np.zeros(1))["joint_angle"][:, 0],
+    )
+
+
+def turning_by_laws(on: Followed) -> Page:
+    """Return the page of the motion."""
+    figure = motion_figure(on.found)
+    return Page(
+        name="motion",
+        title=_("Motion"),
+        answer=_("Followed from joint to joint, each by its own law; extremes are those seen over a turn."),
+        blocks=[Picture(figure=figure), _extremes(on), _orders(on)],
+    )
+
+
+def _extremes(on: Followed) -> Table:
+    speed, seen = on.drive.duty.speed, on.whole
+    scale = 1.0 if speed is None else speed**2
+    rows: list[list[Cell]] = []
+    for k in range(on.joints):
+        low, high, share = (float(part[k]) for part in (seen.ratio_min, seen.ratio_max, seen.irregularity))
+        lead, steep = float(seen.max_lead[k]) / deg, float(seen.max_acceleration[k]) * scale
+        even = share < SYNCHRONOUS
+        rows.append(
+            [
+                of_shaft(k + 2, end=_("output") if k + 1 == on.joints else ""),
+                number(fixed(low, 4), low),
+                number(fixed(high, 4), high),
+                number(percent(share).removesuffix(" %"), 100.0 * share),
+                number("0" if even else significant(lead, 3), lead),
+                number("0" if even else significant(steep), steep),
+            ]
+        )
+    return Table(
+        title=_("Extremes over a turn at uniform input"),
+        columns=(
+            Column(heading=_("shaft"), left=True),
+            Column(heading=_("least ratio")),
+            Column(heading=_("greatest ratio")),
+            Column(heading=_("irregularity δ"), unit="%"),
+            Column(heading=_("ahead and back by"), unit="°"),
+            Column(heading=_("greatest acceleration"), unit="–" if speed is None else "rad/s²"),
+        ),
+        rows=rows,
+        note=_("Acceleration over ω₁², the square of the input speed in rad/s.") if speed is None else "",
+    )
+
+
+def _orders(on: Followed) -> Table:
+    rows = [
+        [number(str(order), float(order)), number(significant(size / deg, 3), size / deg)]
+        for order, size in on.whole.orders(ORDERS)
+    ]
+    return Table(
+        title=_("Largest orders of the output's angle error"),
+        columns=(Column(heading=_("times a turn")), Column(heading=_("amplitude"), unit="°")),
+        rows=rows,
+    )
+
+
+def yokes_refused(on: Followed) -> Page:
+    """Return the page of the yoke angles: which joints keep them from being found."""
+    problems = unknown_kinds(on.drive.joints, _("yoke angles"), has_map)
+    page = refused("phases", _("Yoke angles"), InputError(problems))
+    return replace(page, alarms=())
+
+
+def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
+    """Return the one sentence the reader came for."""
+    name, share = on.drive.name or _("The drive"), float(on.whole.irregularity[-1])
+    text = _("{name} is {share} irregular.").format(name=name, share=percent(share))
+    if share < SPECK:
+        text = _("{name} turns evenly, but for {share} that nobody notices.").format(name=name, share=percent(share))
+    alarms = [alarm.tone for page in pages for alarm in page.alarms]
+    steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
+    if steep or "failed" in alarms:
+        return Words(text=text, tone="failed")
+    return Words(text=text, tone="good" if share < SPECK and "warning" not in alarms else "warning")
+
+
+def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
+    """Yield what the reader must not overlook."""
+    yield from (alarm for page in pages for alarm in page.alarms)
+    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
+        text = too_steep(joint, k, float(bend))
+        if text:
+            yield Words(text=text, tone="failed")
+
+
+def figures_by_laws(on: Followed, pages: Sequence[Page]) -> Table:
+    """Return the figures a reader compares drives by."""
+    share, speed = float(on.whole.irregularity[-1]), on.drive.duty.speed
+    steep = float(on.whole.max_acceleration[-1])
+    rows = [
+        key(_("irregularity δ of the output"), 100.0 * share, "%", words(""), percent(share, 4).removesuffix(" %")),
+        key(_("output ahead and back by"), float(on.whole.max_lead[-1]) / deg, "°", words("")),
+    ]
+    if speed is None:
+        rows.append(key(_("largest acceleration of the output over ω₁²"), steep, "–", words("")))
+    else:
+        name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
+        rows.append(key(name, steep * speed**2, "rad/s²", words("")))
+    rows += [list(row) for page in pages for row in page.keys]
+    return Table(
+        columns=(
+            Column(heading=_("what"), left=True),
+            Column(heading=_("value")),
+            Column(heading="", left=True),
+            Column(heading=_("limit")),
+            Column(heading=_("utilisation")),
+            Column(heading=_("verdict"), left=True),
+        ),
+        rows=rows,
+    )
+
+
+def changes_by_laws(on: Followed) -> Words:
+    """Return what would make the drive even."""
+    if float(on.whole.irregularity[-1]) < SPECK:
+        return Words(text=_("Nothing needs to be changed for an even output."))
+    return Words(text=_("Joints of these kinds are even where the parts of both shafts are alike."))
+
+
+def method_by_laws(on: Followed, source_text: str | None) -> Page:
+    """Return the page of the method."""
+    from cardan import __version__
+
+    own = [f"{k}: {kind_name(joint)}" for k, joint in enumerate(on.drive.joints, start=1)]
+    blocks: list[Words | Points | Listing] = [
+        Words(
+            text=_(
+                "Every joint turns its driven shaft by φ′ = T(φ), φ from the plane of its shafts: a Möbius map of the "
+                "circle, or the law of its contacts. Angles, ratios and accelerations follow from joint to joint by "
+                "the chain rule."
+            )
+        ),
+        Points(title=_("Joints"), items=own),
+    ]
+    if source_text is not None:
+        blocks.append(Listing(title=_("Input file"), text=source_text))
+    answer = _("Reckoned by cardan {version}.").format(version=__version__)
+    return Page(name="method", title=_("Method and evidence"), answer=answer, blocks=blocks)
