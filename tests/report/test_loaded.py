@@ -27,11 +27,11 @@ from cardan.units import arcmin
 from .test_report import of_example, parsed
 
 WITH = {
-    "truck-supports": {"forces", "losses", "bending"},
+    "truck-supports": {"mobility", "forces", "losses", "bending"},
     "two-piece-rubber-bearing": {"bending"},
-    "pto-spline-thrust": {"forces", "losses"},
-    "instrument-joint": {"forces", "losses", "accuracy"},
-    "overconstrained-pump": {"forces", "losses", "assembly", "bending"},
+    "pto-spline-thrust": {"mobility", "forces", "losses"},
+    "instrument-joint": {"mobility", "forces", "losses", "accuracy"},
+    "overconstrained-pump": {"mobility", "forces", "losses", "assembly", "bending"},
     "truck-power-unit": {"torsion"},
     "pto-flywheel": {"torsion", "bending"},
     "pto-flywheel-absorber": {"torsion", "bending"},
@@ -45,7 +45,7 @@ WITH = {
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "accuracy", "assembly", "torsion", "bending"}
+PARTS = {"forces", "losses", "accuracy", "mobility", "assembly", "torsion", "bending"}
 
 
 @cache
@@ -112,6 +112,13 @@ def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
 def test_shared_forces_are_called_so():
     assert "share the forces by their stiffness" in words(example("overconstrained-pump"))
     assert "share the forces" not in words(example("truck-supports"))
+
+
+def test_the_structure_says_how_often_too_much_and_what_cures_it():
+    said = words(example("overconstrained-pump"))
+    assert "hold it 3 times more than it needs" in said
+    assert "support 4 (pump, far), float along its axis" in said
+    assert "hold it just enough" in words(example("truck-supports"))
 
 
 def test_assembly_says_how_much_and_what_to_let_go():

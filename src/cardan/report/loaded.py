@@ -11,11 +11,12 @@ from .block import Page
 from .forces import carrying
 from .life import lasting
 from .losses import rubbing
+from .mobility import binding
 from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
-PAGES = (carrying, rubbing, bearing_up, lasting, erring, straining, twisting, whirling)
+PAGES = (carrying, rubbing, bearing_up, lasting, erring, binding, straining, twisting, whirling)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
