@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import cardan
-from cardan.units import DIMENSIONS
+from cardan.units import DIMENSIONS, deg, rpm
 
 
 def write(folder: Path) -> None:
@@ -23,6 +23,7 @@ def write(folder: Path) -> None:
         "checks.md": checks(),
         "examples.md": examples(),
         "catalogue.md": rows(),
+        "joint-types.md": joint_types(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -76,6 +77,26 @@ def rows() -> str:
         lines += ["| " + " | ".join(_cell(one.get(key)) for key in keys) + " |" for one in flat]
         parts.append(f"## {name}\n\n{doc}\n\n" + "\n".join(lines) + "\n")
     return "\n".join(parts)
+
+
+def joint_types() -> str:
+    """Return the table of all types of joints with their limits, by the law by which they turn."""
+    from cardan.analysis.joint_law import types_of
+    from cardan.drive.joints import JOINTS
+
+    lines = [
+        "| kind | type of the catalogue | even | bend to | torque to | speed times bend |",
+        "|---|---|---|---|---|---|",
+    ]
+    for kind in JOINTS:
+        for row in types_of(kind):
+            torque = "–" if row.max_torque is None else f"{row.max_torque:,.10g} N·m".replace(",", "\u202f")
+            bend = "–" if row.max_bend is None else f"{row.max_bend / deg:.3g}°"
+            fast = "–" if row.max_speed_angle is None else f"{row.max_speed_angle / (rpm * deg):,.0f} rpm·°"
+            even = "as a pair" if row.synchronous_as_pair else row.synchronous
+            cells = (f"`{kind}`", row.name, even, bend, torque, fast.replace(",", "\u202f"))
+            lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def _cell(value: Any) -> str:

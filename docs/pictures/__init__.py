@@ -11,6 +11,8 @@ MODULES = (
     "conventions",
     "theory",
     "constant_velocity",
+    "couplings",
+    "joint_gallery",
     "movements",
     "absorbers",
     "calm",
