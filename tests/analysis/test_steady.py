@@ -15,6 +15,7 @@ from cardan.analysis.torsional_balance import element_torques
 from cardan.analysis.torsional_model import Torque, torsional_line
 from cardan.errors import InputError
 from cardan.maths.periodic import HarmonicBalance, Status
+from cardan.maths.piece_chain import Chain
 from cardan.maths.pieces import Shooting
 from tests.builders.torsion_in_time import drive, flow
 
@@ -205,3 +206,37 @@ def test_what_does_not_repeat_is_refused(law, field: str) -> None:
 def test_without_a_speed_nothing_runs(speed: float | None) -> None:
     with pytest.raises(InputError, match="speed"):
         periodic_response(drive(free=True), speed=speed)
+
+
+def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A load far beyond what the joints carry, at bends that no sum of harmonics follows."""
+    model = drive(bend=1.4, damping=0.0, load=1e5)
+    tried: list[int] = []
+    before = Chain.__init__
+
+    def counted(self, system, omega, plan, guess) -> None:
+        tried.append(int(plan.counts.sum()) * len(system.heavy))
+        before(self, system, omega, plan, guess)
+
+    monkeypatch.setattr(Chain, "__init__", counted)
+    found = periodic_response(model, speed=20.0)
+    assert found.status == Status.NO_CONVERGENCE
+    assert np.isnan(found.torque.mean).all()
+    assert 0 < sum(tried) <= Shooting().work + max(tried)
+    tried.clear()
+    assert periodic_response(model, speed=0.01).status == Status.NO_CONVERGENCE  # too many swings in a period
+    assert not tried
+
+
+def test_play_that_opens_at_some_speeds_alone() -> None:
+    """What keeps contact is a sum of harmonics, the rest is made of pieces; both as each speed alone."""
+    model = drive(backlash=0.004, load=40.0)
+    speeds = np.asarray([25.0, 36.0, 48.0, 90.0])
+    found = periodic_response(model, speed=speeds)
+    assert np.all(found.status == Status.CONVERGED)
+    opened = found.torque_lowest[:, 0] <= 0.0
+    assert set(found.orbit.pieces) == set(np.flatnonzero(opened).tolist())
+    assert 0 < opened.sum() < 4
+    for k, speed in enumerate(speeds):
+        one = periodic_response(drive(float(speed), backlash=0.004, load=40.0))
+        np.testing.assert_allclose(found.torque_highest[k], one.torque_highest, rtol=1e-8)

@@ -13,6 +13,6 @@ from cardan.report import torsion
 def small_maps() -> Iterator[None]:
     """Sweep over a handful of speeds, and judge stability at few of them."""
     with pytest.MonkeyPatch.context() as patch:
-        for name, count in (("SWEEP", 5), ("ACROSS", 9), ("UP", 4)):
+        for name, count in (("SWEEP", 5), ("ACROSS", 9), ("UP", 4), ("COARSE_ACROSS", 5), ("COARSE_UP", 3)):
             patch.setattr(torsion, name, count)
         yield

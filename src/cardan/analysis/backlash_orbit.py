@@ -23,6 +23,9 @@ STEP = 0.25
 TRIALS = 6
 """Steps tried."""
 
+WIDE = 0.8
+"""Largest phase in a step of drives without play: what swings fast in them is hardly excited."""
+
 SLACKS = (1.0, 0.5, 0.2, 0.05, 0.0)
 """Shares of its damping that an element keeps amid its play, on the way to none."""
 
@@ -133,19 +136,21 @@ def pieces_of(
     Without a start, or where that leads nowhere, the bends grow from 0: the straight drive rests under its mean
     torques, and each motion begins the search for the next.
     """
-    omega, free = float(turning.frequency[0]), turning.model.free
-    curve: Pieces | None = None
+    loose = bool(np.any(turning.model.backlash > 0.0))
+    search = _Search(turning, method or (Shooting() if loose else Shooting(reach=WIDE)))
     if start is not None and np.isfinite(start).all():
-        curve = _damped_first(turning, _Sum(start, force), method)
-    if curve is not None:
-        return curve
+        curve = search.near(_Sum(start, force))
+        if curve is not None:
+            return curve
     walk: _Sum | Pieces = _Sum(at_rest(turning)[0], 0.0)
     share, step = 0.0, STEP
     for _trial in range(TRIALS):
+        if search.spent:
+            break
         trial = min(share + step, 1.0)
         part = Turning(turning.model, turning.lead, turning.speed, turning.period, np.asarray([trial]))
-        found = periodic_pieces(Backlashed(part), omega, walk, free=free, method=method)
-        if found.status == Status.CONVERGED:
+        found = search.at(part, walk)
+        if found is not None:
             share, step, walk = trial, 1.5 * step, found
             if share == 1.0:
                 return found
@@ -154,19 +159,36 @@ def pieces_of(
     return None
 
 
-def _damped_first(turning: Turning, start: _Sum, method: Shooting | None) -> Pieces | None:
-    """Return the motion near a Fourier sum, if need be by way of dampers that act amid the play as well, or None."""
-    omega, free = float(turning.frequency[0]), turning.model.free
-    found = periodic_pieces(Backlashed(turning), omega, start, free=free, method=method)
-    if found.status == Status.CONVERGED:
+class _Search:
+    """Tries to find the motion of one drive, within the work that all of them may take."""
+
+    def __init__(self, turning: Turning, how: Shooting) -> None:
+        self.turning, self.how = turning, how
+
+    @property
+    def spent(self) -> bool:
+        """Whether no work is left."""
+        return self.how.work <= 0
+
+    def at(self, turning: Turning, start: _Sum | Pieces, slack: float = 0.0) -> Pieces | None:
+        """Return the motion that shooting finds, or None."""
+        omega, free = float(turning.frequency[0]), turning.model.free
+        found = periodic_pieces(Backlashed(turning, slack), omega, start, free=free, method=self.how)
+        self.how = replace(self.how, work=0 if found is None else max(self.how.work - found.work, 0))
+        return found if found is not None and found.status == Status.CONVERGED else None
+
+    def near(self, start: _Sum) -> Pieces | None:
+        """Return the motion near a sum, if need be by way of dampers that act amid the play as well, or None."""
+        found = self.at(self.turning, start)
+        if found is not None or not np.any(self.turning.model.backlash > 0.0):
+            return found
+        curve: _Sum | Pieces = start
+        for slack in SLACKS:
+            found = None if self.spent else self.at(self.turning, curve, slack)
+            if found is None:
+                return None
+            curve = found
         return found
-    curve: _Sum | Pieces = start
-    for slack in SLACKS:
-        found = periodic_pieces(Backlashed(turning, slack), omega, curve, free=free, method=method)
-        if found.status != Status.CONVERGED:
-            return None
-        curve = found
-    return found
 
 
 class _Sum:

@@ -13,13 +13,15 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.compiled.method import Compiled, Method, chosen
 from cardan.maths.compiled.threads import share
 from cardan.maths.periodic import Status
+from cardan.maths.pieces import Shooting
 from cardan.texts import _
 
+from .closed_play import closed, stays_closed
 from .multipliers import Turns, values_of
 from .orbit import Orbit
 from .stability import Floquet, Verdict, Zone, floquet, judged, shaped
 from .stability_kernel import SURE, fits, harmonics_for, mapped
-from .steady import periodic_response, speeds_of, started
+from .steady import speeds_of, started, steady_orbits
 from .steady_start import straight_frequencies
 from .torsional_batch import Turning, leading, period_of
 from .torsional_model import TorsionalModel
@@ -41,6 +43,9 @@ PACE, WEIGHT = 1e-4, 1000
 
 ROUGH = 5e-7
 """Error of the kernel's multipliers, about: so close to modulus 1 they count as neutral."""
+
+LONG = Shooting(reach=0.8, work=30_000)
+"""How motions with open play are found: at the ends of such steps, where multipliers come from, right to 1e-10."""
 
 SMALL = 1e-4
 """Largest of the upper harmonics, over the largest of all, of a motion that is not called coarse."""
@@ -94,7 +99,7 @@ def floquet_map(
     speed : array (...) [rad/s], optional
         Of the input, or mean speed of free drives; by default the input speed of the model.
     method : Plain or Compiled, optional
-        Compiled for more than a few points by default. The kernel does not know backlash, tables of torques, backward
+        Compiled for more than a few points by default. The kernel does not know open play, tables of torques, backward
         turning and coordinates without inertia: they go the plain way, as do points whose motion it does not find.
     harmonics : int, optional
         Harmonics of the motion in the kernel, for half a turn each; as many as the bends ask for by default.
@@ -138,7 +143,7 @@ def floquet_map(
         model = replace(model, input_speed=omega)
     turning = Turning(model, lead, np.broadcast_to(omega, lead).reshape(-1), period_of(model))
     way = chosen(method, np, count >= WORTH)
-    compiled = isinstance(way, Compiled) and fits(model, omega)
+    compiled = isinstance(way, Compiled) and fits(replace(model, backlash=np.zeros_like(model.backlash)), omega)
     waves = (harmonics * round(turning.period / np.pi)) if harmonics else harmonics_for(model, turning.period)
     table = _Table(turning, waves)
     done, stopped = 0, False
@@ -177,8 +182,8 @@ class _Table:
         for first in range(0, len(rows), FEW):
             some = rows[first : first + FEW]
             part = self.turning.part(some)
-            steady = periodic_response(part.model, speed=part.speed)
-            self.put(some, floquet(steady), steady.orbit.coefficient, steady.orbit.force, steady.status)
+            orbit, status = steady_orbits(part.model, speed=part.speed, opened=LONG)
+            self.put(some, floquet(orbit), orbit.coefficient, orbit.force, status)
 
     def by_kernel(self, rows: Array, threads: int | None) -> Array:
         """Find points by the kernel, coarse ones again with more harmonics; return those it found no motion for."""
@@ -193,9 +198,11 @@ class _Table:
         """Find points by the kernel; return those it found no motion for."""
         if not len(rows):
             return rows
-        part = self.turning.part(rows)
+        whole = self.turning.part(rows)
+        part = closed(whole)
         found = mapped(part, harmonics, threads=threads)
         sure = (found.moved <= SURE) & np.isfinite(found.matrix).all(axis=(1, 2))
+        sure &= stays_closed(whole, found.coefficient)
         if not np.any(sure):
             return rows
         part, coefficient = part.part(np.flatnonzero(sure)), found.coefficient[sure]

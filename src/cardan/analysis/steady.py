@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -12,10 +12,10 @@ from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.periodic import HarmonicBalance, Status, Waves, harmonic_balance
 from cardan.maths.pieces import Pieces, Shooting
-from cardan.maths.waves import series_at
 from cardan.texts import _
 
-from .backlash_orbit import Backlashed, pieces_of
+from .backlash_orbit import pieces_of
+from .closed_play import closed, stays_closed
 from .orbit import Orbit
 from .steady_orders import read_off
 from .steady_result import Orders, SteadyResponse
@@ -32,6 +32,9 @@ HARMONICS = 6
 KINKED = 16
 """The same where backlash may open: enough to read off where."""
 
+BENDS = ((0.33, 0.0), (0.66, 0.0), (1.0, 0.0))
+"""Shares of the bends on the way to a motion without play; no corners."""
+
 WAY = ((0.33, 1.0), (0.66, 1.0), (1.0, 1.0), (1.0, 0.55), (1.0, 0.3), (1.0, 0.17), (1.0, 0.09), (1.0, 0.05))
 """Shares of the bends, and radii of corners over half the backlash, on the way to a motion with open backlash."""
 
@@ -40,9 +43,6 @@ CHUNK = 256
 
 LOWER = 25
 """Harmonics kept of motions in pieces, beside the pieces themselves."""
-
-FINE = 512
-"""Places of a period at which contact is looked at."""
 
 
 def periodic_response(
@@ -95,13 +95,34 @@ def periodic_response(
     >>> found.torque.amplitude[:, 0].round(3)  # order 2
     array([123.541, 117.368])
     """
+    orbit, status = steady_orbits(model, speed=speed, method=method, progress=progress)
+    return _described(orbit, status, orders)
+
+
+def steady_orbits(
+    model: TorsionalModel,
+    *,
+    speed: ArrayLike | None = None,
+    method: HarmonicBalance | Shooting | None = None,
+    opened: Shooting | None = None,
+    progress: Progress | None = None,
+) -> tuple[Orbit, Array]:
+    """Return the motions of `periodic_response` alone, and their status, array of int (...).
+
+    Parameters
+    ----------
+    model, speed, method, progress
+        As `periodic_response` takes them.
+    opened : Shooting, optional
+        How to find motions that are no Fourier sums, where the method does not say it.
+    """
     omega = speeds_of(model, speed)
     lead = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
     if not model.free:
         model = replace(model, input_speed=omega)
     flat = np.broadcast_to(omega, lead).reshape(-1)
     turning = Turning(model, lead, flat, period_of(model))
-    waves, pieces = _solved(turning, method, progress)
+    waves, pieces = _solved(turning, method, opened, progress)
     whole = np.pad(waves.coefficient, ((0, 0), (turning.first, 0), (0, 0)))
     orbit = Orbit(
         model=model,
@@ -111,7 +132,7 @@ def periodic_response(
         force=waves.force.reshape(lead),
         pieces=pieces,
     )
-    return _described(orbit, waves.status, orders)
+    return orbit, waves.status.reshape(lead)
 
 
 def speeds_of(model: TorsionalModel, speed: ArrayLike | None) -> Array:
@@ -129,7 +150,7 @@ def speeds_of(model: TorsionalModel, speed: ArrayLike | None) -> Array:
 
 
 def _solved(
-    turning: Turning, method: HarmonicBalance | Shooting | None, progress: Progress | None
+    turning: Turning, method: HarmonicBalance | Shooting | None, opened: Shooting | None, progress: Progress | None
 ) -> tuple[Waves, dict[int, Pieces]]:
     """Return the motions of all drives, chunk by chunk."""
     count = len(turning.speed)
@@ -141,27 +162,34 @@ def _solved(
         if stopped:
             parts.append(_nothing(len(rows), turning.coordinates, Status.CANCELLED))
             continue
-        waves = _nothing(len(rows), turning.coordinates, Status.NO_CONVERGENCE)
-        near = waves.coefficient
+        part = turning.part(rows)
+        waves, near = (_nothing(len(rows), turning.coordinates, Status.NO_CONVERGENCE) for _each in range(2))
         if not isinstance(method, Shooting):
-            waves, near = _by_waves(turning.part(rows), method)
-        for k, row in enumerate(rows):
-            if stopped or (waves.status[k] == Status.CONVERGED and not _switches(turning, int(row), waves, k)):
+            waves, near = _by_waves(part, method)
+        own: dict[int, Pieces] = {}
+        lost: list[int] = []
+        for k in np.flatnonzero(waves.status != Status.CONVERGED).tolist():
+            if stopped:
+                waves.status[k] = Status.CANCELLED
                 continue
-            alone = turning.part(rows[k : k + 1])
+            alone = part.part(np.asarray([k]))
             if isinstance(method, Shooting):
                 found = pieces_of(alone, method=method)
             else:
-                found = pieces_of(alone, near[k], float(waves.force[k]))
-            if found is not None:
-                pieces[int(row)] = found
-            stopped = progress is not None and progress((int(row) + 1) / count) == "stop"
-        parts.append(_with_pieces(waves, {k: pieces[int(row)] for k, row in enumerate(rows) if int(row) in pieces}))
+                found = pieces_of(alone, near.coefficient[k], float(near.force[k]), method=opened)
+            if found is None:
+                lost.append(k)
+            else:
+                own[k] = found
+            stopped = progress is not None and progress((int(rows[k]) + 1) / count) == "stop"
+        if lost and not isinstance(method, Shooting) and np.any(part.model.backlash > 0.0):
+            waves = _put(waves, np.asarray(lost), _sharp(part.part(np.asarray(lost)), _some(near, np.asarray(lost))))
+        parts.append(_with_pieces(waves, own))
+        pieces |= {int(rows[k]): found for k, found in own.items()}
         stopped = stopped or (progress is not None and progress((int(rows[-1]) + 1) / count) == "stop")
     wide = max(part.coefficient.shape[-1] for part in parts)
-    padded = [np.pad(part.coefficient, ((0, 0), (0, 0), (0, wide - part.coefficient.shape[-1]))) for part in parts]
     whole = {name: np.concatenate([getattr(part, name) for part in parts]) for name in ("force", "status", "tail")}
-    return Waves(coefficient=np.concatenate(padded), **whole), pieces
+    return Waves(coefficient=np.concatenate([_widened(part.coefficient, wide) for part in parts]), **whole), pieces
 
 
 def _with_pieces(waves: Waves, pieces: dict[int, Pieces]) -> Waves:
@@ -181,18 +209,6 @@ def _with_pieces(waves: Waves, pieces: dict[int, Pieces]) -> Waves:
     return replace(waves, coefficient=coefficient, force=force, status=status)
 
 
-def _switches(turning: Turning, row: int, waves: Waves, k: int) -> bool:
-    """Tell whether an element of a motion comes out of contact, or changes its side."""
-    drives = turning.drives(np.asarray([row]))
-    if not np.any(drives.backlash > 0.0):
-        return False
-    switching = Backlashed(turning.part(np.asarray([row])))
-    phase = 2.0 * np.pi * np.arange(FINE) / FINE
-    twist = switching.twist(phase, series_at(waves.coefficient[k], phase)[0])[0]
-    inside = (np.abs(twist) <= switching.play) & (switching.play > 0.0)
-    return bool(np.any(inside) or np.any(np.any(twist > switching.play, axis=0) & np.any(twist < 0.0, axis=0)))
-
-
 def _nothing(count: int, coordinates: int, status: Status) -> Waves:
     return Waves(
         coefficient=np.full((count, coordinates, 1), np.nan + 0j),
@@ -202,53 +218,88 @@ def _nothing(count: int, coordinates: int, status: Status) -> Waves:
     )
 
 
-def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Array]:
-    """Return the motions of some drives as Fourier sums, those without one nan, and sums to begin a search with."""
-    free, half_turns = part.model.free, round(part.period / np.pi)
-    rested = at_rest(part)
-    start, how = rested, method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
-    kinked = method is None and bool(np.any(part.model.backlash > 0.0))
-    if kinked:
-        how = HarmonicBalance(harmonics=KINKED * half_turns, most=2 * KINKED * half_turns)
-        start = _along_bends(part, rested, replace(how, most=how.harmonics))
+def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Waves]:
+    """Return motions as Fourier sums, where play stays closed, and sums to search from where there are none."""
+    half_turns, smooth = round(part.period / np.pi), closed(part)
+    how = method or HarmonicBalance(harmonics=HARMONICS * half_turns, most=96)
+    found = _sums(smooth, at_rest(smooth), how)
+    lost = np.flatnonzero((found.status == Status.NO_CONVERGENCE) | ~stays_closed(part, found.coefficient))
+    if not lost.size:
+        return found, found
+    if np.any(part.model.backlash > 0.0):
+        kinked = HarmonicBalance(harmonics=KINKED * half_turns, most=KINKED * half_turns)
+        again = _along(part.part(lost), WAY, kinked)
+        again = replace(again, status=np.full(len(lost), int(Status.NO_CONVERGENCE)))  # corners are not that round
+    else:
+        again = _along(part.part(lost), BENDS, how)
+    there = (again.status != Status.NO_CONVERGENCE)[:, None, None]
+    known = replace(again, coefficient=np.where(there, again.coefficient, np.nan))
+    return _put(found, lost, known), _put(found, lost, again)
+
+
+def _sharp(part: Turning, near: Waves) -> Waves:
+    """Return what motions with open play are, at least coarsely, where no pieces were found."""
+    half_turns = round(part.period / np.pi)
+    how = HarmonicBalance(harmonics=KINKED * half_turns, most=2 * KINKED * half_turns)
+    found = _sums(part, near.coefficient, how)
+    lost = np.flatnonzero(found.status == Status.NO_CONVERGENCE)
+    if lost.size:  # the way from the straight drive may have turned back
+        some = part.part(lost)
+        found = _put(found, lost, _sums(some, at_rest(some), how))
+    return found
+
+
+def _sums(part: Turning, start: Array, how: HarmonicBalance) -> Waves:
+    """Return motions by harmonic balance, those of free drives beginning with the shaft angle."""
+    free = part.model.free
     found = harmonic_balance(part, part.frequency, part.coordinates, free=free, start=start, method=how)
     lost = found.status == Status.NO_CONVERGENCE
-    if kinked and np.any(lost):  # the way from the straight drive may have turned back
-        again = harmonic_balance(part, part.frequency, part.coordinates, free=free, start=rested, method=how)
-        found = _either(found, again, lost)
-        lost = found.status == Status.NO_CONVERGENCE
-    near = np.where(lost[:, None, None], _widened(start, found.coefficient.shape[-1]), found.coefficient)
-    coefficient = np.where(lost[:, None, None], np.nan, found.coefficient)
-    if free:
-        coefficient, near = started(coefficient, part.period), started(near, part.period)
-    return replace(found, coefficient=coefficient, force=np.where(lost, 0.0, found.force)), near
+    coefficient = started(found.coefficient, part.period) if free else found.coefficient
+    return replace(
+        found,
+        coefficient=np.where(lost[:, None, None], np.nan, coefficient),
+        force=np.where(lost, 0.0, found.force),
+    )
 
 
-def _along_bends(part: Turning, start: Array, how: HarmonicBalance) -> Array:
-    """Return the motions of drives with rounded corners of backlash, along growing bends and ever sharper corners."""
-    for share, rounding in WAY:
-        shares = np.full(len(part.speed), share)
-        bent = Turning(part.model, part.lead, part.speed, part.period, shares, rounding)
-        found = harmonic_balance(
-            bent, bent.frequency, bent.coordinates, free=part.model.free, start=start, method=how
-        ).coefficient
-        kept = _widened(start, found.shape[-1])
-        start = np.where(np.isfinite(found).all(axis=(1, 2), keepdims=True), found, kept)
-    return start
+def _along(part: Turning, way: tuple[tuple[float, float], ...], how: HarmonicBalance) -> Waves:
+    """Return the motions at the end of a way of growing bends and ever sharper corners of play.
+
+    The sums of a step that has none are those of the step before, and so to be searched from alone.
+    """
+    found = Waves(
+        coefficient=at_rest(part),
+        force=np.zeros(len(part.speed)),
+        status=np.full(len(part.speed), int(Status.NO_CONVERGENCE)),
+        tail=np.zeros(len(part.speed)),
+    )
+    for share, rounding in way:
+        bent = Turning(part.model, part.lead, part.speed, part.period, np.full(len(part.speed), share), rounding)
+        next_ = _sums(bent, found.coefficient, how)
+        there = np.flatnonzero(next_.status != Status.NO_CONVERGENCE)
+        found = replace(_put(found, there, _some(next_, there)), status=next_.status)
+    return found
+
+
+def _some(waves: Waves, rows: Array) -> Waves:
+    """Return some of the motions."""
+    return Waves(**{one.name: getattr(waves, one.name)[rows] for one in fields(Waves)})
+
+
+def _put(waves: Waves, rows: Array, others: Waves) -> Waves:
+    """Return motions with others in their place."""
+    wide = max(waves.coefficient.shape[-1], others.coefficient.shape[-1])
+    found = {one.name: getattr(waves, one.name).copy() for one in fields(Waves)}
+    found["coefficient"] = _widened(waves.coefficient, wide)
+    found["coefficient"][rows] = _widened(others.coefficient, wide)
+    for name in ("force", "status", "tail"):
+        found[name][rows] = getattr(others, name)
+    return Waves(**found)
 
 
 def _widened(coefficient: Array, width: int) -> Array:
     """Return sums of a given number of coefficients."""
-    kept = min(width, coefficient.shape[-1])
-    return np.pad(coefficient[..., :kept], ((0, 0), (0, 0), (0, width - kept)))
-
-
-def _either(one: Waves, other: Waves, chosen: Array) -> Waves:
-    """Return the other motions where chosen."""
-    wide = max(one.coefficient.shape[-1], other.coefficient.shape[-1])
-    pair = [np.pad(w.coefficient, ((0, 0), (0, 0), (0, wide - w.coefficient.shape[-1]))) for w in (one, other)]
-    rest = {name: np.where(chosen, getattr(other, name), getattr(one, name)) for name in ("force", "status", "tail")}
-    return Waves(coefficient=np.where(chosen[:, None, None], pair[1], pair[0]), **rest)
+    return np.pad(coefficient, ((0, 0), (0, 0), (0, width - coefficient.shape[-1])))
 
 
 def started(coefficient: Array, period: float) -> Array:

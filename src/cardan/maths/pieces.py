@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -27,11 +27,18 @@ WITHIN = 1024
 BRIEF = 1e-8
 """Pieces shorter than this share of the period have vanished: the order of the switches is another one."""
 
+HALVINGS = 12
+"""How often a switch is halved in: Newton's method moves it to its place."""
+
 GRAZING = 1e-6
 """An element that switches for less than this share of the period only grazes."""
 
 NEAR = 1e-9
 """Overlap of sides that rounding explains, over the play."""
+
+
+LEAST = 4
+"""Newton steps that the work must allow for, for the search to begin."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,12 +56,15 @@ class Shooting:
         six, is right to 1e-8.
     leap : float
         Longest way of a coordinate in one Newton step.
+    work : int
+        Steps of collocation linearised at most, times the coordinates: some seconds, then there is no motion.
     """
 
     steps: int = 16
     rounds: int = 6
     reach: float = 0.4
     leap: float = 0.3
+    work: int = 150_000
 
 
 class Curve(Protocol):
@@ -90,6 +100,8 @@ class Pieces:
     monodromy : array (m, m)
         What a disturbance (x, v) at time 0 has become after a period, speeds without mass left out.
     status : Status
+    work : int
+        What the search took of `Shooting.work`.
     """
 
     omega: float
@@ -102,6 +114,7 @@ class Pieces:
     force: float
     monodromy: Array
     status: Status
+    work: int
 
     @property
     def duration(self) -> float:
@@ -123,6 +136,12 @@ class Pieces:
         x, v, a = stages(self.x[:-1], self.v[:-1], self.inner, h, self.heavy)
         return self.time[:-1, None] + h[:, None] * places, h[:, None] * table[-1], x, v, a
 
+    @cached_property
+    def _powers(self) -> Array:
+        """Coefficients of what is within the steps by powers of the share of the step, array (n, s, R)."""
+        places, _table = collocation(self.inner.shape[1], stiff=not self.heavy.all())
+        return np.matmul(np.linalg.inv(places[:, None] ** np.arange(len(places))), self.inner)
+
     def at(self, phase: ArrayLike) -> tuple[Array, Array, Array]:
         """Return x and its first two derivatives by the phase at phases (p,), arrays (p, R)."""
         turned = np.asarray(phase, dtype=float) / self.omega
@@ -133,12 +152,10 @@ class Pieces:
 
     def inside(self, step: Array, since: Array) -> tuple[Array, Array, Array]:
         """Return x, v and a in steps (p,) at times since their beginning, arrays (p, R)."""
-        places, _table = collocation(self.inner.shape[1], stiff=not self.heavy.all())
-        powers = np.arange(1, len(places) + 1)
-        spread = np.linalg.inv(places[:, None] ** (powers - 1))
-        share = (since / np.diff(self.time)[step])[:, None]
+        powers = np.arange(1, self.inner.shape[1] + 1)
         span = np.diff(self.time)[step][:, None]
-        each = np.matmul(spread, self.inner)[step]
+        share = since[:, None] / span
+        each = self._powers[step]
         value = np.einsum("pk,pkr->pr", share ** (powers - 1), each)
         once = np.einsum("pk,pkr->pr", share**powers / powers, each) * span
         twice = np.einsum("pk,pkr->pr", share ** (powers + 1) / (powers * (powers + 1)), each) * span**2
@@ -153,7 +170,7 @@ class Pieces:
 
 def periodic_pieces(
     system: Switching, omega: float, start: Curve, *, free: bool = False, method: Shooting | None = None
-) -> Pieces:
+) -> Pieces | None:
     """Return a periodic motion of an oscillator that switches.
 
     Parameters
@@ -170,8 +187,9 @@ def periodic_pieces(
 
     Returns
     -------
-    Pieces
-        Its status says whether Newton's method came to rest and all sides are as assumed.
+    Pieces or None
+        Its status says whether Newton's method came to rest and all sides are as assumed. None where a period holds too
+        many swings of the fastest for the work that may be done.
 
     Notes
     -----
@@ -181,21 +199,28 @@ def periodic_pieces(
     how = method or Shooting()
     curve: Curve = start
     found: Pieces | None = None
-    for _round in range(how.rounds):
+    work = 0
+    if LEAST * len(system.heavy) * 2.0 * math.pi * system.fastest / (abs(omega) * how.reach) > how.work:
+        return None
+    for _round in range(how.rounds if np.any(system.play > 0.0) else min(how.rounds, 2)):
         plan = _plan(system, omega, curve, how.reach)
         guess = _first_guess(plan, omega, curve, system.heavy)
-        guess, good, whole = _newton(system, omega, plan, guess, free, how)
-        found = _pieces(omega, plan, guess, system.heavy, whole, good)
+        each = int(plan.counts.sum()) * len(system.heavy)
+        guess, good, whole, done = _newton(system, omega, plan, guess, free, how, max((how.work - work) // each, 1))
+        work += done * each
+        found = _pieces(omega, plan, guess, system.heavy, whole, good, work)
         if not np.isfinite(found.x).all():
             break
         if good and _fits(system, found):
             return found
+        if work + each > how.work:
+            break
         curve = found
     assert found is not None
-    return _pieces(omega, plan, guess, system.heavy, whole, False)
+    return replace(found, status=Status.NO_CONVERGENCE)
 
 
-def _pieces(omega: float, plan: Plan, guess: Guess, heavy: Array, whole: Array, good: bool) -> Pieces:
+def _pieces(omega: float, plan: Plan, guess: Guess, heavy: Array, whole: Array, good: bool, work: int) -> Pieces:
     ends = [
         start + (end - start) * np.arange(count) / count
         for start, end, count in zip(guess.times[:-1], guess.times[1:], plan.counts, strict=True)
@@ -211,6 +236,7 @@ def _pieces(omega: float, plan: Plan, guess: Guess, heavy: Array, whole: Array, 
         force=guess.force,
         monodromy=whole,
         status=Status.CONVERGED if good else Status.NO_CONVERGENCE,
+        work=work,
     )
 
 
@@ -222,20 +248,21 @@ def _plan(system: Switching, omega: float, curve: Curve, reach: float) -> Plan:
     """Return the switches of a motion."""
     duration = 2.0 * math.pi / abs(omega)
     play = system.play
-    count = max(WITHIN, 8 * math.ceil(system.fastest * duration))
+    count = max(WITHIN, 8 * math.ceil(system.fastest * duration)) if np.any(play > 0.0) else 1
     time = duration * np.arange(count + 1) / count
 
     def twists(when: Array) -> Array:
         return system.twist(omega * when, curve.at(omega * when)[0])[0]
 
     sides = _side(twists(time), play)
-    events: list[tuple[float, int, int, int]] = []
-    for e in np.flatnonzero(np.any(sides[1:] != sides[:-1], axis=0)):
-        for k in np.flatnonzero(sides[1:, e] != sides[:-1, e]):
-            old, new = int(sides[k, e]), int(sides[k + 1, e])
-            for a, b in [(old, new)] if abs(new - old) == 1 else [(old, 0), (0, new)]:
-                events.append((_crossing(twists, time[k], time[k + 1], int(e), (a or b) * play[e]), int(e), a, b))
-    events = _lasting(sorted(events), duration)
+    passes: list[tuple[int, int, int, int]] = []
+    for k, e in np.argwhere(sides[1:] != sides[:-1]).tolist():
+        old, new = int(sides[k, e]), int(sides[k + 1, e])
+        passes += [(k, e, a, b) for a, b in ([(old, new)] if abs(new - old) == 1 else [(old, 0), (0, new)])]
+    at, element, before, after = np.asarray(passes, dtype=int).reshape(-1, 4).T
+    when = _crossings(twists, time[at], time[at + 1], element, np.where(before, before, after) * play[element])
+    found = zip(when.tolist(), *(one.tolist() for one in (element, before, after)), strict=True)
+    events = _lasting(sorted(found), duration)
     here = sides[0].copy()
     all_sides = [here.copy()]
     for event in events:
@@ -266,15 +293,16 @@ def _lasting(events: list[tuple[float, int, int, int]], duration: float) -> list
     return kept
 
 
-def _crossing(twists: Callable[[Array], Array], low: float, high: float, element: int, level: float) -> float:
-    """Return when a twist passes a level between two times, by halving."""
-    below = twists(np.asarray([low]))[0, element] < level
-    for _round in range(30):
+def _crossings(twists: Callable[[Array], Array], low: Array, high: Array, element: Array, level: Array) -> Array:
+    """Return when twists pass levels between two times each (k,), by halving."""
+    each = np.arange(len(low))
+    if not each.size:
+        return low
+    below = twists(low)[each, element] < level
+    for _round in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if (twists(np.asarray([middle]))[0, element] < level) == below:
-            low = middle
-        else:
-            high = middle
+        later = (twists(middle)[each, element] < level) == below
+        low, high = np.where(later, middle, low), np.where(later, high, middle)
     return 0.5 * (low + high)
 
 
@@ -300,20 +328,21 @@ def _first_guess(plan: Plan, omega: float, curve: Curve, heavy: Array) -> Guess:
 
 
 def _newton(
-    system: Switching, omega: float, plan: Plan, guess: Guess, free: bool, how: Shooting
-) -> tuple[Guess, bool, Array]:
-    """Return the motion, whether Newton's method came to rest, and the monodromy matrix."""
+    system: Switching, omega: float, plan: Plan, guess: Guess, free: bool, how: Shooting, most: int
+) -> tuple[Guess, bool, Array, int]:
+    """Return the motion, whether Newton's method came to rest, the monodromy matrix, and how many steps it took."""
     heavy = system.heavy
     rank, states = len(heavy), len(heavy) + int(heavy.sum())
     whole = np.full((states, states), np.nan)
-    for _step in range(how.steps):
+    done = 0
+    for done in range(1, min(how.steps, most) + 1):
         chain = Chain(system, omega, plan, guess)
         if not chain.finite:
-            return guess, False, whole
+            return guess, False, whole, done
         try:
             moved, whole = chain.closed(free)
         except np.linalg.LinAlgError:
-            return guess, False, whole
+            return guess, False, whole, done
         times, state, inner, force = moved
         lengths, change = np.diff(guess.times), np.diff(times)
         share = min(1.0, float(np.min(np.where(change < 0.0, -0.6 * lengths / np.minimum(change, -1e-300), 1.0))))
@@ -327,10 +356,10 @@ def _newton(
             force=guess.force + share * force,
         )
         if not np.isfinite(size) or float(np.min(np.diff(guess.times))) < BRIEF * guess.times[-1]:
-            return guess, False, whole
+            return guess, False, whole, done
         if share == 1.0 and size <= 1e-10 * float(np.max(np.abs(guess.x), initial=0.0)) + 1e-13:
-            return guess, True, whole
-    return guess, False, whole
+            return guess, True, whole, done
+    return guess, False, whole, done
 
 
 def _spread(speeds: Array, heavy: Array) -> Array:

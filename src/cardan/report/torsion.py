@@ -34,6 +34,9 @@ SWEEP = 31
 ACROSS, UP = 61, 14
 """Speeds and bends of the map of stability."""
 
+COARSE_ACROSS, COARSE_UP = 21, 7
+"""The same of a drive with play: a point at which that opens takes a hundred times as long."""
+
 LITTLE, WIDEST = math.radians(0.5), math.radians(45.0)
 """No map of drives bent less; what stands for the bend of one that is bent more."""
 
@@ -52,7 +55,7 @@ def twisting(on: Subject) -> Page | None:
         known = drive.duty.speed is not None
         runs = torsion_response(drive) if known else None
         swept = _swept(drive)
-        mapped = _mapped(drive)
+        mapped = _mapped(drive, modes)
     except InputError as error:
         return refused("torsion", title, error)
     alarms = list(_alarms(modes, runs))
@@ -64,6 +67,8 @@ def twisting(on: Subject) -> Page | None:
         blocks += [Picture(figure=sweep_figure(swept)), Picture(figure=waterfall_figure(swept))]
     if mapped is not None:
         blocks.append(Picture(figure=map_figure(mapped)))
+        if _plays(modes):
+            blocks.append(_finer(mapped))
     if modes.train.assumed:
         blocks.append(Points(title=_("Assumed"), items=list(_assumed(modes))))
     blocks.append(_checks(modes, runs))
@@ -86,14 +91,29 @@ def _swept(drive: Drive) -> TorsionResponse | None:
     return torsion_response(drive, speed=np.linspace(low, high, SWEEP))
 
 
-def _mapped(drive: Drive) -> Stability | None:
+def _mapped(drive: Drive, modes: TorsionModes) -> Stability | None:
     """Return where vibration grows, about the speed and the bends of the drive; None where it has none of them."""
     bend = float(np.max(given_chain(drive).bend))
     if not drive.duty.speed or bend < LITTLE:
         return None
     runs = abs(drive.duty.speed) / rpm
-    speeds = np.linspace(0.5 * runs, 1.5 * runs, ACROSS)
-    return stability(drive, over={"duty.speed_rpm": speeds, BEND: np.linspace(0.3, 1.6, UP) * min(bend, WIDEST) / deg})
+    across, up = (COARSE_ACROSS, COARSE_UP) if _plays(modes) else (ACROSS, UP)
+    speeds = np.linspace(0.5 * runs, 1.5 * runs, across)
+    return stability(drive, over={"duty.speed_rpm": speeds, BEND: np.linspace(0.3, 1.6, up) * min(bend, WIDEST) / deg})
+
+
+def _plays(modes: TorsionModes) -> bool:
+    """Tell whether anything has play that may open."""
+    return bool(np.any(modes.train.model.backlash > 0.0))
+
+
+def _finer(mapped: Stability) -> Words:
+    """Return how to get a map in full."""
+    (_speed, speeds), (_bend, bends) = mapped.over
+    asked = "--speeds {:.4g}:{:.4g}:{} --bends {:.3g}:{:.3g}:{}"
+    asked = asked.format(speeds[0], speeds[-1], ACROSS, bends[0], bends[-1], UP)
+    text = _("The map is coarse, as motions whose play opens take long; in full: cardan torsion stability FILE {asked}")
+    return Words(text=text.format(asked=asked))
 
 
 def _answer(modes: TorsionModes, runs: TorsionResponse | None) -> str:
