@@ -129,3 +129,14 @@ def test_a_document_has_all_figures_with_their_words_and_ids_of_its_own():
     assert words.count("Title") == words.count("Sentence.") == words.count("Source") == 2
     ids = [one.get("id") for one in tree.iter() if one.get("id")]
     assert len(ids) == len(set(ids)) == 2
+
+
+def test_words_of_rules_side_by_side_stand_below_each_other_and_within_the_frame():
+    at = {"in use": 5.0, "1.6 × the highest": 5.1, "far": 8.5, "at the very end of it": 9.9}
+    one = figure(*(Rule(value=value, upright=True, text=text) for text, value in at.items()))
+    tree = ElementTree.fromstring(inline_svg(one))
+    found = {text.text: text for text in tree.iter(f"{SVG}text") if text.text in at}
+    lines = {text: float(one.get("y")) for text, one in found.items()}
+    assert lines["in use"] == lines["far"] < lines["1.6 × the highest"]
+    assert lines["at the very end of it"] > lines["far"]
+    assert [text for text, one in found.items() if one.get("text-anchor") == "end"] == ["at the very end of it"]

@@ -6,10 +6,20 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .figure import Bars, Curve, Figure, Panel, Row, Shape
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+from .figure import Axis, Band, Bars, Curve, Figure, Panel, Row, Rule, Shape
 
 LETTER = 0.066
 """Width of an average letter of 8.5 pt."""
+
+RULE_LETTER = 0.055
+"""Width of an average letter beside a rule."""
+
+LINE = 0.13
+"""Height of a line of such words."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,6 +129,58 @@ def ranges(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, fl
         return middle - half, middle + half
 
     return about(x, box.width), about(y, box.height)
+
+
+def share(axis: Axis, low: float, high: float, values: Array) -> Array:
+    """Return where values stand along an axis: 0 at ``low``, 1 at ``high``."""
+    if not axis.log:
+        return (values - low) / (high - low)
+    first, last = np.log(low), np.log(high)
+    found: Array = (np.log(np.maximum(values, 1e-300)) - first) / (last - first)
+    return found
+
+
+@dataclass(frozen=True, kw_only=True)
+class Label:
+    """Where the words of an upright rule or band stand.
+
+    Attributes
+    ----------
+    line : int
+        In which line from the top of the frame, so that words side by side do not run into each other.
+    before : bool
+        To the left of the rule, where the frame has no room to its right.
+    """
+
+    line: int = 0
+    before: bool = False
+
+
+def labels(panel: Panel, box: Box) -> dict[int, Label]:
+    """Return where the words of upright rules and bands stand, by their place in the panel's series.
+
+    Parameters
+    ----------
+    panel : Panel
+        The panel.
+    box : Box
+        Its frame.
+    """
+    low, high = ranges(panel, box)[0]
+    spans = []
+    for k, item in enumerate(panel.series):
+        if isinstance(item, Rule | Band) and item.upright and item.text:
+            value = item.value if isinstance(item, Rule) else item.high
+            at, wide = box.width * float(share(panel.x, low, high, np.asarray(value))), RULE_LETTER * len(item.text)
+            before = at + wide > box.width + 0.1 and at > wide
+            spans.append((at - wide if before else at, wide, k, before))
+    found: dict[int, Label] = {}
+    ends: list[float] = []
+    for start, wide, k, before in sorted(spans):
+        line = next((n for n, end in enumerate(ends) if end < start), len(ends))
+        ends[line : line + 1] = [start + wide]
+        found[k] = Label(line=line, before=before)
+    return found
 
 
 def _rooms(figure: Figure) -> dict[int, list[float]]:

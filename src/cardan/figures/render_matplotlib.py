@@ -7,7 +7,7 @@ from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import palette
 from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import Box, Entry, Page, laid_out, ranges
+from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges
 from .projection import facets, onto
 
 if TYPE_CHECKING:
@@ -143,8 +143,11 @@ def _panel(axes: Axes, panel: Panel, box: Box) -> None:
     meshes = [item for item in panel.series if isinstance(item, Mesh)]
     if meshes and panel.view is not None:
         _solids(axes, panel, meshes)
+    known = labels(panel, box)
     for order, item in enumerate(panel.series):
         _series(axes, panel, item, 3.0 + 0.01 * order)
+        if isinstance(item, Rule | Band) and item.text:
+            _rule_text(axes, item, known.get(order, Label()))
     if panel.heading:
         axes.annotate(
             panel.heading,
@@ -234,8 +237,6 @@ def _series(axes: Axes, panel: Panel, item: Series, order: float) -> None:
     elif isinstance(item, Band):
         span = axes.axvspan if item.upright else axes.axhspan
         span(item.low, item.high, color=palette.colour(item.role), alpha=item.opacity, linewidth=0.0, zorder=1.0)
-        if item.text:
-            _rule_text(axes, item.high, item.text, item.role, item.upright)
 
 
 def _curve(axes: Axes, panel: Panel, item: Curve, order: float) -> None:
@@ -314,21 +315,23 @@ def _bars(axes: Axes, item: Bars, order: float) -> None:
 def _rule(axes: Axes, item: Rule) -> None:
     line = axes.axvline if item.upright else axes.axhline
     line(item.value, color=palette.colour(item.role), linewidth=item.width, linestyle=_LINES[item.dash], zorder=2.0)
-    if item.text:
-        _rule_text(axes, item.value, item.text, item.role, item.upright)
 
 
-def _rule_text(axes: Axes, value: float, text: str, role: str, upright: bool) -> None:
-    transform = axes.get_xaxis_transform() if upright else axes.get_yaxis_transform()
+def _rule_text(axes: Axes, item: Rule | Band, label: Label) -> None:
+    from matplotlib.patheffects import withStroke
+
+    value = item.value if isinstance(item, Rule) else item.high
+    upright, away = item.upright, -3.0 if label.before else 3.0
     axes.annotate(
-        text,
+        item.text,
         (value, 1.0) if upright else (1.0, value),
-        xycoords=transform,
-        xytext=(3.0, -1.0) if upright else (-2.0, 2.0),
+        xycoords=axes.get_xaxis_transform() if upright else axes.get_yaxis_transform(),
+        xytext=(away, -1.0 - 72.0 * LINE * label.line) if upright else (-2.0, 2.0),
         textcoords="offset points",
         fontsize=7.4,
-        color=palette.colour(role),
-        ha="left" if upright else "right",
+        color=palette.colour(item.role),
+        ha="left" if upright and not label.before else "right",
         va="top" if upright else "bottom",
+        path_effects=[withStroke(linewidth=2.4, foreground="white")],
         zorder=6.0,
     )

@@ -12,7 +12,7 @@ from cardan.maths.arrays import Array
 
 from . import palette
 from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
-from .page import Box, Entry, Page, laid_out, ranges
+from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges, share
 from .projection import facets, onto
 
 FONTS = "'Inter', 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif"
@@ -76,7 +76,7 @@ def document(figures: Sequence[Figure]) -> str:
 
 def _head(width: float, height: float) -> str:
     box = f"0 0 {_of(INCH * width)} {_of(INCH * height)}"
-    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" xml:space="preserve" font-family="{FONTS}"'
+    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" style="white-space:pre" font-family="{FONTS}"'
 
 
 def _of(length: float) -> str:
@@ -188,6 +188,7 @@ class _Plot:
         x, y = ranges(panel, box)
         self.x = _scale(panel.x, *x, self.left, self.width)
         self.y = _scale(panel.y, *y, self.top + self.height, -self.height)
+        self.labels = labels(panel, box)
 
     def parts(self) -> list[str]:
         """Return what is drawn, from the back: grid, bands, rules, solids, series, words."""
@@ -195,10 +196,10 @@ class _Plot:
         front: list[str] = []
         words: list[str] = []
         for kind in (Band, Rule):
-            for item in self.panel.series:
+            for k, item in enumerate(self.panel.series):
                 if isinstance(item, kind):
                     behind.append(self._line(item))
-                    words += self._line_text(item)
+                    words += self._line_text(item, self.labels.get(k, Label()))
         meshes = [item for item in self.panel.series if isinstance(item, Mesh)]
         if meshes and self.panel.view is not None:
             behind += self._solids(meshes)
@@ -285,14 +286,15 @@ class _Plot:
             return _rectangle(low, self.top, high - low, self.height, how)
         return _rectangle(self.left, high, self.width, low - high, how)
 
-    def _line_text(self, item: Band | Rule) -> Iterator[str]:
+    def _line_text(self, item: Band | Rule, label: Label) -> Iterator[str]:
         value = item.value if isinstance(item, Rule) else item.high
         if item.text and item.upright:
-            x, y = _one(self.x, value) + 3.0 * POINT, self.top + POINT
-            yield _word(item.text, x, y, 7.4, item.role, level="top")
+            x, y = _one(self.x, value), self.top + POINT + label.line * LINE * INCH
+            side, away = ("right", -3.0) if label.before else ("left", 3.0)
+            yield _word(item.text, x + away * POINT, y, 7.4, item.role, side=side, level="top", rim=True)
         elif item.text:
             x, y = self.left + self.width - 2.0 * POINT, _one(self.y, value) - 2.0 * POINT
-            yield _word(item.text, x, y, 7.4, item.role, side="right", level="bottom")
+            yield _word(item.text, x, y, 7.4, item.role, side="right", level="bottom", rim=True)
 
     def _words(self, item: Series) -> Iterator[str]:
         """Yield the words of a series; they may stand out of the frame."""
@@ -329,10 +331,7 @@ class _Plot:
 
 def _scale(axis: Axis, low: float, high: float, start: float, length: float) -> Line:
     """Return where values of an axis stand: ``low`` at the start, ``high`` a length farther."""
-    if not axis.log:
-        return lambda values: start + length * (values - low) / (high - low)
-    first, last = np.log(low), np.log(high)
-    return lambda values: start + length * (np.log(np.maximum(values, 1e-300)) - first) / (last - first)
+    return lambda values: start + length * share(axis, low, high, values)
 
 
 def _one(line: Line, value: float) -> float:
