@@ -3,10 +3,14 @@
 import re
 from dataclasses import replace
 
+import pytest
+
 from cardan.checks import check
 from cardan.io import example
+from cardan.report.block import Page, Words
 from cardan.report.report import page
 from cardan.report.subject import asked
+from cardan.report.summary import evenness, judgement, warnings
 from cardan.report.verdicts import judged
 from tests.report.test_report import parsed
 
@@ -46,3 +50,22 @@ def test_a_drive_of_which_nothing_is_said_has_no_such_page():
     drive = example("single-20deg")
     bare = replace(drive, duty=replace(drive.duty, speed=None, torque=None))
     assert judged(asked(bare, None, None)).page is None
+
+
+@pytest.mark.parametrize(
+    ("name", "tone", "said"), [("truck-duty-cycle", "failed", "2 of "), ("composite-propshaft", "good", "all ")]
+)
+def test_the_first_sentence_says_whether_the_limits_are_kept_and_the_next_how_evenly_it_turns(name, tone, said):
+    on = asked(example(name), None, None)
+    pages = [judged(on).page]
+    first = judgement(on, pages)
+    assert first.tone == tone
+    assert first.text.startswith(f"{on.drive.name}: {said}")
+    assert [one.text for one in warnings(on, pages)][0] == evenness(on).text
+    assert judgement(on) == evenness(on)
+
+
+def test_no_kept_limit_hides_what_fails_elsewhere():
+    on = asked(example("composite-propshaft"), None, None)
+    grows = Page(name="torsion", title="", answer="", blocks=[], alarms=[Words(text="grows", tone="failed")])
+    assert judgement(on, [grows, judged(on).page]).tone == "failed"

@@ -34,7 +34,7 @@ SAME = 1e-6
 
 
 def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
-    """Return the one sentence the reader came for.
+    """Return the one sentence the reader came for: whether the drive keeps its limits, else how evenly it turns.
 
     Parameters
     ----------
@@ -43,13 +43,34 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     pages : sequence of Page
         Parts of the report; one that failed is not hidden behind an even motion.
     """
+    turns, alarms = evenness(on), {alarm.tone for page in pages for alarm in page.alarms}
+    limits = _limits(pages)
+    failed = turns.tone == "failed" or "failed" in alarms
+    if limits is None:
+        tone: Tone = "failed" if failed else "warning" if "warning" in alarms and turns.tone == "good" else turns.tone
+        return Words(text=turns.text, tone=tone)
+    said = _("{name}: {answer}").format(
+        name=on.drive.name or _("The drive"), answer=limits.answer[:1].lower() + limits.answer[1:]
+    )
+    if failed and not limits.alarms:
+        said += " " + _("But what follows fails.")
+    return Words(text=said, tone="failed" if failed else "warning" if "warning" in alarms else "good")
+
+
+def _limits(pages: Sequence[Page]) -> Page | None:
+    """Return the page of the limits; None where none could be judged."""
+    page = next((one for one in pages if one.name == "limits"), None)
+    return None if page is None or any(alarm.tone == "warning" for alarm in page.alarms) else page
+
+
+def evenness(on: Subject) -> Words:
+    """Return a sentence on how evenly the drive turns."""
     name = on.drive.name or _("The drive")
     share = percent(float(on.whole.irregularity))
     best = on.best
     steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
-    tone: Tone
     if on.even:
-        tone = "good"
+        tone: Tone = "good"
         text = _("{name} is synchronous as built: the output turns exactly evenly.").format(name=name)
         if on.moving is not None:
             text = _("{name} is synchronous as drawn, standing still.").format(name=name)
@@ -83,12 +104,7 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     if on.moving is not None and any(one.flags for one in on.moving.splines):
         text += " " + _("A spline does not follow the movement.")
         tone = "failed"
-    alarms = [alarm.tone for page in pages for alarm in page.alarms]
-    if steep or "failed" in alarms:
-        tone = "failed"
-    elif "warning" in alarms and tone == "good":
-        tone = "warning"
-    return Words(text=text, tone=tone)
+    return Words(text=text, tone="failed" if steep else tone)
 
 
 def _while_moving(on: Subject) -> float:
@@ -107,7 +123,10 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     pages : sequence of Page
         Parts of the report that may have such of their own.
     """
-    yield from (alarm for page in pages for alarm in page.alarms)
+    limits = _limits(pages)
+    yield from (alarm for page in pages if page is not limits for alarm in page.alarms)
+    if limits is not None:
+        yield evenness(on)
     for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend / deg, strict=True), start=1):
         if joint.kind != "hooke":
             text = too_steep(joint, k, bend * deg)
@@ -286,7 +305,7 @@ def changes(on: Subject) -> Table | Words:
             Column(heading=_("afterwards"), unit="%"),
         ),
         rows=rows,
-        title=_("Changes that help most"),
+        title=_("Changes that make the output more even"),
         note=drawn,
     )
 
