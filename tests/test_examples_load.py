@@ -29,11 +29,13 @@ def test_all_of_them_are_there() -> None:
         "pto-spline-thrust",
         *SPINDLES,
         "cured-drive",
+        "front-halfshaft",
         "pto-flywheel",
         "pto-flywheel-absorber",
         "single-20deg",
         "six-joints",
         "three-joints-unequal",
+        "tracta-steered-axle",
         "truck-duty-cycle",
         "truck-exact-yokes",
         "truck-power-unit",
@@ -67,6 +69,32 @@ def test_moves_and_says_what_it_is(name: str) -> None:
 
 def irregularity(name: str) -> float:
     return float(equivalent_joint(example(name)).irregularity)
+
+
+def test_joints_of_constant_velocity_are_even_as_far_as_they_are_made_so() -> None:
+    assert irregularity("front-halfshaft") == 0.0
+    assert irregularity("tracta-steered-axle") == pytest.approx(0.0070045843794651706, rel=1e-12)
+    same = equivalent_joint(example("tracta-steered-axle")).bend
+    assert math.degrees(same) == pytest.approx(4.8, abs=0.05)
+
+
+def test_a_double_cardan_joint_centred_by_its_ball_is_nearly_even() -> None:
+    """Δ = arcsin(λ sin α) - α/2, δ ≈ 4 |Δ| tan(α/2); the approximation leaves the square of a small angle."""
+    bend = math.radians(16.0)
+    miss = math.asin(0.5 * math.sin(bend)) - 0.5 * bend
+    share = equivalent_joint(example("double-cardan-propshaft")).shaft_irregularity[0]
+    assert share == pytest.approx(4.0 * abs(miss) * math.tan(0.5 * bend), rel=1e-2)
+
+
+def test_crosses_undo_each_other_across_a_rzeppa_joint() -> None:
+    from cardan import forces
+
+    drive = example("propshaft-with-rzeppa")
+    assert equivalent_joint(drive).irregularity < 1e-7  # the points are rounded to a tenth of a micrometre
+    found = forces(drive)
+    torque = found.shaft_torque[1] / found.joint_torque[1]
+    bend = geometry(drive).bend[1]
+    assert torque == pytest.approx(np.full(torque.shape, math.cos(0.5 * bend)), rel=1e-2)  # inertia of the shaft beside
 
 
 def test_single_joint_is_that_of_table_4() -> None:

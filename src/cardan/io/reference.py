@@ -1,4 +1,4 @@
-"""The reference of all keys of the drive file, generated from the fields of the model."""
+"""The reference of all keys of the drive file and of the mechanism file, generated from the fields of the model."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
-from cardan.drive.joints import JOINTS
+from cardan.drive.joints import JOINTS, Profile
 from cardan.drive.keys import NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
@@ -24,6 +24,8 @@ from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.drive.validity import allowed
+from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.pair import Pair
 from cardan.units import DIMENSIONS
 
 from .writer import written
@@ -34,6 +36,7 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`input`", Input),
     ("`output`", Output),
     *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
+    ("`driving` and `driven` of a Clemens coupling", Profile),
     ("`cross` of a joint", Cross),
     ("`needles` of a joint", Needles),
     ("`yoke` of a joint", Yoke),
@@ -85,15 +88,27 @@ def reference() -> str:
     return "\n".join(line for title, cls in SECTIONS for line in _section(title, cls))
 
 
+def mechanism_reference() -> str:
+    """Return the reference of the mechanism file as Markdown.
+
+    Examples
+    --------
+    >>> mechanism_reference().splitlines()[0]
+    '## Head of the mechanism file'
+    """
+    sections: tuple[tuple[str, type], ...] = (("Head of the mechanism file", Mechanism), ("`[[joints]]`", Pair))
+    return "\n".join(line for title, cls in sections for line in _section(title, cls))
+
+
 def _section(title: str, cls: type) -> Iterator[str]:
     yield f"## {title}"
     yield ""
-    if cls.__doc__ and cls not in (Drive, Input, Output):
+    if cls.__doc__ and cls not in (Drive, Input, Output, Mechanism, Pair):
         yield cls.__doc__.strip().splitlines()[0]
         yield ""
     yield "| key | units | value | default | meaning |"
     yield "|---|---|---|---|---|"
-    if cls is Drive:
+    if cls in (Drive, Mechanism):
         yield "| `format` | | 1 | required | version of the file format |"
     for one in fields_of(cls).values():
         units = ", ".join(f"`_{unit}`" for unit in DIMENSIONS[one.key.dimension]) if one.key.dimension else ""
@@ -116,7 +131,7 @@ def _shape(kind: Any, one: Field) -> str:
         if parts[-1] is Ellipsis:
             return "tables" if is_dataclass(parts[0]) else f"list of {_shape(parts[0], one)}s"
         inner = _shape(parts[0], one)
-        return f"{len(parts)} {inner}s" if inner == "number" else f"{len(parts)} pairs of numbers"
+        return f"{len(parts)} {inner}s" if inner in ("number", "text") else f"{len(parts)} pairs of numbers"
     if kind in NAMED:
         return "name or table"
     if is_dataclass(kind):
