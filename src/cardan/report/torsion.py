@@ -17,7 +17,7 @@ from cardan.errors import InputError
 from cardan.figures.torsion import campbell_figure, shapes_figure
 from cardan.figures.torsion_map import map_figure
 from cardan.figures.torsion_running import response_figure, sweep_figure, waterfall_figure
-from cardan.figures.wording import significant
+from cardan.figures.wording import fixed, significant
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -193,7 +193,10 @@ def _mode_table(modes: TorsionModes) -> Table:
 def _joint_table(drive: Drive, modes: TorsionModes) -> Table:
     count = min(MODES, len(modes.omega))
     rows = [
-        [words(f"{i + 1} {joint.name}".strip()), *(number(f"{one:.3f}", one) for one in modes.joint_weight[:count, i])]
+        [
+            words(f"{i + 1} {joint.name}".strip()),
+            *(number(fixed(float(one), 3), float(one)) for one in modes.joint_weight[:count, i]),
+        ]
         for i, joint in enumerate(drive.joints)
     ]
     heads = [Column(heading=_("mode {number}").format(number=k)) for k in range(1, count + 1)]
