@@ -58,16 +58,6 @@ def test_the_play_is_the_greatest_difference_of_two_pairs():
     assert half_cardan.play(0.3, 1) == 0.0
 
 
-def test_an_elastic_coupling_winds_up_and_follows_with_damping():
-    c, k, torque, dt = 2e4, 30.0, 500.0, 1e-6
-    angle = 0.0
-    for _step in range(200):  # a spring and a damper side by side, from rest
-        angle += dt * (torque - c * angle) / k
-    rate = (torque - c * angle) / k
-    assert half_cardan.wind_up(torque, c, rate, k) == pytest.approx(angle, rel=1e-12)
-    assert half_cardan.wind_up(torque, c) == 0.025
-
-
 def test_other_array_libraries():
     phi = strict.asarray([0.1, 2.0])
     for law in (half_cardan.deviation, half_cardan.ratio, half_cardan.demands):

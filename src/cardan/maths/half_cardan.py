@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 
-from . import mobius
-from .arrays import Array, ArrayLike, argument, floats, namespace, unit_complex
+from . import mobius, shared_turn
+from .arrays import Array, ArrayLike, floats, namespace, unit_complex
 
 
 def demands(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
@@ -74,8 +74,7 @@ def deviation(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
     2.93e-05
     """
     phi, alpha = floats(angle, bend)
-    power = namespace(phi, alpha).tan(0.5 * alpha) ** (2 * pairs)
-    return -argument(1.0 - power * unit_complex(2.0 * pairs * phi)) / pairs
+    return shared_turn.course(phi, _tau(alpha), pairs)[0]
 
 
 def ratio(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
@@ -83,7 +82,7 @@ def ratio(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
 
     Notes
     -----
-    1 + 2 Re(z/(1 - z)) with z = τ^N w^N, the derivative of `deviation` + φ1.
+    The derivative of `deviation` + φ1.
 
     Examples
     --------
@@ -91,9 +90,11 @@ def ratio(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
     1.015427
     """
     phi, alpha = floats(angle, bend)
-    xp = namespace(phi, alpha)
-    z = xp.tan(0.5 * alpha) ** (2 * pairs) * unit_complex(2.0 * pairs * phi)
-    return 1.0 + 2.0 * xp.real(z / (1.0 - z))
+    return shared_turn.course(phi, _tau(alpha), pairs)[1]
+
+
+def _tau(bend: Array) -> Array:
+    return namespace(bend).tan(0.5 * bend) ** 2
 
 
 def play(bend: ArrayLike, pairs: int) -> Array:
@@ -125,35 +126,5 @@ def play(bend: ArrayLike, pairs: int) -> Array:
     xp = namespace(alpha)
     if pairs == 1:
         return 0.0 * alpha
-    tau = xp.tan(0.5 * alpha) ** 2
+    tau = _tau(alpha)
     return 2.0 * (xp.atan(tau) if pairs == 2 else xp.asin(tau))
-
-
-def wind_up(torque: ArrayLike, stiffness: ArrayLike, rate: ArrayLike = 0.0, damping: ArrayLike = 0.0) -> Array:
-    """Return the angle by which the output of an elastic half-cardan lags under torque.
-
-    Parameters
-    ----------
-    torque : array (...) [N·m]
-    stiffness : array (...) [N·m/rad]
-        Stiffness against turning.
-    rate : array (...) [rad/s]
-        Speed at which the angle grows.
-    damping : array (...) [N·m·s/rad]
-        Damping against turning.
-
-    Returns
-    -------
-    array (...) [rad]
-
-    Notes
-    -----
-    (T - k ψ')/c, the linear elastic coupling with damping at its side.
-
-    Examples
-    --------
-    >>> print(f"{wind_up(500.0, 2e4):.4f}")
-    0.0250
-    """
-    load, c, speed, k = floats(torque, stiffness, rate, damping)
-    return (load - k * speed) / c
