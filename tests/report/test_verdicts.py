@@ -61,7 +61,7 @@ def test_the_first_sentence_says_whether_the_limits_are_kept_and_the_next_how_ev
     first = judgement(on, pages)
     assert first.tone == tone
     assert first.text.startswith(f"{on.drive.name}: {said}")
-    assert [one.text for one in warnings(on, pages)][0] == evenness(on).text
+    assert next(warnings(on, pages)).text == evenness(on).text
     assert judgement(on) == evenness(on)
 
 

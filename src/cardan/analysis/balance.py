@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cardan.maths.arrays import Array, ArrayLike, floats
+from cardan.units import rpm
+
+SLOW = 500.0 * rpm
+"""Speed below which makers do not balance [rad/s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -24,12 +24,9 @@ from .joint_bearings import joint_bearings
 from .joint_rating import NOMINAL, POWER, rated_bend
 from .joint_strength import PartStress, journal_stress, yoke_stress
 from .life import life
-from .needle_bearing import Contact, book_load, needle_contact
+from .needle_bearing import STATIC_PRESSURE, Contact, book_load, needle_contact
 from .strength_use import Use, lacking
 from .turn_loads import LoadCase
-
-STATIC = 4000e6
-"""Contact pressure behind the static capacity of roller bearings [Pa], ISO 76."""
 
 NEEDLES = ("count", "diameter", "length")
 """Sizes of needles that their contact needs."""
@@ -342,7 +339,7 @@ class _Judge:
         if missing or contact is None:
             return made(missing=missing)
         source = _("Hertz; 4000 MPa stands behind ISO 76")
-        return made(value=float(contact.pressure), limit=STATIC, source=source, case=self.force[1])
+        return made(value=float(contact.pressure), limit=STATIC_PRESSURE, source=source, case=self.force[1])
 
     def _life(self) -> Use:
         made = self.made(

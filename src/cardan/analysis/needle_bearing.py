@@ -11,6 +11,9 @@ from cardan.units import mm
 CONTACT_MODULUS = 206e9 / (2.0 * (1.0 - 0.3**2))
 """E* of steel on steel [Pa]."""
 
+STATIC_PRESSURE = 4000e6
+"""Contact pressure behind the static capacity of roller bearings [Pa], ISO 76."""
+
 SHARE = 4.0
 """Load of the most loaded needle of a full row over the mean, Stribeck's figure of a bearing without play."""
 

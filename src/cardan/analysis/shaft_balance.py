@@ -15,15 +15,11 @@ from cardan.drive.parts import known_lengths
 from cardan.drive.shaft import Shaft
 from cardan.errors import refuse
 from cardan.texts import _
-from cardan.units import rpm
 
-from .balance import allowed_unbalance
+from .balance import SLOW, allowed_unbalance
 
 USUAL = "G16"
 """Grade for universal-joint shafts where the duty names none, ISO 21940-11."""
-
-SLOW = 500.0 * rpm
-"""Speed below which makers do not balance [rad/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,6 +161,7 @@ def balance(
 
     Examples
     --------
+    >>> from cardan.units import rpm
     >>> tube = Shaft(number=2, mass=10.0, length=1.2)
     >>> drive = replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))
     >>> found = balance(drive, Duty(speed=3000 * rpm), grade="G16").shafts[0]

@@ -7,19 +7,15 @@ from functools import partial
 
 import numpy as np
 
-from cardan.analysis.balance import allowed_unbalance
+from cardan.analysis.balance import SLOW, allowed_unbalance
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import rpm
 
 from .check import Check
 from .design import Design
 from .section import modulus, sections
 from .verdict import Verdict
-
-SLOW = 500.0 * rpm
-"""Speed below which makers do not balance [rad/s]."""
 
 
 def _judge(design: Design) -> Iterator[Verdict]:

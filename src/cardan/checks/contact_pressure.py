@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from cardan.analysis.needle_bearing import needle_contact
+from cardan.analysis.needle_bearing import STATIC_PRESSURE, needle_contact
 from cardan.texts import _
 
 from .check import Check
 from .design import Design
 from .verdict import Verdict
-
-STATIC = 4000e6
-"""Contact pressure behind the static capacity of roller bearings [Pa], ISO 76."""
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -38,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         count, diameter, length = (design.value(path) for path in sizes)
         yield made(
             value=needle_contact(force, count, diameter, length, design.value(journal)).pressure,
-            limit=STATIC,
+            limit=STATIC_PRESSURE,
             source=_("Hertz; 4000 MPa stands behind ISO 76"),
             levers=(span, *sizes, journal, *design.torque_levers),
             note=note,

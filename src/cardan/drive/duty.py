@@ -90,7 +90,11 @@ class Duty:
     torque_at: str = plain("output", doc="at which end of the drive the torque is given", choices=("output", "input"))
     harmonics: tuple[Harmonic, ...] = plain((), doc="swinging parts of the torque, beside its mean")
     life: float | None = quantity("time", None, doc="running time that the joints are to last", above=0.0)
-    shock_factor: float = plain(1.0, doc="factor for shocks on the joints, 1 for smooth running", low=1.0)
+    shock_factor: float = plain(
+        1.0,
+        doc="factor for shocks, 1 for smooth running: on the torque in stresses, loads, lives; not in twist and fatigue",
+        low=1.0,
+    )
     reliability: float = quantity("share", 0.9, doc="share of parts that reach the life", low=0.5, high=0.99999)
     continuous: bool = plain(True, doc="whether the drive runs for long at a time")
     synchronous: bool = plain(False, doc="whether the output must turn evenly")
