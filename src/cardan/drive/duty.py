@@ -92,7 +92,7 @@ class Duty:
     life: float | None = quantity("time", None, doc="running time that the joints are to last", above=0.0)
     shock_factor: float = plain(
         1.0,
-        doc="factor for shocks, 1 for smooth running: on the torque in stresses, loads, lives; not in twist and fatigue",
+        doc="factor for shocks, 1 for smooth running: on the torque in stresses, loads, lives; not in twist or fatigue",
         low=1.0,
     )
     reliability: float = quantity("share", 0.9, doc="share of parts that reach the life", low=0.5, high=0.99999)
