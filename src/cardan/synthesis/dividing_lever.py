@@ -86,7 +86,7 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
 
     if unlike(high) < 0.0:
         raise refuse("b", _no_lever(b, largest))
-    c = float(brentq(unlike, low, high, xtol=1e-15, rtol=1e-14))
+    c = float(brentq(unlike, low, high, xtol=1e-16 * low, rtol=1e-15))
     (above, most), (below, least) = _extremes(b, c, smallest, largest)
     exact = b * (1.0 + b) / c
     half = math.sqrt(max((exact - (1.0 - b)) * (exact + (1.0 - b)), 0.0) / (4.0 * b))
