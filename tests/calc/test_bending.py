@@ -13,45 +13,57 @@ TUBE = {"length_m": 1.5, "outer_diameter_m": 0.076, "inner_diameter_m": 0.072}
 
 
 @pytest.mark.parametrize(
-    ("name", "inputs", "fields"),
+    ("name", "inputs", "wrong"),
     [
-        ("critical_speed_closed_form", {**SECTION, "inner_diameter_m": 0.05}, ["inner_diameter_m"]),
-        ("critical_speed_closed_form", {**SECTION, "length_m": 0.0}, ["length_m"]),
-        ("critical_speed_closed_form", {**SECTION, "end_condition": "glued"}, ["end_condition"]),
-        ("critical_speed_book", {}, ["length_m"]),
-        ("critical_speed_book", {"length_m": 1.0}, ["outer_diameter_m"]),
-        ("critical_speed_book", {**TUBE, "E_Pa": 2e11}, ["density_kg_m3"]),
-        ("critical_speed_book", {**TUBE, "lambda_": 3.9, "end_condition": "fixed-pinned"}, ["lambda_"]),
-        ("critical_speed_book", {**TUBE, "k_n": 1.1}, ["k_n"]),
-        ("critical_speed_stepped", {"segments": [SECTION], "nodes": [PINNED]}, ["nodes"]),
-        ("critical_speed_stepped", {"segments": [], "nodes": [PINNED, PINNED]}, ["segments"]),
-        ("critical_speed_stepped", {"segments": [SECTION], "nodes": [PINNED, {"end": "free"}]}, ["nodes"]),
+        ("critical_speed_closed_form", {**SECTION, "inner_diameter_m": 0.05}, {"inner_diameter_m": "out_of_range"}),
+        ("critical_speed_closed_form", {**SECTION, "length_m": 0.0}, {"length_m": "not_positive"}),
+        ("critical_speed_closed_form", {**SECTION, "end_condition": "glued"}, {"end_condition": "out_of_range"}),
+        ("critical_speed_book", {}, {"length_m": "missing"}),
+        ("critical_speed_book", {"length_m": 1.0}, {"outer_diameter_m": "missing"}),
+        ("critical_speed_book", {**TUBE, "E_Pa": 2e11}, {"density_kg_m3": "missing"}),
+        (
+            "critical_speed_book",
+            {**TUBE, "lambda_": 3.9, "end_condition": "fixed-pinned"},
+            {"lambda_": "inconsistent"},
+        ),
+        ("critical_speed_book", {**TUBE, "k_n": 1.1}, {"k_n": "out_of_range"}),
+        ("critical_speed_stepped", {"segments": [SECTION], "nodes": [PINNED]}, {"nodes": "inconsistent"}),
+        ("critical_speed_stepped", {"segments": [], "nodes": [PINNED, PINNED]}, {"segments": "empty"}),
+        ("critical_speed_stepped", {"segments": [SECTION], "nodes": [PINNED, {"end": "free"}]}, {"nodes": "singular"}),
         (
             "critical_speed_stepped",
             {"segments": [SECTION, {**SECTION, "inner_diameter_m": 0.06}], "nodes": [PINNED, {"end": "free"}, PINNED]},
-            ["segments[1].inner_diameter_m", "nodes[1].end"],
+            {"segments[1].inner_diameter_m": "out_of_range", "nodes[1].end": "inconsistent"},
         ),
         (
             "critical_speed_stepped",
             {"segments": [SECTION], "nodes": [{"end": "fixed", "hinge": True}, PINNED]},
-            ["nodes[0].hinge"],
+            {"nodes[0].hinge": "inconsistent"},
         ),
-        ("critical_speed", {"d_out_mm": 70.0, "length_mm": 1500.0}, ["E_GPa", "density_kg_m3"]),
-        ("critical_speed", {"method": "book", "d_out_mm": 70.0, "d_in_mm": 71.0}, ["d_in_mm", "length_mm"]),
-        ("critical_speed", {"method": "scale", "length_ratio": 2.0}, ["n_reference_rpm"]),
-        ("critical_speed_beam", {"segments": [ROW], "supports": [{"x_mm": 0.0, "type": "pinned"}]}, ["supports"]),
+        ("critical_speed", {"d_out_mm": 70.0, "length_mm": 1500.0}, {"E_GPa": "missing", "density_kg_m3": "missing"}),
+        (
+            "critical_speed",
+            {"method": "book", "d_out_mm": 70.0, "d_in_mm": 71.0},
+            {"d_in_mm": "out_of_range", "length_mm": "missing"},
+        ),
+        ("critical_speed", {"method": "scale", "length_ratio": 2.0}, {"n_reference_rpm": "missing"}),
+        (
+            "critical_speed_beam",
+            {"segments": [ROW], "supports": [{"x_mm": 0.0, "type": "pinned"}]},
+            {"supports": "singular"},
+        ),
         (
             "critical_speed_beam",
             {"segments": [ROW], "supports": [{"x_m": 1.1}], "springs": [{"x_mm": 1001.0, "k_N_per_m": 1e5}]},
-            ["springs[0].x_mm", "supports[0].x_m"],
+            {"springs[0].x_mm": "out_of_range", "supports[0].x_m": "out_of_range"},
         ),
-        ("critical_speed_margin", {"n_critical_rpm": 7000.0, "n_max_rpm": 0.0}, ["n_max_rpm"]),
+        ("critical_speed_margin", {"n_critical_rpm": 7000.0, "n_max_rpm": 0.0}, {"n_max_rpm": "not_positive"}),
     ],
 )
-def test_what_is_wrong_is_named(name, inputs, fields):
+def test_what_is_wrong_is_named(name, inputs, wrong):
     with pytest.raises(InputError) as caught:
         calc(name, inputs)
-    assert [problem.field for problem in caught.value.problems] == fields
+    assert {problem.field: problem.code for problem in caught.value.problems} == wrong
 
 
 def test_the_book_formula_answers_what_it_is_asked():

@@ -214,7 +214,8 @@ def placed_speeds(
     spread = Section(*(np.broadcast_to(part, start[1:].shape)[within] for part in section))
     whole = stepped_line(np.diff(place), spread, nodes)
     if rigid_motions(whole).shape[-1]:
-        raise refuse("supports", _("the shaft can move without bending: hold it at two places, or fix it at one"))
+        text = _("the shaft can move without bending: hold it at two places, or fix it at one")
+        raise refuse("supports", text, "singular")
     return speeds(whole, modes)
 
 

@@ -23,6 +23,7 @@ from cardan.analysis.critical_speed import (
 from cardan.errors import Problem
 from cardan.texts import _
 
+from .bores import bores
 from .calculation import Calculation, Values, given, gives
 from .keys import Given
 
@@ -43,18 +44,11 @@ def mode_count(default: int) -> Given:
     return given("modes", _("how many, lowest first"), kind="whole", low=1, high=MOST, default=default)
 
 
-def _hollow(values: Values, inner: str, outer: str, key: Callable[[str], str]) -> Iterator[Problem]:
-    """Yield a bore that leaves no wall."""
-    one, other = values.get(inner), values.get(outer)
-    if one is not None and other is not None and one >= other:
-        yield Problem(key(inner), _("is not less than the outer diameter"))
-
-
 def _lacking(values: Values, names: tuple[str, ...], key: Callable[[str], str], needs: str) -> Iterator[Problem]:
     """Yield what is not given of a group that belongs together."""
     for name in names:
         if name in values and values[name] is None:
-            yield Problem(key(name), _("missing; {other} needs it").format(other=needs))
+            yield Problem(key(name), _("missing; {other} needs it").format(other=needs), "missing")
 
 
 def _closed_form(values: Values) -> Values:
@@ -64,26 +58,22 @@ def _closed_form(values: Values) -> Values:
     return {"lambda_": end_roots(ends, modes), "omega_rad_s": speed, "speed_rpm": speed}
 
 
-def _closed_form_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _hollow(values, "inner_diameter", "outer_diameter", key)
-
-
 TUBE = ("length", "outer_diameter", "inner_diameter")
 SI_MATERIAL = ("E", "density")
 BOOK_MATERIAL = ("E_kgf_cm2", "specific_weight_gf_cm3")
 
 
 def _book_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _hollow(values, "inner_diameter", "outer_diameter", key)
+    yield from bores("outer_diameter", "inner_diameter")(values, key)
     for group in (("length", "outer_diameter"), SI_MATERIAL, BOOK_MATERIAL):
         there = [name for name in group if values.get(name) is not None]
         if there:
             yield from _lacking(values, group, key, key(there[0]))
     for given_last, first in ((BOOK_MATERIAL[0], SI_MATERIAL[0]), ("lambda_", "end_condition")):
         if values.get(given_last) is not None and values.get(first) is not None:
-            yield Problem(key(given_last), _("{other} gives the same already").format(other=key(first)))
+            yield Problem(key(given_last), _("{other} gives the same already").format(other=key(first)), "inconsistent")
     if all(values.get(name, 0.0) is None for name in ("length", SI_MATERIAL[0], BOOK_MATERIAL[0])):
-        yield Problem(key("length"), _("missing; give a shaft, or the material of the constant"))
+        yield Problem(key("length"), _("missing; give a shaft, or the material of the constant"), "missing")
 
 
 def _book(values: Values) -> Values:
@@ -114,12 +104,13 @@ def _book(values: Values) -> Values:
 
 
 def _simple_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _hollow(values, "d_in", "d_out", key)
+    yield from bores("d_out", "d_in")(values, key)
     needed = {"exact": ("d_out", "length", "E", "density"), "book": ("d_out", "length")}
     names = needed.get(values.get("method", ""), ("n_reference", "length_ratio"))
     for name in names if "method" in values else ():
         if name in values and values[name] is None:
-            yield Problem(key(name), _("missing; the method {method} needs it").format(method=values["method"]))
+            text = _("missing; the method {method} needs it")
+            yield Problem(key(name), text.format(method=values["method"]), "missing")
 
 
 def _simple(values: Values) -> Values:
@@ -131,10 +122,6 @@ def _simple(values: Values) -> Values:
     else:
         speed = float(uniform_speed(*size, values["E"], values["density"], ends=values["ends"], modes=1)[0])
     return {"n_critical_rpm": speed, "n_critical_actual_rpm": values["k_n"] * speed}
-
-
-def _margin_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _hollow(values, "d_in", "d_out", key)
 
 
 def _margin(values: Values) -> Values:
@@ -198,7 +185,7 @@ CALCULATIONS = (
             gives("speed_rpm", _("critical speeds, lowest first"), "angular_speed"),
         ),
         answer=_closed_form,
-        check=_closed_form_check,
+        check=bores("outer_diameter", "inner_diameter"),
     ),
     Calculation(
         name="critical_speed_book",
@@ -278,6 +265,6 @@ CALCULATIONS = (
             gives("longest_length_mm", _("how long a steel shaft between joints may be"), "length"),
         ),
         answer=_margin,
-        check=_margin_check,
+        check=bores("d_out", "d_in"),
     ),
 )

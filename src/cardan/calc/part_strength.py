@@ -13,9 +13,10 @@ from cardan.drive.train import spline_grip
 from cardan.errors import Problem
 from cardan.texts import _
 
+from .bores import bores
 from .calculation import Calculation, Values, at_least_zero, given, gives, positive, record
 from .joint_forces import SPLINE_THRUST
-from .strength import TORQUE, bores
+from .strength import TORQUE
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

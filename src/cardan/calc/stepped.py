@@ -12,6 +12,7 @@ from cardan.maths.rotor_beams import Section, round_section
 from cardan.texts import _
 
 from .bending import DENSITY, INNER, LENGTH, MILLIMETRES, OUTER, SPEEDS, YOUNGS, length, mode_count
+from .bores import segment_bores
 from .calculation import Calculation, Values, given, gives, rows
 
 THEORIES = ("euler_bernoulli", "timoshenko")
@@ -33,34 +34,27 @@ def _sections(segments: list[Values], outer: str, inner: str, *, timoshenko: boo
     )
 
 
-def _bores(values: Values, outer: str, inner: str, key: Callable[[str], str]) -> Iterator[Problem]:
-    """Yield what is wrong with the segments of a table taken together."""
-    if "segments" in values and not values["segments"]:
-        yield Problem(key("segments"), _("an empty list holds no shaft"))
-    for k, segment in enumerate(values.get("segments", ())):
-        if segment[inner] >= segment[outer]:
-            yield Problem(key(f"segments[{k}].{inner}"), _("is not less than the outer diameter"))
-
-
 def _stepped_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _bores(values, "outer_diameter", "inner_diameter", key)
+    yield from segment_bores("outer_diameter", "inner_diameter")(values, key)
     if "segments" not in values or "nodes" not in values:
         return
     nodes, here = values["nodes"], key("nodes")
     if values["segments"] and len(nodes) != len(values["segments"]) + 1:
         text = _("{given} nodes given, {wanted} needed: one more than segments")
-        yield Problem(here, text.format(given=len(nodes), wanted=len(values["segments"]) + 1))
+        yield Problem(here, text.format(given=len(nodes), wanted=len(values["segments"]) + 1), "inconsistent")
         return
     for k, node in enumerate(nodes):
         inside = 0 < k < len(nodes) - 1
         if inside and node.get("end") is not None:
-            yield Problem(key(f"nodes[{k}].end"), _("only the first and the last node are ends"))
+            yield Problem(key(f"nodes[{k}].end"), _("only the first and the last node are ends"), "inconsistent")
         if not inside and node.get("hinge") and node.get("end") == "fixed":
-            yield Problem(key(f"nodes[{k}].hinge"), _("a fixed end holds the slope that a hinge lets go"))
+            text = _("a fixed end holds the slope that a hinge lets go")
+            yield Problem(key(f"nodes[{k}].hinge"), text, "inconsistent")
     pinned = [node for node in nodes if node.get("pinned") or node.get("end") == "pinned"]
     other = [node for node in nodes if node.get("support_stiffness") or node.get("tilt_stiffness")]
     if len(pinned) == 1 and not other and not any(node.get("end") == "fixed" for node in nodes):
-        yield Problem(here, _("one support alone lets the shaft swing; give a second one, or a stiffness"))
+        text = _("one support alone lets the shaft swing; give a second one, or a stiffness")
+        yield Problem(here, text, "singular")
 
 
 def _stepped(values: Values) -> Values:
@@ -90,7 +84,7 @@ def _stepped(values: Values) -> Values:
 
 
 def _beam_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    yield from _bores(values, "d_out", "d_in", key)
+    yield from segment_bores("d_out", "d_in")(values, key)
     segments = values.get("segments")
     if not segments:
         return
@@ -99,7 +93,8 @@ def _beam_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     for table in ("springs", "masses", "supports"):
         for k, row in enumerate(values.get(table, ())):
             if row["x"] > whole * (1.0 + 1e-9):
-                yield Problem(key(f"{table}[{k}].x"), text.format(place=1e3 * row["x"], length=1e3 * whole))
+                message = text.format(place=1e3 * row["x"], length=1e3 * whole)
+                yield Problem(key(f"{table}[{k}].x"), message, "out_of_range")
 
 
 def _beam(values: Values) -> Values:

@@ -17,19 +17,8 @@ from cardan.drive.shaft import Layup, Ply
 from cardan.errors import Problem
 from cardan.texts import _
 
+from .bores import bores, segment_bores
 from .calculation import Calculation, Values, at_least_zero, given, gives, positive, rows
-
-
-def bores(outer: str, inner: str) -> Callable[[Values, Callable[[str], str]], Iterator[Problem]]:
-    """Return a check that an inner diameter is less than its outer one."""
-
-    def check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-        if outer in values and inner in values and values[inner] >= values[outer]:
-            text = _("{inner:.6g} mm is not less than the outer diameter, {outer:.6g} mm")
-            message = text.format(inner=1e3 * values[inner], outer=1e3 * values[outer])
-            yield Problem(key(inner), message, "out_of_range")
-
-    return check
 
 
 def _design(values: Values) -> Values:
@@ -80,15 +69,6 @@ def _twist(values: Values) -> Values:
     parts = {name: [row[name] for row in values["segments"]] for name in ("length", "d_out", "d_in")}
     twist = shaft_twist(values["torque"], values["G"], parts["length"], parts["d_out"], parts["d_in"])
     return {"twist_deg": twist, "within_9_deg": bool(np.abs(twist) <= RATED_TWIST)}
-
-
-def segment_problems(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    """Yield segments that are none: an empty list, a bore that is not inside."""
-    segments = values.get("segments")
-    if segments is not None and not segments:
-        yield Problem(key("segments"), _("empty; a shaft has at least one segment"), "empty")
-    for k, row in enumerate(segments or ()):
-        yield from bores("d_out", "d_in")(row, lambda name, k=k: key(f"segments[{k}].{name}"))  # type: ignore[misc]
 
 
 def _fatigue(values: Values) -> Values:
@@ -252,7 +232,7 @@ CALCULATIONS = (
             gives("within_9_deg", _("whether it keeps the book's 9°")),
         ),
         answer=_twist,
-        check=segment_problems,
+        check=segment_bores("d_out", "d_in"),
     ),
     Calculation(
         name="fatigue",
