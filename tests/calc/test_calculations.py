@@ -61,6 +61,7 @@ FIRST = {case["capability"]: case["inputs"] for case in reversed(CASES)} | {
     "book_series": CHAIN,
     "book_comparison": {key: CHAIN[key] for key in ("alpha_deg", "beta_deg", "gamma_deg")},
     "rule_of_practice": {key: CHAIN[key] for key in ("alpha_deg", "beta_deg", "gamma_deg")},
+    "pin_geometry": {"alpha_max_deg": 30, "radius_m": 0.06},
     "double_joint": {"alpha12_deg": 20, "alpha23_deg": 15, "arrangement": "a"},
     "collinear_joints": {"alpha_deg": [20, 15], "sign": [1, -1]},
     "groove_offset": {"alpha_deg": 40, "plane_tilt_deg": 0.5, "axial_play_m": 1e-4},

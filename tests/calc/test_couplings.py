@@ -72,3 +72,18 @@ def test_the_best_ratio_is_as_good_as_it_says():
     assert max(deltas) == pytest.approx(best["irregularity_max"], rel=1e-3)
     even = calc("double_cardan_centring", {"alpha_deg": 40, "lambda_": best["lambda_sync_at_alpha_max"]})
     assert even["irregularity"] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_the_best_pins_are_those_of_their_contact():
+    best = calc("pin_geometry", {"alpha_max_deg": 30, "radius_mm": 60})
+    pins = {"alpha_deg": 30, "a_m": best["a_m"], "b_m": best["a_m"], "phi1_deg": list(range(0, 360, 5))}
+    turn = calc("pin_coupling", pins | {"theta1_deg": best["theta_deg"], "theta2_deg": best["theta_deg"]})
+    assert max(turn["contact_force_per_torque_N_per_Nm"]) == pytest.approx(
+        best["contact_force_per_torque_N_per_Nm"], rel=5e-3
+    )
+    stroke = calc("pin_stroke", {"alpha_deg": 30, "a_m": best["a_m"], "theta_deg": best["theta_deg"]})
+    assert stroke["x_max_m"] - stroke["x_min_m"] == pytest.approx(best["stroke_m"], rel=1e-9)
+    assert max(turn["x_m"]) * np.sin(np.radians(best["theta_deg"])) == pytest.approx(0.06, rel=1e-9)
+    with pytest.raises(InputError) as error:
+        calc("pin_geometry", {"alpha_max_deg": 80, "radius_mm": 60, "margin_deg": 6})
+    assert error.value.field == "margin_deg"

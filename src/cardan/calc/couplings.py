@@ -9,6 +9,7 @@ import numpy as np
 from cardan.errors import Problem, refuse
 from cardan.maths import double_cardan, offset_cross, pin_coupling, profile_coupling
 from cardan.synthesis.centring import best_centring
+from cardan.synthesis.pin_geometry import MARGIN, best_pins
 from cardan.texts import _
 from cardan.units import deg
 
@@ -114,6 +115,20 @@ def _stroke(values: Values) -> Values:
         "ball_path_eccentricity": pin_coupling.eccentricity(values["alpha"], values["theta"]),
         "theta_min_deg": low,
         "theta_max_deg": high,
+    }
+
+
+def _geometry(values: Values) -> Values:
+    found = best_pins(values["alpha_max"], values["radius"], margin=values["margin"])
+    return {
+        "theta_deg": found.slant,
+        "a_m": found.distance,
+        "stroke_m": found.stroke,
+        "length_m": found.length,
+        "contact_force_per_torque_N_per_Nm": found.force,
+        "lead_per_m_rad": found.lead,
+        "theta_min_deg": found.slant_range[0],
+        "theta_max_deg": found.slant_range[1],
     }
 
 
@@ -266,6 +281,36 @@ CALCULATIONS = (
         ),
         answer=_stroke,
         check=_slants,
+    ),
+    Calculation(
+        name="pin_geometry",
+        doc=_("pins alike that touch with the smallest force in a given room"),
+        source="smallest largest contact force of the exact contact",
+        takes=(
+            given("alpha_max_deg", _("largest bend"), "angle", above=0.0, below=RIGHT),
+            positive("radius_m", _("largest distance of the contact from the axes"), "length"),
+            given(
+                "margin_deg",
+                _("how far the slant stays from both ends of its range"),
+                "angle",
+                low=0.0,
+                below=RIGHT,
+                default=MARGIN,
+            ),
+        ),
+        returns=(
+            gives("theta_deg", _("slant of the pins to their axes"), "angle"),
+            gives("a_m", _("distance from the crossing of the axes at which the pins start"), "length"),
+            gives("stroke_m", _("way of the contact along a pin at the largest bend"), "length"),
+            gives("length_m", _("length that a pin needs from its start"), "length"),
+            FORCE,
+            gives(
+                "lead_per_m_rad", _("largest lead for each metre by which the distances of both pins differ"), "angle"
+            ),
+            gives("theta_min_deg", _("slant above which the pins turn all the way round"), "angle"),
+            gives("theta_max_deg", _("slant below which they do"), "angle"),
+        ),
+        answer=_geometry,
     ),
     Calculation(
         name="profile_coupling",
