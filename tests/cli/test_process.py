@@ -76,6 +76,18 @@ def test_ctrl_c_ends_long_work_in_one_line(process):
     assert err.decode().splitlines() == ["error: interrupted; nothing was written"]
 
 
+def test_ctrl_c_while_a_module_is_loaded_is_no_fault_of_cardan(cardan, monkeypatch):
+    def interrupt(*_arguments, **_options):
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as stopped:
+            raise RuntimeError("Error calling __set_name__") from stopped
+
+    monkeypatch.setattr("cardan.cli.source.read", interrupt)
+    done = cardan("check", TRUCK)
+    assert (done.code, done.err.splitlines()) == (130, ["error: interrupted; nothing was written"])
+
+
 def test_ctrl_c_while_a_file_is_written_leaves_no_file(cardan, tmp_path, monkeypatch):
     def interrupt(*_ways):
         raise KeyboardInterrupt

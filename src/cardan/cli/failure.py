@@ -65,7 +65,8 @@ def answer(error: BaseException, arguments: Sequence[str]) -> int:
         return _closed(DONE)
     if isinstance(error, SystemExit):
         return _closed(error.code if isinstance(error.code, int) else DONE)
-    if isinstance(error, KeyboardInterrupt) or type(error).__name__ == "Abort":
+    # Python 3.11 wraps what stops it while a class is made.
+    if any(isinstance(one, KeyboardInterrupt) for one in (error, error.__cause__)) or type(error).__name__ == "Abort":
         return interrupted(arguments)
     if isinstance(error, RefusedError):
         return _say(error.subject, error.problems, BAD_INPUT, arguments, error.headline)
