@@ -4,12 +4,14 @@ import csv
 import io
 import tomllib
 
+import numpy as np
 import pytest
 
 from cardan import io as files
 from cardan.analysis.shaft_balance import balance
 from cardan.analysis.strength import strength
 from cardan.catalogue import TABLES, catalogue
+from cardan.drive.parts import known_lengths
 from cardan.synthesis.selection import Need, select_joint
 from cardan.synthesis.sizing import size
 from cardan.units import deg, rpm
@@ -223,3 +225,12 @@ def test_every_problem_of_a_file_of_rows_is_told(cardan, drive_file):
     assert "no table" in cardan("catalogue", "steel").err
     assert "the nearest is C45" in cardan("catalogue", "materials", "C46").err
     assert cardan("catalogue", "--check", "nowhere.toml").code == 2
+
+
+def test_other_tubes_are_compared_with_the_one_of_the_file(cardan, winch, tmp_path):
+    cardan("strength", winch, "--size", "tube:2", "--plot", "tubes.svg")
+    now = files.load(winch).shafts[1]
+    mass = (
+        7850.0 * 0.25 * np.pi * (now.outer**2 - (now.outer - 2.0 * now.wall) ** 2) * known_lengths(files.load(winch))[2]
+    )
+    assert f"now it is {mass:.2f} kg" in (tmp_path / "tubes.svg").read_text("utf-8")

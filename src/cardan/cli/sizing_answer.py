@@ -47,8 +47,9 @@ def _figure(drive: Drive, found: Sizing, known: Catalogue) -> Any:
     number = _number(found)
     if not 1 < number <= len(drive.joints):
         raise refuse("--plot", _("only shafts between two joints are compared with other tubes"))
+    compared = found.drive if drive.shafts[number - 1].outer is None else drive  # with the tube as it stands, if any
     with watching(_("comparing tubes")) as progress:
-        return figures(trade_off(found.drive, None, number, known=known, progress=progress))
+        return figures(trade_off(compared, None, number, known=known, progress=progress))
 
 
 def _sentence(drive: Drive, file: Path, found: Sizing) -> str:
