@@ -86,11 +86,11 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
                     Panel(
                         series=tuple(series),
                         x=Axis(label=_("speed"), unit="rpm", low=0.0, high=top, ticks=ticks, texts=written(ticks)),
-                        y=Axis(low=0.4, high=count + 0.6, ticks=tuple(at), texts=names, grid=False),
+                        y=Axis(low=0.4, high=count + 1.3, ticks=tuple(at), texts=names, grid=False),
                         title=_("Critical speed of the real shafts [rpm]"),
                     ),
                 ),
-                height=0.34 * count + 0.5,
+                height=0.34 * count + 0.7,
             ),
         ),
     )

@@ -59,9 +59,12 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
         text = plural("{count} of {all} limits is not kept.", "{count} of {all} limits are not kept.", failed)
         sentence = text.format(count=failed, all=len(run))
     else:
-        sentence = _("All {all} limits are kept; {title} uses most, {used}.").format(
-            all=len(run), title=run[0].title, used=f"{float(run[0].utilisation):.2f}"
+        text = plural(
+            "The one limit is kept; {title} uses {used} of it.",
+            "All {all} limits are kept; {title} uses most, {used}.",
+            len(run),
         )
+        sentence = text.format(all=len(run), title=run[0].title, used=f"{float(run[0].utilisation):.2f}")
     if len(run) > MOST:
         sentence += " " + _("The {count} that use most are shown.").format(count=MOST)
     return Figure(

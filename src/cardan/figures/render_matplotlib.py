@@ -272,8 +272,6 @@ def _curve(axes: Axes, panel: Panel, item: Curve, order: float) -> None:
 
 def _note(axes: Axes, panel: Panel, item: Note) -> None:
     x, y = _flat(panel, item.x, item.y, item.z)
-    from matplotlib.patheffects import withStroke
-
     axes.annotate(
         item.text,
         (float(x), float(y)),
@@ -286,8 +284,15 @@ def _note(axes: Axes, panel: Panel, item: Note) -> None:
         va=_LEVELS[item.level],
         zorder=6.0,
         annotation_clip=False,
-        path_effects=[withStroke(linewidth=2.4, foreground="white")] if item.halo else [],
+        path_effects=_rim() if item.halo else [],
     )
+
+
+def _rim() -> list[Any]:
+    """Return the white rim of words over lines."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=2.4, foreground="white")]
 
 
 def _bars(axes: Axes, item: Bars, order: float) -> None:
@@ -308,6 +313,7 @@ def _bars(axes: Axes, item: Bars, order: float) -> None:
             ha="left" if item.lying else "center",
             va="center" if item.lying else "bottom",
             annotation_clip=False,
+            path_effects=_rim(),
             zorder=6.0,
         )
 
@@ -318,8 +324,6 @@ def _rule(axes: Axes, item: Rule) -> None:
 
 
 def _rule_text(axes: Axes, item: Rule | Band, label: Label) -> None:
-    from matplotlib.patheffects import withStroke
-
     value = item.value if isinstance(item, Rule) else item.high
     upright, away = item.upright, -3.0 if label.before else 3.0
     axes.annotate(
@@ -332,6 +336,6 @@ def _rule_text(axes: Axes, item: Rule | Band, label: Label) -> None:
         color=palette.colour(item.role),
         ha="left" if upright and not label.before else "right",
         va="top" if upright else "bottom",
-        path_effects=[withStroke(linewidth=2.4, foreground="white")],
+        path_effects=_rim(),
         zorder=6.0,
     )

@@ -76,7 +76,7 @@ def document(figures: Sequence[Figure]) -> str:
 
 def _head(width: float, height: float) -> str:
     box = f"0 0 {_of(INCH * width)} {_of(INCH * height)}"
-    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" style="white-space:pre" font-family="{FONTS}"'
+    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" font-family="{FONTS}"'
 
 
 def _of(length: float) -> str:
@@ -110,7 +110,7 @@ def _word(
     rim: bool = False,
 ) -> str:
     """Return a word; its lines one below the other."""
-    lines = text.split("\n")
+    lines = text.replace("  ", "\u00a0\u00a0").split("\n")  # a viewer draws blanks in a row as one
     step = 1.2 * size * POINT
     above = {"top": 0.0, "bottom": 1.0}.get(level, 0.5) * step * (len(lines) - 1)
     how = f'font-size="{_of(size * POINT)}" fill="{palette.colour(role)}"{ANCHORS[side]}'
@@ -306,10 +306,13 @@ class _Plot:
         elif isinstance(item, Bars):
             for at, size, text in zip(item.at, item.size, item.texts, strict=False):
                 if item.lying:
-                    yield _word(text, _one(self.x, size) + 4.0 * POINT, _one(self.y, at), 7.6, "ink", level="line")
+                    place, how = (_one(self.x, size) + 4.0 * POINT, _one(self.y, at)), {"level": "line"}
                 else:
-                    up = _one(self.y, size) - 2.5 * POINT
-                    yield _word(text, _one(self.x, at), up, 7.6, "ink", side="centre", level="bottom")
+                    place, how = (
+                        (_one(self.x, at), _one(self.y, size) - 2.5 * POINT),
+                        {"side": "centre", "level": "bottom"},
+                    )
+                yield _word(text, *place, 7.6, "ink", rim=True, **how)
 
     def _heads(self) -> Iterator[str]:
         """Yield arrowheads; one beyond the frame is left out."""

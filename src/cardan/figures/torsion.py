@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -163,7 +164,9 @@ def shapes_figure(found: TorsionModes) -> Figure:
         if host is not None:
             shown = found.shape[0, k]
             series.append(Curve(x=_at(train.position[k] / mm), y=_at(shown), role="accent", width=0.0, marker=4.0))
-            series.append(Note(text=_("hung"), x=float(train.position[k]) / mm, y=float(shown), side="left"))
+            far = float(train.position[k]) / mm > 0.5 * float(place[0] + place[-1])
+            word = Note(text=_("hung"), x=float(train.position[k]) / mm, y=float(shown))
+            series.append(replace(word, side="right" if far else "left", shift=(-5.0 if far else 5.0, 0.0)))
     ticks = (-1.0, -0.5, 0.0, 0.5, 1.0)
     panel = Panel(
         series=tuple(series),

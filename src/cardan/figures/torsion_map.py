@@ -160,7 +160,9 @@ def _tongues(found: Stability, x: Array, y: Array, mask: Array, *, turned: bool)
     """Yield the names of the zones, each at the largest of its tongue."""
     places: dict[str, list[tuple[int, int]]] = {}
     for i, j in np.argwhere(mask).tolist():
-        places.setdefault(found.zone.name((i, j) if turned else (j, i)), []).append((i, j))
+        index = (i, j) if turned else (j, i)
+        if int(found.zone.modes[index][0]):
+            places.setdefault(found.zone.name(index), []).append((i, j))
     largest = sorted(places.items(), key=lambda one: -len(one[1]))[:TONGUES]
     room = float(y[-1] - y[0])
     for n, (name, cells) in enumerate(sorted(largest, key=lambda one: min(one[1], key=lambda cell: cell[1])[1])):

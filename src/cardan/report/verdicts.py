@@ -102,7 +102,11 @@ def _sentence(binding: Sequence[Verdict]) -> str:
             len(failed),
         )
         return text.format(failed=len(failed), count=len(binding), title=binding[0].title, used=used)
-    text = _("All {count} limits that could be judged are kept; nearest is {title}, {used} of it.")
+    text = plural(
+        "The one limit that could be judged is kept: {title}, {used} of it.",
+        "All {count} limits that could be judged are kept; nearest is {title}, {used} of it.",
+        len(binding),
+    )
     return text.format(count=len(binding), title=binding[0].title, used=used)
 
 
