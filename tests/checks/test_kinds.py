@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, check, strength
+from cardan import Drive, check, motion, strength
 from cardan.analysis.turn_loads import across, turn_loads
 from cardan.checks.design import design
 from cardan.drive.chain import given_chain, turning, turning_chain
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Input
-from cardan.drive.duty import Block, Duty
+from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
-from cardan.drive.joints import ConstantVelocity, DoubleCardan, Hooke, Rzeppa, Tripod
+from cardan.drive.joints import ConstantVelocity, DoubleCardan, ElasticHalfCardan, Hooke, PinCoupling, Rzeppa, Tripod
 from cardan.drive.laws import alike
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
@@ -125,3 +125,39 @@ def test_strength_counts_what_other_kinds_put_on_shafts():
 def test_a_straight_joint_of_any_kind_bends_nothing():
     for joint in (ConstantVelocity(bend=0.0), Tripod(bend=0.0), DoubleCardan(bend=0.0, centring_ratio=0.5)):
         assert turn_loads(turning_chain(Drive(joints=(joint,))), 1.0).bending == pytest.approx([0.0, 0.0])
+
+
+PINS = replace(
+    DRIVE,
+    joints=(Hooke(bend=0.2), PinCoupling(bend=0.3, driving_distance=0.05, driven_distance=0.052)),
+    shafts=DRIVE.shafts[1:2],
+    limits=Limits(irregularity=0.05, output_error=0.02),
+)
+
+
+def test_laws_of_their_own_are_judged_by_what_they_do_over_a_turn():
+    found = {one.check: one for one in check(PINS, only=["irregularity", "output_error", "acceleration"])}
+    course = motion(PINS, np.linspace(0.0, 2.0 * np.pi, 3601))
+    assert found["irregularity"].value == pytest.approx(np.ptp(course.ratio), rel=1e-5)
+    assert found["output_error"].value == pytest.approx(0.5 * np.ptp(course.lead[-1]), rel=1e-5)
+    assert "pin_coupling" in found["acceleration"].unfit
+    many = check(PINS, only=["irregularity"], vary={"joints[0].bend_deg": [5.0, 10.0]})
+    assert many[0].unfit
+
+
+def test_the_nearest_map_has_the_second_order_of_the_law():
+    joint = PinCoupling(driving_distance=0.05, driven_distance=0.052)
+    theta = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
+    for bend in (0.2, 0.4):
+        a, b = (float(np.real(part)) for part in joint.near_pair(np.asarray(bend)))
+        wave = np.fft.rfft(joint.deviation(theta, np.asarray(bend))[0])[2]
+        assert -b / a == pytest.approx(-2.0 * wave.imag / 1000, abs=1e-12)
+        assert a * a - b * b == pytest.approx(1.0)
+    assert joint.near_pair(np.asarray([0.2, 0.4]))[0].shape == (2,)
+
+
+def test_loads_of_links_that_share_the_torque_are_those_of_an_even_joint():
+    even = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(bend=0.1),))), 1.0)
+    drive = Drive(joints=(ElasticHalfCardan(bend=0.1, pairs=3),))
+    shared = turn_loads(turning(given_chain(drive), drive.joints, near=True), 1.0)
+    assert shared.bending == pytest.approx(even.bending, rel=1e-9)

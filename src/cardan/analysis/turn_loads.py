@@ -243,9 +243,8 @@ def at_bend(chain: Chain, bend: Array, joints: Sequence[Joint]) -> Chain:
     joints : sequence of n Joint
         Their kinds.
     """
-    return turning(
-        replace(chain, bend=np.broadcast_to(bend, np.broadcast_shapes(bend.shape, chain.bend.shape))), joints
-    )
+    wide = np.broadcast_shapes(bend.shape, chain.bend.shape)
+    return turning(replace(chain, bend=np.broadcast_to(bend, wide)), joints, near=True)
 
 
 def case_loads(drive: Drive, case: LoadCase) -> TurnLoads:

@@ -64,4 +64,5 @@ CHECK = Check(
     name="acceleration",
     doc=_("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
     judge=_judge,
+    crosses="map",
 )

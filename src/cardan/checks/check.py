@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from cardan.drive.joints import Hooke
-from cardan.drive.laws import mixed
+from cardan.drive.joints import Hooke, Joint
+from cardan.drive.laws import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design
@@ -27,7 +27,8 @@ class Check:
     judge : function
         From a design to its verdicts; a verdict that lacks data names the paths that are missing.
     crosses : str
-        "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others.
+        "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others; "map"
+        where it judges joints with tan φ' = κ tan φ; "law" where it needs that for many drives at once.
     """
 
     name: str
@@ -41,6 +42,12 @@ class Check:
         if not self.crosses or not mixed(joints):
             yield from self.judge(design)
             return
+        if self.crosses in ("map", "law"):
+            own = unmapped(joints)
+            for one in self.judge(design):
+                stuck = own and (self.crosses == "map" or bool(design.varied))
+                yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
+            return
         others = [i for i, joint in enumerate(joints) if type(joint) is not Hooke]
         for one in self.judge(design):
             number = re.match(r"joints\[(\d+)\]", one.subject)
@@ -48,6 +55,11 @@ class Check:
             concerned = others if whole else [int(number[1])] if number else []
             kinds = [joints[i].kind for i in concerned if i in others]
             yield _unfit(one, kinds[0]) if kinds else one
+
+
+def _ruled(joint: Joint) -> str:
+    text = _("judges joints with tan φ' = κ tan φ, not one of kind {kind} with these sizes")
+    return text.format(kind=joint.kind)
 
 
 def _unfit(one: Verdict, kind: str) -> Verdict:

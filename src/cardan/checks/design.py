@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from cardan.analysis.swing import Swing, swing
 from cardan.analysis.turn_loads import TurnLoads, at_bend
 from cardan.catalogue import Catalogue, catalogue, completed
 from cardan.drive.chain import Chain, given_chain, turning
@@ -18,6 +19,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry, geometry_from_points, points_from_angles
 from cardan.drive.joints import Joint
 from cardan.drive.keys import fields_of
+from cardan.drive.laws import unmapped
 from cardan.drive.parts import known_lengths
 from cardan.drive.paths import bare_path, place
 from cardan.errors import InputError, refuse
@@ -96,7 +98,12 @@ class Design:
     @cached_property
     def chain(self) -> Chain:
         """Kinematic half of the drives; joints of other kinds as the Hooke joints that turn alike."""
-        return turning(self.given, self.drive.joints)
+        return turning(self.given, self.drive.joints, near=True)
+
+    @cached_property
+    def swing(self) -> Swing | None:
+        """How uneven the drive is as seen over a turn, where a joint turns by a law of its own; else None."""
+        return swing(self.drive) if unmapped(self.drive.joints) else None
 
     @cached_property
     def given(self) -> Chain:

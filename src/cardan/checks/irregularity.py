@@ -33,7 +33,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if own is None and not design.duty.synchronous:
         yield made(missing=("limits.irregularity",))
         return
-    drawn, moved = equivalent_joint(design.chain).irregularity, largest_irregularity(design)
+    drawn = equivalent_joint(design.chain).irregularity if design.swing is None else design.swing.irregularity[-1]
+    moved = largest_irregularity(design)
     yield made(
         value=largest([drawn, moved]),
         limit=EVEN if own is None else own,
@@ -43,4 +44,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
 
 
-CHECK = Check(name="irregularity", doc=_("unevenness of the output against the limit of the user"), judge=_judge)
+CHECK = Check(
+    name="irregularity", doc=_("unevenness of the output against the limit of the user"), judge=_judge, crosses="law"
+)

@@ -27,7 +27,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         yield made(missing=("limits.output_error",))
         return
     yield made(
-        value=equivalent_joint(design.chain).max_lead,
+        value=equivalent_joint(design.chain).max_lead if design.swing is None else design.swing.max_lead[-1],
         limit=own,
         source=_("limits of the drive file"),
         levers=(*design.yoke_levers, *design.bend_levers),
@@ -35,5 +35,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="output_error", doc=_("how far the output runs ahead and back against the limit of the user"), judge=_judge
+    name="output_error",
+    doc=_("how far the output runs ahead and back against the limit of the user"),
+    judge=_judge,
+    crosses="law",
 )

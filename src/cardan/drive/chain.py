@@ -100,7 +100,7 @@ def turning_chain(drive: Drive) -> Chain:
     return turning(given_chain(drive), drive.joints)
 
 
-def turning(whole: Chain, joints: Sequence[Joint]) -> Chain:
+def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Chain:
     """Return the Hooke joints that turn like joints of any kind with the bends and planes of a chain.
 
     Parameters
@@ -108,10 +108,12 @@ def turning(whole: Chain, joints: Sequence[Joint]) -> Chain:
     whole : Chain (..., n)
         Bends and plane twists as they are.
     joints : sequence of n Joint
+    near : bool
+        Take a joint without a Möbius map by the nearest one: good enough for loads, not for motion.
     """
     if not mixed(joints):
         return whole
-    bend, twist, start, laws = alike(joints, whole.bend, whole.plane_twist)
+    bend, twist, start, laws = alike(joints, whole.bend, whole.plane_twist, near=near)
     return Chain(
         bend=bend,
         plane_twist=twist,

@@ -106,7 +106,9 @@ def unknown_kinds(joints: Sequence[Joint], question: str, known: Callable[[Joint
             yield Problem(f"joints[{i}].kind", text.format(question=question, kind=joint.kind), "unknown_kind")
 
 
-def alike(joints: Sequence[Joint], bend: Array, plane_twist: Array) -> tuple[Array, Array, Array, Laws]:
+def alike(
+    joints: Sequence[Joint], bend: Array, plane_twist: Array, *, near: bool = False
+) -> tuple[Array, Array, Array, Laws]:
     """Return bends, plane twists and start of the Hooke joints that turn like joints of other kinds.
 
     Parameters
@@ -117,6 +119,8 @@ def alike(joints: Sequence[Joint], bend: Array, plane_twist: Array) -> tuple[Arr
         α_i.
     plane_twist : array (..., n-1) [rad]
         β_2 … β_n.
+    near : bool
+        Take a joint without a Möbius map by the nearest one.
 
     Returns
     -------
@@ -141,12 +145,12 @@ def alike(joints: Sequence[Joint], bend: Array, plane_twist: Array) -> tuple[Arr
     columns: list[tuple[Array, ...]] = []
     for i, joint in enumerate(joints):
         alpha = bend[..., i]
-        here = _steepness(joint, alpha, i)
+        here = _steepness(joint, alpha, i, near)
         tau = (here - 1.0) / (here + 1.0)
         if type(joint) is Hooke:
             columns.append((alpha, here, xp.sin(alpha) * here * here, 0.0 * alpha))
             continue
-        growth = (_steepness(joint, alpha + STEP, i) - _steepness(joint, alpha - STEP, i)) / (2.0 * STEP)
+        growth = (_steepness(joint, alpha + STEP, i, near) - _steepness(joint, alpha - STEP, i, near)) / (2.0 * STEP)
         ahead = xp.where(tau < 0.0, 0.5 * xp.pi, 0.0 * alpha)
         columns.append((2.0 * xp.atan(xp.sqrt(xp.abs(tau))), here, growth, ahead))
     equal, steepness, growths, aheads = (xp.stack(column, axis=-1) for column in zip(*columns, strict=True))
@@ -157,10 +161,10 @@ def alike(joints: Sequence[Joint], bend: Array, plane_twist: Array) -> tuple[Arr
     return equal, twist, aheads[..., 0], laws
 
 
-def _steepness(joint: Joint, bend: Array, i: int) -> Array:
+def _steepness(joint: Joint, bend: Array, i: int, near: bool) -> Array:
     """Return κ = (1 + τ)/(1 - τ), τ = -b/a, of a joint with a Möbius map."""
     xp = namespace(bend)
-    pair = joint.pair(bend)
+    pair = joint.near_pair(bend) if near else joint.pair(bend)
     if pair is None:
         text = _("its kind, {kind}, turns by a law of its own; this question needs one of the form tan θ' = κ tan θ")
         raise InputError([Problem(f"joints[{i}].kind", text.format(kind=joint.kind), "unknown_kind")])

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
+import numpy as np
+
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.cross import Cross
 from cardan.drive.inspection import Inspection
@@ -24,6 +26,10 @@ CROSS_ONLY = frozenset(
     ("friction", "material_friction", "fit", "cross", "needles", "yoke", "inspection", "error", "tolerance")
 )
 """Fields that only a joint with one cross can use."""
+
+
+PLACES = 360
+"""Places in a turn at which a law is looked at for its second order."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -88,6 +94,18 @@ class Joint:
     def pair(self, bend: Array) -> mobius.Pair | None:
         """Return the joint's Möbius map, with real parts, for bends (...) [rad]; None where it has none."""
         raise NotImplementedError
+
+    def near_pair(self, bend: Array) -> mobius.Pair:
+        """Return the joint's Möbius map, or the one with the second order of its law: for loads, not for motion."""
+        found = self.pair(bend)
+        if found is not None:
+            return found
+        theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            each = [self.deviation(theta, one)[0] @ np.sin(2.0 * theta) for one in np.ravel(np.asarray(bend))]
+        tau = np.reshape(np.asarray(each), np.shape(bend)) * (2.0 / PLACES)
+        root = np.sqrt(1.0 - tau * tau)
+        return (1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root
 
     def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
         """Return how far the driven side runs ahead of the driving side, with two derivatives.
