@@ -12,8 +12,9 @@ from cardan.drive.drive import Input, Output
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.joints import Hooke
 from cardan.drive.pose import Pose
+from cardan.drive.ranges import HUGE, allowed, in_range, out_of_range, shown
 from cardan.drive.shaft import Shaft, Spline
-from cardan.drive.validity import HUGE, allowed, in_range, out_of_range, point_problems, shown
+from cardan.drive.validity import point_problems
 from cardan.units import Key, deg
 
 LINE = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.1, 0.0), (3.0, 0.1, 0.1))

@@ -12,7 +12,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
 from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
-from cardan.drive.validity import movement_problems, range_problems, shown
+from cardan.drive.ranges import range_problems, shown
+from cardan.drive.validity import movement_problems
 from cardan.errors import BendLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.paths import Path

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.drive.duty import Limits
+from cardan.drive.ranges import shown
 from cardan.drive.shaft import Spline
-from cardan.drive.validity import shown
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.series import Series, crossings, turning_points, values_at

@@ -7,7 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.keys import NAMED, Field, fields_of, spellings_of
-from cardan.drive.validity import in_range, out_of_range
+from cardan.drive.ranges import in_range, out_of_range
 from cardan.errors import InputError, Problem
 from cardan.texts import _
 from cardan.units import nearest

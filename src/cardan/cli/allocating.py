@@ -143,7 +143,7 @@ def _table(found: Allocation) -> Table:
     from math import isfinite
 
     from .answer import Column, Table
-    from .tolerance import part
+    from .tolerance_answer import part
 
     unit, suffix, sign = _unit(found)
     label = f"± {sign.strip()}"
@@ -228,7 +228,7 @@ def _remarks(file: Path, found: Allocation, out: Path | None) -> Iterator[Remark
         yield Remark(text=_("{path}: tolerances written, rounded down.").format(path=out), tone="good")
         yield Remark(text=_("Look at what they leave:"), command=("cardan", "tolerance", str(out)), tone="next")
     elif file != STDIN:
-        from .tolerance import goal
+        from .tolerance_answer import goal
 
         asked = ("--allocate", goal(found.target, length=_unit(found)[1] == "um"), *_options(found))
         text = _("Write them into a copy of the file:")

@@ -101,7 +101,7 @@ def check_torque(torque: float | None) -> None:
     if not isfinite(torque):
         raise refuse("--torque-Nm", _("{value} is not a finite number").format(value=torque))
 
-    from cardan.drive.validity import HUGE
+    from cardan.drive.ranges import HUGE
 
     if abs(torque) > HUGE:
         raise refuse("--torque-Nm", _("{value} is not allowed; no drive has such a number").format(value=torque))

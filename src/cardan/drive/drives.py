@@ -15,9 +15,10 @@ from cardan.texts import _
 
 from .chain import Chain, turning_chain
 from .drive import Drive
-from .laws import refuse_kinds
 from .geometry import geometry_from_points
-from .validity import COINCIDENT, HUGE
+from .laws import refuse_kinds
+from .ranges import HUGE
+from .validity import COINCIDENT
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

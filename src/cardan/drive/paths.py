@@ -18,7 +18,7 @@ from cardan.units import DIMENSIONS, nearest
 
 from .drive import Drive
 from .keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled, spellings_of
-from .validity import in_range, out_of_range
+from .ranges import in_range, out_of_range
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 

@@ -13,8 +13,9 @@ from cardan.drive.duty import History
 from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
 from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
+from cardan.drive.ranges import in_range, out_of_range
 from cardan.drive.shaft import Shaft
-from cardan.drive.validity import MAX_JOINTS, in_range, out_of_range
+from cardan.drive.validity import MAX_JOINTS
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 from cardan.units import nearest

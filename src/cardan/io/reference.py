@@ -19,11 +19,11 @@ from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
+from cardan.drive.ranges import allowed
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
-from cardan.drive.validity import allowed
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
 from cardan.units import DIMENSIONS
