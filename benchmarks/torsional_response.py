@@ -63,21 +63,13 @@ def figures(quick: bool) -> Iterator[Figure]:
     }
     best = {name: 1e3 * seconds for name, seconds in fastest(jobs, rounds=3 if quick else 25).items()}
     size = f"{STATIONS} inertias x {omega.size} frequencies"
-    inverse = best["a full inverse each"]
-    yield Figure(
-        bench=f"torsional response, compiled, {size}",
-        value=best["compiled"],
-        unit="ms",
-        yardstick=f"a full inverse a frequency (openTorsion) {inverse:.3g} ms / {AIM:g}, aim ≤ 1",
-        ratio=best["compiled"] * AIM / inverse,
-    )
-    yield Figure(
-        bench=f"torsional response, compiled, {size}",
-        value=best["compiled"],
-        unit="ms",
-        yardstick=f"writing the answer to fresh memory {best['writing']:.3g} ms",
-        ratio=best["compiled"] / best["writing"],
-    )
+    inverse, compiled = best["a full inverse each"], best["compiled"]
+    for yardstick, ratio in (
+        (f"a full inverse a frequency (openTorsion) {inverse:.3g} ms / {AIM:g}, aim ≤ 1", compiled * AIM / inverse),
+        (f"writing the answer to fresh memory {best['writing']:.3g} ms", compiled / best["writing"]),
+    ):
+        bench = f"torsional response, compiled, {size}"
+        yield Figure(bench=bench, value=compiled, unit="ms", yardstick=yardstick, ratio=ratio)
     yield Figure(
         bench=f"torsional response, array expressions, {size}",
         value=best["array expressions"],

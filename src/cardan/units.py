@@ -157,8 +157,6 @@ class Key:
         Name of an alternative key with the opposite sign (``yoke_lead`` for ``yoke_angle``).
     choices : tuple of str
         Allowed words.
-    keys : tuple of str
-        Names of the parts of a row, where a value is a table row.
     """
 
     doc: str
