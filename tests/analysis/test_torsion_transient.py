@@ -44,6 +44,20 @@ def test_a_load_step_on_a_straight_shaft_swings_to_twice_its_torque() -> None:
     assert found.motion.extremes.torque_high_time[0] == pytest.approx(math.pi / math.sqrt(1000.0 / 0.4), rel=1e-3)
 
 
+def test_what_swings_fast_to_the_end_goes_in_fixed_steps() -> None:
+    """A thousand swings without damping: M (1 - cos ωt), with ω = 5000 rad/s."""
+    stiff = Shaft(number=1, stiffness=5000.0**2 * 0.4)
+    straight = replace(LINE, joints=(replace(LINE.joints[0], bend=0.0),), shafts=(stiff,))
+    found = transient(straight, span=1.2)
+    assert found.motion.method == "fixed steps"
+    wanted = 60.0 * (1.0 - np.cos(5000.0 * found.motion.times))
+    np.testing.assert_allclose(found.motion.torque[:, 0], wanted, atol=60.0 * 1e-6)
+    assert found.motion.extremes.torque_high == pytest.approx([120.0], rel=1e-5)
+    assert found.motion.imbalance < 1e-9
+    damped = replace(straight, shafts=(replace(stiff, damping=200.0),))
+    assert transient(damped, span=1.2).motion.method != "fixed steps"
+
+
 def test_running_up_passes_the_resonance_of_order_two() -> None:
     """Half the natural frequency is 25 rad/s; the peak comes a little after it."""
     duty = Duty(run_up=RunUp(end=60.0, duration=3.0))

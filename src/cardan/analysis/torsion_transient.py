@@ -15,16 +15,19 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
+from .fixed_steps import FixedStep
 from .hanging import Hang, hanging
 from .input_motion import SpeedCourse
 from .simulation import Progress, Simulation, Status
 from .steady import periodic_response
+from .swiftness import own_rates
 from .torques import Constant, Swinging
 from .torsion_response import parted
+from .torsional_balance import gathered
 from .torsional_model import Torque, TorsionalModel
 from .torsional_modes import straight_modes
 from .torsional_train import TorsionalTrain, in_time, torsional_train
-from .transient import Method, simulate
+from .transient import Adaptive, Method, simulate
 
 Start: TypeAlias = Literal["even", "settled"]
 
@@ -33,6 +36,15 @@ TURNS = 20.0
 
 SWINGS = 15.0
 """Swings of the slowest mode that are simulated at least."""
+
+MANY = 1_000
+"""Steps that errors ask for from which steps of one length, compiled, are the quicker way."""
+
+RADIANS = 2.0
+"""Of the fastest swing that lives on, in a step that errors ask for."""
+
+SMOOTH = 20.0
+"""Steps in a period of the fastest swing: extremes are then read off to some millionths."""
 
 AFTER = 0.2
 """Share of a run-up that is simulated behind it."""
@@ -94,7 +106,8 @@ def transient(
     start : {"even", "settled"}
         From even rotation with untwisted shafts, so that all torques come on at once, or from the steady motion.
     method : Adaptive or FixedStep, optional
-        How to integrate.
+        How to integrate; adaptive by default, but fixed steps where a drive without play swings fast to the end, as
+        one without damping does.
     pieces : int
         Into how many equal stretches the body between two stations is divided.
     progress : function, optional
@@ -147,7 +160,8 @@ def transient(
     elif model.free and first and not _pushed(model):
         model, train = _held(model, _resisting(model, first)), replace(train, assumed=(*train.assumed, "duty.motor"))
     length = _span(chosen, model, fastest) if span is None else span
-    motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=method, progress=progress)
+    how = _method(model, rate, length) if method is None else method
+    motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=how, progress=progress)
     return Transient(train=train, motion=motion, start=start)
 
 
@@ -188,6 +202,16 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
     elif parted(model)[1]:
         yield Problem("duty", _("orders of the torques do not repeat within two turns; start even"))
+
+
+def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
+    """Return the quicker way to follow a drive."""
+    free = np.arange(model.coordinates)[0 if model.free else 1 :]
+    if np.any(model.backlash > 0.0) or np.any(gathered(model, model.inertia)[free] == 0.0) or not span > 0.0:
+        return Adaptive()
+    rates = np.broadcast_to(rate, (model.coordinates,))
+    _fastest, living = own_rates(model, free, np.zeros(model.coordinates), rates, 0.0, span)
+    return FixedStep(per_period=SMOOTH) if float(living) * span > RADIANS * MANY else Adaptive()
 
 
 def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:

@@ -225,7 +225,8 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the highest speed."))
     yield from assumptions(found.train)
     text = _("Account of energy checked: {rest:.0e} of it is left over ({steps} steps, {method}).")
-    how = {"explicit": _("explicit"), "implicit": _("implicit")}.get(found.motion.method, found.motion.method)
+    known = {"explicit": _("explicit"), "implicit": _("implicit"), "fixed steps": _("of one length")}
+    how = known.get(found.motion.method, found.motion.method)
     yield Remark(text=text.format(rest=float(found.motion.imbalance), steps=found.motion.steps, method=how))
     yield Remark(
         text=_("Whether such vibration dies out:"), command=("cardan", "torsion", "stability", str(file)), tone="next"
