@@ -33,8 +33,8 @@ WITH = {
     "instrument-joint": {"mobility", "forces", "losses", "accuracy"},
     "overconstrained-pump": {"mobility", "forces", "losses", "assembly", "bending"},
     "truck-power-unit": {"torsion"},
-    "pto-flywheel": {"torsion", "bending"},
-    "pto-flywheel-absorber": {"torsion", "bending"},
+    "pto-flywheel": {"torsion", "run-up", "bending"},
+    "pto-flywheel-absorber": {"torsion", "run-up", "bending"},
     "unstable-drive": {"torsion"},
     "cured-drive": {"torsion"},
     "car-propshaft": {"bending"},
@@ -45,7 +45,7 @@ WITH = {
 }
 """Examples with parts of their own."""
 
-PARTS = {"forces", "losses", "accuracy", "mobility", "assembly", "torsion", "bending"}
+PARTS = {"forces", "losses", "accuracy", "mobility", "assembly", "torsion", "run-up", "bending"}
 
 
 @cache

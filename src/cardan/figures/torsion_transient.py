@@ -69,6 +69,8 @@ def transient_figure(found: Transient) -> Figure:
             torque=significant(float(ends.torque_high[e] if high else ends.torque_low[e]), 3),
             time=significant(float(ends.torque_high_time[e] if high else ends.torque_low_time[e]), 3),
         ),
-        source=_("exact equations of motion, steps held to their error"),
+        source=_("exact equations of motion in steps of one length")
+        if motion.method == "fixed steps"
+        else _("exact equations of motion, steps held to their error"),
         rows=(Row(panels=(torques,), height=2.0), Row(panels=(speeds,), height=1.4)),
     )

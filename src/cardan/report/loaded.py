@@ -12,11 +12,12 @@ from .forces import carrying
 from .life import lasting
 from .losses import rubbing
 from .mobility import binding
+from .run_up import running_up
 from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
-PAGES = (carrying, rubbing, bearing_up, lasting, erring, binding, straining, twisting, whirling)
+PAGES = (carrying, rubbing, bearing_up, lasting, erring, binding, straining, twisting, running_up, whirling)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
