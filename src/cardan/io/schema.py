@@ -22,13 +22,7 @@ def schema() -> dict[str, Any]:
     >>> schema()["properties"]["format"]
     {'const': 1, 'description': 'version of the file format'}
     """
-    head = _table(Drive)
-    head["properties"] = {
-        "format": {"const": Drive.format, "description": "version of the file format"},
-        **head["properties"],
-    }
-    head["required"] = ["format", *head.get("required", [])]
-    return {"$schema": DIALECT, "title": "cardan drive file", **head}
+    return _file(Drive, "cardan drive file")
 
 
 def mechanism_schema() -> dict[str, Any]:
@@ -36,21 +30,49 @@ def mechanism_schema() -> dict[str, Any]:
 
     Examples
     --------
-    >>> mechanism_schema()["properties"]["joints"]["items"]["required"]
-    ['id', 'type', 'links']
+    >>> mechanism_schema()["required"]
+    ['format', 'frame', 'joints']
     """
-    head = _table(Mechanism)
+    return _file(Mechanism, "cardan mechanism file")
+
+
+def _file(cls: Any, title: str) -> dict[str, Any]:
+    """Return the schema of a file; each table in it is defined once."""
+    head = _table(cls)
     head["properties"] = {
-        "format": {"const": Mechanism.format, "description": "version of the file format"},
+        "format": {"const": cls.format, "description": "version of the file format"},
         **head["properties"],
     }
     head["required"] = ["format", *head.get("required", [])]
-    return {"$schema": DIALECT, "title": "cardan mechanism file", **head}
+    known: dict[type, None] = {}
+    _gather(cls, known)
+    variants = {one: (name, name == default) for kinds, default in KINDS.values() for name, one in kinds.items()}
+    tables = {_name(one): _table(one, *variants.get(one, ("", False))) for one in known}
+    return {"$schema": DIALECT, "title": title, **head, "$defs": tables}
 
 
-def _table(cls: type) -> dict[str, Any]:
-    properties: dict[str, Any] = {}
-    required: list[str] = []
+def _gather(cls: Any, known: dict[type, None]) -> None:
+    """Note every class of a table within a class, in the order of the file."""
+    for one in fields_of(cls).values():
+        for part in (one.type, *get_args(one.type)):
+            for inner in KINDS[part][0].values() if part in KINDS else [part]:
+                if is_dataclass(inner) and inner not in known:
+                    known[inner] = None
+                    _gather(inner, known)
+
+
+def _name(cls: type) -> str:
+    return f"{cls.__module__.rpartition('.')[2]}.{cls.__name__}"
+
+
+def _defined(cls: Any) -> dict[str, Any]:
+    return {"$ref": f"#/$defs/{_name(cls)}"}
+
+
+def _table(cls: type, kind: str = "", by_default: bool = False) -> dict[str, Any]:
+    """Return the schema of a table; one of several kinds says which it is, unless it is that by default."""
+    properties: dict[str, Any] = {"kind": {"const": kind}} if kind else {}
+    required = ["kind"] if kind and not by_default else []
     rules: list[dict[str, Any]] = []
     for one in fields_of(cls).values():
         for spelling, factor in one.spellings.items():
@@ -85,11 +107,12 @@ def _shape(kind: Any, one: Field, factor: float) -> dict[str, Any]:
         items = _shape(parts[0], one, factor)
         return {"type": "array", "items": items, "minItems": len(parts), "maxItems": len(parts)}
     if kind in KINDS:
-        return _kinds(kind)
+        variants = [_defined(cls) for cls in KINDS[kind][0].values()]
+        return variants[0] if len(variants) == 1 else {"oneOf": variants}
     if kind in NAMED:
-        return {"anyOf": [{"type": "string"}, _table(kind)]}
+        return {"anyOf": [{"type": "string"}, _defined(kind)]}
     if is_dataclass(kind):
-        return _table(kind)  # type: ignore[arg-type]
+        return _defined(kind)
     if kind == WORD_OR_FLAG:
         return {"enum": [True, False, *one.key.choices]}
     if kind is bool:
@@ -97,18 +120,6 @@ def _shape(kind: Any, one: Field, factor: float) -> dict[str, Any]:
     if kind is str:
         return {"type": "string", **({"enum": list(one.key.choices)} if one.key.choices else {})}
     return {"type": "integer" if kind is int else "number", **_range(one, factor)}
-
-
-def _kinds(base: type) -> dict[str, Any]:
-    kinds, default = KINDS[base]
-    variants = []
-    for name, cls in kinds.items():
-        table = _table(cls)
-        table["properties"] = {"kind": {"const": name}, **table["properties"]}
-        if name != default:
-            table["required"] = ["kind", *table.get("required", [])]
-        variants.append(table)
-    return variants[0] if len(variants) == 1 else {"oneOf": variants}
 
 
 def _range(one: Field, factor: float) -> dict[str, float]:
