@@ -130,6 +130,8 @@ def test_the_design_torque_is_what_engine_and_wheels_allow():
     engine = 29.5e3 / (2000.0 * math.pi / 30.0)
     assert found["torque_drive_Nm"] == pytest.approx(engine * 13.5, rel=1e-12)
     assert (found["torque_design_Nm"], found["governed_by"]) == (pytest.approx(0.6 * 7357.5 * 0.355), "adhesion")
+    assert calc("design_torque", whole | {"wheel_load_N": 0.0})["torque_design_Nm"] == 0.0  # lifted wheels
+    assert refused("design_torque", whole | {"friction": -0.1}) == {("friction", "negative")}
     before = calc("design_torque", whole | {"kind": "propshaft"})
     assert before["torque_design_Nm"] * 4.5 == pytest.approx(found["torque_design_Nm"], rel=1e-12)
 
