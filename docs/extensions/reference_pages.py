@@ -17,6 +17,8 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     pages = {
         "drive-file.md": drive_file(),
+        "mechanism-file.md": mechanism_file(),
+        "mechanisms.md": mechanisms(),
         "units.md": units(),
         "commands.md": commands(),
         "names.md": names(),
@@ -45,6 +47,13 @@ def drive_file() -> str:
     from cardan.io import reference
 
     return reference()
+
+
+def mechanism_file() -> str:
+    """Return one section for each table of the mechanism file."""
+    from cardan.io import mechanism_reference
+
+    return mechanism_reference()
 
 
 SHOWN = {
@@ -126,6 +135,21 @@ def examples() -> str:
     return "\n".join(parts) or "\n"
 
 
+def mechanisms() -> str:
+    """Return one section for each shipped mechanism: what the program says of it, its text."""
+    from cardan import example_mechanism, mobility
+    from cardan.io import example_text, mechanism_names
+
+    parts = []
+    for name in mechanism_names():
+        found, text = mobility(example_mechanism(name)), example_text(name)
+        moves = f"{found.mobility} motions" if found.mobility > 1 else "one motion"
+        held = f"{found.redundant} redundant constraints" if found.redundant else "no redundant constraint"
+        parts.append(f"## {name}\n\n{found.mechanism.name}: {moves}, {held}.\n")
+        parts.append(f"```toml\n{text.strip()}\n```\n")
+    return "\n".join(parts) or "\n"
+
+
 def checks() -> str:
     """Return the table of all checks, in the order in which they are asked."""
     from cardan import CHECKS
@@ -189,7 +213,7 @@ def _given(parameter: Any) -> str:
 
 
 GROUPS = {
-    "The drive": ("drive", "io"),
+    "The drive": ("drive", "mechanism", "io"),
     "Questions": ("analysis", "maths"),
     "Verdicts": ("checks",),
     "Choices": ("synthesis",),

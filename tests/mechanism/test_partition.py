@@ -70,6 +70,12 @@ def test_the_maize_harvester_is_one_group_with_one_constraint_too_many():
     assert found.overconstrained[0] == "10"  # sorted as text
 
 
+def test_an_input_held_in_two_bearings_is_held_too_often_by_itself():
+    assert partition(graph("01 12 20"), frame="0", input_link="1").excess == 0
+    assert partition(graph("01-3 01-2 12 20"), frame="0", input_link="1").excess == 0
+    assert partition(graph("01 01"), frame="0", input_link="1").excess == 5
+
+
 def test_many_links_are_no_trouble():
     count = 60
     pairs = [Join(links=(str(k), str((k + 1) % count)), constraints=5) for k in range(count)]

@@ -1,4 +1,4 @@
-"""``cardan example``: the shipped drives, to look at and to start from."""
+"""``cardan example``: the shipped drives and mechanisms, to look at and to start from."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 def _names(incomplete: str) -> list[str]:
     """Complete the name of an example."""
-    from cardan.io import example_names
+    from cardan.io import example_names, mechanism_names
 
-    return [name for name in example_names() if name.startswith(incomplete)]
+    return [name for name in (*example_names(), *mechanism_names()) if name.startswith(incomplete)]
 
 
 def example(
@@ -58,11 +58,11 @@ def example(
 
 
 def _list() -> Answer:
-    from cardan.io import example_names, example_text
+    from cardan.io import example_names, example_text, mechanism_names
 
     from .answer import Answer, Column, Remark, Table
 
-    rows = [(name, about(example_text(name))) for name in example_names()]
+    rows = [(name, about(example_text(name))) for name in (*example_names(), *mechanism_names())]
     return Answer(
         sentence=_("{count} examples to look at and to start from.").format(count=len(rows)),
         tables=lambda: (
@@ -87,14 +87,17 @@ def _list() -> Answer:
 
 
 def _copied(name: str, text: str, place: Path) -> Answer:
+    from cardan.io import mechanism_names
+
     from .answer import Answer, Remark
 
+    question = "mobility" if name in mechanism_names() else "report"
     return Answer(
         sentence=_("{path}: example {name} copied.").format(path=place, name=name),
         tone="good",
         remarks=(
             Remark(text=about(text)),
-            Remark(text=_("Look at it:"), command=("cardan", "report", str(place)), tone="next"),
+            Remark(text=_("Look at it:"), command=("cardan", question, str(place)), tone="next"),
         ),
         content=lambda: {"example": name, "file": str(place), "shows": about(text)},
     )

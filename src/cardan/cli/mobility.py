@@ -180,7 +180,8 @@ def _counts(found: Mobility, counted: Partition | None) -> Table:
 
     rows: list[tuple[str, int | None, int | None]] = [(_("counting alone"), found.formula, None)]
     if counted is not None:
-        rows.append((_("who is joined to whom"), counted.mobility, counted.redundant))
+        more = counted.excess
+        rows.append((_("who is joined to whom"), counted.mobility + more, counted.redundant + more))
     rows.append((_("true, with its geometry"), found.mobility, found.redundant))
     columns = (
         Column(key="by", heading=_("told by"), left=True),
@@ -373,8 +374,8 @@ def _content(
     }
     if counted is not None:
         content["by_graph"] = {
-            "mobility": counted.mobility,
-            "redundant": counted.redundant,
+            "mobility": counted.mobility + counted.excess,
+            "redundant": counted.redundant + counted.excess,
             "overconstrained_links": counted.overconstrained,
             "groups": None if groups is None else [{"links": one.links, "mobility": one.mobility} for one in groups],
         }

@@ -6,7 +6,7 @@ from .drive_file import dumps, load, loads, save
 from .edit import edit
 from .examples import example, example_mechanism, example_names, example_text, mechanism_names
 from .mechanism_file import load_either, load_mechanism, loads_either, loads_mechanism
-from .reference import reference
+from .reference import mechanism_reference, reference
 from .schema import mechanism_schema, schema
 from .starter import starter
 
@@ -24,6 +24,7 @@ __all__ = [
     "loads_either",
     "loads_mechanism",
     "mechanism_names",
+    "mechanism_reference",
     "mechanism_schema",
     "reference",
     "save",

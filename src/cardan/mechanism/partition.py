@@ -52,12 +52,15 @@ class Partition:
     groups : tuple of Removed or None
         Groups of which the mechanism is made, from the output end on; None where the graph is too large to look at
         every set.
+    excess : int
+        Constraints between frame and input beyond the five that let it turn or slide; not counted in ``redundant``.
     """
 
     formula: int
     redundant: int
     overconstrained: tuple[str, ...]
     groups: tuple[Removed, ...] | None
+    excess: int = 0
 
     @property
     def mobility(self) -> int:
@@ -109,6 +112,7 @@ def partition(pairs: Sequence[Join], *, frame: str, input_link: str) -> Partitio
         redundant=-least,
         overconstrained=tuple(sorted(tight)),
         groups=_groups(pairs, others, fixed),
+        excess=max(0, sum(pair.constraints for pair in pairs if set(pair.links) == fixed) - 5),
     )
 
 

@@ -51,9 +51,10 @@ def _answer(found: Mobility) -> str:
 def _counts(found: Mobility) -> Table:
     mechanism = found.mechanism
     counted = partition(joins(mechanism), frame=mechanism.frame, input_link=mechanism.input_link)
+    more = counted.excess
     rows = [
         (_("counting alone: 6 a link, less what the joints hold"), found.formula, None),
-        (_("who is joined to whom"), counted.mobility, counted.redundant),
+        (_("who is joined to whom"), counted.mobility + more, counted.redundant + more),
         (_("true, with its geometry"), found.mobility, found.redundant),
     ]
     return Table(
@@ -64,8 +65,12 @@ def _counts(found: Mobility) -> Table:
             Column(heading=_("held too often")),
         ),
         rows=[
-            [words(name), number(str(moves), moves), words("–") if more is None else number(str(more), more)]
-            for name, moves, more in rows
+            [
+                words(name),
+                number(str(moves), moves),
+                words("–") if too_many is None else number(str(too_many), too_many),
+            ]
+            for name, moves, too_many in rows
         ],
         note=_("Where the last two differ, axes that meet or are parallel are the cause."),
     )
