@@ -9,7 +9,7 @@ import pytest
 
 from cardan.analysis.speed_range import speed_sweep
 from cardan.analysis.stability import floquet
-from cardan.analysis.steady import periodic_response
+from cardan.analysis.steady import periodic_response, steady_orbits
 from cardan.analysis.torques import Constant, History, Swinging
 from cardan.analysis.torsional_balance import element_torques
 from cardan.analysis.torsional_model import Torque, torsional_line
@@ -219,12 +219,15 @@ def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatc
         before(self, system, omega, plan, guess)
 
     monkeypatch.setattr(Chain, "__init__", counted)
-    found = periodic_response(model, speed=20.0)
+    little = Shooting(work=12_000)
+    orbit, status = steady_orbits(model, speed=20.0, opened=little)
+    assert status == Status.NO_CONVERGENCE
+    assert np.isnan(orbit.coefficient).all()
+    assert 0 < sum(tried) <= little.work + max(tried)
+    tried.clear()
+    found = periodic_response(model, speed=0.01)  # too many swings in a period
     assert found.status == Status.NO_CONVERGENCE
     assert np.isnan(found.torque.mean).all()
-    assert 0 < sum(tried) <= Shooting().work + max(tried)
-    tried.clear()
-    assert periodic_response(model, speed=0.01).status == Status.NO_CONVERGENCE  # too many swings in a period
     assert not tried
 
 
