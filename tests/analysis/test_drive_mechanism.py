@@ -12,6 +12,8 @@ from cardan.analysis.repair import repairs
 from cardan.drive.chain import chain
 from cardan.drive.cross import Cross
 from cardan.drive.geometry import geometry
+from cardan.drive.joints import JOINTS
+from cardan.drive.keys import fields_of
 from cardan.drive.shaft import Shaft, Spline
 from cardan.drive.support import Support
 from cardan.io import example_names
@@ -116,6 +118,21 @@ def test_marks_are_those_by_which_forces_are_reckoned():
     stand = standing(chain(drive), place.axis, place.normal, np.asarray([1.1]), speed=1.0)
     np.testing.assert_allclose(driving, stand.driving_arm[0], atol=1e-14)  # rounding of two turns
     np.testing.assert_allclose(driven, stand.driven_arm[0], atol=1e-14)
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+def test_joints_of_every_kind_are_pairs(kind):
+    values = {one.name: 0.02 for one in fields_of(JOINTS[kind]).values() if one.required}
+    if kind == "offset_cross":
+        values = {"offset": 0.01, "reach": 0.3}
+    joint = JOINTS[kind](bend=0.2, **values)
+    found = mobility(replace(two(FIRM), joints=(joint,)))
+    assert found.agrees
+    assert found.driven == 1
+    assert found.parasitic == 0
+    held = {"tripod": 2, "half_cardan": 2}
+    loose = ("elastic_half_cardan", "pin_coupling", "clemens")
+    assert found.redundant == (0 if kind in loose else held.get(kind, 3))
 
 
 def test_a_drive_binds_alike_over_its_turn():

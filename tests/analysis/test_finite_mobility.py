@@ -40,6 +40,18 @@ def test_a_crank_turns_its_slider_by_the_formula():
     assert shift == pytest.approx([place(start + 1.0) - place(start), 0.0, 0.0], abs=1e-12)
 
 
+def test_a_bearing_that_also_slides_is_turned_not_slid():
+    # A crank in a cylinder that may float, a rod with balls: the crank turns, and the piston goes its way.
+    found = finite_mobility(crank_slider("CRRP"), driven_joint="0-1", angle=1.0)
+    assert found.closes
+    assert found.displacement[-1, 0, :3, :3] == pytest.approx(turned(1.0), abs=1e-12)
+
+
+def turned(angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
 def parallelogram(wrong=0.0):
     z = (0, 0, 1)
     c, s = np.cos(1.0), np.sin(1.0)

@@ -29,9 +29,6 @@ SUPPORT: dict[tuple[bool, bool, bool], str] = {
 }
 """What a support holds, radial, axial and against tilting -> kind of pair along the shaft."""
 
-UNITS = ("double_cardan", "constant_velocity", "tracta", "rzeppa", "weiss")
-"""Kinds of joints that bend and hold all else: as a whole a pair that turns about two axes."""
-
 SLIDING = ("tripod", "half_cardan")
 """Kinds of joints that bend and also let their shafts slide along each other."""
 
@@ -67,8 +64,8 @@ def mechanism_of(drive: Drive, angle: float = 0.0) -> Mechanism:
     Notes
     -----
     A radial support is a sphere in a cylinder (SG), with an axial hold a sphere (S), with a hold against tilting a
-    cylinder or hinge (C, R). A cross has hinges, or cylinders along journals that slide. Joints of constant velocity
-    stand as pairs that turn about two axes of the bisecting plane.
+    cylinder or hinge (C, R). A cross has hinges, or cylinders along journals that slide. Joints of other kinds stand as
+    pairs that turn about two axes of the bisecting plane, unless they slide as well or hold nothing but the torque.
 
     Examples
     --------
@@ -199,7 +196,7 @@ def _joints(drive: Drive, place: Geometry, driving: Array, driven: Array) -> Ite
         before, after = _end_link(drive, i + 1, last=True), _end_link(drive, i + 2, last=False)
         point = _row(place.points[i + 1])
         number = i + 1
-        if joint.crossed:
+        if joint.crossed and joint.kind not in (*SLIDING, *TOUCHING):
             yield from _cross(joint, number, (before, after), np.asarray(point), (driving[i], driven[i]))
         elif joint.kind in TOUCHING:
             arm = ARM * float(place.length[i + 1])

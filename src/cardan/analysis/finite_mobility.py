@@ -233,7 +233,8 @@ class _Loops:
         self.twists = np.concatenate(twists)
         starts = np.cumsum([0, *(len(one) for one in twists)])
         self.slices = [slice(int(a), int(b)) for a, b in pairwise(starts)]
-        self.driven = self.slices[driven].start
+        turns = {"axis": 1, "both": 2, "all": 3}[mechanism.joints[driven].kind.turns]
+        self.driven = self.slices[driven].stop - turns  # what slides comes first
         self.free = np.delete(np.arange(len(self.twists)), self.driven)
         self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
         self.state = np.zeros(len(self.twists))
