@@ -219,10 +219,10 @@ def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatc
         before(self, system, omega, plan, guess)
 
     monkeypatch.setattr(Chain, "__init__", counted)
-    little = Shooting(work=12_000)
+    little = Shooting(work=40_000)
     orbit, status = steady_orbits(model, speed=20.0, opened=little)
     assert status == Status.NO_CONVERGENCE
-    assert np.isnan(orbit.coefficient).all()
+    assert np.isnan(orbit.coefficient[1:]).all()
     assert 0 < sum(tried) <= little.work + max(tried)
     tried.clear()
     found = periodic_response(model, speed=0.01)  # too many swings in a period
