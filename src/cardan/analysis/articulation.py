@@ -10,7 +10,8 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.laws import refuse_kinds
+from cardan.drive.joints import Hooke
+from cardan.drive.laws import is_even, refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.ranges import range_problems, shown
 from cardan.drive.validity import movement_problems
@@ -20,7 +21,6 @@ from cardan.maths.paths import Path
 from cardan.texts import _
 from cardan.units import Key, deg
 
-from .equivalence import WARN_BEND
 from .instants import Instants, Position, Question
 from .length import LengthCompensation, length_compensation
 from .moving_points import default_times, moving_path, shortest_period, start_time
@@ -194,7 +194,7 @@ def articulation(
     >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
     (20.0, True)
     """
-    refuse_kinds(drive, _("motion while the points move"))
+    refuse_kinds(drive, _("motion while the points move"), known=lambda joint: type(joint) is Hooke or is_even(joint))
     path, at, start, chosen, moves = _plan(drive, movement, times, until)
     place = geometry(drive)
     omega = drive.duty.speed if speed is None else speed
@@ -309,12 +309,20 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
         )
     for i in range(found.bend.shape[1]):
         column = found.bend[:, i]
-        steep = np.nonzero(column > WARN_BEND * deg)[0]
+        joint = drive.joints[i]
+        steep = np.nonzero(column > joint.steepest)[0]
         if steep.size:
             k = steep[int(np.argmax(column[steep]))]
-            yield _(
-                "joint {number} bends {bend:.4g}° at {time:.4g} s; no real cross joint works above {limit:.0f}°"
-            ).format(number=i + 1, bend=float(column[k]) / deg, time=float(found.times[k]), limit=WARN_BEND)
+            text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no real cross joint works above {limit:.0f}°")
+            if type(joint) is not Hooke:
+                text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no {kind} joint works above {limit:.0f}°")
+            yield text.format(
+                number=i + 1,
+                bend=float(column[k]) / deg,
+                time=float(found.times[k]),
+                limit=joint.steepest / deg,
+                kind=joint.kind,
+            )
     for one in splines:
         if one.slides and drive.shafts[one.shaft - 1].spline is None:
             yield _("shaft {number} changes its length by {stroke} but has no spline").format(

@@ -7,17 +7,17 @@ from enum import IntEnum
 
 import numpy as np
 
-from cardan.drive.chain import Chain
+from cardan.drive.chain import Chain, turning
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import Geometry, geometry_from_points
+from cardan.drive.laws import is_even
 from cardan.errors import refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.maths.paths import Path
 from cardan.texts import _
-from cardan.units import deg
 
-from .equivalence import WARN_BEND, equivalent_joint
+from .equivalence import equivalent_joint
 from .moving_chain import MovingMotion, Shafts, moving_centres, moving_shafts
 from .spin_range import acceleration_range, speed_range
 
@@ -112,6 +112,7 @@ class Question:
             yoke_angle=gamma,
             start_phase=np.asarray(self.drive.input.start_phase),
         )
+        even = tuple(is_even(joint) for joint in self.drive.joints)
         with np.errstate(invalid="ignore", divide="ignore"):
             shafts = moving_shafts(jet)
             motion = self._motion(times, gamma, self.speed) if yokes and self.speed is not None else None
@@ -119,9 +120,11 @@ class Question:
             if self.speed is not None:
                 axes = (shafts.axis, shafts.axis_rate, shafts.axis_acceleration)
                 omega = self.speed + self.acceleration * (times - self.start)
-                speeds = speed_range(axes, yoke_angle=gamma, speed=omega)
-                gains = acceleration_range(axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration)
-        steep = np.any(frozen.bend > WARN_BEND * deg, axis=-1)
+                speeds = speed_range(axes, yoke_angle=gamma, speed=omega, even=even)
+                gains = acceleration_range(
+                    axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration, even=even
+                )
+        steep = np.any(frozen.bend > [joint.steepest for joint in self.drive.joints], axis=-1)
         status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
 
         def held(table: Array) -> Array:
@@ -133,7 +136,7 @@ class Question:
             shafts=shafts,
             bend=held(frozen.bend),
             plane_twist=held(np.unwrap(frozen.plane_twist, axis=0)),
-            shaft_irregularity=held(equivalent_joint(chain).shaft_irregularity),
+            shaft_irregularity=held(equivalent_joint(turning(chain, self.drive.joints)).shaft_irregularity),
             shaft_speed=None if motion is None else held(motion.spins.spin),
             shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
             speed_range=None if speeds is None else (held(speeds[0]), held(speeds[1])),
@@ -151,6 +154,7 @@ class Question:
             start_phase=self.drive.input.start_phase,
             start=self.start,
             normal=self.place.normal[0],
+            even=tuple(is_even(joint) for joint in self.drive.joints),
         )
 
 

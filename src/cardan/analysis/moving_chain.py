@@ -7,6 +7,7 @@ frame that follows the axis without twisting.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -105,9 +106,15 @@ def moving_shafts(points: Jet) -> Shafts:
 
 
 def moving_axes(
-    axes: Jet, first_arm: Array, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0
+    axes: Jet,
+    first_arm: Array,
+    *,
+    yoke_angle: ArrayLike,
+    speed: ArrayLike,
+    acceleration: ArrayLike = 0.0,
+    even: Sequence[bool] = (),
 ) -> Spins:
-    """Return the exact spin of every shaft of a chain of Hooke joints whose axes move.
+    """Return the exact spin of every shaft of a chain of Hooke joints, or even ones, whose axes move.
 
     Parameters
     ----------
@@ -119,6 +126,8 @@ def moving_axes(
         γ_2 … γ_n, from the driving to the driven yoke of a shaft.
     speed, acceleration : float or array (...) [rad/s, rad/s²]
         ω_1, ε_1 at these instants.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
 
     Returns
     -------
@@ -129,6 +138,8 @@ def moving_axes(
     The cross is rigid: the arms u_i and v_{i+1} stay at right angles, so with n = u_i × v_{i+1} the difference
     Ω_{i+1} - Ω_i has no part along n, which gives ω_{i+1}; its time derivative gives ε_{i+1}. Positions need u_1 and
     the axes at the instant alone, nothing is integrated; straight joints need no special case. Contains Book (97)-(99).
+    An even joint holds the shafts against turning about n = a_i + a_{i+1} and carries its mark by the shortest turn
+    from one axis to the other.
     """
     a, rate, curve = axes
     xp = namespace(a)
@@ -146,13 +157,16 @@ def moving_axes(
         here, there = a[..., i, :], a[..., i + 1, :]
         if i:
             u = frames.rotate(driven[-1], here, -gamma[..., i - 1])
-        v = frames.unit(frames.cross(there, u))
-        n = frames.cross(u, v)
+        n = here + there if even and even[i] else frames.cross(u, frames.unit(frames.cross(there, u)))
+        v = _driven(u, here, there, even=bool(even and even[i]))
         into, out = frames.dot(here, n), frames.dot(there, n)
         next_spin = (spin * into + frames.dot(tilt[..., i, :] - tilt[..., i + 1, :], n)) / out
         turn = spin[..., None] * here + tilt[..., i, :]
         next_turn = next_spin[..., None] * there + tilt[..., i + 1, :]
-        n_rate = frames.cross(frames.cross(turn, u), v) + frames.cross(u, frames.cross(next_turn, v))
+        if even and even[i]:
+            n_rate = rate[..., i, :] + rate[..., i + 1, :]
+        else:
+            n_rate = frames.cross(frames.cross(turn, u), v) + frames.cross(u, frames.cross(next_turn, v))
         swept = spin[..., None] * rate[..., i, :] - next_spin[..., None] * rate[..., i + 1, :]
         known = swept + tilt_rate[..., i, :] - tilt_rate[..., i + 1, :]
         gain = (gain * into + frames.dot(known, n) + frames.dot(n_rate, turn - next_turn)) / out
@@ -169,6 +183,14 @@ def moving_axes(
         driving_arm=xp.stack(driving, axis=-2),
         driven_arm=xp.stack(driven, axis=-2),
     )
+
+
+def _driven(arm: Array, before: Array, after: Array, *, even: bool) -> Array:
+    """Return the driven arm of a cross, or the mark of an even joint after the shortest turn between its axes."""
+    if not even:
+        return frames.unit(frames.cross(after, arm))
+    share = frames.dot(arm, after) / (1.0 + frames.dot(before, after))
+    return arm - share[..., None] * (before + after)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -208,6 +230,7 @@ def moving_centres(
     start_phase: float = 0.0,
     start: float = 0.0,
     normal: ArrayLike | None = None,
+    even: Sequence[bool] = (),
 ) -> MovingMotion:
     """Return the exact motion of a drive through moving points.
 
@@ -227,6 +250,8 @@ def moving_centres(
         Instant at which φ_1 = 0.
     normal : array (3,), optional
         Normal of the plane of joint 1 to use where that joint is straight at `start`.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
 
     Returns
     -------
@@ -258,6 +283,7 @@ def moving_centres(
         yoke_angle=yoke_angle,
         speed=speed + acceleration * (at - start),
         acceleration=acceleration,
+        even=even,
     )
     return MovingMotion(times=at, points=points, shafts=shafts, spins=spins)
 

@@ -8,6 +8,8 @@ besides: a few angles fix them, and with them their extremes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cardan.maths import frames
@@ -20,7 +22,9 @@ SAMPLES = 64
 """Yoke positions among which the largest acceleration is looked for before Newton's steps."""
 
 
-def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[Array, Array]:
+def speed_range(
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, even: Sequence[bool] = ()
+) -> tuple[Array, Array]:
     """Return the lowest and highest spin of every shaft over all yoke positions, at each instant, exactly.
 
     Parameters
@@ -31,6 +35,8 @@ def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[
         γ_2 … γ_n.
     speed : float or array (...) [rad/s]
         ω_1.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
 
     Returns
     -------
@@ -51,7 +57,7 @@ def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[
     (array([100.        ,  93.96926208]), array([100.        , 106.41777725]))
     """
     xp = namespace(axes[0])
-    found, theta = _around(axes, yoke_angle, speed, 0.0, 3)
+    found, theta = _around(axes, yoke_angle, speed, 0.0, 3, even)
     lower = 1.0 / found.frozen_ratio
     upper = found.spin * lower
     parts = xp.stack((xp.full((3,), 1.0 / 3.0), xp.cos(2.0 * theta) / 1.5, xp.sin(2.0 * theta) / 1.5))
@@ -65,7 +71,7 @@ def speed_range(axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike) -> tuple[
 
 
 def acceleration_range(
-    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0
+    axes: Jet, *, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = 0.0, even: Sequence[bool] = ()
 ) -> tuple[Array, Array]:
     """Return the lowest and highest spin acceleration of every shaft over all yoke positions, at each instant.
 
@@ -77,6 +83,8 @@ def acceleration_range(
         γ_2 … γ_n.
     speed, acceleration : float or array (...) [rad/s, rad/s²]
         ω_1, ε_1.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
 
     Returns
     -------
@@ -95,7 +103,7 @@ def acceleration_range(
     >>> np.round(high, 7)
     array([0.       , 0.1249656])
     """
-    found, theta = _around(axes, yoke_angle, speed, acceleration, 5)
+    found, theta = _around(axes, yoke_angle, speed, acceleration, 5, even)
     order = np.asarray([0.0, 2.0, 2.0, 4.0, 4.0])[:, None]
     basis = _waves(theta, 5)
     weights = np.where(order == 0.0, 0.2, 0.4)
@@ -113,7 +121,7 @@ def acceleration_range(
 
 
 def _around(
-    axes: Jet, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike, count: int
+    axes: Jet, yoke_angle: ArrayLike, speed: ArrayLike, acceleration: ArrayLike, count: int, even: Sequence[bool]
 ) -> tuple[Spins, Array]:
     """Return the spins (..., count, n+1) at equal steps of half a turn of the input, and its angles (count,)."""
     a = axes[0]
@@ -127,6 +135,7 @@ def _around(
         yoke_angle=yoke_angle,
         speed=(real(speed, xp) * one)[..., None],
         acceleration=(real(acceleration, xp) * one)[..., None],
+        even=even,
     )
     return found, theta
 

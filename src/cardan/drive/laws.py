@@ -72,6 +72,19 @@ def has_map(joint: Joint) -> bool:
     return type(joint) is Hooke or joint.pair(np.asarray(0.1)) is not None
 
 
+def is_even(joint: Joint) -> bool:
+    """Tell whether a joint turns its driven shaft as its driving one, at every bend.
+
+    Examples
+    --------
+    >>> from .joints import Tripod
+    >>> is_even(Tripod()), is_even(Hooke())
+    (True, False)
+    """
+    pair = None if type(joint) is Hooke else joint.pair(np.asarray(0.1))
+    return pair is not None and bool(abs(pair[1]) == 0.0)
+
+
 def refuse_kinds(
     drive: Drive, question: str, *, known: Callable[[Joint], bool] = lambda joint: type(joint) is Hooke
 ) -> None:
