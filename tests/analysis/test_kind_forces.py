@@ -49,6 +49,7 @@ CHAINS = [
     (Hooke(), ConstantVelocity()),
     (DoubleCardan(centring_ratio=0.4), Hooke(), Tracta(driving_distance=0.02, driven_distance=0.023)),
     (Rzeppa(), Hooke(), DoubleCardan()),
+    (Hooke(), Rzeppa(lever_b=0.35, lever_c=0.7)),
 ]
 
 

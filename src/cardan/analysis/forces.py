@@ -10,7 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
-from cardan.drive.laws import has_map, refuse_kinds
+from cardan.drive.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.drive.train import Train, mass_problems, place_of, train
 from cardan.errors import Problem, check, refuse
@@ -62,7 +62,8 @@ def forces(
     -----
     Rigid shafts and crosses; Coulomb friction in the journals and splines where the drive gives it. Torques go from
     the load backwards, forces follow from one linear system for the whole drive (statics of Book p. 129-150). Supports
-    without friction: what they take is small beside the torque, see `losses`.
+    without friction: what they take is small beside the torque, see `losses`. The couple of a joint of another kind
+    works on no motion that the joint allows; one that turns by a law without a Möbius map counts by the nearest map.
 
     Examples
     --------
@@ -75,7 +76,7 @@ def forces(
     """
     if isinstance(drive, Drive):
         used = drive.duty if duty is None else duty
-        refuse_kinds(drive, _("forces"), known=lambda joint: joint.fixed and has_map(joint))
+        refuse_kinds(drive, _("forces"), known=lambda joint: joint.fixed)
         whole = train(drive, kinds=True)
         if drive.supports:
             check(mass_problems(drive))

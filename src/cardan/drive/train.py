@@ -15,7 +15,7 @@ from cardan.texts import _
 
 from .accuracy import Error
 from .body import body_length, softness, weight
-from .chain import Chain, chain, turning_chain
+from .chain import Chain, chain, given_chain, turning
 from .drive import Drive
 from .geometry import Geometry, geometry, geometry_from_points
 from .joints import Joint
@@ -193,7 +193,8 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     ----------
     drive : Drive
     kinds : bool
-        Take joints of other kinds too, as the Hooke joints that turn alike; a drive that has any is refused else.
+        Take joints of other kinds too, as the Hooke joints that turn alike or nearly so; a drive that has any is
+        refused else.
 
     Raises
     ------
@@ -233,7 +234,7 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     heavy = bool(np.any(mass)) or bool(np.any(cross_mass))
     return Train(
         points=place.points,
-        chain=turning_chain(drive) if kinds else chain(drive),
+        chain=turning(given_chain(drive), drive.joints, near=True) if kinds else chain(drive),
         normal=place.normal,
         inertia=_unless_zero(inertia),
         transverse_inertia=_unless_zero(across),
