@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from doctest import ELLIPSIS, OutputChecker
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -23,6 +26,9 @@ FILE = re.compile(
     r"^```\{code-block\} \w+\n:caption: (\S+)\n\n?(.*?)^```$|^<!-- file: (\S+) -->\n```\w+\n(.*?)^```$", re.M | re.S
 )
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
+
+SHELL = set("|&;<>*?$`")
+"""Signs of a command that only a shell understands."""
 
 
 @dataclass
@@ -86,17 +92,32 @@ def folder(where: Path) -> dict[str, str]:
 
 
 def run(command: str, where: Path, environment: dict[str, str]) -> str:
-    """Return what a command prints, answer and complaint together."""
-    done = subprocess.run(
-        ["sh", "-c", command],
-        cwd=where,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        timeout=120,
-        check=False,
-    )
-    return "\n".join(line.rstrip() for line in done.stdout.decode("utf-8").splitlines()) + "\n" * bool(done.stdout)
+    """Return what a command prints, answer and complaint together: in this process, unless it needs a shell."""
+    printed = shelled(command, where, environment) if set(command) & SHELL else called(command, where, environment)
+    return "\n".join(line.rstrip() for line in printed.decode("utf-8").splitlines()) + "\n" * bool(printed)
+
+
+def shelled(command: str, where: Path, environment: dict[str, str]) -> bytes:
+    """Return what a command line prints."""
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    return subprocess.run(["sh", "-c", command], cwd=where, env=environment, timeout=120, check=False, **pipes).stdout
+
+
+def called(command: str, where: Path, environment: dict[str, str]) -> bytes:
+    """Return what a command of ours prints."""
+    from cardan.cli.main import main
+
+    stream = TextIOWrapper(BytesIO(), encoding="utf-8", write_through=True)
+    before = dict(os.environ)
+    os.environ.update(environment)
+    try:
+        with chdir(where), redirect_stdout(stream), redirect_stderr(stream):
+            main(shlex.split(command)[1:])
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
+    printed: bytes = stream.buffer.getvalue()  # type: ignore[attr-defined]
+    return printed
 
 
 def agree(want: str, got: str) -> bool:
