@@ -33,7 +33,9 @@ lint: $(VENV)/.lint
 	$(BIN)/lint-imports --no-logo
 
 docs: $(VENV)/.docs
+	@rm -f docs/_build/.whole
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	@touch docs/_build/.whole
 	@echo "docs/_build/html/index.html"
 
 bench: $(VENV)/.run
