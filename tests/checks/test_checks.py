@@ -7,6 +7,7 @@ import pytest
 
 from cardan import Drive, articulation, example, forces, load, motion
 from cardan.analysis.bearing_life import maker_life
+from cardan.analysis.equivalence import largest_acceleration
 from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
 from cardan.checks.case import Case
@@ -370,3 +371,11 @@ def test_a_shipped_drive_that_fails_says_so_in_its_file(name):
     head = example_text(name).partition("\nformat")[0]
     failed = any(one.state == "failed" and not one.advice for one in check(example(name)))
     assert ("`cardan check" in head and "fails" in head) is failed
+
+
+def test_inside_shafts_swing_hardest_where_the_movement_bends_most():
+    drive = example("pto-hitch")
+    output, in_drive, _coast = check(drive, only=["acceleration"])
+    bend = articulation(drive).envelope["bend"][1][0]
+    assert in_drive.value == pytest.approx(drive.duty.speed**2 * largest_acceleration(bend), rel=1e-12)
+    assert in_drive.note == output.note == "while the drive moves"

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.analysis.equivalence import after_each_joint, largest_acceleration
 from cardan.catalogue.rows import AngleNorm
+from cardan.drive.chain import Chain
 from cardan.maths import mobius
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -27,7 +28,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if design.joints > 1:
         said.append((_("acceleration of inside shafts in drive"), "", norm.inertia_drive))
         said.append((_("acceleration of inside shafts in coast"), "", norm.inertia_coast))
-    swings = _swings(design) if speed is not None else ()
+    swings = None if speed is None else _swings(design.chain)
+    moved = None if speed is None else design.while_moving(_swings)
     for k, (title, subject, limit) in enumerate(said):
         made = partial(
             Verdict,
@@ -39,25 +41,26 @@ def _judge(design: Design) -> Iterator[Verdict]:
             limit=limit,
             source=norm.source,
         )
-        if speed is None:
+        if speed is None or swings is None:
             yield made(missing=("duty.speed",))
             continue
+        drawn, most = swings[..., k], swings[..., k] if moved is None else moved[..., k]
         yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
         yield made(
-            value=np.asarray(speed) ** 2 * swings[k],
+            value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             levers=(*yokes, *design.bend_levers, *design.speed_levers),
+            note=_("while the drive moves") if np.all(most > drawn) else "",
         )
 
 
-def _swings(design: Design) -> tuple[Array, ...]:
-    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast."""
-    case = Case(chain=design.chain)
-    each = after_each_joint(design.chain).max_acceleration
-    n = design.joints
+def _swings(chain: Chain) -> Array:
+    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast (..., k)."""
+    each, n = after_each_joint(chain).max_acceleration, chain.joints
     if n == 1:
-        return (each[..., -1],)
-    coast = [largest_acceleration(mobius.bend(case.between(i, n))) for i in range(1, n)]
-    return each[..., -1], np.max(each[..., :-1], axis=-1), np.max(np.stack(coast, axis=-1), axis=-1)
+        return each
+    coast = [largest_acceleration(mobius.bend(Case(chain=chain).between(i, n))) for i in range(1, n)]
+    inside = np.max(each[..., :-1], axis=-1), np.max(np.stack(coast, axis=-1), axis=-1)
+    return np.stack((each[..., -1], *inside), axis=-1)
 
 
 CHECK = Check(

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
 
-from cardan.analysis.equivalence import equivalent_joint
 from cardan.analysis.moving_points import default_times, moving_points
 from cardan.drive.chain import Chain, turning
 from cardan.drive.geometry import geometry_from_points
@@ -19,7 +18,7 @@ from cardan.maths.arrays import Array
 FEW = 40
 """Up to so many drives are looked at at all instants of a movement."""
 
-INSTANTS = 61
+INSTANTS = 41
 """Instants at which each of more drives is looked at, at most: enough for what swings a few times."""
 
 TOGETHER = 50_000
@@ -43,13 +42,19 @@ def largest_bends(points: Array, movements: Sequence[Movement]) -> Array:
     return np.concatenate(found).reshape(*points.shape[:-2], -1)
 
 
-def largest_irregularity(
-    kinematic: Chain, points: Array, movements: Sequence[Movement], joints: Sequence[Joint]
+def largest_of(
+    ask: Callable[[Chain], Array],
+    kinematic: Chain,
+    points: Array,
+    movements: Sequence[Movement],
+    joints: Sequence[Joint],
 ) -> Array:
-    """Return the largest irregularity of the output over the instants of a movement, array (...).
+    """Return the largest answer over the instants of a movement, the drive standing still at each, array (..., k).
 
     Parameters
     ----------
+    ask : function
+        From kinematic halves (m, t) to answers (m, t, k).
     kinematic : Chain (..., n)
         With the yoke angles and the start phase.
     points : array (..., n+2, 3) [m]
@@ -60,7 +65,7 @@ def largest_irregularity(
 
     Returns
     -------
-    array (...)
+    array (..., k)
         Infinite where a joint bends 90° or more at an instant.
     """
     lead = points.shape[:-2]
@@ -74,9 +79,8 @@ def largest_irregularity(
         turned = Chain(
             bend=frozen.bend, plane_twist=frozen.plane_twist, yoke_angle=yokes[part], start_phase=phase[part]
         )
-        uneven = np.where(possible, equivalent_joint(turning(turned, joints)).irregularity, np.inf)
-        found.append(np.max(uneven, axis=-1))
-    return np.concatenate(found).reshape(lead)
+        found.append(np.max(np.where(possible[..., None], ask(turning(turned, joints)), np.inf), axis=-2))
+    return np.concatenate(found).reshape(*lead, -1)
 
 
 def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice, Array]]:

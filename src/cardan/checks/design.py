@@ -16,7 +16,7 @@ from cardan.catalogue import Catalogue, catalogue, completed
 from cardan.drive.chain import Chain, given_chain, turning
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import geometry, geometry_from_points, points_from_angles
+from cardan.drive.geometry import geometry_from_points
 from cardan.drive.joints import Joint
 from cardan.drive.keys import fields_of
 from cardan.drive.laws import unmapped
@@ -27,8 +27,9 @@ from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 
-from .carried import largest_bends, largest_irregularity
+from .carried import largest_bends, largest_of
 from .case import Case, largest
+from .varied import over, row_of, varied_points
 
 _STEP = re.compile(r"([a-z_]+)((?:\[\d+\])*)$")
 _GEOMETRY = re.compile(
@@ -116,9 +117,9 @@ class Design:
             found = geometry_from_points(self.points)
             bend, twist = found.bend, found.plane_twist
         return Chain(
-            bend=self._over(bend, moved, r"joints\[(\d+)\]\.bend$", 0),
-            plane_twist=self._over(twist, moved, r"joints\[(\d+)\]\.plane_twist$", 1),
-            yoke_angle=self._over(base.yoke_angle, moved, r"shafts\[(\d+)\]\.yoke_angle$", 1),
+            bend=over(self.shape, bend, moved, r"joints\[(\d+)\]\.bend$", 0),
+            plane_twist=over(self.shape, twist, moved, r"joints\[(\d+)\]\.plane_twist$", 1),
+            yoke_angle=over(self.shape, base.yoke_angle, moved, r"shafts\[(\d+)\]\.yoke_angle$", 1),
             start_phase=np.broadcast_to(np.asarray(moved.get("input.start_phase", base.start_phase)), self.shape),
         )
 
@@ -130,54 +131,19 @@ class Design:
     @cached_property
     def points(self) -> Array:
         """Points of the axis, array (..., n+2, 3) [m]."""
-        place_of = geometry(self.drive)
-        base = np.asarray(place_of.points, dtype=float)
-        if self.drive.form == "angles":
-            twist = np.asarray(self.value("joints[0].plane_twist") or 0.0)
-            length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
-            return points_from_angles(self.given.bend, self.given.plane_twist, length, first_twist=twist)
-        if self.drive.form == "slopes":
-            length = self._over(place_of.length, self.varied, r"shafts\[(\d+)\]\.length$", 0)
-            slopes = [
-                self._over(
-                    np.asarray([getattr(one, name) or 0.0 for one in self.drive.shafts]),
-                    self.varied,
-                    rf"shafts\[(\d+)\]\.{name}$",
-                    0,
-                )
-                for name in ("plan_slope", "side_slope")
-            ]
-            axis = frames.unit(np.stack((np.ones_like(slopes[0]), np.tan(slopes[0]), np.tan(slopes[1])), axis=-1))
-            steps = length[..., None] * axis
-            after = np.cumsum(steps[..., 1:, :], axis=-2)
-            return np.concatenate((-steps[..., :1, :], 0.0 * steps[..., :1, :], after), axis=-2)
-        points = np.broadcast_to(base, (*(self.shape if self.replaced else ()), *base.shape)).copy()
-        for path, values in self.replaced.items():
-            row = _row(path, self.joints)
-            if row is not None:
-                part = re.search(r"\[(\d)\]$", path.partition(".")[2])
-                points[..., row, int(part[1]) if part else slice(None)] = values
-        return points
+        angles = self.given if self.drive.form == "angles" else None
+        return varied_points(self.drive, self.replaced, self.shape, angles)
 
     @cached_property
     def moving_bend(self) -> Array:
         """Largest bend of every joint over the movements of the drive, array (..., n) [rad]."""
         return largest_bends(self.points, self.drive.movements)
 
-    @cached_property
-    def moving_irregularity(self) -> Array:
-        """Largest irregularity of the output over the movements of the drive, array (...)."""
-        return largest_irregularity(self.given, self.points, self.drive.movements, self.drive.joints)
-
-    def _over(self, values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:
-        """Return values (..., k) with the varied ones in their places."""
-        given = np.asarray(values, dtype=float)
-        whole = np.broadcast_to(given, (*self.shape, given.shape[-1])).copy()
-        for path, new in moved.items():
-            match = re.match(pattern, path)
-            if match:
-                whole[..., int(match[1]) - first] = new
-        return whole
+    def while_moving(self, ask: Callable[[Chain], Array]) -> Array | None:
+        """Return the largest answers over the movements of the drive (..., k); None where nothing moves."""
+        if not self.drive.movements or self.swing is not None:
+            return None
+        return largest_of(ask, self.given, self.points, self.drive.movements, self.drive.joints)
 
     @property
     def bend(self) -> Array:
@@ -190,7 +156,7 @@ class Design:
         given = self.value(f"shafts[{k}].length")
         if self.drive.form != "points":
             return known if given is None else given
-        moved = any(_row(path, self.joints) is not None for path in self.varied)
+        moved = any(row_of(path, self.joints) is not None for path in self.varied)
         if known is None or not moved:
             return known
         found: Array = frames.norm(self.points[..., k + 1, :] - self.points[..., k, :])
@@ -327,15 +293,6 @@ class Design:
 
 def _size(value: Any) -> Any:
     return None if value is None else np.abs(value)
-
-
-def _row(path: str, joints: int) -> int | None:
-    if path.startswith("input.point"):
-        return 0
-    if path.startswith("output.point"):
-        return joints + 1
-    match = re.match(r"joints\[(\d+)\]\.centre", path)
-    return int(match[1]) + 1 if match else None
 
 
 def design(

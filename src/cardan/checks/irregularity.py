@@ -13,7 +13,6 @@ from cardan.texts import _
 from .case import largest
 from .check import Check
 from .design import Design
-from .moving import largest_irregularity
 from .verdict import Verdict
 
 EVEN = 0.0027
@@ -34,13 +33,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
         yield made(missing=("limits.irregularity",))
         return
     drawn = equivalent_joint(design.chain).irregularity if design.swing is None else design.swing.irregularity[-1]
-    moved = largest_irregularity(design)
+    moved = design.while_moving(lambda chain: equivalent_joint(chain).irregularity[..., None])
     yield made(
-        value=largest([drawn, moved]),
+        value=drawn if moved is None else largest([drawn, moved[..., 0]]),
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
         levers=(*design.yoke_levers, *design.bend_levers),
-        note=_("while the drive moves") if np.all(moved > drawn) else "",
+        note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else "",
     )
 
 

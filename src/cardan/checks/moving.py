@@ -33,11 +33,6 @@ def largest_bend(design: Design, i: int) -> Array | float:
     return design.moving_bend[..., i] if design.drive.movements else 0.0
 
 
-def largest_irregularity(design: Design) -> Array | float:
-    """Return the largest irregularity of the output while the drive moves (...); 0 where nothing moves."""
-    return design.moving_irregularity if design.drive.movements else 0.0
-
-
 def posed(design: Design) -> list[tuple[str, Design]]:
     """Return the name of every pose of a drive and the design in it; what the pose sets does not vary there."""
     found = []
