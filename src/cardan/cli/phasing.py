@@ -165,7 +165,8 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     from .answer import Remark
 
     if len(drive.joints) == 1:
-        yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
+        if drive.joints[0].kind == "hooke":
+            yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
         return
     if found.limiting_joint is None or not found.free:
         return
