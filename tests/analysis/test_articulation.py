@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from cardan.analysis.articulation import articulation
-from cardan.analysis.guidance import arm, hitch
 from cardan.analysis.instants import Position
 from cardan.analysis.moving_points import moving_path
 from cardan.drive.drive import Drive
@@ -29,17 +28,30 @@ def hitched(before, behind):
         (0.5, 0.5, 40.0, 12.0, (20.73491482383281, 20.73491482383281, 0.935228457140899, 0.0)),
     ],
 )
-def test_hitch_closed_form_and_moved_drive_agree_with_vector_geometry(before, behind, yaw, pitch, expected):
-    closed = hitch(yaw * deg, pitch * deg, before=before, behind=behind)
-    # Expected values are double-precision vector geometry.
-    assert np.rad2deg(closed.bend) == pytest.approx(expected[:2], abs=1e-9)
-    assert closed.length == pytest.approx(expected[2], abs=1e-12)
-    assert closed.irregularity == pytest.approx(expected[3], abs=1e-12)
+def test_a_hitched_drive_agrees_with_vector_geometry(before, behind, yaw, pitch, expected):
     move = Hitch(moves=REAR, pivot=(0, 0, 0), yaw=yaw * deg, pitch=pitch * deg, frequency=1.0)
     found = articulation(hitched(before, behind), move, [0.5 * np.pi])
+    # Expected values are double-precision vector geometry.
     assert np.rad2deg(found.bend[0]) == pytest.approx(expected[:2], abs=1e-9)
     assert found.length[0, 1] == pytest.approx(expected[2], abs=1e-12)
     assert found.irregularity[0] == pytest.approx(expected[3], abs=1e-12)
+
+
+@pytest.mark.parametrize(("before", "behind"), [(0.4, 0.4), (0.4, 0.41), (0.3, 0.5)])
+def test_a_hitched_drive_follows_the_closed_form_and_is_even_only_when_the_pin_is_half_way(before, behind):
+    move = Hitch(moves=REAR, pivot=(0, 0, 0), yaw=0.9, pitch=0.4, pitch_phase=0.8, frequency=1.0)
+    time = np.linspace(0.0, 2.0 * np.pi, 25)
+    found = articulation(hitched(before, behind), move, time)
+    # Book Figs 56, 57: cos Δ = cos yaw cos pitch, tan α_1 = l_2 sin Δ/(l_1 + l_2 cos Δ) and so round.
+    cosine = np.cos(0.9 * np.sin(time)) * np.cos(0.4 * np.sin(time + 0.8))
+    sine = np.sqrt(1.0 - cosine**2)
+    bend = np.arctan2([behind * sine, before * sine], [before + behind * cosine, behind + before * cosine])
+    np.testing.assert_allclose(found.bend, bend.T, atol=1e-8)  # the root of 1 - cos² loses half of the digits near 0
+    length = np.sqrt(before**2 + behind**2 + 2.0 * before * behind * cosine)
+    np.testing.assert_allclose(found.length[:, 1], length, rtol=1e-12)
+    uneven = 2.0 * np.sinh(np.abs(np.log(np.cos(bend[0]) / np.cos(bend[1]))))
+    np.testing.assert_allclose(found.irregularity, uneven, atol=1e-12)
+    assert (found.irregularity.max() < 1e-13) == (before == behind)
 
 
 def test_hitch_half_way_stays_synchronous_moving_too_at_every_yaw_and_pitch():
@@ -62,27 +74,17 @@ def test_hitch_half_way_stays_synchronous_moving_too_at_every_yaw_and_pitch():
     np.testing.assert_allclose(plane.shaft_speed[:, -1], 20.0, rtol=1e-12)
 
 
-def test_arm_closed_form_and_moved_drive_agree_with_vector_geometry():
-    given = {
-        "joint": [0, 0, 0],
-        "input_axis": [1, 0, 0],
-        "pivot": [0.2, 0, -0.1],
-        "axis": [0, 1, 0],
-        "centre": [1.4, 0, -0.15],
-        "output_axis": [1, 0, -0.03],
-    }
-    closed = arm(4 * deg, **given)
-    np.testing.assert_allclose(closed.centre, [1.3935890366245827, 0.0, -0.23358597100594156], atol=1e-14)
-    np.testing.assert_allclose(closed.output_axis, [0.9950236960851011, 0.0, -0.09963856798019671], atol=1e-14)
-    assert np.rad2deg(closed.bend) == pytest.approx([9.515162824503472, 3.796804822848015], abs=1e-10)
-    assert abs(np.rad2deg(closed.plane_twist[0])) == pytest.approx(180.0)
-    assert closed.length == pytest.approx(1.4130296560408848, abs=1e-13)
-    assert closed.irregularity == pytest.approx(0.023313291424677363, abs=1e-12)
+def test_a_drive_on_an_arm_agrees_with_vector_geometry():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.4, 0, -0.15], [2.4, 0, -0.18]])
     move = Arm(moves=REAR, pivot=(0.2, 0, -0.1), axis=(0, 1, 0), amplitude=4 * deg, frequency=3.0)
     found = articulation(drive, move, [np.pi / 6.0])
-    np.testing.assert_allclose(found.bend[0], closed.bend, rtol=1e-12)
-    assert found.irregularity[0] == pytest.approx(float(closed.irregularity), abs=1e-13)
+    # Expected values are double-precision vector geometry.
+    np.testing.assert_allclose(found.points[0, 2], [1.3935890366245827, 0.0, -0.23358597100594156], atol=1e-14)
+    along = (found.points[0, 3] - found.points[0, 2]) / np.linalg.norm(found.points[0, 3] - found.points[0, 2])
+    np.testing.assert_allclose(along, [0.9950236960851011, 0.0, -0.09963856798019671], atol=1e-14)
+    assert np.rad2deg(found.bend[0]) == pytest.approx([9.515162824503472, 3.796804822848015], abs=1e-10)
+    assert found.length[0, 1] == pytest.approx(1.4130296560408848, abs=1e-13)
+    assert found.irregularity[0] == pytest.approx(0.023313291424677363, abs=1e-12)
 
 
 def test_parallel_guidance_stays_synchronous_standing_and_moving():
