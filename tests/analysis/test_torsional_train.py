@@ -12,6 +12,7 @@ from hypothesis import given, settings
 
 from cardan import Drive, InputError, motion
 from cardan.analysis.torsional_balance import places
+from cardan.analysis.torsional_modes import straight_modes
 from cardan.analysis.torsional_train import in_time, stacked, torsional_model, torsional_train
 from cardan.drive.body import Lump, Segment
 from cardan.drive.duty import Duty, Harmonic
@@ -159,6 +160,10 @@ def test_absorbers_and_pendulums_hang_on_their_stations() -> None:
     loose = replace(DISCS[0], absorber=Absorber(inertia=0.1, damping=2.0))
     held = torsional_train(drive(Shaft(number=2, stiffness=1e4), stations=(loose, DISCS[1])), speed=[50.0, 100.0])
     np.testing.assert_allclose(held.model.stiffness[:, -1], [2e-3, 4e-3])  # 1e-5 of the drag at order 2
+    alone = drive(Shaft(number=2, stiffness=1e4), stations=DISCS)
+    with_it = replace(alone, stations=(loose, DISCS[1]))
+    slow, fast = (straight_modes(torsional_train(one, speed=50.0).model).omega for one in (with_it, alone))
+    np.testing.assert_allclose(slow, fast, rtol=1e-6)  # it hangs on by nothing, and what holds it is no mode
 
 
 @pytest.mark.parametrize(

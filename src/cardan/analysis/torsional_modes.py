@@ -13,10 +13,16 @@ from .torsional_model import TorsionalModel
 STILL = 1e-9
 """Singular values below this share of the largest are those of turning without twist."""
 
+SWINGS = 5.0
+"""Damping ratio of the dampers of elements up to which a mode counts: beyond, drag alone says how it comes to rest, as
+that of a damper without spring, which only something soft holds in place."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StraightModes:
     """Natural modes of a straight torsional line, the slowest first; turning without twist is left out.
+
+    So is what dampers keep from swinging at all.
 
     Attributes
     ----------
@@ -84,6 +90,8 @@ def straight_modes(model: TorsionalModel, *, speed: float = 0.0) -> StraightMode
     shape = np.concatenate([vectors, held], axis=-1)[:, coordinate]
     largest = np.take_along_axis(shape, np.argmax(np.abs(shape), axis=-1)[:, None], axis=-1) if len(shape) else 1.0
     shape = shape * np.sign(largest)
+    swings = np.sum(model.damping * _twists(model, shape) ** 2, axis=-1) <= 2.0 * SWINGS * omega
+    omega, shape = omega[swings], shape[swings]
     return StraightModes(
         omega=omega,
         shape=shape,
