@@ -10,7 +10,7 @@ import typer
 
 from cardan.texts import _
 
-from .options import AsCsv, AsJson, DriveFile, Plot
+from .options import AsCsv, AsJson, DriveFile, Force, Plot
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
@@ -69,9 +69,7 @@ def phases(
             show_default=False,
         ),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
-    ] = False,
+    force: Force = False,
     json: AsJson = False,
     csv: AsCsv = False,
     plot: Plot = None,

@@ -11,8 +11,8 @@ import typer
 from cardan.texts import _
 
 from .asked import TorqueNm
-from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
-from .torsion_band import Element, Force, Out, SpeedBand
+from .options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
+from .torsion_band import Element, Out, SpeedBand
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive

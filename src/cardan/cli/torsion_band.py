@@ -45,9 +45,6 @@ Out: TypeAlias = Annotated[
         show_default=False,
     ),
 ]
-Force: TypeAlias = Annotated[
-    bool, typer.Option("--force", help=_("Overwrite PATH where it is not FILE itself."), show_default=False)
-]
 
 
 def band_of(text: str | None) -> tuple[float, float] | None:
