@@ -102,12 +102,12 @@ def before_after_figure(found: AbsorberResponse) -> Figure:
             Curve(x=found.beta, y=_open(bare), label=_("without absorber"), role="muted", dash="dashed", width=1.4),
             Curve(x=found.beta, y=_open(size), label=_("with absorber"), role="accent", width=2.0),
         ),
-        x=_along(found.beta),
+        x=_along(found.beta, named=False),
         y=_upright(np.stack((bare, size)), most),
     )
     lower = Panel(
         series=(Curve(x=found.beta, y=_open(twist), role="accent", width=1.4),),
-        x=_along(found.beta, named=True),
+        x=_along(found.beta),
         y=axis(_("Twist between absorber and system over the static angle"), "–", [twist], include=(0.0,), count=4),
     )
     undamped = not np.any(np.asarray(found.main)[np.isfinite(size)].imag)
