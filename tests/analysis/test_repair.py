@@ -1,10 +1,16 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cardan import Drive
+from cardan.analysis.drive_mechanism import mechanism_of
 from cardan.analysis.mobility import mobility
 from cardan.analysis.repair import advice, repaired, repairs
+from cardan.drive.shaft import Shaft
+from cardan.drive.support import Support
 from cardan.io import example_mechanism, mechanism_names
 from tests.builders.mechanisms import anyhow, crank_slider, hooke
 
@@ -58,6 +64,24 @@ def test_where_no_bearing_cures_all_the_best_part_is_told():
     mechanism = anyhow(np.random.default_rng(5), links=2, loops=6)
     for one in repairs(mechanism):
         keeps_its_word(mechanism, one)
+
+
+def test_many_firm_bearings_are_thinned_out_to_just_enough():
+    firm = {"radial": True, "axial": True, "tilt": True}
+    ends = [(1, -0.2), (1, -0.1), (2, 0.1), (2, 0.2), (3, 0.1), (3, 0.2)]
+    drive = replace(
+        Drive.from_angles([0.2, 0.2], plane_twists=[0.3]),
+        shafts=(Shaft(number=2, length=0.5),),
+        supports=tuple(Support(shaft=shaft, position=place, **firm) for shaft, place in ends),
+    )
+    (best, *_others) = repairs(drive)
+    assert (best.before, best.after) == (21, 0)
+    keeps_its_word(mechanism_of(drive), best)
+
+
+def test_the_name_of_a_link_is_told_once():
+    mechanism = example_mechanism("three-joints-e")
+    assert advice(repairs(mechanism)[0].changes[0], mechanism) == "make bearing of shaft 3 self-aligning"
 
 
 def test_nothing_to_repair_is_nothing():

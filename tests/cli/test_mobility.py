@@ -31,7 +31,9 @@ def test_every_mechanism_is_answered_within_80_columns(cardan, path):
 
 
 def test_the_pump_is_told_which_keys_to_change(cardan, drive_file):
-    out = one_line(cardan("mobility", PUMP).out)
+    done = cardan("mobility", PUMP)
+    assert widest(done.out) <= 80
+    out = one_line(done.out)
     assert "held 3 times too often" in out
     assert "(supports[2] taken away and supports[3].axial = false)" in out
     text = PUMP.read_text("utf-8")

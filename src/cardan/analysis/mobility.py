@@ -101,7 +101,8 @@ class Mobility:
     adrift : tuple of str
         Links that can move while the input link stands still.
     misfit : float [m]
-        How much of what the parts are off has to be forced into place.
+        How much of what the parts are off has to be forced into place: root of the sum of squares of what the joints
+        must give, shared as evenly as can be.
     """
 
     mechanism: Mechanism

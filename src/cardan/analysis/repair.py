@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
@@ -23,9 +24,9 @@ from .mobility import TAKES_PART, JointHold, stresses
 Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
 
 CHANGES: dict[str, tuple[tuple[str, Gain], ...]] = {
-    "R": (("C", "slide"), ("S", "align"), ("SG", "align_slide")),
-    "C": (("SG", "align"),),
-    "S": (("SG", "slide"),),
+    "R": (("C", "slide"), ("S", "align"), ("SG", "align_slide"), ("", "drop")),
+    "C": (("SG", "align"), ("", "drop")),
+    "S": (("SG", "slide"), ("", "drop")),
     "P": (("C", "turn"),),
     "U": (("S", "turn"),),
     "SG": (("", "drop"),),
@@ -34,6 +35,9 @@ CHANGES: dict[str, tuple[tuple[str, Gain], ...]] = {
 
 TROUBLE: dict[Gain, float] = {"slide": 1.0, "align": 1.1, "align_slide": 1.6, "turn": 2.5, "drop": 2.0}
 """How much work each change is: a floating bearing is the cheapest, then a self-aligning one."""
+
+FIRM = 1.5
+"""Leaving out a bearing that holds more than two motions is so much more work beyond `TROUBLE`."""
 
 PIN = 2.5
 """A change between two moving links is so many times the work of one at a bearing in the frame."""
@@ -182,7 +186,7 @@ def advice(change: Change, mechanism: Mechanism) -> str:
     if change.bearing:
         link = next(link for link in change.links if link != mechanism.frame)
         where = change.joint
-        if link not in where:
+        if not re.search(rf"\b{re.escape(link)}\b", where):
             where = _("the bearing of {link}, {joint},").format(link=link, joint=change.joint)
         text = {
             "slide": _("let {where} float along its axis"),
@@ -259,7 +263,8 @@ def _options(mechanism: Mechanism, system: Constraints, stress: Array, j: int, p
             freedoms=len(added),
         )
         place = PIN if not bearing else DRIVEN if mechanism.input_link in pair.links else 1.0
-        yield _Option(change=change, joint=j, work=work, cost=TROUBLE[gain] * place)
+        trouble = TROUBLE[gain] + (FIRM if gain == "drop" and len(added) > 2 else 0.0)
+        yield _Option(change=change, joint=j, work=work, cost=trouble * place)
 
 
 def _added(pair: Pair, gain: Gain, system: Constraints) -> Array:
@@ -274,9 +279,10 @@ def _added(pair: Pair, gain: Gain, system: Constraints) -> Array:
             about = frames.unit(frames.cross(along, np.asarray(pair.axis2, dtype=float)))
         return screws.rotation(about, point)[None]
     across = axes(pair)[1:]
-    if gain == "drop":
-        return screws.translation(across)
     tilts = screws.rotation(across, point)
+    if gain == "drop":
+        held = {"SG": (), "S": (slide,), "C": (tilts,), "R": (slide, tilts)}[pair.type]
+        return np.concatenate((screws.translation(across), *held))
     return tilts if gain == "align" else np.concatenate((tilts, slide))
 
 
@@ -315,4 +321,23 @@ def _search(options: Sequence[_Option], redundant: int, most: int) -> list[tuple
             spent = cost + option.cost
             rest = left - size
             heapq.heappush(heap, (spent + rest * rate, next(ticket), spent, (*chosen, k), rest))
-    return whole or partial[1]
+    return whole or _greedy(options, redundant, partial)
+
+
+def _greedy(
+    options: Sequence[_Option], redundant: int, partial: tuple[int, list[tuple[float, tuple[int, ...]]]]
+) -> list[tuple[float, tuple[int, ...]]]:
+    """Return the best of what the search found in part and of what taking the cheapest sound option each time finds."""
+    left = redundant
+    chosen: list[int] = []
+    ranked = sorted(range(len(options)), key=lambda k: options[k].cost / options[k].change.freedoms)
+    for k in ranked:
+        option = options[k]
+        if option.change.freedoms > left or any(options[other].joint == option.joint for other in chosen):
+            continue
+        table = np.concatenate([options[other].work for other in (*chosen, k)])
+        if _rank(table) == len(table):
+            chosen.append(k)
+            left -= option.change.freedoms
+    cost = sum(options[k].cost for k in chosen)
+    return [(cost, tuple(sorted(chosen)))] if chosen and left < partial[0] else partial[1]

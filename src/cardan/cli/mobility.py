@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from cardan.mechanism.mechanism import Mechanism
     from cardan.mechanism.partition import Partition
 
-    from .answer import Answer, Remark, Table, Tone
+    from .answer import Answer, Cell, Remark, Table, Tone
 
 
 def mobility(
@@ -154,6 +154,7 @@ def _joints(found: Mobility, *, strained: bool) -> Table:
     """Return the table of the joints: those that can be strained, or all."""
     from cardan.analysis.repair import strain
     from cardan.mechanism.pair import PAIRS
+    from cardan.units import mm
 
     from .answer import Column, Table
 
@@ -164,12 +165,16 @@ def _joints(found: Mobility, *, strained: bool) -> Table:
         "links": Column(key="links", heading=_("between"), left=True),
         "strained_by": Column(key="strained_by", heading=_("held too often against"), left=True, wrap=True),
     }
-    cells = {
+    cells: dict[str, list[Cell]] = {
         "joint": [one.id for one in shown],
         "kind": [PAIRS[one.type].name for one in shown],
         "links": [" – ".join(one.links) for one in shown],
         "strained_by": [strain(one) for one in shown],
     }
+    if found.misfit:
+        last = columns.pop("strained_by")
+        columns |= {"misfit_mm": Column(key="misfit_mm", heading=_("misfit"), unit=_("mm")), "strained_by": last}
+        cells["misfit_mm"] = [one.misfit / mm for one in shown]
     if strained:  # the terminal is narrow, and the file tells what a joint joins
         del columns["links"]
     return Table(columns=tuple(columns.values()), rows=list(zip(*(cells[key] for key in columns), strict=True)))
