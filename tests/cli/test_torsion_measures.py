@@ -4,11 +4,13 @@ import csv
 import importlib
 import inspect
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from cardan import io as files
+from cardan.cli.torsion_band import band_remarks
 from cardan.synthesis import absorber as absorbers
 from cardan.synthesis import calm as calms
 from cardan.synthesis.calm import Grid
@@ -110,6 +112,22 @@ def test_a_drive_that_runs_elsewhere_is_warned(cardan, drive_file):
     assert "the drive runs at 100.0 rpm, outside these speeds" in text
     assert "It slips by" in text
     assert "absorber.stiffness" not in text
+
+
+def test_lost_motions_are_told():
+    found = SimpleNamespace(
+        after=np.asarray([[1.0, 2.0], [np.nan, np.nan], [3.0, 1.0]]),
+        unstable_after=[],
+        unstable_before=[],
+        play=False,
+        cancelled=False,
+        converged=True,
+        assumed=(),
+    )
+    (said,) = band_remarks(found)
+    assert "at 1 of 3 speeds no steady motion was found" in said.text
+    found.after = found.after[::2]
+    assert not list(band_remarks(found))
 
 
 def test_a_calm_design_is_found_and_written(cardan, rig, tmp_path):

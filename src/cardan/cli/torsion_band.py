@@ -122,16 +122,24 @@ def asked_of(file: Path, options: Mapping[str, str]) -> Iterator[None]:
 
 
 def band_remarks(found: Any) -> Iterator[Remark]:
-    """Yield what an absorber and a calm design have to say alike: stability, play, a stop, what is assumed.
+    """Yield what an absorber and a calm design have to say alike: stability, lost motions, play, a stop, assumptions.
 
     Parameters
     ----------
     found : Absorber or Calm
     """
+    import numpy as np
+
     from cardan.units import rpm
 
     from .answer import Remark, significant
 
+    lost = int(np.sum(~np.isfinite(found.after).all(axis=-1)))
+    if lost:
+        text = _(
+            "Warning: at {lost} of {count} speeds no steady motion was found; they do not count in the largest swing."
+        )
+        yield Remark(text=text.format(lost=lost, count=len(found.after)), tone="warning")
     if len(found.unstable_after):
         text = _("Warning: near {speeds} rpm vibration grows by itself: see cardan torsion stability.")
         said = ", ".join(significant(float(one) / rpm, 3) for one in found.unstable_after[:4])
