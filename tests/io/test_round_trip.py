@@ -93,6 +93,9 @@ NAMES: dict[tuple[type, str], st.SearchStrategy[Any]] = {
 
 
 WAYS: dict[Any, Callable[[type], st.SearchStrategy[Any]]] = {
+    Absorber: lambda cls: (
+        things(cls, stiffness=st.just(0.0), damping=st.floats(0.1, 1e3)) | things(cls, stiffness=st.floats(1.0, 1e6))
+    ),
     Rating: lambda cls: (
         things(cls, torque=st.none(), convention=st.just("Tc")) | things(cls, torque=st.floats(1.0, 1e5))
     ),
@@ -256,7 +259,7 @@ def test_torques(kind: type, data: st.DataObject) -> None:
 
 
 elements = st.none() | things(ToNext)
-hung = st.tuples(st.none() | things(Absorber), st.none()) | st.tuples(st.none(), st.none() | things(Pendulum))
+hung = st.tuples(st.none() | WAYS[Absorber](Absorber), st.none()) | st.tuples(st.none(), st.none() | things(Pendulum))
 
 
 @given(st.data(), elements, hung)
