@@ -234,3 +234,9 @@ def test_other_tubes_are_compared_with_the_one_of_the_file(cardan, winch, tmp_pa
         7850.0 * 0.25 * np.pi * (now.outer**2 - (now.outer - 2.0 * now.wall) ** 2) * known_lengths(files.load(winch))[2]
     )
     assert f"now it is {mass:.2f} kg" in (tmp_path / "tubes.svg").read_text("utf-8")
+
+
+def test_keys_that_miss_have_their_units(cardan):
+    done = cardan("strength", EXAMPLES / "propshaft-with-rzeppa.toml", "--size", "journal:1")
+    assert done.code == 2
+    assert "joints[0].cross.material.yield_strength_MPa: missing" in done.err

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError
+from cardan import Drive, InputError, example
 from cardan.analysis.shaft_strength import shaft_diameter
 from cardan.analysis.strength import strength
 from cardan.catalogue import catalogue, completed
@@ -280,3 +280,11 @@ def test_the_sizes_put_into_the_file_are_those_of_the_part(part, hold, body):
     for whole in (with_values(base, found.values), loads(edit(text, found.values))):
         for a, b in zip(check(whole, only=CHECKS["tube"]), check(found.drive, only=CHECKS["tube"]), strict=True):
             assert (a.title, a.utilisation) == (b.title, pytest.approx(b.utilisation, rel=1e-9))
+
+
+def test_only_cross_joints_are_sized():
+    mixed = example("propshaft-with-rzeppa")
+    assert set(size(mixed, None, "joint").values) == {"joints[0].size", "joints[2].size"}
+    for part in ("joint:2", "journal:2", "needles:2"):
+        with pytest.raises(InputError, match="only cross joints are sized"):
+            size(mixed, None, part)

@@ -159,7 +159,11 @@ def key_of(field: str) -> str:
     unit = SUFFIX.get(field.rpartition(".")[2])
     if field.endswith(".stiffness") and not field.startswith("supports"):
         unit = "Nm_per_rad"  # a shaft or a station twists
-    return f"{field}_{unit}" if unit else field
+    if unit:
+        return f"{field}_{unit}"
+    from cardan.drive.keys import spelled
+
+    return spelled(field)
 
 
 def figures(*results: Any) -> Any:

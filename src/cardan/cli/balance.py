@@ -182,7 +182,7 @@ def _remarks(found: Balance) -> Iterator[Remark]:
     missing = [path for one in found.shafts for path in one.missing]
     if missing:
         text = _("Warning: some limits could not be told; the file lacks {keys}, or a body.")
-        yield Remark(text=text.format(keys=", ".join(f"{key_of(path)}_kg" for path in missing)), tone="warning")
+        yield Remark(text=text.format(keys=", ".join(map(key_of, missing))), tone="warning")
     if not any(one.corrections for one in found.shafts):
         yield Remark(text=_("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle."))
     yield Remark(text=_("Unbalance from clearances cannot be balanced out. Mark parts before they come apart."))

@@ -14,7 +14,7 @@ from cardan.drive.joint_parts import Needles
 from cardan.errors import refuse
 from cardan.texts import _
 
-from .joint_size import smallest_row, with_joint
+from .joint_size import refuse_other, smallest_row, with_joint
 from .preferred import SERIES
 from .size_search import solved
 from .sized import HOLDS, PARTS, Hold, Sizing, Tried
@@ -80,6 +80,8 @@ def size(
         raise refuse("series", _("{value} is none of {choices}").format(value=repr(series), choices=", ".join(SERIES)))
     if kind == "joint":
         return smallest_row(whole, number, rows)
+    if kind in ("needles", "journal"):
+        refuse_other(whole, number)
     if kind == "needles":
         return _needles(whole, number, series, rows)
     if kind == "journal":
