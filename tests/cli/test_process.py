@@ -187,7 +187,7 @@ def test_completion_knows_commands_options_and_names(process):
         }
         return process(capture_output=True, text=True, environment=environment).stdout.split()
 
-    assert completed("cardan mo") == ["motion"]
+    assert completed("cardan mo") == ["motion", "mobility"]
     assert "--fix" in completed("cardan phases --f")
     assert completed("cardan calc single_joint_e") == ["single_joint_extremes"]
     assert completed("cardan example single") == ["single-20deg"]
