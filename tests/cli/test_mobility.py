@@ -69,6 +69,16 @@ def test_a_turn_tells_whether_it_comes_round(cardan):
     assert (said["comes_round"], said["redundant_everywhere"], said["special_deg"]) == (True, 3, [])
 
 
+def test_what_is_not_held_is_told(cardan, drive_file):
+    out = one_line(cardan("mobility", EXAMPLES / "truck-duty-cycle.toml").out)
+    assert "not held enough; 11 motions" in out
+    assert "The input itself moves in 6 ways" in out
+    assert "5 motions are left while the input stands still" in out
+    text = (EXAMPLES / "mechanisms" / "crank-slider.toml").read_text("utf-8").replace('input_link = "crank"\n', "")
+    done = cardan("mobility", drive_file(text), "--turn", "--json")
+    assert (done.code, done.complaint["problems"][0]["field"]) == (2, "--turn")
+
+
 def test_csv_has_every_joint(cardan):
     path = EXAMPLES / "mechanisms" / "crank-slider.toml"
     rows = list(csv.DictReader(io.StringIO(cardan("mobility", path, "--csv").out)))

@@ -82,8 +82,11 @@ class _Turn:
 def _around(thing: Drive | Mechanism, progress: Any) -> _Turn:
     from cardan.analysis.finite_mobility import finite_mobility
     from cardan.analysis.mobility_turn import mobility_over_turn
+    from cardan.errors import refuse
     from cardan.mechanism.mechanism import Mechanism
 
+    if isinstance(thing, Mechanism) and not thing.input_link:
+        raise refuse("--turn", _("the file names no input_link that could be turned"))
     if not isinstance(thing, Mechanism):
         return _Turn(mobility_over_turn(thing, progress=progress), None)
     positions = mobility_over_turn(thing, progress=lambda share: progress(0.5 * share))
@@ -229,6 +232,9 @@ def _loose(found: Mobility) -> Iterator[Remark]:
     from .answer import Remark
 
     links = ", ".join(found.adrift)
+    if (found.driven or 0) > 1:
+        text = _("The input itself moves in {n} ways, not one: hold it.")
+        yield Remark(text=text.format(n=found.driven), tone="warning")
     if found.parasitic:
         text = plural(
             "{n} motion is left while the input stands still, of {links}: hold it.",
