@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from cardan.catalogue import catalogue, with_files
 from cardan.checks import check
 from cardan.io import example
 from cardan.report.block import Page, Words
@@ -69,3 +70,12 @@ def test_no_kept_limit_hides_what_fails_elsewhere():
     on = asked(example("composite-propshaft"), None, None)
     grows = Page(name="torsion", title="", answer="", blocks=[], alarms=[Words(text="grows", tone="failed")])
     assert judgement(on, [grows, judged(on).page]).tone == "failed"
+
+
+def test_the_norm_of_a_catalogue_of_the_user_s_own_counts(tmp_path):
+    rows = "torsional_rad_s2 = 9e3\ninertia_drive_rad_s2 = 9e3\ninertia_coast_rad_s2 = 9e3\n"
+    (tmp_path / "own.toml").write_text(f'[[angle_norms]]\nid = "plant"\nsource = "s"\n{rows}', "utf-8")
+    drive = example("z-arrangement")
+    own = replace(drive, settings=replace(drive.settings, norm="plant"))
+    known = with_files(catalogue(), [tmp_path / "own.toml"])
+    assert "all 3 limits that could be judged are kept" in "".join(parsed(page(own, known=known)).words)

@@ -47,6 +47,7 @@ def report(
 
     from dataclasses import replace
 
+    from cardan.io.drive_file import known_to
     from cardan.report.report import report as write
     from cardan.units import rpm
 
@@ -55,7 +56,8 @@ def report(
     if speed_rpm is not None:
         drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
     with watching(_("writing the report")) as progress:
-        write(drive, None, place, source_text=text, interactive=interactive, progress=progress)
+        known = known_to(drive, "." if file == STDIN else file.parent)
+        write(drive, None, place, source_text=text, interactive=interactive, progress=progress, known=known)
 
     from cardan.analysis.swing import each_shaft
 

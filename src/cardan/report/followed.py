@@ -15,6 +15,7 @@ from cardan.analysis.equivalence import SYNCHRONOUS
 from cardan.analysis.joint_by_joint import followed as by_laws
 from cardan.analysis.motion import Motion, motion
 from cardan.analysis.swing import Swing, swing
+from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import Geometry, geometry
@@ -50,6 +51,7 @@ class Followed:
     phase: Array
     complete: bool = True
     mixed: bool = True
+    known: Catalogue | None = None
 
     @property
     def bend(self) -> Array:

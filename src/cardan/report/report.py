@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
 from cardan import __version__
+from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.laws import unmapped
@@ -21,6 +23,7 @@ from cardan.texts import _
 from .balance import refused
 from .block import Listing, Page, Picture, Points, Table, Words
 from .followed import (
+    Followed,
     asked_by_laws,
     changes_by_laws,
     figures_by_laws,
@@ -51,6 +54,7 @@ def report(
     source_text: str | None = None,
     interactive: bool = False,
     progress: Callable[[float], object] | None = None,
+    known: Catalogue | None = None,
 ) -> Path:
     """Write the report of a drive as one HTML file that needs nothing else.
 
@@ -68,6 +72,8 @@ def report(
         Draw figures to point at, zoom and turn, at the price of some megabytes.
     progress : function, optional
         Called with the share done; answering "stop" leaves out what is still to be reckoned.
+    known : Catalogue, optional
+        Norms, types and sizes that it is judged by; the shipped ones when not given.
 
     Returns
     -------
@@ -89,7 +95,7 @@ def report(
     place = Path(path)
     if place.suffix.lower() not in SUFFIXES:
         raise refuse("path", _("{path} should end in .html").format(path=place))
-    text = page(drive, duty, source_text=source_text, interactive=interactive, progress=progress)
+    text = page(drive, duty, source_text=source_text, interactive=interactive, progress=progress, known=known)
     write_text(place, text)
     return place
 
@@ -101,11 +107,13 @@ def page(
     source_text: str | None = None,
     interactive: bool = False,
     progress: Callable[[float], object] | None = None,
+    known: Catalogue | None = None,
 ) -> str:
     """Return the report of a drive as the text of an HTML page; see `report`."""
     if unmapped(drive.joints):
-        return _page_by_laws(drive, duty, source_text=source_text, interactive=interactive, progress=progress)
-    on = asked(drive, duty, progress)
+        on_laws = replace(asked_by_laws(drive, duty), known=known)
+        return _page_by_laws(on_laws, source_text=source_text, interactive=interactive, progress=progress)
+    on = replace(asked(drive, duty, progress), known=known)
     pages: list[Page] = [understood(on), turning(on), phasing(on)]
     if on.moving is not None:
         pages.append(moving(on))
@@ -127,15 +135,13 @@ def page(
 
 
 def _page_by_laws(
-    drive: Drive,
-    duty: Duty | None,
+    on: Followed,
     *,
     source_text: str | None,
     interactive: bool,
     progress: Callable[[float], object] | None,
 ) -> str:
     """Return the report of a drive with joints that turn by laws of their own."""
-    on = asked_by_laws(drive, duty)
     alike = cast(Subject, on)  # what these pages ask for it has under the same names
     pages = [understood(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
     limits = judged(alike)
@@ -149,7 +155,7 @@ def _page_by_laws(
         "changes": changes_by_laws(on),
         "limits": limits,
     }
-    return _rendered(drive, on.seen, pages, words, interactive=interactive, progress=progress)
+    return _rendered(on.drive, on.seen, pages, words, interactive=interactive, progress=progress)
 
 
 def _rendered(

@@ -31,7 +31,7 @@ def bearing_up(on: Subject) -> Page | None:
     if not _loaded(on.drive):
         return None
     try:
-        found = strength(on.drive)
+        found = strength(on.drive, known=on.known)
     except InputError as error:
         return refused("strength", title, error)
     if not found.binding:

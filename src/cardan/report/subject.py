@@ -13,6 +13,7 @@ from cardan.analysis.closure import Closure, closure
 from cardan.analysis.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
 from cardan.analysis.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.analysis.motion import Motion, motion, phase_angles
+from cardan.catalogue import Catalogue
 from cardan.drive.chain import Chain, as_hooke, turning_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -50,6 +51,8 @@ class Subject:
         The Hooke joints that turn like its joints.
     complete : bool
         False when the reader stopped the work; what was found by then is shown.
+    known : Catalogue or None
+        Norms, types and sizes that it is judged by; None for the shipped ones.
     """
 
     drive: Drive
@@ -69,6 +72,7 @@ class Subject:
     moving: Articulation | None = None
     unmoved: InputError | None = None
     complete: bool = True
+    known: Catalogue | None = None
 
     @property
     def even(self) -> bool:

@@ -51,8 +51,8 @@ def judged(on: Subject) -> Judged:
     """Return the verdicts on a drive."""
     title = _("Limits")
     try:
-        verdicts = check(on.drive)
-        found = cures(on.drive, verdicts)
+        verdicts = check(on.drive, known=on.known)
+        found = cures(on.drive, verdicts, known=on.known)
     except InputError as error:
         return Judged(page=refused("limits", title, error))
     binding = sorted((one for one in verdicts if one.run and not one.advice), key=_worst)
