@@ -10,6 +10,7 @@ from typing import Any
 from cardan.drive.paths import place, read, with_values
 
 from .drive_file import loads
+from .writer import whole
 
 
 def edit(
@@ -133,4 +134,4 @@ def _plain(value: Any) -> Any:
     """Return tuples as lists, and whole numbers without a point."""
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
+    return whole(value)

@@ -8,7 +8,7 @@ from typing import Any
 from cardan.drive.drive import Drive
 
 from .drive_file import loads
-from .writer import toml_text, tree_of
+from .writer import toml_text, tree_of, whole
 
 
 def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".") -> str:
@@ -62,7 +62,7 @@ def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".
     else:
         new = tomlkit.table()
         for key, value in wanted.items():
-            new[key] = _inline(value) if isinstance(value, dict) else _plain(value)
+            new[key] = _inline(value) if isinstance(value, dict) else whole(value)
         if tables is None:
             tables = tomlkit.aot()
             if not text.endswith("\n\n"):
@@ -103,10 +103,5 @@ def _inline(values: dict[str, Any]) -> Any:
 
     table = tomlkit.inline_table()
     for key, value in values.items():
-        table[key] = _inline(value) if isinstance(value, dict) else _plain(value)
+        table[key] = _inline(value) if isinstance(value, dict) else whole(value)
     return table
-
-
-def _plain(value: Any) -> Any:
-    """Return whole numbers without a point."""
-    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
