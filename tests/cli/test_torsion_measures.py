@@ -185,3 +185,9 @@ def test_files_that_cannot_be_written_are_refused_before_any_work(cardan, rig, t
     for name in ("absorber", "calm"):
         assert "--force" in cardan("torsion", name, rig, "-o", "there.toml").err
         assert "should end in" in cardan("torsion", name, rig, "-o", "drive.txt").err
+
+
+def test_a_duty_of_the_command_line_is_not_written_into_the_file(cardan, rig, tmp_path):
+    done = cardan("torsion", "absorber", rig, "--torque-Nm", 7, "--speed-rpm", 777, "-o", "better.json")
+    assert done.code == 0
+    assert files.load(tmp_path / "better.json").duty == files.load(rig).duty

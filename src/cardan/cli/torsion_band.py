@@ -176,13 +176,15 @@ def written(said: Answer, file: Path, text: str, out: Path, edited: Callable[[],
     better : Drive
         What it is to hold.
     """
-    from cardan.io import dumps
+    from cardan.io import dumps, loads
 
     from .answer import Remark
     from .output import write_text
+    from .source import form_of
 
     if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
-        content = dumps(better, form="json" if out.suffix.lower() == ".json" else "toml")
+        asked = loads(text, form=form_of(file, text), folder=file.parent).duty  # not the one of the command line
+        content = dumps(replace(better, duty=asked), form="json" if out.suffix.lower() == ".json" else "toml")
     else:
         content = edited()
     write_text(out, content, "--out")
