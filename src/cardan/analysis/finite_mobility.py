@@ -237,7 +237,8 @@ class _Loops:
         self.driven = self.slices[driven].stop - turns  # what slides comes first
         self.free = np.delete(np.arange(len(self.twists)), self.driven)
         self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
-        self.state = np.zeros(len(self.twists))
+        self.state = self.before = np.zeros(len(self.twists))
+        self.open = False
         self.paths = [[self.tree.path(end) for end in self.ends[j]] for j in self.cut]
 
     def start(self) -> tuple[float, float, float, Array]:
@@ -245,8 +246,21 @@ class _Loops:
         return self._told(self.state)
 
     def closed(self, amount: float) -> tuple[float, float, float, Array]:
-        """Return the same with the driven joint at ``amount`` [rad] and the loops closed as well as they can be."""
-        state = self.state.copy()
+        """Return the same with the driven joint at ``amount`` [rad] and the loops closed as well as they can be.
+
+        The loops are sought where they would stand if they went on as from the position before, which leads through
+        positions in which they could branch off; where that fails, from where they stood.
+        """
+        error, state = self._least(2.0 * self.state - self.before, amount)
+        if error >= NEAR and not self.open:
+            error, state = min((error, state), self._least(self.state, amount), key=lambda one: one[0])
+        self.open = error >= NEAR
+        self.before, self.state = self.state, state
+        return self._told(state)
+
+    def _least(self, guess: Array, amount: float) -> tuple[float, Array]:
+        """Return the least sum of squares near a guess, and where it is."""
+        state = guess.copy()
         state[self.driven] = amount
         rest, slope = self._misfit(state)
         error, damping = float(rest @ rest), 1e-9
@@ -271,8 +285,7 @@ class _Loops:
                 damping *= 10.0
                 if near or damping > 1e6:
                     break
-        self.state = state
-        return self._told(state)
+        return error, state
 
     def _told(self, state: Array) -> tuple[float, float, float, Array]:
         rest, _slope = self._misfit(state)
