@@ -16,11 +16,11 @@ MOST_POWER = 1000
 """Highest power of the law of breathing."""
 
 
-def _bad_power(power: int) -> list[Problem]:
+def _bad_power(power: int, name: str = "breathing") -> list[Problem]:
     if power == int(power) and 0 <= power <= MOST_POWER:
         return []
     text = _("needs to be a whole number from 0 to {most}").format(most=MOST_POWER)
-    return [Problem("breathing", text, "out_of_range")]
+    return [Problem(name, text, "out_of_range")]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -138,5 +138,5 @@ def breathing_law(power: int) -> Array:
     >>> breathing_law(1)
     array([0.5, 0.5])
     """
-    check(Problem("power", problem.message, problem.code) for problem in _bad_power(power))
+    check(_bad_power(power, "power"))
     return hump_coefficients(power)

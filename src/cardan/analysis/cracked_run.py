@@ -179,7 +179,7 @@ def cracked_run(
     ]
     if not problems and start_speed + acceleration * end < -1e-9 * start_speed:
         problems.append(Problem("end", _("the shaft would turn back before"), "out_of_range"))
-    check(problems + bad_times(time, end))
+    check(problems + ([] if time is None else bad_times(time, end)))
     omega = math.sqrt(stiffness / mass)
     fastest = max(start_speed, start_speed + acceleration * end)
     at = np.union1d(0.0, instants(time, end, max(omega, 2.0 * fastest) / (2.0 * math.pi)))

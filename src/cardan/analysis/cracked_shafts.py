@@ -203,7 +203,7 @@ def cracked_shafts(
     problems = _problems((first, second), positive, others, bend)
     if not math.isfinite(phase):
         problems.append(Problem("phase", _("needs to be a finite number"), "not_finite"))
-    check(problems + bad_times(time, end))
+    check(problems + ([] if time is None else bad_times(time, end)))
     model = _Model(
         shafts=(first, second),
         bend=float(bend),

@@ -19,6 +19,9 @@ Losses: TypeAlias = tuple[float, float]
 MOST = 1 << 15
 """Harmonics on either side at most."""
 
+NOTHING = 1e-19
+"""Cosines of the law f below this are left out."""
+
 TAIL = 1e-15
 """The highest harmonics are small if they are this share of the largest."""
 
@@ -121,15 +124,16 @@ def orbit(ratio: float, damping: float, humps: Array, losses: Losses, still: com
     >>> abs(found[len(found) // 2 :][:3]).round(4)    # orders 1, 2, 3
     array([0.0275, 0.4262, 0.0067])
     """
-    reach = math.ceil(2.0 / ratio) + 2 * len(humps) + 16
+    heard = humps[: int(np.flatnonzero(humps > NOTHING)[-1]) + 1]
+    reach = math.ceil(1.5 / ratio) + len(heard) + 8
     while True:
-        found = _solved(reach, ratio, damping, humps, losses, (still, turning))
+        found = _solved(reach, ratio, damping, heard, losses, (still, turning))
         size = np.abs(found)
-        quarter = max(1, reach // 4)
-        last = max(float(np.max(size[:quarter])), float(np.max(size[-quarter:])))
+        edge = max(1, reach // 8)
+        last = max(float(np.max(size[:edge])), float(np.max(size[-edge:])))
         if not last > TAIL * float(np.max(size)) or 2 * reach > MOST:
             return found
-        reach *= 2
+        reach += reach // 2
 
 
 def _solved(
