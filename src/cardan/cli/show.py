@@ -25,6 +25,32 @@ NARROWEST = 14
 WIDEST = 100
 """Sentences are not set wider than this, however wide the terminal."""
 
+UNITS = "|".join(
+    (
+        "mm",
+        "m",
+        "°",
+        "deg",
+        "rpm",
+        "rad/s",
+        "1/s",
+        "s",
+        "ms",
+        "h",
+        "Hz",
+        "k?N·m",
+        "k?N",
+        "MPa",
+        "GPa",
+        "kg",
+        "g",
+        "k?W",
+        "J",
+        "%",
+    )
+)
+"""What stays with the number before it at the end of a line, as a pattern."""
+
 SIGNS: dict[Tone, tuple[str, str]] = {
     "plain": ("", ""),
     "good": ("●", "green"),
@@ -187,10 +213,18 @@ def _write_text(answer: Answer, plot: Path | None) -> None:
 
 
 def _filled(text: str, width: int) -> str:
-    """Return a text in lines; thin blanks within numbers hold it together."""
+    """Return a text in lines; a number, thin blanks within it, and its unit stay together.
+
+    Examples
+    --------
+    >>> _filled("shaft 2 carries 60.0 ± 173 N·m", 26).splitlines()
+    ['shaft 2 carries 60.0', '± 173 N·m']
+    """
+    import re
     from textwrap import fill
 
-    return fill(text, width, break_on_hyphens=False, break_long_words=False)
+    held = re.sub(rf"(?<=[\d±]) (?=\d|(?:{UNITS})(?![\w/]))", "\u00a0", text)
+    return fill(held, width, break_on_hyphens=False, break_long_words=False).replace("\u00a0", " ")
 
 
 def _print_table(console: Console, table: Table) -> None:
