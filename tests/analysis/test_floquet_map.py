@@ -101,6 +101,13 @@ def test_what_was_stopped_is_unknown_and_the_rest_is_kept() -> None:
     assert 0.0 <= found.unstable_share <= 1.0
 
 
+def test_a_map_with_open_play_stops_between_its_points() -> None:
+    found = floquet_map(drive(backlash=0.004, load=20.0), speed=[85.0, 90.0, 95.0], progress=lambda _share: "stop")
+    assert found.cancelled
+    assert found.floquet.verdict.tolist() == [Verdict.STABLE, Verdict.UNKNOWN, Verdict.UNKNOWN]
+    assert found.status.tolist() == [Status.CONVERGED, Status.CANCELLED, Status.CANCELLED]
+
+
 def test_a_map_of_a_thousand_million_points_is_refused_with_an_estimate() -> None:
     model = replace(drive(), bend=np.zeros((31_623, 1, 2)))
     with pytest.raises(InputError, match=r"1,000,\d{3},\d{3} points would take about .* h"):

@@ -149,9 +149,11 @@ def floquet_map(
     done, stopped = 0, False
     while done < count and not stopped:
         rows = np.arange(done, min(done + (CHUNK if compiled else FEW), count))
-        table.plain(table.by_kernel(rows, way.threads) if compiled and isinstance(way, Compiled) else rows)
+        left = table.by_kernel(rows, way.threads) if compiled and isinstance(way, Compiled) else rows
+        stopped = table.plain(left, within(progress, done / count, (int(rows[-1]) + 1) / count))
         done = int(rows[-1]) + 1
-        stopped = progress is not None and progress(done / count) == "stop" and done < count
+        if not stopped and progress is not None:
+            stopped = progress(done / count) == "stop" and done < count
     return table.found(lead, stopped)
 
 
@@ -177,13 +179,17 @@ class _Table:
                 self.columns[name] = np.full((self.count, *values.shape[1:]), fill, dtype=values.dtype)
             self.columns[name][rows] = values
 
-    def plain(self, rows: Array) -> None:
-        """Find points by array expressions."""
+    def plain(self, rows: Array, progress: Progress | None) -> bool:
+        """Find points by array expressions and tell whether the work was stopped."""
         for first in range(0, len(rows), FEW):
             some = rows[first : first + FEW]
-            part = self.turning.part(some)
-            orbit, status = steady_orbits(part.model, speed=part.speed, opened=LONG)
+            part, last = self.turning.part(some), first + len(some)
+            told = within(progress, first / len(rows), last / len(rows))
+            orbit, status = steady_orbits(part.model, speed=part.speed, opened=LONG, progress=told)
             self.put(some, floquet(orbit), orbit.coefficient, orbit.force, status)
+            if np.any(status == Status.CANCELLED):
+                return True
+        return False
 
     def by_kernel(self, rows: Array, threads: int | None) -> Array:
         """Find points by the kernel, coarse ones again with more harmonics; return those it found no motion for."""
@@ -246,6 +252,13 @@ class _Table:
             status=columns["status"].reshape(lead),
             cancelled=stopped,
         )
+
+
+def within(progress: Progress | None, low: float, high: float) -> Progress | None:
+    """Return what tells the share of a part of the work as that of the whole, but for the end of the part."""
+    if progress is None:
+        return None
+    return lambda share: progress(low + (high - low) * share) if share < 1.0 else None
 
 
 def _values(matrix: Array, turns: Turns | None, threads: int | None) -> tuple[Array, Array]:

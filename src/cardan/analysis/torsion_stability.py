@@ -16,7 +16,7 @@ from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 from cardan.units import deg
 
-from .floquet_map import floquet_map
+from .floquet_map import floquet_map, within
 from .motion import phase_angles
 from .stability import Verdict, Zone
 from .torsion_response import Progress, loaded_model, parted
@@ -157,8 +157,10 @@ def stability(
         if stopped:
             parts.append(_unknown(parts[0], len(rows)))
             continue
-        parts.append(_judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows))))
-        if progress is not None:
+        told = within(progress, first / count, (int(rows[-1]) + 1) / count)
+        part, stopped = _judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows)), told)
+        parts.append(part)
+        if progress is not None and not stopped:
             stopped = progress((int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
@@ -166,12 +168,13 @@ def stability(
     return Stability(over=axes, train=variants.train, zone=zone, here=variants.here, cancelled=stopped, **found)
 
 
-def _judged(model: TorsionalModel, speed: Array) -> dict[str, Array]:
-    """Return what is known of some points."""
-    verdict = floquet_map(model, speed=speed).floquet
+def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
+    """Return what is known of some points, and whether the work was stopped."""
+    found = floquet_map(model, speed=speed, progress=progress)
+    verdict = found.floquet
     zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
     names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
-    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}
+    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, found.cancelled
 
 
 def _unknown(like: dict[str, Array], count: int) -> dict[str, Array]:
