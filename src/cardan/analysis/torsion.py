@@ -242,10 +242,10 @@ def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
     >>> [order for order, _cause in orders(Drive.from_angles([0.1]), Duty(engine=Engine(cylinders=6)))]
     [2.0, 3.0, 4.0, 6.0]
     """
-    from cardan.drive.chain import turning_chain
+    from cardan.drive.chain import given_chain, turning
 
     found: dict[float, str] = {}
-    if np.any(turning_chain(drive).bend > STRAIGHT):
+    if np.any(turning(given_chain(drive), drive.joints, near=True).bend > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}
     engine = duty.engine
     if engine is not None:

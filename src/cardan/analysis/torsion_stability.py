@@ -223,7 +223,7 @@ def _bend_problems(drive: Drive, values: Array) -> Iterator[Problem]:
 def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
     """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
     whole = given_chain(drive)
-    bends = turning(replace(whole, bend=whole.bend * (largest / np.max(whole.bend))), drive.joints)
+    bends = turning(replace(whole, bend=whole.bend * (largest / np.max(whole.bend))), drive.joints, near=True)
     return replace(model, bend=bends.bend, phase=phase_angles(replace(bends, laws=None)))
 
 

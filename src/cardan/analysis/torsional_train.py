@@ -12,12 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.chain import turning_chain
+from cardan.drive.chain import Chain, nearly_turning_chain
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import geometry
 from cardan.drive.joints import ElasticHalfCardan, Joint
-from cardan.drive.laws import has_map, refuse_kinds
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
@@ -149,10 +148,10 @@ def torsional_train(
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
-    refuse_kinds(drive, _("torsional vibration"), known=has_map)
+    bends = nearly_turning_chain(drive, _("torsional vibration"))
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
     lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
-    base = _joined(drive, lines)
+    base = _joined(drive, lines, bends)
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
     check(problems)
@@ -201,7 +200,7 @@ def _starts(lines: Sequence[ShaftLine]) -> Iterator[tuple[ShaftLine, int]]:
         start += len(line.inertia)
 
 
-def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
+def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> TorsionalTrain:
     """Return the shafts as one model, without what hangs on it."""
     starts = [start for _line, start in _starts(lines)]
     driven: list[tuple[int, int] | None] = []
@@ -215,7 +214,6 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine]) -> TorsionalTrain:
         if joint.backlash:  # beside the joint: at the end of its driving shaft, else at the start of its driven one
             side, at = (i, -1) if play[i] else (i + 1, 0)
             play[side][at] += joint.backlash
-    bends = turning_chain(drive)
     model = TorsionalModel(
         inertia=_row([line.inertia for line in lines]),
         driven=tuple(driven),

@@ -94,6 +94,7 @@ def _sentence(drive: Drive, file: Path, found: Phasing) -> str:
 
 
 def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float], goal: str) -> Iterator[Remark]:
+    from cardan.drive.laws import unmapped
     from cardan.figures.wording import letters
 
     from .answer import Remark
@@ -106,6 +107,9 @@ def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float]
     if meaning := letters(found, nearest=goal == "nearest"):
         yield Remark(text=meaning)
     yield from spread(found)
+    if unmapped(drive.joints):
+        text = _("What joints leave by laws of their own, below {most} rad, is not in these figures.")
+        yield Remark(text=text.format(most="10⁻⁶"))
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
     yield from steep_joints(drive)

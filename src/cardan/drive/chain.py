@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.errors import check
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace
 from cardan.texts import _
@@ -14,7 +15,7 @@ from cardan.texts import _
 from .drive import Drive
 from .geometry import geometry, given_angles
 from .joints import Joint
-from .laws import Laws, alike, mixed, refuse_kinds
+from .laws import NEGLIGIBLE, Laws, alike, kind_problem, left_over, mixed, refuse_kinds
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -121,6 +122,26 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
         start_phase=whole.start_phase + start,
         laws=laws,
     )
+
+
+def nearly_turning_chain(drive: Drive, question: str) -> Chain:
+    """Return the Hooke joints that turn like the joints of a drive, but for angles that nobody can measure.
+
+    Parameters
+    ----------
+    drive : Drive
+    question : str
+        What is asked, in words.
+
+    Raises
+    ------
+    InputError
+        A joint turns by a law of its own that no Möbius map comes near.
+    """
+    given = given_chain(drive)
+    left = [left_over(joint, bend) for joint, bend in zip(drive.joints, given.bend.tolist(), strict=True)]
+    check(kind_problem(i, drive.joints[i], question) for i, rest in enumerate(left) if rest > NEGLIGIBLE)
+    return turning(given, drive.joints, near=True)
 
 
 def as_hooke(drive: Drive) -> Drive:

@@ -19,13 +19,15 @@ from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.laws import has_map, unknown_kinds
+from cardan.drive.laws import NEGLIGIBLE, kind_problem, left_over
 from cardan.drive.solids import Solids, solids
 from cardan.errors import InputError
 from cardan.figures.kinds import kind_name, too_steep
 from cardan.figures.motion import motion_figure
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
+from cardan.synthesis.phases import phases
+from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -135,9 +137,26 @@ def _orders(on: Followed) -> Table:
 
 def yokes_refused(on: Followed) -> Page:
     """Return the page of the yoke angles: which joints keep them from being found."""
-    problems = unknown_kinds(on.drive.joints, _("yoke angles"), has_map)
-    page = refused("phases", _("Yoke angles"), InputError(problems))
-    return replace(page, alarms=())
+    left = [left_over(joint, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True)]
+    far = [i for i, rest in enumerate(left) if not rest <= NEGLIGIBLE]
+    if far:
+        problems = [kind_problem(i, on.drive.joints[i], _("yoke angles")) for i in far]
+        return replace(refused("phases", _("Yoke angles"), InputError(problems)), alarms=())
+    rows = [
+        [words(one.label), *(number(fixed(float(g) / deg), float(g) / deg) for g in one.yoke_angle), _left(one)]
+        for found in [phases(on.drive)]
+        for one in (found.as_built, *found.settings, *found.spline_settings[:3])
+    ]
+    between = [Column(heading=_("γ shaft {number}").format(number=k), unit="°") for k in range(2, on.joints + 1)]
+    columns = (Column(heading=_("setting"), left=True), *between, Column(heading=_("leaves δ"), unit="%"))
+    text = _("What joints leave by laws of their own, below {most} rad, is not in these figures.")
+    table = Table(columns=columns, rows=rows, title=_("Settings to choose from"), note=text.format(most="10⁻⁶"))
+    answer = _("Yoke angles of the joints beside those that turn by laws of their own.")
+    return Page(name="phases", title=_("Yoke angles"), answer=answer, blocks=[table])
+
+
+def _left(one: YokeSetting) -> Cell:
+    return number(percent(one.irregularity).removesuffix(" %"), 100.0 * one.irregularity)
 
 
 def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:

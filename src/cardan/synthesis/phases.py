@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cardan.analysis.equivalence import SYNCHRONOUS as EVEN
-from cardan.drive.chain import Chain, turning_chain
+from cardan.drive.chain import Chain, nearly_turning_chain
 from cardan.drive.drive import Drive
-from cardan.drive.laws import has_map, refuse_kinds
 from cardan.drive.validity import wrong_count
 from cardan.errors import InputError, Problem, check
 from cardan.maths import polygon
@@ -118,7 +117,8 @@ def phases(
     Notes
     -----
     Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of
-    the others; joints of other kinds count as the Hooke joints that turn alike. Joints with held yokes between them
+    the others; joints of other kinds count as the Hooke joints that turn alike,
+    within a microradian. Joints with held yokes between them
     count as one. Replaces the first-order Book (77)-(86).
 
     Examples
@@ -128,8 +128,7 @@ def phases(
     >>> found.feasible, [s.irregularity < 1e-14 for s in found.settings]
     (True, [True, True])
     """
-    refuse_kinds(drive, _("yoke angles"), known=has_map)
-    whole = turning_chain(drive)
+    whole = nearly_turning_chain(drive, _("yoke angles"))
     as_built = np.asarray(whole.yoke_angle)
     if goal.weights is not None:
         check(wrong_count("goal.weights", goal.weights, whole.joints - 1))
@@ -252,7 +251,7 @@ def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, 
     even = np.ones(len(said)) / max(1, len(said))
     return (
         tuple(name for name, _one in given),
-        [turning_chain(one) for _name, one in given],
+        [nearly_turning_chain(one, _("yoke angles")) for _name, one in given],
         weight / weight.sum() if weight.sum() > 0 else even,
     )
 
