@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 from cardan.figures import Figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
+from cardan.texts import _
 
 Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
 
@@ -164,3 +165,15 @@ def of_shaft(k: int, name: str = "", *, end: str = "") -> Cell:
     """Return the cell that heads the row of a shaft, with its colour."""
     text = " ".join(part for part in (str(k), end, name) if part)
     return Cell(text=text, chip=colour(shaft(k)))
+
+
+def verdict_columns() -> tuple[Column, ...]:
+    """Return the columns of a table of figures with their limits; the rows of `key` fit them."""
+    return (
+        Column(heading=_("what"), left=True),
+        Column(heading=_("value")),
+        Column(heading="", left=True),
+        Column(heading=_("limit")),
+        Column(heading=_("utilisation")),
+        Column(heading=_("verdict"), left=True),
+    )

@@ -13,7 +13,7 @@ from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
 
-from .block import Cell, Column, Page, Table, Tone, Words, key, number, words
+from .block import Cell, Column, Page, Table, Tone, Words, key, number, verdict_columns, words
 from .subject import Subject
 
 ILL = 80.0
@@ -185,17 +185,7 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
     if on.moving is not None:
         rows += list(_moving(on))
     rows += [list(row) for page in pages for row in page.keys]
-    return Table(
-        columns=(
-            Column(heading=_("what"), left=True),
-            Column(heading=_("value")),
-            Column(heading="", left=True),
-            Column(heading=_("limit")),
-            Column(heading=_("utilisation")),
-            Column(heading=_("verdict"), left=True),
-        ),
-        rows=rows,
-    )
+    return Table(columns=verdict_columns(), rows=rows)
 
 
 def _bend(on: Subject) -> list[Cell]:

@@ -10,6 +10,7 @@ from cardan.figures.book import book_figure
 from cardan.figures.equivalence import orders_figure
 from cardan.figures.motion import motion_figure
 from cardan.figures.wording import fixed, percent, significant
+from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
@@ -28,23 +29,35 @@ def turning(on: Subject) -> Page:
 
 
 def _extremes(on: Subject) -> Table:
-    each, speed = on.each, on.drive.duty.speed
+    each = on.each
+    parts = (each.ratio_min, each.ratio_max, on.whole.shaft_irregularity, each.max_lead, each.max_acceleration)
+    return extremes_table(np.stack([np.ravel(one) for one in parts], axis=-1), on.drive.duty.speed, even=1e-13)
+
+
+def extremes_table(found: Array, speed: float | None, *, even: float) -> Table:
+    """Return the table of what every shaft behind the first does over a turn.
+
+    Parameters
+    ----------
+    found : array (n, 5)
+        Of each shaft its least and greatest ratio, irregularity, lead [rad], and acceleration over the square of ω_1.
+    speed : float or None [rad/s]
+        ω_1.
+    even : float
+        Irregularity below which a shaft turns evenly.
+    """
     scale = 1.0 if speed is None else speed**2
     rows: list[list[Cell]] = []
-    for k in range(on.joints):
-        low, high = float(np.ravel(each.ratio_min)[k]), float(np.ravel(each.ratio_max)[k])
-        lead = float(np.ravel(each.max_lead)[k]) / deg
-        steep = float(np.ravel(each.max_acceleration)[k]) * scale
-        share = float(on.whole.shaft_irregularity[k])
-        even = share < 1e-13
+    for k, (low, high, share, ahead, pull) in enumerate(found.tolist()):
+        lead, steep, still = ahead / deg, pull * scale, share < even
         rows.append(
             [
-                of_shaft(k + 2, end=_("output") if k + 1 == on.joints else ""),
+                of_shaft(k + 2, end=_("output") if k + 1 == len(found) else ""),
                 number(fixed(low, 4), low),
                 number(fixed(high, 4), high),
                 number(percent(share).removesuffix(" %"), 100.0 * share),
-                number("0" if even else significant(lead, 3), lead),
-                number("0" if even else significant(steep), steep),
+                number("0" if still else significant(lead, 3), lead),
+                number("0" if still else significant(steep), steep),
             ]
         )
     return Table(

@@ -16,7 +16,7 @@ from cardan.texts import _, plural
 from cardan.units import factor, label
 
 from .balance import refused
-from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, words
+from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, verdict_columns, words
 from .subject import Subject
 
 LIGHTS = 10
@@ -134,17 +134,8 @@ def _table(verdicts: Sequence[Verdict], title: str, *, note: str = "", sources: 
             words(_("beyond") if one.advice and one.state == "failed" else said, tone),
         ]
         rows.append([*row, words("; ".join(part for part in (one.source, one.note) if part))] if sources else row)
-    columns = [
-        Column(heading=_("what"), left=True),
-        Column(heading=_("value")),
-        Column(heading="", left=True),
-        Column(heading=_("limit")),
-        Column(heading=_("utilisation")),
-        Column(heading=_("verdict"), left=True),
-    ]
-    if sources:
-        columns.append(Column(heading=_("by"), left=True))
-    return Table(columns=columns, rows=rows, title=title, note=note)
+    by = (Column(heading=_("by"), left=True),) if sources else ()
+    return Table(columns=(*verdict_columns(), *by), rows=rows, title=title, note=note)
 
 
 def _figure(one: Verdict, value: float) -> Cell:
