@@ -32,7 +32,21 @@ from cardan.texts import _
 from cardan.units import deg, rpm
 
 from .balance import refused
-from .block import Cell, Column, Listing, Page, Picture, Points, Table, Words, key, number, of_shaft, words
+from .block import (
+    Cell,
+    Column,
+    Listing,
+    Page,
+    Picture,
+    Points,
+    Table,
+    Words,
+    key,
+    number,
+    verdict_columns,
+    words,
+)
+from .turning import extremes_table
 
 SPECK = 1e-6
 """Irregularity that nobody notices."""
@@ -91,36 +105,9 @@ def turning_by_laws(on: Followed) -> Page:
 
 
 def _extremes(on: Followed) -> Table:
-    speed, seen = on.drive.duty.speed, on.whole
-    scale = 1.0 if speed is None else speed**2
-    rows: list[list[Cell]] = []
-    for k in range(on.joints):
-        low, high, share = (float(part[k]) for part in (seen.ratio_min, seen.ratio_max, seen.irregularity))
-        lead, steep = float(seen.max_lead[k]) / deg, float(seen.max_acceleration[k]) * scale
-        even = share < SYNCHRONOUS
-        rows.append(
-            [
-                of_shaft(k + 2, end=_("output") if k + 1 == on.joints else ""),
-                number(fixed(low, 4), low),
-                number(fixed(high, 4), high),
-                number(percent(share).removesuffix(" %"), 100.0 * share),
-                number("0" if even else significant(lead, 3), lead),
-                number("0" if even else significant(steep), steep),
-            ]
-        )
-    return Table(
-        title=_("Extremes over a turn at uniform input"),
-        columns=(
-            Column(heading=_("shaft"), left=True),
-            Column(heading=_("least ratio")),
-            Column(heading=_("greatest ratio")),
-            Column(heading=_("irregularity δ"), unit="%"),
-            Column(heading=_("ahead and back by"), unit="°"),
-            Column(heading=_("greatest acceleration"), unit="–" if speed is None else "rad/s²"),
-        ),
-        rows=rows,
-        note=_("Acceleration over ω₁², the square of the input speed in rad/s.") if speed is None else "",
-    )
+    seen = on.whole
+    parts = (seen.ratio_min, seen.ratio_max, seen.irregularity, seen.max_lead, seen.max_acceleration)
+    return extremes_table(np.stack(parts, axis=-1), on.drive.duty.speed, even=SYNCHRONOUS)
 
 
 def _orders(on: Followed) -> Table:
@@ -195,17 +182,7 @@ def figures_by_laws(on: Followed, pages: Sequence[Page]) -> Table:
         name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
         rows.append(key(name, steep * speed**2, "rad/s²", words("")))
     rows += [list(row) for page in pages for row in page.keys]
-    return Table(
-        columns=(
-            Column(heading=_("what"), left=True),
-            Column(heading=_("value")),
-            Column(heading="", left=True),
-            Column(heading=_("limit")),
-            Column(heading=_("utilisation")),
-            Column(heading=_("verdict"), left=True),
-        ),
-        rows=rows,
-    )
+    return Table(columns=verdict_columns(), rows=rows)
 
 
 def changes_by_laws(on: Followed) -> Words:
