@@ -379,3 +379,12 @@ def test_inside_shafts_swing_hardest_where_the_movement_bends_most():
     bend = articulation(drive).envelope["bend"][1][0]
     assert in_drive.value == pytest.approx(drive.duty.speed**2 * largest_acceleration(bend), rel=1e-12)
     assert in_drive.note == output.note == "while the drive moves"
+
+
+def test_shocks_count_in_the_book_s_rule_for_needles_too():
+    drive = whole()
+    steady = replace(drive.duty, blocks=(), shock_factor=1.3)
+    rest, rule = (
+        one(check(drive, steady, only=["needle_static"]), "needle_static", title) for title in ("rest", "book")
+    )
+    assert rule.value == pytest.approx(rest.value, rel=1e-12)

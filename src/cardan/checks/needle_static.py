@@ -67,7 +67,7 @@ def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
     limit: Array = book_load(count, diameter, length, np.asarray(turning[worst].speed) / (2.0 * np.pi))
     yield made(
         title=_("load of the needles of joint {number}, the book's rule").format(number=i + 1),
-        value=turning[worst].couple[..., i] / design.value(span),
+        value=turning[worst].couple[..., i] * design.shock / design.value(span),
         limit=np.minimum(limit, capacity),
         source=_("Book (266), one swing a turn"),
         levers=(span, *sizes, *design.torque_levers, *design.speed_levers),
