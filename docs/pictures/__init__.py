@@ -15,6 +15,7 @@ MODULES = (
     "joint_gallery",
     "movements",
     "absorbers",
+    "cracked",
     "calm",
     "parametric",
     "torsion",

@@ -134,6 +134,14 @@ def test_slow_and_fast_shafts_and_sharp_cracks_are_as_exact():
     np.testing.assert_allclose(slow.at([0.0, 1.0, 2.5]), [one[0] + 1j * one[1] for one in bent], atol=1e-3)
 
 
+def test_how_far_the_weight_rules_the_crack_is_told():
+    found = cracked_rotor(MASS, STIFFNESS, [60.0, 170.0], crack=LIGHT, **ARTICLE)
+    assert found.vibration_share[0] < 0.5 < 1.0 < found.vibration_share[1]
+    sound = cracked_rotor(1.0, 1.0, 0.6, unbalance=0.3, gravity=2.0)
+    assert sound.vibration_share == pytest.approx(0.3 * 0.36 / 0.64 / 2.0, rel=1e-12)
+    assert np.isnan(cracked_rotor(1.0, 1.0, 0.6, unbalance=0.3, gravity=0.0).vibration_share)
+
+
 def test_where_nothing_damps_a_resonance_there_is_no_steady_motion():
     found = cracked_rotor(1.0, 1.0, [1.0, 0.7], unbalance=1.0)
     np.testing.assert_array_equal(found.resonant, [True, False])

@@ -110,6 +110,17 @@ class CrackedRotor:
         """Whether there is no steady motion, as a multiplier is 1, array of bool (...)."""
         return np.isnan(self.amplitude.real).any(axis=-1) & ~np.isnan(self.multiplier.real).any(axis=-1)
 
+    @property
+    def vibration_share(self) -> Array:
+        """Sum of the amplitudes of all orders but 0 over what stands still, array (...).
+
+        The law of breathing holds where this is well below 1: there the weight opens and closes the crack.
+        """
+        size = np.abs(self.amplitude)
+        still = self.order_amplitude(0)
+        found: Array = (np.sum(size, axis=-1) - still) / np.where(still > 0.0, still, np.nan)
+        return found
+
     def order_amplitude(self, order: int) -> Array:
         """Return \\|Z_n\\| of one order [m], array (...)."""
         found: Array = np.abs(self.amplitude[..., int(np.flatnonzero(self.order == order)[0])])
