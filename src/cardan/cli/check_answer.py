@@ -235,7 +235,8 @@ def _lacking(verdicts: Sequence[Verdict]) -> Iterator[list[Cell]]:
         if len({one.missing for one in members}) > 1:
             keys = list(dict.fromkeys(re.sub(r"\[\d+\]", "[…]", key) for key in keys))
         yield [keys[0], members[0].title if len(members) == 1 else _plain(members)]
-        yield from ([key, ""] for key in keys[1:])
+        for key in keys[1:]:
+            yield [key, ""]
 
 
 def _unfit(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
