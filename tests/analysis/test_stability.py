@@ -11,14 +11,19 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
 
+from cardan import example
+from cardan.analysis.floquet_map import floquet_map
 from cardan.analysis.speed_range import unstable_speeds
 from cardan.analysis.stability import Kind, Verdict, floquet, nearest_zone
-from cardan.analysis.steady import periodic_response
+from cardan.analysis.steady import periodic_response, steady_orbits
 from cardan.analysis.torques import Asynchronous, Constant
+from cardan.analysis.torsion_response import loaded_model
 from cardan.analysis.torsional_balance import slopes
 from cardan.analysis.torsional_model import Torque, torsional_line
 from cardan.errors import InputError
+from cardan.maths.compiled.method import Compiled
 from cardan.maths.floquet import hill_multipliers
+from cardan.units import rpm
 from tests.builders.torsion_in_time import drive, flow
 
 
@@ -194,6 +199,19 @@ def test_a_drift_of_the_speed_is_left_out_where_nothing_changes_with_it() -> Non
     drift = int(np.argmin(np.abs(all_of_them - 1.0)))
     assert abs(all_of_them[drift] - 1.0) > 1e-6  # what dampers take changes with the speed
     np.testing.assert_allclose(kept, np.delete(all_of_them, drift), rtol=1e-8, atol=1e-12)
+
+
+def test_amid_a_resonance_the_shift_in_time_alone_is_never_judged() -> None:
+    """There vibration turns a free drive as a whole as well; a multiplier of 1 must not be left over."""
+    stand = example("unstable-drive")
+    speeds = np.linspace(600.0, 760.0, 33) * rpm
+    found = floquet(steady_orbits(loaded_model(stand, stand.duty, speeds)[1], speed=speeds)[0])
+    assert np.all(found.removed == 2)
+    assert not np.any(found.verdict == Verdict.NEUTRAL)
+    assert np.min(np.abs(np.nan_to_num(found.multipliers) - 1.0)) > 1e-4
+    few = speeds[[0, 8, 25, 32]]
+    mapped = floquet_map(loaded_model(stand, stand.duty, few)[1], speed=few, method=Compiled()).floquet
+    np.testing.assert_allclose(mapped.spectral_radius, found.spectral_radius[[0, 8, 25, 32]], rtol=1e-5)
 
 
 def test_where_nothing_can_be_disturbed_everything_is_stable() -> None:

@@ -11,11 +11,14 @@ from cardan.maths.floquet import Coefficients, monodromy, without_direction
 
 from .backlash_orbit import Backlashed
 from .orbit import Orbit
-from .torsional_balance import gathered, slopes
+from .torsional_balance import slopes
 from .torsional_model import TorsionalModel
 
 CHUNK = 64
 """Drives whose periods are integrated at once."""
+
+REAL = 2e-3
+"""Imaginary part, over the modulus, up to which a multiplier is real: two of 1 are apart by the root of their error."""
 
 FADED = 20.0
 """What has died out by e to this power over a period leaves no digits to check."""
@@ -131,22 +134,19 @@ class Turns:
         Disturbances by a shift in time.
     drifts : array of bool (b,)
         Whether any speed is as good as any other.
-    inertia : array (b, R) [kg m²]
-        Of the coordinates.
     """
 
     tangent: Array
     drifts: Array
-    inertia: Array
 
     @classmethod
     def of(cls, drives: TorsionalModel, speed: Array, tangent: Array) -> Turns:
         """Return what turns drives (b,), their torques ready for moments in a second axis, at speeds (b,) [rad/s]."""
-        return cls(tangent=tangent, drifts=drifting(drives, speed), inertia=gathered(drives, drives.inertia))
+        return cls(tangent=tangent, drifts=drifting(drives, speed))
 
     def part(self, rows: slice) -> Turns:
         """Return that of some of the drives."""
-        return Turns(tangent=self.tangent[rows], drifts=self.drifts[rows], inertia=self.inertia[rows])
+        return Turns(tangent=self.tangent[rows], drifts=self.drifts[rows])
 
 
 def values_of(matrix: Array, turns: Turns | None = None) -> tuple[Array, Array]:
@@ -163,7 +163,7 @@ def values_of(matrix: Array, turns: Turns | None = None) -> tuple[Array, Array]:
         values: Array = np.linalg.eigvals(matrix)
     else:
         values = np.linalg.eigvals(without_direction(matrix, turns.tangent)).astype(complex)
-        values[turns.drifts, :-1] = vibrating(matrix[turns.drifts], turns.inertia[turns.drifts])
+        values[turns.drifts, :-1] = vibrating(values[turns.drifts], 1)
         values[turns.drifts, -1] = np.nan
         removed += 1 + turns.drifts
     size = np.where(np.isfinite(values), np.abs(values), -1.0)
@@ -186,27 +186,23 @@ def drifting(drives: TorsionalModel, speed: Array) -> Array:
     return ~governed
 
 
-def vibrating(matrix: Array, inertia: Array) -> Array:
-    """Return the multipliers of free drives without those of turning as a whole, array (b, m-2), in no order.
+def vibrating(values: Array, count: int) -> Array:
+    """Return the multipliers of free drives without those of turning as a whole, array (b, m-count), in no order.
 
     Parameters
     ----------
-    matrix : array (b, m, m)
-        Monodromy matrices.
-    inertia : array (b, R) [kg m²]
-        Of the coordinates.
+    values : array (b, m)
+        Multipliers.
+    count : int
+        How many to leave out: one, the drift to another speed, where a shift in time is left out already, else two.
 
     Notes
     -----
-    A shift in time and a drift to another speed turn the drive as a whole, vibration turns its ends against each other:
-    left out are the two of the largest |Σ M x| / √(Σ M Σ M |x|²).
+    Left out are the real ones nearest to 1. Amid a resonance a drift and vibration are one: what grows there beside
+    them is judged.
     """
-    values, vectors = np.linalg.eig(matrix)
-    place = vectors[:, : inertia.shape[-1]]
-    whole = np.abs(np.einsum("br,brk->bk", inertia, place))
-    size = np.sqrt(np.einsum("br,brk->bk", inertia, np.abs(place) ** 2))
-    share = whole / np.where(size > 0.0, size, 1.0)
-    found: Array = np.take_along_axis(values, np.argsort(share, axis=-1, kind="stable")[:, :-2], axis=-1)
+    far = np.where(np.abs(values.imag) <= REAL * np.abs(values), np.abs(values - 1.0), 1.0 + np.abs(values))
+    found: Array = np.take_along_axis(values, np.argsort(far, axis=-1, kind="stable")[:, count:], axis=-1)
     return found
 
 

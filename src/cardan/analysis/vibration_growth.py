@@ -11,9 +11,7 @@ from .multipliers import CHUNK, linear_motion, vibrating
 from .orbit import Orbit
 from .stability_kernel import SURE, fits, harmonics_for, mapped
 from .steady_start import straight_frequencies
-from .torsional_balance import gathered
 from .torsional_batch import Turning, chosen
-from .torsional_model import TorsionalModel
 
 WORTH = 3000.0
 """Oscillations of the fastest mode in all motions together, in radians, from which the kernel is worth loading."""
@@ -54,7 +52,7 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     smooth = np.flatnonzero(there & ~np.isin(rows, list(orbit.pieces)))
     for k in np.flatnonzero(there & np.isin(rows, list(orbit.pieces))):
         pieces = orbit.pieces[int(rows[k])]
-        found[k] = _largest(orbit.drives(rows[k : k + 1]), pieces.monodromy[None])[0]
+        found[k] = _largest(pieces.monodromy[None], free=orbit.model.free)[0]
     if smooth.size:
         found[smooth] = _smooth(orbit, rows[smooth])
     return found
@@ -69,18 +67,19 @@ def _smooth(orbit: Orbit, rows: Array) -> Array:
         said = mapped(part, harmonics_for(part.model, orbit.period))
         sure = np.flatnonzero((said.moved <= SURE) & np.isfinite(said.matrix).all(axis=(1, 2)))
         if sure.size:
-            found[sure] = _largest(part.drives(sure), said.matrix[sure])
+            found[sure] = _largest(said.matrix[sure], free=orbit.model.free)
     left = np.flatnonzero(np.isnan(found))
     for first in range(0, len(left), CHUNK):
         some = left[first : first + CHUNK]
         matrix = monodromy(linear_motion(orbit, rows[some]), orbit.time.reshape(-1)[rows[some]])
-        found[some] = _largest(orbit.drives(rows[some]), matrix)
+        found[some] = _largest(matrix, free=orbit.model.free)
     return found
 
 
-def _largest(drives: TorsionalModel, matrix: Array) -> Array:
+def _largest(matrix: Array, *, free: bool) -> Array:
     """Return ln of the largest modulus of the multipliers of drives, array (b,)."""
-    values = vibrating(matrix, gathered(drives, drives.inertia)) if drives.free else np.linalg.eigvals(matrix)
+    values = np.linalg.eigvals(matrix)
+    values = vibrating(values, 2) if free else values
     with np.errstate(divide="ignore"):
         found: Array = np.log(np.max(np.abs(values), axis=-1, initial=0.0))
     return found
