@@ -16,6 +16,8 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 
+from .wording import significant
+
 Dash: TypeAlias = str
 Side: TypeAlias = Literal["left", "centre", "right"]
 Level: TypeAlias = Literal["top", "middle", "bottom"]
@@ -325,12 +327,13 @@ def written(values: Sequence[float]) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> written((-0.5, 0.0, 0.5)), written((0.0, 1000.0, 2000.0))
-    (('−0.5', '0', '0.5'), ('0', '1\u202f000', '2\u202f000'))
+    >>> written((-0.5, 0.0, 0.5)), written((0.0, 1000.0)), written((0.0, 2e-7))
+    (('−0.5', '0', '0.5'), ('0', '1\u202f000'), ('0', '2·10⁻⁷'))
     """
     gap = min((b - a for a, b in pairwise(values)), default=abs(values[0]) if values else 1.0)
     if gap and gap < 1e-5:
-        return tuple("0" if v == 0.0 else f"{v:.3g}".replace("-", "−") for v in values)
+        told = ([significant(v, digits) for v in values] for digits in (1, 2, 3))
+        return tuple(next((row for row in told if len(set(row)) == len(row)), [significant(v, 4) for v in values]))
     decimals = max(0, 2 - math.floor(math.log10(gap) + 1e-9)) if gap > 0.0 else 3
     texts = [f"{v:,.{decimals}f}" for v in values]
     while decimals and all(t.endswith("0") for t in texts):
