@@ -120,6 +120,19 @@ def test_zones_are_named_beside_their_tongues() -> None:
         assert 44.0 < named["principal zone of mode 1"] * rpm < 56.0  # edge of the tongue about ω = 50 rad/s
 
 
+def test_words_stand_off_the_lines_where_the_drive_runs() -> None:
+    running = replace(DRIVE, duty=replace(DRIVE.duty, speed=60.0))
+    over = {"duty.speed_rpm": np.linspace(20.0, 90.0, 41) / rpm, "bend_deg": np.linspace(5.0, 30.0, 6)}
+    (name,) = [one for one in drawn(map_figure(stability(running, over=over)), Note) if "principal" in one.text]
+    assert name.side == "right"
+    assert name.x * rpm < 60.0  # it ends before the line of the drive
+    found = torsion_modes(running)
+    figure = campbell_figure(found)
+    (word,) = [one for one in drawn(figure, Note) if "parametric" in one.text]
+    width = 0.17 * figure.panels[0].x.high
+    assert not word.x < 60.0 / rpm < word.x + width
+
+
 def test_a_shaft_keeps_its_colour_in_every_figure() -> None:
     three = replace(
         Drive.from_angles([0.2, 0.2]),

@@ -161,9 +161,12 @@ def _mapped(drive: Drive, file: Path, found: Stability) -> tuple[Tone, str]:
         path, values = found.over[0]
         text = _("{name}: unstable at {where} {path}.")
         return "failed", text.format(name=name, path=_axis(path), where=intervals(values, unstable))
-    zones = sorted({found.zone.name(tuple(index)) for index in np.argwhere(unstable).tolist()})
+    named = np.argwhere(unstable & (found.zone.modes[..., 0] > 0)).tolist()
+    zones = sorted({found.zone.name(tuple(index)) for index in named})
     said = ", ".join(zones[:NAMED]) + (_(" and others") if len(zones) > NAMED else "")
-    text = _("{name}: {share} of the map is unstable: {zones}.")
+    text = (
+        _("{name}: {share} of the map is unstable: {zones}.") if said else _("{name}: {share} of the map is unstable.")
+    )
     return "failed", text.format(name=name, share=percent(found.unstable_share), zones=said)
 
 

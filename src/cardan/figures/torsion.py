@@ -23,6 +23,15 @@ MODES = 4
 RAYS = 8
 """Orders with a ray of their own."""
 
+PLACES = (0.72, 0.5, 0.35, 0.25)
+"""Where along its ray order 1 may have its word, the first that is clear."""
+
+LETTER = 0.0085
+"""Width of a letter, a share of that of the panel, about."""
+
+LOW = 0.1
+"""Share of the height that the ray of order 1 leaves free below it for a word."""
+
 POINTS = 61
 """Speeds at which natural frequencies are drawn that change with the speed."""
 
@@ -77,7 +86,15 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
     if found.speed_range is not None:
         one, two = (end / rpm for end in found.speed_range)
         yield Band(low=one, high=two, upright=True, role="accent", opacity=0.08)
-        yield Note(text=_("speeds in use"), x=one, y=0.03 * high, role="accent", side="left", shift=(4.0, 0.0))
+        low = one / 60.0 > LOW * high  # else the rays of the orders run there
+        yield Note(
+            text=_("speeds in use"),
+            x=one,
+            y=(0.03 if low else 0.96) * high,
+            role="accent",
+            side="left",
+            shift=(4.0, 0.0),
+        )
     for k, zone in enumerate(found.zone[:MODES] / rpm):
         if np.all(np.isfinite(zone)) and zone[0] < top:
             yield Band(low=float(zone[0]), high=float(zone[1]), upright=True, role="failed", opacity=0.25)
@@ -95,7 +112,7 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         plain = order == 1.0 and not any(one == 1.0 for one, _why in orders)
         yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.9, dash="dotted" if plain else "dashed")
         word = _("order 1: parametric") if plain else f"{order:g}"
-        share = 0.72 if plain else 0.94
+        share = _clear(found, end, top, len(word)) if plain else 0.94
         yield Note(text=word, x=share * end, y=share * order * end / 60.0, role="muted", side="left", shift=(5.0, -5.0))
     speeds = np.linspace(0.0, top, POINTS if found.train.pendulums else 2)[1 if found.train.pendulums else 0 :]
     curves = found.at(speeds * rpm) / (2.0 * math.pi)
@@ -108,6 +125,18 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         if met.speed / rpm <= top and met.mode <= MODES and place <= high:
             role = "failed" if met.inside else "ink"
             yield Curve(x=_at(met.speed / rpm), y=_at(place), role=role, width=0.0, marker=5.0)
+
+
+def _clear(found: TorsionModes, end: float, top: float, letters: int) -> float:
+    """Return where along a ray a word of so many letters crosses neither the running speed nor a zone of growth."""
+    zones = found.zone[:MODES]
+    upright = np.append(zones[np.isfinite(zones)], [found.speed] if found.speed else []) / rpm
+
+    def crossed(share: float) -> int:
+        begin = share * end
+        return int(np.sum((upright > begin - 0.01 * top) & (upright < begin + (LETTER * letters + 0.02) * top)))
+
+    return min(PLACES, key=crossed)
 
 
 def _at(value: float) -> Array:

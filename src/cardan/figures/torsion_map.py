@@ -19,6 +19,9 @@ from .wording import percent, significant
 TONGUES = 6
 """Zones with their names in a map, the largest."""
 
+LETTER = 0.0095
+"""Width of a letter, a share of that of the map, about."""
+
 CELLS = 160
 """Rows of a map at most; finer ones are thinned."""
 
@@ -124,8 +127,8 @@ def map_figure(found: Stability) -> Figure:
         (Verdict.UNKNOWN, "faint", 0.8, _("not known")),
     ):
         series += _cells(x, y[rows], verdict[rows] == state, role, opacity, word)
-    series += _tongues(found, x, y, verdict == Verdict.UNSTABLE, turned=turned)
     here = _here(found, wide), _here(found, high)
+    series += _tongues(found, x, y, verdict == Verdict.UNSTABLE, here, turned=turned)
     if here[0] is not None and here[1] is not None:
         series.append(
             Curve(
@@ -156,8 +159,10 @@ def map_figure(found: Stability) -> Figure:
     )
 
 
-def _tongues(found: Stability, x: Array, y: Array, mask: Array, *, turned: bool) -> Iterator[Note]:
-    """Yield the names of the zones, each at the largest of its tongue."""
+def _tongues(
+    found: Stability, x: Array, y: Array, mask: Array, here: tuple[float | None, float | None], *, turned: bool
+) -> Iterator[Note]:
+    """Yield the names of the zones, each at the largest of its tongue, off the lines where the drive stands."""
     places: dict[str, list[tuple[int, int]]] = {}
     for i, j in np.argwhere(mask).tolist():
         index = (i, j) if turned else (j, i)
@@ -167,17 +172,29 @@ def _tongues(found: Stability, x: Array, y: Array, mask: Array, *, turned: bool)
     room = float(y[-1] - y[0])
     for n, (name, cells) in enumerate(sorted(largest, key=lambda one: min(one[1], key=lambda cell: cell[1])[1])):
         first, last = min(j for _i, j in cells), max(j for _i, j in cells)
-        behind = bool(x[last] < 0.7 * x[-1] + 0.3 * x[0])
+        wide = (LETTER * len(name) + 0.03) * float(x[-1] - x[0])
+        behind = min(
+            (True, False),
+            key=lambda side: _meets(x, float(x[last] if side else x[first]), wide if side else -wide, here[0]),
+        )
         place = float(x[last] if behind else x[first])
-        top = max(i for i, _j in cells)
+        height = max(float(y[max(i for i, _j in cells)]) - (0.04 + 0.05 * n) * room, float(y[0]) + 0.03 * room)
+        if here[1] is not None and abs(height - here[1]) < 0.03 * room:
+            height = here[1] + math.copysign(0.04, height - here[1]) * room
         yield Note(
             text=name,
             x=place,
-            y=max(float(y[top]) - (0.04 + 0.05 * n) * room, float(y[0]) + 0.03 * room),
+            y=height,
             role="failed",
             side="left" if behind else "right",
             shift=(14.0 if behind else -14.0, 0.0),
         )
+
+
+def _meets(x: Array, begin: float, width: float, line: float | None) -> int:
+    """Return how badly a word from a place on is set: 2 where it leaves the map, 1 where it crosses a line."""
+    low, high = sorted((begin, begin + width))
+    return 2 * int(low < x[0] or high > x[-1]) + int(line is not None and low < line < high)
 
 
 def _here(found: Stability, path: str) -> float | None:
