@@ -22,8 +22,8 @@ from cardan.analysis.torsional_balance import slopes
 from cardan.analysis.torsional_model import Torque, torsional_line
 from cardan.errors import InputError
 from cardan.maths.compiled.method import Compiled
-from cardan.maths.floquet import hill_multipliers
 from cardan.units import rpm
+from tests.builders.hill import hill_multipliers
 from tests.builders.torsion_in_time import drive, flow
 
 

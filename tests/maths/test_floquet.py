@@ -7,7 +7,8 @@ import pytest
 from scipy.linalg import expm
 from scipy.special import mathieu_a, mathieu_b
 
-from cardan.maths.floquet import collocation, hill_multipliers, monodromy, without_direction
+from cardan.maths.floquet import collocation, monodromy, without_direction
+from tests.builders.hill import hill_multipliers
 
 
 def swinging(rank=3, seed=2, light=()):

@@ -28,6 +28,9 @@ from .torsional_waves import straight_waves
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
 
+ROUNDING = 1e-8
+"""Share of a swing below which the mean about which it goes is left over by rounding."""
+
 SHARE = 0.35
 """Share of the work that finds motions; the rest judges them."""
 
@@ -240,3 +243,14 @@ def _scaled(progress: Progress | None, low: float, high: float) -> Progress | No
     if progress is None:
         return None
     return lambda share: progress(low + (high - low) * share)
+
+
+def level(mean: float, swing: float) -> float:
+    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
+
+    Examples
+    --------
+    >>> level(3e-11, 0.2), level(400.0, 1300.0)
+    (0.0, 400.0)
+    """
+    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean

@@ -79,11 +79,11 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
     import numpy as np
 
     from cardan.analysis.stability import Verdict
+    from cardan.analysis.torsion_response import level
     from cardan.units import rpm
 
     from .answer import significant
     from .source import title
-    from .torsion_tables import level
 
     at = {"name": title(drive, file), "speed": significant(abs(float(found.speed)) / rpm)}
     if not bool(found.steady.found):

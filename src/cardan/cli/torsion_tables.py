@@ -18,24 +18,11 @@ STATES = (_("stable"), _("neutral"), _("unstable"), _("unknown"))
 """What becomes of a small disturbance, by `cardan.analysis.stability.Verdict`."""
 
 
-ROUNDING = 1e-8
-"""Share of a swing below which the mean about which it goes is left over by rounding."""
-
-
-def level(mean: float, swing: float) -> float:
-    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
-
-    Examples
-    --------
-    >>> level(3e-11, 0.2), level(400.0, 1300.0)
-    (0.0, 400.0)
-    """
-    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean
-
-
 def element_table(found: TorsionResponse) -> Table:
     """Return mean, extremes and orders of the torque of every element."""
     import numpy as np
+
+    from cardan.analysis.torsion_response import level
 
     from .answer import Column, Table, significant
     from .torsion_parts import short

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.analysis.stability import Verdict
-from cardan.analysis.torsion_response import TorsionResponse
+from cardan.analysis.torsion_response import TorsionResponse, level
 from cardan.analysis.torsional_train import TorsionalTrain
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -27,9 +27,6 @@ BARS = 12
 
 SEEN = 5e-3
 """Share of the strongest order below which another one is a line on the axis."""
-
-ROUNDING = 1e-8
-"""Share of a swing below which the mean about which it goes is left over by rounding."""
 
 FALLS = 24
 """Speeds of a waterfall."""
@@ -123,17 +120,6 @@ def _response_sentence(found: TorsionResponse, e: int, name: str) -> str:
         mean=significant(level(float(found.steady.torque.mean[e]), float(found.swing[e])), 3),
         stable=stable,
     )
-
-
-def level(mean: float, swing: float) -> float:
-    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
-
-    Examples
-    --------
-    >>> level(3e-11, 0.2), level(400.0, 1300.0)
-    (0.0, 400.0)
-    """
-    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean
 
 
 def sweep_figure(found: TorsionResponse) -> Figure:
