@@ -26,7 +26,7 @@ from .machine_torques import machine_torques, turns_freely
 from .motion import phase_angles
 from .shaft_line import ShaftLine, shaft_line
 from .torques import Law
-from .torsional_batch import ARRAYS, chosen, leading
+from .torsional_batch import ARRAYS, SHARED, chosen, leading
 from .torsional_model import Torque, TorsionalModel
 
 HOLDING = 1e-5
@@ -382,14 +382,10 @@ def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Arra
     return replace(first, input_speed=speed, **parts)
 
 
-TABLES = frozenset({"speeds", "torques", "times", "frequency"})
-"""Fields of laws that all models share."""
-
-
 def _shared(law: Law) -> list[object]:
-    return [np.asarray(getattr(law, one.name)).tolist() for one in fields(law) if one.name in TABLES]  # type: ignore[arg-type]
+    return [np.asarray(getattr(law, one.name)).tolist() for one in fields(law) if one.name in SHARED]  # type: ignore[arg-type]
 
 
 def _merged_law(laws: Sequence[Law], join: Callable[[list[Array]], Array]) -> Law:
-    own = [one.name for one in fields(laws[0]) if one.name not in TABLES]  # type: ignore[arg-type]
+    own = [one.name for one in fields(laws[0]) if one.name not in SHARED]  # type: ignore[arg-type]
     return replace(laws[0], **{name: join([np.asarray(getattr(one, name)) for one in laws]) for name in own})  # type: ignore[type-var]
