@@ -42,6 +42,8 @@ WITH = {
     "mill-spindle": {"bending"},
     "pto-drive": {"bending"},
     "truck-duty-cycle": {"bending"},
+    "double-cardan-propshaft": {"bending"},
+    "propshaft-with-rzeppa": {"mobility", "forces", "bending"},
 }
 """Examples with parts of their own."""
 

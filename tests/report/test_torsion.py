@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,12 +12,14 @@ import pytest
 from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.drive.shaft import Shaft
 from cardan.figures.wording import significant
-from cardan.report.subject import asked
+from cardan.report.block import Page
 from cardan.report.torsion import twisting
 
 
-def of(drive: Drive):
-    return twisting(asked(drive, None, None))
+@cache
+def of(drive: Drive) -> Page:
+    """Return the page of a drive, made once for all tests."""
+    return twisting(SimpleNamespace(drive=drive))  # type: ignore[arg-type, return-value]
 
 
 def test_it_stands_only_where_masses_or_stiffnesses_are_given() -> None:
