@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan.catalogue import TABLES, catalogue, material, with_files
-from cardan.catalogue.rows import AnglePair, Grade, JointSize, LifeFactor
+from cardan.catalogue.rows import FLAGS, AnglePair, Fault, Grade, JointSize, LifeFactor
 from cardan.errors import InputError
 
 ROWS = [row for rows in catalogue().tables.values() for row in rows.values()]
@@ -59,6 +59,25 @@ def test_the_example_series_says_that_it_is_made_up_and_holds_together(row: Join
     room = np.pi / np.arcsin(row.needles.diameter / pitch)
     assert row.needles.count <= room < row.needles.count + 1.0  # a full row
     assert row.rating.torque == pytest.approx(row.needles.capacity * row.cross.span, rel=0.06)  # Tc = 2 C R, rounded
+
+
+def test_every_fault_has_a_sign_and_each_circumstance_its_own_fault() -> None:
+    rows = catalogue().rows(Fault).values()
+    assert all(row.orders or row.symptoms for row in rows)
+    assert sorted(flag for row in rows for flag in row.flags) == sorted(FLAGS)
+    assert len({row.fault for row in rows}) == len(rows)
+
+
+def test_a_fault_of_unknown_circumstance_is_refused(tmp_path: Path) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[[faults]]\nid = "a"\nfault = "f"\ninspection = "i"\nrepair = "r"\nsource = "s"\norders = [0]\nflags = ["moon"]\n',
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError) as caught:
+        with_files(catalogue(), [own])
+    fields = [problem.field.removeprefix(f"{own}: ") for problem in caught.value.problems]
+    assert fields == ["faults[0].orders[0]", "faults[0].flags[0]"]
 
 
 def test_a_grade_is_found_by_any_of_its_names() -> None:

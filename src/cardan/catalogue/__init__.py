@@ -1,4 +1,4 @@
-"""Data with their sources: materials, types and sizes of joints, norms."""
+"""Data with their sources: materials, types and sizes of joints, norms, faults."""
 
 from .catalogue import Catalogue, catalogue, material, with_files
 from .completion import completed, filled, shortened

@@ -1,4 +1,4 @@
-"""The catalogue: materials, types and sizes of joints, norms; the shipped rows and those of a user's files."""
+"""The catalogue: materials, types and sizes of joints, norms, faults; the shipped rows and those of a user's files."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ R = TypeVar("R", bound=Row)
 NEAR = 3
 """Names told of where one is not there."""
 
-FILES = ("materials", "joint_types", "joint_sizes", "norms")
+FILES = ("materials", "joint_types", "joint_sizes", "norms", "faults")
 """Shipped files, beside this one."""
 
 

@@ -177,6 +177,23 @@ class LifeFactor(Row):
     factor: float = plain(doc="factor, misprints put right", above=0.0)
 
 
+FLAGS = ("resonance_at_half_critical", "at_critical", "transient_at_critical", "wheel_order")
+"""Circumstances in which a vibration appears and by which faults are told apart."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Fault(Row):
+    """A fault of a drive shaft, or of what is mistaken for it: its signs, how to make sure, and what to do."""
+
+    fault: str = plain(doc="what is wrong")
+    orders: tuple[float, ...] = plain((), doc="orders of the vibration, in multiples of the shaft's speed", above=0.0)
+    torque_sensitive: bool | None = plain(None, doc="whether its signs change with the torque; not known without")
+    symptoms: tuple[str, ...] = plain((), doc="what a driver or fitter notices")
+    flags: tuple[str, ...] = plain((), doc="circumstances in which it appears", choices=FLAGS)
+    inspection: str = plain(doc="how to make sure")
+    repair: str = plain(doc="what to do")
+
+
 TABLES: dict[str, type[Row]] = {
     "materials": Grade,
     "joint_types": JointType,
@@ -191,5 +208,6 @@ TABLES: dict[str, type[Row]] = {
     "lubrication": Lubrication,
     "life_factors": LifeFactor,
     "speed_angle_factors": LifeFactor,
+    "faults": Fault,
 }
 """Table of a catalogue file -> what its rows are."""

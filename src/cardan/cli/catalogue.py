@@ -32,6 +32,7 @@ SHOWN = {
         "rating.max_bend_deg",
         "rating.max_speed_rpm",
     ),
+    "faults": ("orders", "torque_sensitive", "flags"),
 }
 """Table -> keys that stand in the terminal, where not all of them fit."""
 
