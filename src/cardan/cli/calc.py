@@ -25,6 +25,9 @@ LONG = 32
 INLINE = 6
 """A list longer than this is summed up in the terminal."""
 
+WORDY = 60
+"""Where a text is longer than this, the values stand without their meanings, which `--list` tells."""
+
 
 def _names(incomplete: str) -> list[tuple[str, str]]:
     """Complete the name of a capability."""
@@ -209,15 +212,17 @@ def _answer(item: Calculation, found: dict[str, Any]) -> Answer:
 
     docs = {output.key: output.doc for output in item.returns}
     rows = [(key, _short(value), docs.get(key, "")) for key, value in found.items()]
+    wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
     columns = (
         Column(key="key", heading=_("output"), left=True),
-        Column(key="value", heading=_("value"), left=True),
+        Column(key="value", heading=_("value"), left=True, wrap=wordy),
         Column(key="doc", left=True, wrap=True),
     )
+    shown = Table(columns=columns[:2], rows=[row[:2] for row in rows]) if wordy else Table(columns=columns, rows=rows)
     flat = [(key, value) for name, entry in found.items() for key, value in leaves(name, entry)]
     return Answer(
         sentence=f"{item.name}: {item.doc}",
-        tables=lambda: (Table(columns=columns, rows=rows),),
+        tables=lambda: (shown,),
         csv=lambda: Table(columns=columns[:2], rows=flat),
         remarks=(Remark(text=_("Source: {source}").format(source=item.source)),),
         content=lambda: {"capability": item.name, "source": item.source, "result": found},
