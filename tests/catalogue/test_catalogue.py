@@ -71,7 +71,8 @@ def test_every_fault_has_a_sign_and_each_circumstance_its_own_fault() -> None:
 def test_a_fault_of_unknown_circumstance_is_refused(tmp_path: Path) -> None:
     own = tmp_path / "own.toml"
     own.write_text(
-        '[[faults]]\nid = "a"\nfault = "f"\ninspection = "i"\nrepair = "r"\nsource = "s"\norders = [0]\nflags = ["moon"]\n',
+        '[[faults]]\nid = "a"\nfault = "f"\ninspection = "i"\nrepair = "r"\nsource = "s"\norders = [0]\n'
+        'flags = ["moon"]\n',
         encoding="utf-8",
     )
     with pytest.raises(InputError) as caught:
