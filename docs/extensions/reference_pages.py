@@ -26,6 +26,7 @@ def write(folder: Path) -> None:
         "examples.md": examples(),
         "catalogue.md": rows(),
         "joint-types.md": joint_types(),
+        "faults.md": faults(),
     }
     for name, text in pages.items():
         file = folder / name
@@ -68,6 +69,7 @@ SHOWN = {
         "mass_kg",
         "confidence",
     ),
+    "faults": ("id", "fault", "orders", "torque_sensitive", "source", "confidence"),
 }
 """Keys of tables that are too wide to show whole."""
 
@@ -108,9 +110,29 @@ def joint_types() -> str:
     return "\n".join(lines) + "\n"
 
 
+def faults() -> str:
+    """Return the table of all faults by their signs, then how to make sure of each and what to do."""
+    from cardan.catalogue import catalogue
+    from cardan.catalogue.rows import Fault
+
+    rows = catalogue().rows(Fault).values()
+    signs = ["| id | fault | orders | with torque | noticed as | where it appears |", "|---|---|---|---|---|---|"]
+    cures = ["| id | how to make sure | what to do | source |", "|---|---|---|---|"]
+    torque = {True: "changes", False: "stays", None: "–"}
+    for row in rows:
+        orders = ", ".join(f"{one:g}×" for one in row.orders)
+        words = [", ".join(f"`{one}`" for one in some) for some in (row.symptoms, row.flags)]
+        cells = (row.id, row.fault, orders or "–", torque[row.torque_sensitive], *(one or "–" for one in words))
+        signs.append("| " + " | ".join(cells) + " |")
+        cures.append(f"| {row.id} | {_cell(row.inspection)} | {_cell(row.repair)} | {_cell(row.source)} |")
+    return "\n".join(["## Signs", "", *signs, "", "## Inspection and repair", "", *cures]) + "\n"
+
+
 def _cell(value: Any) -> str:
     if value is None:
         return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     text = f"{value:.10g}" if isinstance(value, float) else str(value)
     return text.replace("|", "\\|")
 
