@@ -107,6 +107,8 @@ def test_it_can_be_stopped():
         (hooke(), {"angle": float("nan")}, "angle"),
         (hooke(), {"tolerance": 0.0}, "tolerance"),
         (hooke(), {"steps": 0}, "steps"),
+        (hooke(), {"steps": 10_001}, "steps"),
+        (hooke(), {"angle": 1e6}, "angle"),
     ],
 )
 def test_what_drives_nothing_is_named(mechanism, changed, field):

@@ -104,6 +104,31 @@ def test_a_mechanism_file_with_mistakes_names_them_all(cardan, drive_file):
     assert {one["field"] for one in done.complaint["problems"]} == {"joints[0].axis", "joints[3].type"}
 
 
+def test_spinning_rods_are_told_from_motions_of_an_output_that_nobody_named(cardan, drive_file):
+    text = """
+format = 1
+frame = "0"
+input_link = "1"
+output_link = "3"
+"""
+    for number, ends in enumerate((("0", "1"), ("1", "2"), ("2", "3"), ("3", "0"))):
+        kind = "R" if "0" in ends else "S"
+        axis = "axis = [0, 1, 0]" if "0" in ends else ""
+        place = ([0, 0, 0], [10, 0, 200], [300, 20, 250], [310, 0, 0])[number]
+        text += f"""
+[[joints]]
+id = "{number}"
+type = "{kind}"
+links = ["{ends[0]}", "{ends[1]}"]
+point_mm = {place}
+{axis}
+"""
+    named = cardan("mobility", drive_file(text))
+    assert "1 motion leaves input and output at rest, as balls and rods do that spin" in one_line(named.out)
+    bare = cardan("mobility", drive_file(text.replace('output_link = "3"', "")))
+    assert "1 motion leaves the input at rest; name output_link" in one_line(bare.out)
+
+
 def test_another_question_sends_a_mechanism_here(cardan):
     done = cardan("motion", EXAMPLES / "mechanisms" / "crank-slider.toml")
     assert done.code == 2

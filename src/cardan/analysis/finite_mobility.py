@@ -20,6 +20,9 @@ from cardan.units import deg, nearest
 STEP = 4 * deg
 """Largest step of the driven joint; loops are followed from one position to the next."""
 
+MOST_STEPS = 10_000
+"""More steps are refused: they would take minutes. As many follow a joint over 111 turns."""
+
 ROUNDS = 200
 """Most rounds of one closure; where loops close a few do."""
 
@@ -140,7 +143,7 @@ def finite_mobility(
     """
     number = _driven(mechanism, driven_joint)
     check_numbers(angle, tolerance, steps)
-    count = steps or max(1, math.ceil(abs(angle) / STEP))
+    count = _count(angle, steps)
     loops = _Loops(mechanism, number)
     along = np.linspace(0.0, angle, count + 1)
     rows = [loops.start()]
@@ -186,6 +189,15 @@ def displaced(mechanism: Mechanism, displacement: Array) -> Mechanism:
 def _row(vector: Array) -> tuple[float, float, float]:
     x, y, z = (float(one) for one in vector)
     return x, y, z
+
+
+def _count(angle: float, steps: int | None) -> int:
+    """Return the number of steps; refuse what would take far too long."""
+    count = steps or max(1, math.ceil(abs(angle) / STEP))
+    if count > MOST_STEPS:
+        text = _("{count} steps are too many; the limit is {limit}").format(count=count, limit=MOST_STEPS)
+        raise refuse("angle" if steps is None else "steps", text, "out_of_range")
+    return count
 
 
 def check_numbers(angle: float, tolerance: float, steps: int | None) -> None:

@@ -10,12 +10,11 @@ import typer
 
 from cardan.texts import _, plural
 
+from .mobility_content import Turned, content
 from .options import AsCsv, AsJson, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.finite_mobility import FiniteMobility
     from cardan.analysis.mobility import Mobility
-    from cardan.analysis.mobility_turn import MobilityTurn
     from cardan.analysis.repair import Repair
     from cardan.drive.drive import Drive
     from cardan.mechanism.mechanism import Mechanism
@@ -71,15 +70,7 @@ def _read(path: Path) -> Drive | Mechanism:
         return loads_either(text, form=form_of(path, text), name=name)
 
 
-class _Turn:
-    """What a turn of the input shows: positions, and for a mechanism how its loops close."""
-
-    def __init__(self, positions: MobilityTurn, closure: FiniteMobility | None) -> None:
-        self.positions = positions
-        self.closure = closure
-
-
-def _around(thing: Drive | Mechanism, progress: Any) -> _Turn:
+def _around(thing: Drive | Mechanism, progress: Any) -> Turned:
     from cardan.analysis.finite_mobility import finite_mobility
     from cardan.analysis.mobility_turn import mobility_over_turn
     from cardan.errors import refuse
@@ -88,14 +79,14 @@ def _around(thing: Drive | Mechanism, progress: Any) -> _Turn:
     if isinstance(thing, Mechanism) and not thing.input_link:
         raise refuse("--turn", _("the file names no input_link that could be turned"))
     if not isinstance(thing, Mechanism):
-        return _Turn(mobility_over_turn(thing, progress=progress), None)
+        return Turned(mobility_over_turn(thing, progress=progress), None)
     positions = mobility_over_turn(thing, progress=lambda share: progress(0.5 * share))
     if positions.turns:
-        return _Turn(positions, None)
-    return _Turn(positions, finite_mobility(thing, progress=lambda share: progress(0.5 + 0.5 * share)))
+        return Turned(positions, None)
+    return Turned(positions, finite_mobility(thing, progress=lambda share: progress(0.5 + 0.5 * share)))
 
 
-def _answer(thing: Drive | Mechanism, file: Path, found: Mobility, around: _Turn | None) -> Answer:
+def _answer(thing: Drive | Mechanism, file: Path, found: Mobility, around: Turned | None) -> Answer:
     from cardan.analysis.repair import repairs
     from cardan.mechanism.partition import joins, partition
 
@@ -121,13 +112,13 @@ def _answer(thing: Drive | Mechanism, file: Path, found: Mobility, around: _Turn
         tone=_tone(found, around),
         tables=tables,
         remarks=tuple(_remarks(thing, file, found, cures, around)),
-        content=lambda: _content(file, found, counted, cures, around),
+        content=lambda: content(file, found, counted, cures, around),
         csv=lambda: _joints(found, strained=False),
         figure=drawn,
     )
 
 
-def _tone(found: Mobility, around: _Turn | None) -> Tone:
+def _tone(found: Mobility, around: Turned | None) -> Tone:
     if found.driven == 0 or (around is not None and not around.positions.turns):
         return "failed"
     return "warning" if found.redundant or found.parasitic else "good"
@@ -200,7 +191,7 @@ def _counts(found: Mobility, counted: Partition | None) -> Table:
 
 
 def _remarks(
-    thing: Drive | Mechanism, file: Path, found: Mobility, cures: Sequence[Repair], around: _Turn | None
+    thing: Drive | Mechanism, file: Path, found: Mobility, cures: Sequence[Repair], around: Turned | None
 ) -> Iterator[Remark]:
     from cardan.units import mm
 
@@ -243,15 +234,15 @@ def _loose(found: Mobility) -> Iterator[Remark]:
         )
         yield Remark(text=text.format(n=found.parasitic, links=links), tone="warning")
     if found.local:
-        text = plural(
-            "{n} motion moves neither input nor output, as a rod that spins between balls.",
-            "{n} motions move neither input nor output, as balls that spin.",
-            found.local,
-        )
-        yield Remark(text=text.format(n=found.local))
+        moves = plural("{n} motion leaves", "{n} motions leave", found.local).format(n=found.local)
+        if found.mechanism.output_link:
+            text = _("{motions} input and output at rest, as balls and rods do that spin.")
+        else:
+            text = _("{motions} the input at rest; name output_link, and it is told whether the output stays too.")
+        yield Remark(text=text.format(motions=moves))
 
 
-def _turned(around: _Turn | None) -> Iterator[Remark]:
+def _turned(around: Turned | None) -> Iterator[Remark]:
     from cardan.units import deg, mm
 
     from .answer import Remark, significant
@@ -325,80 +316,3 @@ def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
         for name, was, kept in zip(("radial", "axial", "tilt"), before, after, strict=True):
             if was and not kept:
                 yield f"supports[{k}].{name} = false"
-
-
-def _content(
-    file: Path, found: Mobility, counted: Partition | None, cures: Sequence[Repair], around: _Turn | None
-) -> dict[str, Any]:
-    from cardan.analysis.repair import advice, strain
-    from cardan.units import deg, mm
-
-    groups = None if counted is None or counted.groups is None else counted.groups
-    content: dict[str, Any] = {
-        "question": "mobility",
-        "name": found.mechanism.name,
-        "file": str(file),
-        "moving_links": found.links,
-        "loops": found.loops,
-        "sum_constraints": found.constraints,
-        "rank": found.rank,
-        "mobility": found.mobility,
-        "redundant": found.redundant,
-        "formula": found.formula,
-        "driven": found.driven,
-        "local": found.local,
-        "parasitic": found.parasitic,
-        "adrift": found.adrift,
-        "certain": found.certain,
-        "checked_by_loops": found.agrees,
-        "misfit_mm": found.misfit / mm,
-        "joints": [
-            {
-                "joint": one.id,
-                "type": one.type,
-                "links": one.links,
-                "axes": one.axes,
-                "turning": one.turning,
-                "sliding": one.sliding,
-                "strained_by": strain(one) or None,
-                "force_N": one.force,
-                "couple_Nm": one.couple,
-                "misfit_mm": one.misfit / mm,
-            }
-            for one in found.joints
-        ],
-        "repairs": [
-            {
-                "redundant_after": one.after,
-                "changes": [
-                    {
-                        "joint": change.joint,
-                        "before": change.before,
-                        "after": change.after or None,
-                        "advice": advice(change, found.mechanism),
-                    }
-                    for change in one.changes
-                ],
-            }
-            for one in cures
-        ],
-    }
-    if counted is not None:
-        content["by_graph"] = {
-            "mobility": counted.mobility + counted.excess,
-            "redundant": counted.redundant + counted.excess,
-            "overconstrained_links": counted.overconstrained,
-            "groups": None if groups is None else [{"links": one.links, "mobility": one.mobility} for one in groups],
-        }
-    if around is not None:
-        over = around.positions
-        content["turn"] = {
-            "comes_round": over.turns,
-            "redundant_everywhere": over.structural,
-            "special_deg": over.special / deg,
-            "angle_deg": over.angle / deg,
-            "mobility": over.mobility,
-            "redundant": over.redundant,
-            "residual": over.residual,
-        }
-    return content
