@@ -19,7 +19,7 @@ from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.laws import NEGLIGIBLE, kind_problem, left_over
+from cardan.drive.laws import NEGLIGIBLE, has_map, kind_problem, left_over
 from cardan.drive.solids import Solids, solids
 from cardan.errors import InputError
 from cardan.figures.kinds import kind_name, too_steep
@@ -28,7 +28,7 @@ from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
 from cardan.synthesis.phases import phases
 from cardan.synthesis.setting import YokeSetting
-from cardan.texts import _
+from cardan.texts import _, plural
 from cardan.units import deg, rpm
 
 from .balance import refused
@@ -189,7 +189,15 @@ def changes_by_laws(on: Followed) -> Words:
     """Return what would make the drive even."""
     if float(on.whole.irregularity[-1]) < SPECK:
         return Words(text=_("Nothing needs to be changed for an even output."))
-    return Words(text=_("Joints of these kinds are even where the parts of both shafts are alike."))
+    own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not has_map(joint)]
+    text = plural(
+        "Joint {own} is even where the parts of both its shafts are alike.",
+        "Joints {own} are even where the parts of both their shafts are alike.",
+        len(own),
+    ).format(own=", ".join(own))
+    if len(own) < on.joints:
+        text += " " + _("What the other joints add, yoke angles may undo.")
+    return Words(text=text)
 
 
 def method_by_laws(on: Followed, source_text: str | None) -> Page:
