@@ -102,6 +102,8 @@ def test_every_calculation_refuses_a_key_it_does_not_know_and_names_all_it_misse
         required |= {"engine_torque_Nm", "engine_speed_rpm"}  # the torque, or power and speed
     if name == "lubrication_due":
         required |= {"hours"}  # or another counter
+    if name == "diagnose":
+        required |= {"order"}  # or another sign
     if name == "spline_axial_force":
         required = {"alpha_deg", "phi1_deg", "M2_Nm", "mu", "d_spline_m"}  # or those of the thrust alone
     either = {"alpha_deg"} if "alpha_deg" in {i.key for i in CALCULATIONS[name].takes if not i.required} else set()
