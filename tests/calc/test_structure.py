@@ -26,6 +26,8 @@ def with_joint(**changed):
     ("changed", "named"),
     [
         ({"axis": [0, 0, 0]}, ["joints[0].axis"]),
+        ({"axis": [0, 0, 1e-300]}, ["joints[0].axis"]),
+        ({"axis": [0, 0, 1e300]}, ["joints[0].axis"]),
         ({"axis": None}, ["joints[0].axis"]),
         ({"axis": [0, 0, float("inf")]}, ["joints[0].axis"]),
         ({"axis": [0, 1]}, ["joints[0].axis"]),
@@ -68,6 +70,7 @@ def test_a_key_of_no_use_in_a_kind_is_left_aside_here():
         ({"joint": "X"}, ["release.joint"]),
         ({"kind": "turn"}, ["release.kind"]),
         ({"axis": [0, 0, 0]}, ["release.axis"]),
+        ({"axis": [0, 1e-300, 0]}, ["release.axis"]),
     ],
 )
 def test_bad_releases_are_named(changed, named):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -12,7 +13,7 @@ from cardan.maths import frames, screws
 from cardan.maths.arrays import ArrayLike
 from cardan.mechanism.constraints import constraints
 from cardan.mechanism.mechanism import Mechanism
-from cardan.mechanism.pair import Way
+from cardan.mechanism.pair import LENGTHS, Way
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -87,7 +88,7 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
     if way not in ("rot", "trans"):
         raise refuse("way", _("{value} is none of {choices}").format(value=repr(way), choices="rot, trans"))
     direction = np.asarray(axis, dtype=float)
-    if direction.shape != (3,) or not np.all(np.isfinite(direction)) or not np.any(direction):
+    if direction.shape != (3,) or not LENGTHS[0] < math.hypot(*direction) < LENGTHS[1]:
         raise refuse("axis", _("{value} is no direction").format(value=direction.tolist()), "out_of_range")
     system = constraints(mechanism)
     number = names.index(joint)

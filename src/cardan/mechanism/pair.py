@@ -22,6 +22,9 @@ Way: TypeAlias = Literal["rot", "trans"]
 SQUARE = 1e-3
 """Cosine up to which two directions that a file writes with a few digits count as square to each other."""
 
+LENGTHS = (1e-100, 1e100)
+"""A direction whose length lies beyond these would lose itself when it is squared."""
+
 PARALLEL = 1e-6
 """Sine below which two directions count as parallel."""
 
@@ -194,8 +197,8 @@ def _axis_problems(name: str, value: Point | None, wanted: bool, kind: Kind) -> 
         yield Problem(name, _("of no use: only U and L4 have a second axis"), "inconsistent")
     elif not all(map(math.isfinite, value)):
         yield Problem(name, _("{value} is not finite").format(value=list(value)), "not_finite")
-    elif not math.hypot(*value) > 0.0:
-        yield Problem(name, _("[0, 0, 0] is no direction"), "out_of_range")
+    elif not LENGTHS[0] < math.hypot(*value) < LENGTHS[1]:
+        yield Problem(name, _("{value} is no direction").format(value=list(value)), "out_of_range")
 
 
 def _angle_problems(pair: Pair) -> Iterator[Problem]:
