@@ -112,6 +112,13 @@ def test_nothing_settles_where_nothing_is_steady(duty: Duty, field: str) -> None
     assert field in [problem.field for problem in caught.value.problems]
 
 
+@pytest.mark.parametrize("duty", [Duty(speed=100.0), Duty(motor=ConstantTorque(torque=30.0))], ids=["turns", "swings"])
+def test_no_one_waits_for_more_turns_or_swings_than_a_day_has(duty: Duty) -> None:
+    with pytest.raises(InputError, match="at most 1,000,000 are followed") as caught:
+        transient(LINE, duty, span=1e9)
+    assert [problem.field for problem in caught.value.problems] == ["span"]
+
+
 def test_a_motor_pulls_up_from_rest() -> None:
     duty = Duty(motor=ConstantTorque(torque=30.0))
     found = transient(LINE, duty, span=1.0, method=ROUGH)

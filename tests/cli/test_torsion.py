@@ -159,6 +159,7 @@ def test_simulation_is_that_of_the_library(cardan, rig):
         (("stability", "--over", "shafts[1].outer_mm"), "--over"),
         (("stability", "--over", "shafts[1].oute_mm=1:2"), "shafts[1].oute_mm"),
         (("simulate", "--span-s", "-1"), "--span-s"),
+        (("simulate", "--span-s", "1e9"), "--span-s"),
         (("modes", "--speed-rpm", "nan"), "--speed-rpm"),
     ],
 )

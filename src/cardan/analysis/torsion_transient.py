@@ -46,6 +46,9 @@ RADIANS = 2.0
 SMOOTH = 20.0
 """Steps in a period of the fastest swing: extremes are then read off to some millionths."""
 
+FOLLOWED = 1_000_000
+"""Turns or swings of the slowest mode that are followed at most: hours of work."""
+
 AFTER = 0.2
 """Share of a run-up that is simulated behind it."""
 
@@ -120,7 +123,8 @@ def transient(
     Raises
     ------
     InputError
-        What the model misses, each with the key to add; a settled start where nothing is steady.
+        What the model misses, each with the key to add; a settled start where nothing is steady; a span of more turns
+        than anyone waits for.
 
     Notes
     -----
@@ -160,6 +164,7 @@ def transient(
     elif model.free and first and not _pushed(model):
         model, train = _held(model, _resisting(model, first)), replace(train, assumed=(*train.assumed, "duty.motor"))
     length = _span(chosen, model, fastest) if span is None else span
+    check(_endless(model, fastest, length))
     how = _method(model, rate, length) if method is None else method
     motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=how, progress=progress)
     return Transient(train=train, motion=motion, start=start)
@@ -221,8 +226,24 @@ def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:
         if isinstance(machine, TorqueHistory):
             found = max(found, machine.times[-1])
     if not found:
-        bare = replace(model, torques=(), input_speed=None if model.free else np.asarray(0.0), input_motion=None)
-        omega = straight_modes(bare).omega
-        slowest = 2.0 * np.pi / float(omega[0]) if len(omega) else 0.0
-        found = max(TURNS * 2.0 * np.pi / abs(fastest) if fastest else 1.0, SWINGS * slowest)
+        slowest = _slowest(model)
+        swing = 2.0 * np.pi / slowest if slowest else 0.0
+        found = max(TURNS * 2.0 * np.pi / abs(fastest) if fastest else 1.0, SWINGS * swing)
     return found
+
+
+def _slowest(model: TorsionalModel) -> float:
+    """Return the lowest natural frequency of the stretched drive, 0 where nothing swings [rad/s]."""
+    bare = replace(model, torques=(), input_speed=None if model.free else np.asarray(0.0), input_motion=None)
+    omega = straight_modes(bare).omega
+    return float(omega[0]) if len(omega) else 0.0
+
+
+def _endless(model: TorsionalModel, fastest: float, length: float) -> Iterator[Problem]:
+    """Yield a span of more turns or swings than can be followed."""
+    rate = max(abs(fastest), _slowest(model))
+    turns = rate * length / (2.0 * np.pi)
+    if turns > FOLLOWED:
+        text = _("{span:.6g} s are {turns:,.0f} turns or swings; at most {most:,} are followed, {longest:.3g} s here")
+        longest = FOLLOWED * 2.0 * np.pi / rate
+        yield Problem("span", text.format(span=length, turns=turns, most=FOLLOWED, longest=longest), "too_large")

@@ -55,9 +55,10 @@ def torsion_simulate(
     plot: Plot = None,
 ) -> int:
     """Tell how torques and speeds run in time."""
-    from .asked import check_torque, keys_of, on_duty
+    from .asked import check_torque, on_duty
     from .output import check_speed
     from .show import check_common, show
+    from .torsion_band import asked_of
     from .torsion_parts import ended, keeping
 
     check_common(json=json, csv=csv, plot=plot)
@@ -70,7 +71,7 @@ def torsion_simulate(
     from .source import read
 
     drive = on_duty(read(file), speed_rpm, torque)
-    with keys_of(file), keeping(_("following the motion")) as progress:
+    with asked_of(file, {"span": "--span-s"}), keeping(_("following the motion")) as progress:
         found = question(
             drive,
             span=span,
