@@ -33,6 +33,12 @@ def test_all_kinds_are_listed_with_their_keys(cardan):
     assert [row["kind"] for row in table] == list(JOINTS)
 
 
+@pytest.mark.parametrize("number", [".5", "+0.5", "5e-1"])
+def test_numbers_are_read_as_people_write_them(cardan, number):
+    usual = cardan("joint", *DOUBLE, "--json").content
+    assert cardan("joint", DOUBLE[0], f"centring_ratio={number}", "--json").content == usual
+
+
 def test_json_is_the_law(cardan):
     said = cardan("joint", *DOUBLE, "--bend-deg", 30, "--speed-rpm", 600, "--json").content
     (one,) = said["joints"]

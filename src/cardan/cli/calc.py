@@ -97,7 +97,7 @@ def inputs(file: Path | None, values: Sequence[str]) -> dict[str, Any]:
     >>> inputs(None, ["alpha_deg=20", "beta_deg=[1, 2]", "method=exact"])
     {'alpha_deg': 20, 'beta_deg': [1, 2], 'method': 'exact'}
     """
-    import json
+    from .values import value_of
 
     found = {} if file is None else _file(file)
     own: dict[str, Any] = {}
@@ -109,10 +109,7 @@ def inputs(file: Path | None, values: Sequence[str]) -> dict[str, Any]:
         elif key in own:
             problems.append(Problem(key, _("given twice")))
         else:
-            try:
-                own[key] = json.loads(text)
-            except ValueError:
-                own[key] = text
+            own[key] = value_of(text)
     check(problems)
     return found | own
 

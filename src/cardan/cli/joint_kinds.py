@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _, plural
+
+from .values import value_of
 
 if TYPE_CHECKING:
     from cardan.drive.joints import Joint
@@ -86,10 +87,7 @@ def _put(table: dict[str, Any], key: str, text: str) -> bool:
         table = inner
     if last in table:
         return False
-    try:
-        table[last] = json.loads(text)
-    except ValueError:
-        table[last] = text
+    table[last] = value_of(text)
     return True
 
 
