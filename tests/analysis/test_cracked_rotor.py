@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from cardan import InputError
 from cardan.analysis.crack import Crack
 from cardan.analysis.cracked_rotor import cracked_rotor
-from cardan.maths.floquet import hill_multipliers
+from tests.builders.hill import hill_multipliers
 
 MASS, STIFFNESS = 0.617, 18875.154225936596
 OMEGA = math.sqrt(STIFFNESS / MASS)
