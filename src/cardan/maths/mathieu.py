@@ -183,9 +183,10 @@ def _half(a: Array, q: Array, odd: int, xp: Any) -> Array:
 
 def _front(s: Array, near: Array, gap: Array, positive: Array, odd: int, xp: Any) -> Array:
     """Return sin² or cos² of π√a/2 over what the row next to a was not divided by, in both determinants."""
-    x = 0.5 * math.pi * xp.where(positive, gap / xp.where(s + near > 0.0, s + near, 1.0), 0.0)
+    both = xp.where(near == 0.0, 1.0, s + near)  # next to zero its own form serves: tiny s would overflow here
+    x = 0.5 * math.pi * xp.where(positive, gap / both, 0.0)
     sinc = xp.where(x == 0.0, 1.0, xp.sin(x) / xp.where(x == 0.0, 1.0, x))
-    close = (0.5 * math.pi * sinc / xp.where(s + near > 0.0, s + near, 1.0)) ** 2
+    close = (0.5 * math.pi * sinc / both) ** 2
     wide = xp.where(positive, 0.0, 0.5 * math.pi * s)
     if odd:
         return xp.where(positive, close, (xp.cosh(wide) / xp.where(positive, 1.0, gap)) ** 2)
