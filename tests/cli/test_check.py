@@ -8,7 +8,7 @@ import pytest
 from cardan import load
 from cardan.checks import CHECKS, check
 from cardan.io import edit
-from tests.cli.test_forces import widest
+from tests.cli.test_forces import plain, widest
 
 CAR = """format = 1
 name = "car"
@@ -85,6 +85,12 @@ def test_a_drive_that_passes_ends_with_code_0(cardan, drive_file):
     assert done.code == 0
     assert "checks pass" in done.out
     assert "What cures it" not in done.out
+
+
+@pytest.mark.parametrize(("bend", "said"), [(20, "the only check fails"), (2, "the only check passes")])
+def test_a_single_check_is_not_counted(cardan, drive_file, bend, said):
+    path = drive_file(f"format = 1\n[[joints]]\nbend_deg = {bend}\n[duty]\nspeed_rpm = 1500\n")
+    assert said in plain(cardan("check", path).out)
 
 
 def test_csv_is_one_row_a_verdict(cardan, car):

@@ -85,6 +85,9 @@ def sentence(judged: Judged) -> str:
         return text.format(name=name)
     worst = judged.binding[0]
     used = f"{float(worst.utilisation):.2f}"
+    if failed and count == 1:
+        text = _("{name}: the only check fails: {title}, {used} of its limit.")
+        return text.format(name=name, title=worst.title, used=used)
     if failed:
         text = plural(
             "{name}: {failed} of {count} checks fails: {title}, {used} of its limit.",
@@ -92,7 +95,11 @@ def sentence(judged: Judged) -> str:
             len(failed),
         )
         return text.format(name=name, failed=len(failed), count=count, title=worst.title, used=used)
-    text = _("{name}: all {count} checks pass; nearest to its limit is {title}, {used} of it.")
+    text = plural(
+        "{name}: the only check passes: {title}, {used} of its limit.",
+        "{name}: all {count} checks pass; nearest to its limit is {title}, {used} of it.",
+        count,
+    )
     return text.format(name=name, count=count, title=worst.title, used=used)
 
 
