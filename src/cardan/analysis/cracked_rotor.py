@@ -18,7 +18,7 @@ from cardan.maths.turning_spring import energy_slope, matrices, orbit
 from cardan.texts import _
 
 from .crack import UNCRACKED, Crack
-from .run_up import Progress, not_positive
+from .run_up import Progress, negative, not_finite, not_positive
 
 GRAVITY = 9.81
 """g [m/s²]."""
@@ -208,11 +208,8 @@ def cracked_rotor(
     if slow or not np.all(np.isfinite(turning) & (turning > 0.0)):
         text = _("needs to be finite and at least a thousandth of the critical speed")
         problems.append(Problem("speed", text, "not_positive" if np.any(turning <= 0.0) else "out_of_range"))
-    for name, value in (("damping_ratio", damping_ratio), ("unbalance", unbalance), ("gravity", gravity)):
-        if not 0.0 <= value < math.inf:
-            problems.append(Problem(name, _("needs to be a number that is not negative"), "negative"))
-    if not math.isfinite(unbalance_phase):
-        problems.append(Problem("unbalance_phase", _("needs to be a finite number"), "not_finite"))
+    problems += negative({"damping_ratio": damping_ratio, "unbalance": unbalance, "gravity": gravity})
+    problems += not_finite({"unbalance_phase": unbalance_phase})
     if orders < 4:
         problems.append(Problem("orders", _("needs to be at least 4"), "out_of_range"))
     check(problems)

@@ -20,7 +20,7 @@ from cardan.texts import _
 
 from .crack import UNCRACKED, Crack
 from .cracked_rotor import GRAVITY, cracked_rotor
-from .run_up import Progress, bad_times, instants, not_positive
+from .run_up import Progress, bad_times, instants, negative, not_finite, not_positive
 from .whirl_in_time import fitted_orders, followed, longest_step
 
 
@@ -167,16 +167,7 @@ def cracked_run(
     """
     problems = not_positive({"mass": mass, "stiffness": stiffness, "end": end})
     amounts = {"start_speed": start_speed, "damping_ratio": damping_ratio, "unbalance": unbalance, "gravity": gravity}
-    problems += [
-        Problem(name, _("needs to be a number that is not negative"), "negative")
-        for name, value in amounts.items()
-        if not 0.0 <= value < math.inf
-    ]
-    problems += [
-        Problem(name, _("needs to be a finite number"), "not_finite")
-        for name, value in (("acceleration", acceleration), ("unbalance_phase", unbalance_phase))
-        if not math.isfinite(value)
-    ]
+    problems += negative(amounts) + not_finite({"acceleration": acceleration, "unbalance_phase": unbalance_phase})
     if not problems and start_speed + acceleration * end < -1e-9 * start_speed:
         problems.append(Problem("end", _("the shaft would turn back before"), "out_of_range"))
     check(problems + ([] if time is None else bad_times(time, end)))

@@ -22,7 +22,7 @@ from cardan.texts import _
 
 from .crack import UNCRACKED, Crack
 from .cracked_rotor import GRAVITY
-from .run_up import Progress, bad_times, instants, not_positive
+from .run_up import Progress, bad_times, instants, negative, not_finite, not_positive
 from .whirl_in_time import fitted_orders, followed, longest_step
 
 
@@ -201,8 +201,7 @@ def cracked_shafts(
     positive = {"speed": speed, "end": end, "drive_stiffness": drive_stiffness}
     others = {"drive_damping": drive_damping, "gravity": gravity}
     problems = _problems((first, second), positive, others, bend)
-    if not math.isfinite(phase):
-        problems.append(Problem("phase", _("needs to be a finite number"), "not_finite"))
+    problems += not_finite({"phase": phase})
     check(problems + ([] if time is None else bad_times(time, end)))
     model = _Model(
         shafts=(first, second),
@@ -241,11 +240,7 @@ def _problems(
         others |= {f"{name}.{key}": getattr(shaft, key) for key in ("damping", "unbalance_mass", "unbalance_radius")}
     if not 0.0 <= bend < 0.5 * math.pi:
         problems.append(Problem("bend", _("needs to be at least 0 and below 90°"), "out_of_range"))
-    return problems + [
-        Problem(key, _("needs to be a number that is not negative"), "negative")
-        for key, value in others.items()
-        if not 0.0 <= value < math.inf
-    ]
+    return problems + negative(others)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -236,6 +236,24 @@ def not_positive(given: dict[str, float]) -> list[Problem]:
     ]
 
 
+def negative(given: dict[str, float]) -> list[Problem]:
+    """Return what is wrong with amounts, which may be nought."""
+    return [
+        Problem(name, _("needs to be a number that is not negative"), "negative")
+        for name, value in given.items()
+        if not 0.0 <= value < math.inf
+    ]
+
+
+def not_finite(given: dict[str, float]) -> list[Problem]:
+    """Return what is wrong with numbers of either sign."""
+    return [
+        Problem(name, _("needs to be a finite number"), "not_finite")
+        for name, value in given.items()
+        if not math.isfinite(value)
+    ]
+
+
 def bad_times(time: ArrayLike | None, end: float = math.inf) -> list[Problem]:
     """Return what is wrong with the instants asked for."""
     values = np.asarray(0.0 if time is None else time, dtype=float)
