@@ -158,7 +158,7 @@ def test_a_full_disk_leaves_nothing_behind(cardan, tmp_path, monkeypatch, comman
         (("motion", TRUCK, "--plot", "figure.gif"), ["--plot", ".svg"]),
         (("motion", TRUCK, "--plot", "figure"), ["--plot", ".svg"]),
         (("motion", TRUCK, "--csv", "--plot", "figure.bmp"), ["--plot"]),
-        (("report", TRUCK, "-o", "report.pdf"), [".html"]),
+        (("report", TRUCK, "-o", "report.odt"), [".html"]),
         (("phases", TRUCK, "--fix", "2"), ["--fix", "2=90"]),
         (("phases", TRUCK, "--fix", "2=x", "--fix", "3=inf", "--fix", "4=1", "--fix", "4=2"), ["3 problems", "twice"]),
         (("phases", TRUCK, "--fix", "9=1", "--fix", "1=1"), ["--fix 9", "--fix 1"]),

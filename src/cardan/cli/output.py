@@ -58,10 +58,11 @@ def write_text(path: Path, text: str, option: str) -> None:
     write(path, text)
 
 
-def check_page_target(path: Path) -> None:
-    """Refuse a report that is no HTML file or cannot be written, before any work is done."""
-    if path.suffix.lower() not in (".html", ".htm"):
-        raise refuse("--out", _("{path} should end in .html").format(path=path))
+def check_report_target(path: Path, *, interactive: bool) -> None:
+    """Refuse a report of an unknown form or in a place that cannot be written, before any work is done."""
+    from cardan.report.renderer import renderer_for
+
+    renderer_for(path, interactive=interactive, field="--out")
     check_target(path, "--out")
 
 

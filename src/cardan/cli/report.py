@@ -37,11 +37,11 @@ def report(
     json: AsJson = False,
 ) -> int:
     """Put everything on one page."""
-    from .output import check_page_target, check_speed
+    from .output import check_report_target, check_speed
     from .source import STDIN, read_with_text
 
     place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
-    check_page_target(place)
+    check_report_target(place, interactive=interactive)
     check_speed(speed_rpm)
     drive, text = read_with_text(file)
 

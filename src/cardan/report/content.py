@@ -1,0 +1,182 @@
+"""What a report says, made once for every form that it is written in."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import cast
+
+from cardan import __version__
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.laws import unmapped
+from cardan.drive.solids import Solids
+from cardan.figures import Figure
+from cardan.figures.drive import space_figure
+from cardan.texts import _
+
+from .balance import refused
+from .block import Page, Table, Words
+from .followed import (
+    Followed,
+    asked_by_laws,
+    changes_by_laws,
+    figures_by_laws,
+    judgement_by_laws,
+    method_by_laws,
+    turning_by_laws,
+    warnings_by_laws,
+    yokes_refused,
+)
+from .loaded import loaded
+from .method import method
+from .moving import moving
+from .phasing import phasing
+from .subject import Subject, asked
+from .summary import changes, judgement, key_figures, warnings
+from .turning import turning
+from .understood import understood
+from .verdicts import Judged, judged
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Content:
+    """A report before it is written.
+
+    Attributes
+    ----------
+    title : str
+        Name of the drive.
+    note : str
+        What its file says about it.
+    version : str
+        Version of cardan that reckoned it.
+    date : str
+        Day of the report, as in 2026-01-31.
+    judgement : Words
+        The sentence the reader came for.
+    warnings : tuple of Words
+        What the reader must not overlook.
+    lights : Table or None
+        The verdicts that matter most; None where nothing was judged.
+    cures : Table or None
+        The changes that help most against failed verdicts; None where nothing fails.
+    sketch : Figure
+        The drive in space.
+    figures : Table
+        Key figures with their limits.
+    changes : Table or Words
+        Changes that make the output more even.
+    pages : tuple of Page
+        What follows the summary, in order.
+    """
+
+    title: str
+    note: str
+    version: str
+    date: str
+    judgement: Words
+    warnings: tuple[Words, ...]
+    lights: Table | None
+    cures: Table | None
+    sketch: Figure
+    figures: Table
+    changes: Table | Words
+    pages: tuple[Page, ...]
+
+
+def content(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    source_text: str | None = None,
+    progress: Callable[[float], object] | None = None,
+    known: Catalogue | None = None,
+) -> Content:
+    """Return what the report of a drive says.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    duty : Duty or None
+        What it does; None takes the drive's own duty.
+    source_text : str, optional
+        Text of the drive file, shown in full at the end.
+    progress : function, optional
+        Called with the share done; answering "stop" leaves out what is still to be reckoned.
+    known : Catalogue, optional
+        Norms, types and sizes that it is judged by; the shipped ones when not given.
+    """
+    if unmapped(drive.joints):
+        return _by_laws(replace(asked_by_laws(drive, duty), known=known), source_text)
+    on = replace(asked(drive, duty, progress), known=known)
+    pages: list[Page] = [understood(on), turning(on), phasing(on)]
+    if on.moving is not None:
+        pages.append(moving(on))
+    if on.unmoved is not None:
+        pages.append(refused("moving", _("While moving"), on.unmoved))
+    pages += loaded(on)
+    limits = judged(on) if on.complete else Judged()
+    if limits.page is not None:
+        pages.append(limits.page)
+    pages.append(method(on, source_text))
+    return _written(
+        drive,
+        on.seen,
+        pages,
+        limits,
+        said=judgement(on, pages),
+        warned=tuple(warnings(on, pages)),
+        figures=key_figures(on, pages),
+        changed=changes(on),
+    )
+
+
+def _by_laws(on: Followed, source_text: str | None) -> Content:
+    """Return the report of a drive with joints that turn by laws of their own."""
+    alike = cast(Subject, on)  # what these pages ask for it has under the same names
+    pages = [understood(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
+    limits = judged(alike)
+    if limits.page is not None:
+        pages.append(limits.page)
+    pages.append(method_by_laws(on, source_text))
+    return _written(
+        on.drive,
+        on.seen,
+        pages,
+        limits,
+        said=judgement_by_laws(on, pages),
+        warned=tuple(warnings_by_laws(on, pages)),
+        figures=figures_by_laws(on, pages),
+        changed=changes_by_laws(on),
+    )
+
+
+def _written(
+    drive: Drive,
+    seen: Solids,
+    pages: Sequence[Page],
+    limits: Judged,
+    *,
+    said: Words,
+    warned: tuple[Words, ...],
+    figures: Table,
+    changed: Table | Words,
+) -> Content:
+    return Content(
+        title=drive.name or _("Universal-joint drive"),
+        note=drive.note,
+        version=__version__,
+        date=datetime.datetime.now(tz=datetime.UTC).date().isoformat(),
+        judgement=said,
+        warnings=warned,
+        lights=limits.lights,
+        cures=limits.changes,
+        sketch=space_figure(drive, seen, name="sketch"),
+        figures=figures,
+        changes=changed,
+        pages=tuple(pages),
+    )

@@ -1,0 +1,76 @@
+"""The report as one HTML page that needs nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cardan.figures.figure import Figure
+from cardan.texts import _
+
+from .block import Listing, Picture, Points, Table, Words
+
+if TYPE_CHECKING:
+    from .content import Content
+
+
+def written(content: Content) -> bytes:
+    """Return a report as an HTML file.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    return text(content).encode()
+
+
+def interactive(content: Content) -> bytes:
+    """Return a report as an HTML file with figures to point at, zoom and turn.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    from cardan.figures.render_plotly import fragment, program
+
+    return _page(content, fragment, program()).encode()
+
+
+def text(content: Content) -> str:
+    """Return a report as the text of an HTML page.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    from cardan.figures.render_svg import inline_svg
+
+    return _page(content, inline_svg, "")
+
+
+def _page(content: Content, drawn: Callable[[Figure], str], program: str) -> str:
+    page: str = _template().render(_=_, report=content, drawn=drawn, kind=_kind, program=program)
+    return page
+
+
+def _kind(block: object) -> str:
+    """Return which macro of the template shows a block."""
+    return {Table: "table", Words: "words", Points: "points", Listing: "listing", Picture: "picture"}[type(block)]
+
+
+def _template() -> Any:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    folder = Path(__file__).parent / "templates"
+    world = Environment(
+        loader=FileSystemLoader(folder),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return world.get_template("report.html")
