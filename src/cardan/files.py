@@ -1,13 +1,44 @@
-"""Writing a file as a whole or not at all."""
+"""Writing a file as a whole or not at all, and finding the files that another one names."""
 
 from __future__ import annotations
 
 import os
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 from cardan.errors import refuse
 from cardan.texts import _
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosed:
+    """A folder that no name leads out of: for files from people one does not know.
+
+    Parameters
+    ----------
+    path : Path
+        The folder.
+
+    Examples
+    --------
+    >>> Enclosed(Path("drives")) / "../secret.csv"
+    Traceback (most recent call last):
+    cardan.errors.InputError: ../secret.csv: leads out of the folder of the drive file
+    """
+
+    path: Path
+
+    def __truediv__(self, name: str | Path) -> Path:
+        there = (self.path / name).resolve()
+        if not there.is_relative_to(self.path.resolve()):
+            raise refuse(str(name), _("leads out of the folder of the drive file"), "out_of_range")
+        return there
+
+
+def folder_of(folder: str | Path | Enclosed) -> Path | Enclosed:
+    """Return the folder in which the files that another one names are looked for."""
+    return Path(folder) if isinstance(folder, str) else folder
 
 
 def write_text(path: Path, text: str) -> None:

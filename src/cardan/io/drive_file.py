@@ -11,7 +11,7 @@ from typing import Any
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check, refuse
-from cardan.files import write_text
+from cardan.files import Enclosed, folder_of, write_text
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
@@ -79,7 +79,7 @@ def text_of(where: Path) -> tuple[str, str]:
 def loads(
     text: str,
     *,
-    folder: str | Path = ".",
+    folder: str | Path | Enclosed = ".",
     form: str = "toml",
     name: str = "file",
     catalogues: Sequence[str | Path] = (),
@@ -90,7 +90,7 @@ def loads(
     ----------
     text : str
         The drive file.
-    folder : str or Path
+    folder : str, Path or Enclosed
         Where files that it names are looked for.
     form : str
         ``"toml"`` or ``"json"``.
@@ -117,17 +117,17 @@ def loads(
     tree = parsed(text, form, name)
     if describes_mechanism(tree):
         raise refuse(name, _("describes a mechanism, not a drive; only cardan mobility reads it"))
-    drive = drive_from_tree(tree, folder=Path(folder))
+    drive = drive_from_tree(tree, folder=folder_of(folder))
     return completed(drive, known_to(drive, folder, catalogues))
 
 
-def known_to(drive: Drive, folder: str | Path = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
+def known_to(drive: Drive, folder: str | Path | Enclosed = ".", catalogues: Sequence[str | Path] = ()) -> Catalogue:
     """Return the catalogue of a drive: the shipped one and the files that its settings name.
 
     Parameters
     ----------
     drive : Drive
-    folder : str or Path
+    folder : str, Path or Enclosed
         Where the files are looked for.
     catalogues : sequence of str or Path
         Further files, by their own paths.
@@ -137,7 +137,7 @@ def known_to(drive: Drive, folder: str | Path = ".", catalogues: Sequence[str | 
     InputError
         What is wrong with the files.
     """
-    files = [*(Path(folder) / name for name in drive.settings.catalogues), *catalogues]
+    files = [*(folder_of(folder) / name for name in drive.settings.catalogues), *catalogues]
     return with_files(catalogue(), files) if files else catalogue()
 
 

@@ -17,6 +17,7 @@ from cardan.drive.ranges import in_range, out_of_range
 from cardan.drive.shaft import Shaft
 from cardan.drive.validity import MAX_JOINTS
 from cardan.errors import InputError, Problem, check
+from cardan.files import Enclosed
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -35,7 +36,7 @@ class Findings:
 
     Attributes
     ----------
-    folder : Path
+    folder : Path or Enclosed
         Where files named by the drive file are.
     problems : list of Problem
         With paths as written in the file.
@@ -47,7 +48,7 @@ class Findings:
         What the file describes.
     """
 
-    folder: Path
+    folder: Path | Enclosed
     problems: list[Problem] = field(default_factory=list)
     spelled: dict[str, str] = field(default_factory=dict)
     doubtful: set[str] = field(default_factory=set)
@@ -83,14 +84,14 @@ def _within(path: str, other: str) -> bool:
     return path == other or (path.startswith(other) and path[len(other)] in ".[")
 
 
-def drive_from_tree(tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Drive:
+def drive_from_tree(tree: Mapping[str, Any], *, folder: Path | Enclosed = Path(".")) -> Drive:
     """Return the drive a file describes.
 
     Parameters
     ----------
     tree : mapping
         The file as nested tables.
-    folder : Path
+    folder : Path or Enclosed
         Where the CSV files that it names are looked for.
 
     Raises
@@ -103,7 +104,7 @@ def drive_from_tree(tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Dri
     return drive
 
 
-def read_as(root: Any, tree: Mapping[str, Any], *, folder: Path = Path(".")) -> Any:
+def read_as(root: Any, tree: Mapping[str, Any], *, folder: Path | Enclosed = Path(".")) -> Any:
     """Return the drive, or other thing of a class with the keys of a file, that a tree describes.
 
     Parameters
@@ -112,7 +113,7 @@ def read_as(root: Any, tree: Mapping[str, Any], *, folder: Path = Path(".")) -> 
         Class of what the file describes.
     tree : mapping
         The file as nested tables.
-    folder : Path
+    folder : Path or Enclosed
         Where the CSV files that it names are looked for.
 
     Raises

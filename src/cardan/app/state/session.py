@@ -1,0 +1,165 @@
+"""A session: the drive one user works on, how it came to be, and who wants to know when it changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any, Literal, TypeAlias
+
+from cardan.drive.drive import Drive
+from cardan.texts import speaking
+
+from .choices import Choices
+from .document import Document, changed, read
+from .history import History
+from .workspace import Workspace
+
+Change: TypeAlias = Literal["text", "drive", "file", "selection", "choices", "variants"]
+"""What can change: the text (always first), the last sound drive, name and saved state of the file, the part of the
+drive the user looks at, the user's choices, the variants kept."""
+
+Listener: TypeAlias = Callable[[], None]
+
+
+class Session:
+    """What one user works on; two sessions share nothing but the folder.
+
+    Parameters
+    ----------
+    workspace : Workspace
+        The folder with the user's files.
+    choices : Choices
+        How the user likes to see things.
+
+    Attributes
+    ----------
+    document : Document
+        The file as it stands.
+    drive : Drive or None
+        The last sound drive; answers are about this one.
+    name : str
+        Name of the file in the workspace; empty for one that was never saved.
+    selected : str
+        Path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
+    """
+
+    def __init__(self, workspace: Workspace, choices: Choices | None = None) -> None:
+        self.workspace = workspace
+        self.choices = choices or Choices()
+        self.document = Document(text="")
+        self.drive: Drive | None = None
+        self.name = ""
+        self.selected = ""
+        self.history = History()
+        self._saved = ""
+        self._listeners: dict[Change, list[Listener]] = {}
+
+    def listen(self, change: Change, listener: Listener) -> None:
+        """Have a function called after every change of a sort."""
+        self._listeners.setdefault(change, []).append(listener)
+
+    def tell(self, change: Change) -> None:
+        """Call all who want to know of a change, in the user's language."""
+        with self.speaking():
+            for listener in tuple(self._listeners.get(change, ())):
+                listener()
+
+    @contextmanager
+    def speaking(self) -> Iterator[None]:
+        """Speak the user's language within a block."""
+        with speaking(self.choices.language):
+            yield
+
+    @property
+    def saved(self) -> bool:
+        """Whether the file holds what the user sees."""
+        return self.document.text == self._saved
+
+    @property
+    def empty(self) -> bool:
+        """Whether no drive was opened yet."""
+        return not self.document.text
+
+    def open(self, text: str, name: str = "", *, saved: bool = True) -> None:
+        """Begin with another file.
+
+        Parameters
+        ----------
+        text : str
+            The file.
+        name : str
+            Its name in the workspace; empty for a new one.
+        saved : bool
+            Whether the workspace has it so.
+        """
+        self.history, self.selected, self.name = History(), "", name
+        self._saved = text if saved else ""
+        self.drive = None
+        self._now(read(text, self.workspace.enclosed))
+        self.tell("file")
+        self.tell("selection")
+
+    def rewrite(self, text: str) -> None:
+        """Take a whole new text, as from the editor."""
+        if text != self.document.text:
+            self._step(read(text, self.workspace.enclosed))
+
+    def change(self, how: Callable[[str], str]) -> None:
+        """Change the text by a function of it.
+
+        Raises
+        ------
+        InputError
+            The change cannot be made; everything stays as it was.
+        """
+        after = changed(self.document, how, self.workspace.enclosed)
+        if after.text != self.document.text:
+            self._step(after)
+
+    def undo(self) -> None:
+        """Go a step back."""
+        text, self.history = self.history.undone(self.document.text)
+        self._now(read(text, self.workspace.enclosed))
+        self.tell("file")
+
+    def redo(self) -> None:
+        """Go a step forward again."""
+        text, self.history = self.history.redone(self.document.text)
+        self._now(read(text, self.workspace.enclosed))
+        self.tell("file")
+
+    def save(self, name: str = "") -> None:
+        """Write the file into the workspace.
+
+        Raises
+        ------
+        InputError
+            It has no name yet, the name leads out of the workspace, or it cannot be written.
+        """
+        self.name = self.workspace.write(name or self.name, self.document.text)
+        self._saved = self.document.text
+        self.tell("file")
+
+    def select(self, path: str) -> None:
+        """Look at a part of the drive."""
+        if path != self.selected:
+            self.selected = path
+            self.tell("selection")
+
+    def choose(self, **choices: Any) -> None:
+        """Change how the user likes to see things."""
+        self.choices = replace(self.choices, **choices)
+        self.tell("choices")
+
+    def _step(self, document: Document) -> None:
+        self.history = self.history.after(self.document.text)
+        self._now(document)
+        self.tell("file")
+
+    def _now(self, document: Document) -> None:
+        self.document = document
+        self.tell("text")
+        if document.drive is not None:
+            self.drive = document.drive
+            self.tell("drive")
