@@ -1,35 +1,96 @@
 """Every sentence a user reads passes through here, so that a translation is a file.
 
 Write ``_("joint {number} bends {bend}")`` with named places, then ``.format(number=..., bend=...)``: translators see
-the whole sentence. Keys of the drive file and field names are not translated.
+the whole sentence. Keys of the drive file and field names are not translated. A sentence of a module, outside of every
+function, is written ``mark("...")`` and translated by ``_`` where it is shown: one process may speak several languages.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
-from gettext import NullTranslations, translation
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gettext import NullTranslations
 
 DOMAIN = "cardan"
+FOLDER = Path(__file__).parent / "locale"
+LANGUAGES = {"en": "English", "ru": "Русский"}
+"""Code of a language -> its name in that language."""
+
+
+def known(name: str) -> str:
+    """Return the code of a language from its name in an environment, English where we do not speak it.
+
+    Examples
+    --------
+    >>> known("ru_RU.UTF-8"), known("RU"), known("tlh"), known("")
+    ('ru', 'ru', 'en', 'en')
+    """
+    code = name.replace("-", "_").partition("_")[0].partition(".")[0].lower()
+    return code if code in LANGUAGES else "en"
+
+
+_DEFAULT = known(os.environ.get("CARDAN_LANG", ""))
+_spoken: ContextVar[str] = ContextVar("cardan_language", default=_DEFAULT)
+
+
+def language() -> str:
+    """Return the code of the language spoken here: in this thread or task, that of ``CARDAN_LANG`` by default.
+
+    Examples
+    --------
+    >>> with speaking("ru"):
+    ...     language()
+    'ru'
+    """
+    return _spoken.get()
+
+
+@contextmanager
+def speaking(code: str) -> Iterator[None]:
+    """Speak a language within, and the one before afterwards; English where the code is not one of `LANGUAGES`.
+
+    Parameters
+    ----------
+    code : str
+        One of `LANGUAGES`.
+
+    Examples
+    --------
+    >>> with speaking("ru"):
+    ...     print(_("joint"))
+    шарнир
+    """
+    before = _spoken.set(known(code))
+    try:
+        yield
+    finally:
+        _spoken.reset(before)
 
 
 @cache
-def _catalogue(language: str) -> NullTranslations:
-    folder = Path(__file__).parent / "locale"
-    return translation(DOMAIN, folder, languages=[language] if language else None, fallback=True)
+def _catalogue(code: str) -> NullTranslations:
+    from gettext import translation
+
+    return translation(DOMAIN, FOLDER, languages=[code], fallback=True)
 
 
 def _(text: str) -> str:
-    """Return the sentence in the language of ``CARDAN_LANG``, English where there is none.
+    """Return the sentence in the language spoken here, in English where it has no translation.
 
     Examples
     --------
     >>> _("speed ratio")
     'speed ratio'
     """
-    language = os.environ.get("CARDAN_LANG", "en")
-    return text if language == "en" else _catalogue(language).gettext(text)
+    code = _spoken.get()
+    return text if code == "en" or not text else _catalogue(code).gettext(text)
 
 
 def plural(one: str, many: str, count: int) -> str:
@@ -40,4 +101,18 @@ def plural(one: str, many: str, count: int) -> str:
     >>> plural("{count} joint", "{count} joints", 4).format(count=4)
     '4 joints'
     """
-    return _catalogue(os.environ.get("CARDAN_LANG", "en")).ngettext(one, many, count)
+    code = _spoken.get()
+    if code == "en":
+        return one if count == 1 else many
+    return _catalogue(code).ngettext(one, many, count)
+
+
+def mark(text: str) -> str:
+    """Return the sentence as it is: it is in the catalogue, and `_` translates it where it is shown.
+
+    Examples
+    --------
+    >>> mark("speed ratio")
+    'speed ratio'
+    """
+    return text

@@ -1,0 +1,157 @@
+"""What there is to translate, and the catalogues that translate it: read, merged, compiled."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from babel.messages.catalog import Catalog, Message
+from babel.messages.extract import extract_from_dir
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po, write_po
+
+from cardan.drive.keys import fields_of
+from cardan.io.reference import SECTIONS
+from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.pair import Pair
+from cardan.texts import DOMAIN, FOLDER, LANGUAGES
+from cardan.units import DIMENSIONS, LABELS
+
+SOURCE = FOLDER.parent
+KEYWORDS: dict[str, Any] = {"_": None, "mark": None, "plural": (1, 2)}
+METHODS = [("**.py", "python"), ("**/templates/**.html", "jinja2")]
+OTHERS = tuple(code for code in LANGUAGES if code != "en")
+"""Languages that need a catalogue."""
+
+Texts = str | tuple[str, ...]
+
+
+def extracted() -> Catalog:
+    """Return every sentence of the sources: of code, of templates, on keys of files; and the labels of units."""
+    found = _empty()
+    options = {"**.html": {"trimmed": "true"}}
+    for name, _line, text, comments, context in extract_from_dir(SOURCE, METHODS, options, KEYWORDS):
+        if text:
+            found.add(text, locations=[(name, None)], auto_comments=comments, context=context)
+    for name, text in _declared():
+        found.add(text, locations=[(name, None)])
+    return found
+
+
+def _declared() -> Iterator[tuple[str, str]]:
+    """Yield the sentences on tables and keys of the files, and the labels of units, each with where it stands."""
+    for cls in dict.fromkeys((*(cls for _title, cls in SECTIONS), Mechanism, Pair)):
+        name = cls.__module__.removeprefix("cardan.").replace(".", "/") + ".py"
+        yield name, (cls.__doc__ or "").strip().splitlines()[0]
+        for one in fields_of(cls).values():
+            yield name, one.key.doc
+    for unit in dict.fromkeys(unit for units in DIMENSIONS.values() for unit in units):
+        if LABELS.get(unit, unit).strip("°′%1"):
+            yield "units.py", LABELS.get(unit, unit)
+
+
+def _empty(code: str | None = None) -> Catalog:
+    return Catalog(locale=code, project="cardan", version="1", fuzzy=False, charset="utf-8", header_comment="")
+
+
+def place(code: str, ending: str) -> Path:
+    """Return where the catalogue of a language is: ``"po"`` is what people edit, ``"mo"`` what the program reads."""
+    return FOLDER / code / "LC_MESSAGES" / f"{DOMAIN}.{ending}"
+
+
+def stored(code: str) -> Catalog:
+    """Return the catalogue of a language as it is in the tree, empty where there is none yet."""
+    path = place(code, "po")
+    if not path.exists():
+        return _empty(code)
+    with path.open("rb") as stream:
+        return read_po(stream, locale=code, domain=DOMAIN)
+
+
+def merged(code: str, more: Sequence[dict[str, Any]] = ()) -> Catalog:
+    """Return the catalogue of a language with exactly the sentences of the sources.
+
+    Parameters
+    ----------
+    code : str
+        Language.
+    more : sequence of dict
+        Translations by the English sentence (its singular); a list of all forms for a plural. Later ones win.
+    """
+    before, after = stored(code), _empty(code)
+    said: dict[str, Any] = {first(message.id): message.string for message in before if message.id}
+    for one in more:
+        said.update({english: tuple(text) if isinstance(text, list) else text for english, text in one.items()})
+    for message in extracted():
+        if message.id:
+            text = said.get(first(message.id)) or ""
+            fits = isinstance(text, tuple) == isinstance(message.id, tuple)
+            nothing = ("",) * after.num_plurals if isinstance(message.id, tuple) else ""
+            after.add(message.id, text if fits else nothing, message.locations, auto_comments=message.auto_comments)
+    return after
+
+
+def first(text: Texts | Any) -> str:
+    """Return the sentence that names a message: the singular of a plural."""
+    return text if isinstance(text, str) else str(text[0])
+
+
+def forms(message: Message) -> tuple[str, ...]:
+    """Return all translated forms of a message."""
+    return (message.string,) if isinstance(message.string, str) else tuple(message.string)
+
+
+def untranslated(catalogue: Catalog) -> list[str]:
+    """Return the sentences that lack a translation, or one of its forms."""
+    return [first(message.id) for message in catalogue if message.id and not all(forms(message))]
+
+
+def written(catalogue: Catalog) -> bytes:
+    """Return a catalogue as people edit it, the same for the same content."""
+    stream = BytesIO()
+    write_po(stream, catalogue, width=120, sort_by_file=True, omit_header=True, include_lineno=False)
+    return _HEAD.format(language=catalogue.locale, plurals=catalogue.plural_forms).encode() + stream.getvalue()
+
+
+_HEAD = """\
+msgid ""
+msgstr ""
+"Project-Id-Version: cardan\\n"
+"Language: {language}\\n"
+"Plural-Forms: {plurals}\\n"
+"MIME-Version: 1.0\\n"
+"Content-Type: text/plain; charset=utf-8\\n"
+"Content-Transfer-Encoding: 8bit\\n"
+
+"""
+
+
+def compiled(written_catalogue: bytes, code: str) -> bytes:
+    """Return a catalogue as the program reads it."""
+    stream = BytesIO()
+    catalogue = read_po(BytesIO(written_catalogue), locale=code, domain=DOMAIN)
+    for message in list(catalogue):
+        if message.id and not all(forms(message)):
+            catalogue.delete(message.id)
+    catalogue.mime_headers = [("Content-Type", "text/plain; charset=utf-8"), ("Plural-Forms", catalogue.plural_forms)]
+    write_mo(stream, catalogue)
+    return stream.getvalue()
+
+
+def update(code: str, more: Sequence[dict[str, Any]] = ()) -> Catalog:
+    """Bring the catalogue of a language up to date with the sources, compile it, and return it."""
+    catalogue = merged(code, more)
+    text = written(catalogue)
+    for ending, content in (("po", text), ("mo", compiled(text, code))):
+        path = place(code, ending)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return catalogue
+
+
+def from_files(paths: Sequence[Path]) -> list[dict[str, Any]]:
+    """Return translations from JSON files: English sentence -> translation, or a list of all plural forms."""
+    return [json.loads(path.read_text(encoding="utf-8")) for path in paths]
