@@ -157,7 +157,7 @@ def test_a_change_is_listed_once_and_told_to_concern_the_drive_as_drawn():
 
     on = asked(example("three-joints-unequal"), None, None)
     assert isinstance(on.best, YokeSetting)
-    twice = dataclasses.replace(on, phasing=dataclasses.replace(on.phasing, spline_settings=(on.best,)))
+    twice = dataclasses.replace(on, watched=dataclasses.replace(on.phasing, spline_settings=(on.best,)))
     assert [row[0].text for row in changes(twice).rows] == [row[0].text for row in changes(on).rows]
     assert changes(on).note == ""
     moving = dataclasses.replace(on, drive=dataclasses.replace(on.drive, movements=example("pto-hitch").movements))

@@ -1,9 +1,10 @@
-"""Everything the report asks about a drive, asked once."""
+"""Everything the report asks about a drive, each once and not before a page needs it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -33,46 +34,124 @@ ALONE = 12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """A drive and the answers to all questions about it.
+    """A drive and the answers to all questions about it, each reckoned when it is read first.
 
-    Attributes
+    Parameters
     ----------
     drive : Drive
         The drive with the duty asked for.
-    alone : tuple of (int, YokeSetting)
-        Best setting when only the yoke of one shaft is turned, the most helpful shaft first.
-    replayed : float
-        Swing of the output's ratio at the best setting, by plain vectors.
-    moving : Articulation or None
-        None when the drive does not move.
-    unmoved : InputError or None
-        Why its movement was not reckoned.
-    train : Chain
-        The Hooke joints that turn like its joints.
+    watched : Phasing or None
+        What its yokes can do, where somebody watched the search for it; None to search when it is needed.
     complete : bool
         False when the reader stopped the work; what was found by then is shown.
     known : Catalogue or None
         Norms, types and sizes that it is judged by; None for the shipped ones.
+
+    Examples
+    --------
+    >>> Subject(drive=Drive.from_angles([0.3, 0.3])).even
+    True
     """
 
     drive: Drive
-    place: Geometry
-    train: Chain
-    seen: Solids
-    found: Motion
-    whole: EquivalentJoint
-    each: EquivalentJoint
-    phase: Array
-    phasing: Phasing
-    closing: Closure
-    compared: BookComparison
-    checks: tuple[SelfCheck, ...]
-    alone: tuple[tuple[int, YokeSetting], ...] = ()
-    replayed: float | None = None
-    moving: Articulation | None = None
-    unmoved: InputError | None = None
+    watched: Phasing | None = None
     complete: bool = True
     known: Catalogue | None = None
+
+    @cached_property
+    def place(self) -> Geometry:
+        """Where everything is."""
+        return geometry(self.drive)
+
+    @cached_property
+    def train(self) -> Chain:
+        """The Hooke joints that turn like its joints."""
+        return turning_chain(self.drive)
+
+    @cached_property
+    def seen(self) -> Solids:
+        """What it looks like."""
+        return solids(self.drive)
+
+    @cached_property
+    def found(self) -> Motion:
+        """How every shaft turns."""
+        return motion(self.drive)
+
+    @cached_property
+    def whole(self) -> EquivalentJoint:
+        """The one joint that it amounts to."""
+        return equivalent_joint(self.drive)
+
+    @cached_property
+    def each(self) -> EquivalentJoint:
+        """The joint that it amounts to up to every shaft."""
+        return after_each_joint(self.drive)
+
+    @cached_property
+    def phase(self) -> Array:
+        """Phase angle of every joint, array (n) [rad]."""
+        return np.asarray(phase_angles(self.drive))
+
+    @cached_property
+    def phasing(self) -> Phasing:
+        """What its yokes can do."""
+        return phases(self.drive) if self.watched is None else self.watched
+
+    @cached_property
+    def closing(self) -> Closure:
+        """Whether its bends can be closed to a polygon."""
+        return closure(self.drive)
+
+    @cached_property
+    def compared(self) -> BookComparison:
+        """What the classical approximations say of it."""
+        return book_comparison(self.drive)
+
+    @cached_property
+    def checks(self) -> tuple[SelfCheck, ...]:
+        """What speaks for these figures."""
+        return evidence(as_hooke(self.drive))
+
+    @cached_property
+    def alone(self) -> tuple[tuple[int, YokeSetting], ...]:
+        """Best setting when only the yoke of one shaft is turned, the most helpful shaft first."""
+        found: list[tuple[int, YokeSetting]] = []
+        uneven = not self.phasing.as_built.irregularity < SYNCHRONOUS
+        free = self.phasing.free if uneven and len(self.phasing.free) <= ALONE else ()
+        built = {k: shaft.yoke_angle for k, shaft in enumerate(self.drive.shafts, start=1)}
+        for number in free if len(free) > 1 else ():
+            held = {k: built[k] for k in self.phasing.free if k != number}
+            best = phases(self.drive, fixed=held, poses={}).settings
+            found += [(number, one) for one in best[:1]]
+        return tuple(sorted(found, key=lambda pair: pair[1].irregularity))
+
+    @cached_property
+    def replayed(self) -> float | None:
+        """Swing of the output's ratio at the best setting, by plain vectors."""
+        return None if self.best is None else swing_by_vectors(as_hooke(self.drive), self.best.yoke_angle)
+
+    @cached_property
+    def moved(self) -> Articulation | InputError | None:
+        """What its movement does to it, or why that was not reckoned; None where there is none to tell."""
+        if not self.drive.movements or not self.complete:
+            return None
+        try:
+            return articulation(self.drive)
+        except InputError as error:
+            if not self.mixed:
+                raise
+            return error
+
+    @property
+    def moving(self) -> Articulation | None:
+        """What its movement does to it; None when it does not move."""
+        return None if isinstance(self.moved, InputError) else self.moved
+
+    @property
+    def unmoved(self) -> InputError | None:
+        """Why its movement was not reckoned."""
+        return self.moved if isinstance(self.moved, InputError) else None
 
     @property
     def even(self) -> bool:
@@ -106,7 +185,7 @@ class Subject:
 
 
 def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject:
-    """Ask every question about a drive.
+    """Return a drive to be asked about, the search for its yokes watched.
 
     Parameters
     ----------
@@ -117,56 +196,18 @@ def asked(drive: Drive, duty: Duty | None, progress: Progress | None) -> Subject
     progress : function or None
         Told the share done; answering "stop" leaves out what is still to do.
     """
-    whole = drive if duty is None else replace(drive, duty=duty)
+    on = Subject(drive=drive if duty is None else replace(drive, duty=duty))
+    if progress is None:
+        return on
     stopped = False
 
     def told(share: float) -> bool:
         nonlocal stopped
-        if not stopped and progress is not None:
+        if not stopped:
             stopped = progress(share) == "stop"
         return not stopped
 
-    def within(low: float, high: float) -> Progress:
-        def report(share: float) -> object:
-            return None if told(low + (high - low) * share) else "stop"
-
-        return report
-
     told(0.0)
-    phasing = phases(whole, progress=within(0.05, 0.3))
-    alone: list[tuple[int, YokeSetting]] = []
-    free = phasing.free if not phasing.as_built.irregularity < SYNCHRONOUS and len(phasing.free) <= ALONE else ()
-    built = {k: shaft.yoke_angle for k, shaft in enumerate(whole.shafts, start=1)}
-    for number in free if len(free) > 1 else ():
-        held = {k: built[k] for k in phasing.free if k != number}
-        best = phases(whole, fixed=held, poses={}).settings
-        alone += [(number, one) for one in best[:1]]
-    moving, unmoved = None, None
-    if whole.movements and told(0.35):
-        try:
-            moving = articulation(whole)
-        except InputError as error:
-            if not mixed(whole.joints):
-                raise
-            unmoved = error
-    law = as_hooke(whole)
-    best_yokes = phasing.settings[0].yoke_angle if phasing.settings else None
-    return Subject(
-        drive=whole,
-        place=geometry(whole),
-        train=turning_chain(whole),
-        seen=solids(whole),
-        found=motion(whole),
-        whole=equivalent_joint(whole),
-        each=after_each_joint(whole),
-        phase=np.asarray(phase_angles(whole)),
-        phasing=phasing,
-        closing=closure(whole),
-        compared=book_comparison(whole),
-        checks=evidence(law),
-        alone=tuple(sorted(alone, key=lambda pair: pair[1].irregularity)),
-        replayed=None if best_yokes is None else swing_by_vectors(law, best_yokes),
-        moving=moving,
-        unmoved=unmoved,
-        complete=not stopped,
-    )
+    found = phases(on.drive, progress=lambda share: None if told(0.05 + 0.25 * share) else "stop")
+    told(0.35)
+    return replace(on, watched=found, complete=not stopped)
