@@ -1,0 +1,246 @@
+"""Changing a drive file that need not be right: one key at a time, the rest left as it is written.
+
+`cardan.io.edit` changes values of a sound drive and refuses what would break it. Whoever works on a file for a while
+passes through states that are not sound; here only the text must be TOML and the path one of a drive file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any, TypeAlias, get_args, get_origin
+
+from cardan.drive.drive import Drive
+from cardan.drive.keys import KINDS, NAMED, fields_of, spellings_of
+from cardan.errors import refuse
+from cardan.texts import _
+
+from .edit import _plain, _removed, _shaft
+
+Step: TypeAlias = str | int
+
+_WORD = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
+
+
+def amend(text: str, values: Mapping[str, Any]) -> str:
+    """Return a drive file with other values, whether or not it describes a drive.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    values : mapping of str to value
+        Path of a key -> what to write there, in the unit of the key; None takes the key out, or the whole table that
+        the path leads to. ``shafts[1]`` is shaft number 2. Other spellings of the same field go.
+
+    Returns
+    -------
+    str
+        The new text; comments and layout of everything else stay.
+
+    Raises
+    ------
+    InputError
+        The text is no TOML, or a path is none of a drive file.
+
+    Examples
+    --------
+    >>> print(amend("joints = []  # soon", {"duty.speed_rpm": 3000}).strip())
+    joints = []  # soon
+    [duty]
+    speed_rpm = 3000
+    """
+    import tomlkit
+
+    document = parsed(text)
+    for path, value in values.items():
+        *steps, last = steps_of(path)
+        if value is None:
+            _take(document, (*steps, last))
+            continue
+        if not isinstance(last, str):
+            raise refuse(path, _("leads to a place in a list, not to a key"))
+        known = spellings_of(kind_at(document, steps))
+        if last not in known and last != "kind":
+            raise refuse(path, _("is no key of a drive file"))
+        _put(document, steps, last, known, value)
+    return tomlkit.dumps(document)
+
+
+def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
+    """Return a drive file with a further table in a list of tables.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    path : str
+        Where it is to stand, ``supports[2]``; the tables from there on move back.
+    values : mapping
+        Its keys.
+
+    Examples
+    --------
+    >>> print(insert("format = 1", "supports[0]", {"shaft": 2, "position_mm": 300}).strip())
+    format = 1
+    [[supports]]
+    shaft = 2
+    position_mm = 300
+    """
+    import tomlkit
+
+    document = parsed(text)
+    *steps, name, place = steps_of(path)
+    holder = held_at(document, steps)
+    if name not in holder:
+        inline = isinstance(holder, tomlkit.items.InlineTable | tomlkit.items.Array)
+        if holder is document and len(document):
+            document.add(tomlkit.nl())
+        holder[name] = tomlkit.array() if inline else tomlkit.aot()
+    tables = holder[name]
+    new: Any = tomlkit.inline_table() if isinstance(tables, tomlkit.items.Array) else tomlkit.table()
+    for key, value in values.items():
+        new[key] = _plain(value)
+    tables.insert(min(int(place), len(tables)), new)
+    return tomlkit.dumps(document)
+
+
+def parsed(text: str) -> Any:
+    """Return the document that a text is.
+
+    Raises
+    ------
+    InputError
+        It is no TOML.
+    """
+    import tomlkit
+
+    try:
+        return tomlkit.parse(text)
+    except tomlkit.exceptions.ParseError as error:
+        raise refuse("file", _("is no TOML: {why}").format(why=error)) from None
+
+
+def steps_of(path: str) -> tuple[Step, ...]:
+    """Return the keys and places that a path goes through.
+
+    Examples
+    --------
+    >>> steps_of("joints[1].cross.span_mm")
+    ('joints', 1, 'cross', 'span_mm')
+    """
+    steps: list[Step] = []
+    for word in path.split("."):
+        match = _WORD.fullmatch(word)
+        if match is None:
+            raise refuse(path, _("{word} is no step of a path").format(word=repr(word)))
+        steps += [match[1], *(int(k) for k in re.findall(r"\d+", match[2]))]
+    return tuple(steps)
+
+
+def kind_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
+    """Return the class of the drive model that the table at some steps describes.
+
+    Raises
+    ------
+    InputError
+        A drive file has no such table.
+    """
+    cls: Any = Drive
+    for k, step in enumerate(steps):
+        if isinstance(step, int):
+            continue
+        known = spellings_of(cls)
+        if step not in known:
+            raise refuse(".".join(str(one) for one in steps), _("is no table of a drive file"))
+        cls = fields_of(cls)[known[step][0]].type
+        if get_origin(cls) is tuple:
+            cls = get_args(cls)[0]
+        if cls in KINDS:
+            kinds, default = KINDS[cls]
+            given = _value_at(document, [*steps[: k + 1], *steps[k + 1 : k + 2]], "kind", default)
+            cls = kinds.get(given, cls) if isinstance(given, str) else cls
+    return cls
+
+
+def held_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
+    """Return the table that steps lead to, made where the file does not have it yet."""
+    import tomlkit
+
+    table = document
+    for k, step in enumerate(steps):
+        if isinstance(step, int):
+            table = _shaft(table, step + 1) if steps[k - 1] == "shafts" else table[step]
+        elif step in table and not isinstance(table[step], str):
+            table = table[step]
+        else:
+            follows = steps[k + 1 : k + 2]
+            inline = isinstance(table, tomlkit.items.InlineTable) or isinstance(steps[k - 1] if k else "", int)
+            name = table.get(step)
+            new: Any = tomlkit.aot() if follows and isinstance(follows[0], int) else None
+            new = new if new is not None else tomlkit.inline_table() if inline else tomlkit.table()
+            if isinstance(name, str):
+                new[_named_key(document, steps[: k + 1])] = name
+            if table is document and not inline and len(document):
+                document.add(tomlkit.nl())
+            table[step] = new
+            table = table[step]
+    return table
+
+
+def _named_key(document: Any, steps: tuple[Step, ...] | list[Step]) -> str:
+    """Return the key for which a name alone may stand in place of a table."""
+    return NAMED[kind_at(document, steps)]
+
+
+def _value_at(document: Any, steps: list[Step], key: str, default: Any) -> Any:
+    """Return a value of a file without making anything."""
+    here = document
+    for k, step in enumerate(steps):
+        if isinstance(step, int) and steps[k - 1] == "shafts":
+            here = next((one for one in here if one.get("number") == step + 1), {})
+        elif isinstance(step, int):
+            here = here[step] if isinstance(here, list) and step < len(here) else {}
+        else:
+            here = here.get(step, {}) if isinstance(here, Mapping) else {}
+    return here.get(key, default) if isinstance(here, Mapping) else default
+
+
+def _put(document: Any, steps: list[Step], key: str, known: Mapping[str, tuple[str, float]], value: Any) -> None:
+    table = held_at(document, steps)
+    others = [one for one in known if key in known and known[one][0] == known[key][0] and one != key and one in table]
+    comment = "".join(_removed(table, one) for one in others)
+    kept = comment or (str(table[key].trivia.comment).lstrip("# ") if key in table else "")
+    table[key] = dict(value) if isinstance(value, Mapping) else _plain(value)
+    if kept and hasattr(table[key], "comment"):
+        table[key].comment(kept)
+
+
+def _take(document: Any, steps: tuple[Step, ...]) -> None:
+    """Take a key, a table or an entry of a list out; nothing where it is not there."""
+    here: Any = document
+    for k in range(len(steps) - 1):
+        here = _inner(here, steps, k)
+        if here is None:
+            return
+    last = steps[-1]
+    if isinstance(last, int):
+        if steps[-2] == "shafts":
+            places = [k for k, one in enumerate(here) if one.get("number") == last + 1]
+        else:
+            places = [last] if last < len(here) else []
+        for place in places:
+            del here[place]
+        if not len(here):
+            _take(document, steps[:-1])
+    elif last in here:
+        del here[last]
+
+
+def _inner(here: Any, steps: tuple[Step, ...], k: int) -> Any:
+    step = steps[k]
+    if isinstance(step, str):
+        return here.get(step)
+    if k and steps[k - 1] == "shafts":
+        return next((one for one in here if one.get("number") == step + 1), None)
+    return here[step] if step < len(here) else None
