@@ -7,18 +7,18 @@ import numpy as np
 from cardan.analysis.absorber_tuning import Tuning, den_hartog, h_infinity, viscous_optimum
 from cardan.analysis.absorbers import absorber_response
 from cardan.analysis.pendulum import pendulum
-from cardan.texts import _
+from cardan.texts import mark
 
 from .calculation import Calculation, Given, Values, given, gives
 
-RATIO = given("inertia_ratio", _("inertia of the absorber over that of the system, α_J"), above=0.0)
-BETA = given("beta", _("frequency of the torque over the system's natural one"), axes=(0, 1), low=0.0)
-XI = given("xi", _("damping of the absorber, ξ"), low=0.0)
+RATIO = given("inertia_ratio", mark("inertia of the absorber over that of the system, α_J"), above=0.0)
+BETA = given("beta", mark("frequency of the torque over the system's natural one"), axes=(0, 1), low=0.0)
+XI = given("xi", mark("damping of the absorber, ξ"), low=0.0)
 SYSTEM, ABSORBER = "b/(2 J_a omega_0)", "b/(2 J_a omega_a)"
 
 
 def _definition(*choices: str) -> Given:
-    return given("xi_definition", _("which damping ratio xi is"), kind="word", choices=choices, default=SYSTEM)
+    return given("xi_definition", mark("which damping ratio xi is"), kind="word", choices=choices, default=SYSTEM)
 
 
 def _amplification(values: Values, tuned: float, xi: float) -> tuple[object, object]:
@@ -75,59 +75,59 @@ def _pendulum(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="absorber_response",
-        doc=_("amplification of one mode with a tuned absorber, with or without damping, over the frequency"),
+        doc=mark("amplification of one mode with a tuned absorber, with or without damping, over the frequency"),
         source="Book (248), (249)",
         takes=(
             RATIO,
-            given("frequency_ratio_absorber", _("frequency of the absorber over the system's, f"), above=0.0),
+            given("frequency_ratio_absorber", mark("frequency of the absorber over the system's, f"), above=0.0),
             XI,
             _definition(SYSTEM, ABSORBER),
             BETA,
         ),
         returns=(
-            gives("amplification", _("amplitude over static angle; None at a resonance without damping")),
-            gives("natural_frequency_ratio_undamped", _("natural frequencies with the undamped absorber")),
+            gives("amplification", mark("amplitude over static angle; None at a resonance without damping")),
+            gives("natural_frequency_ratio_undamped", mark("natural frequencies with the undamped absorber")),
         ),
         answer=_absorber,
     ),
     Calculation(
         name="viscous_damper_response",
-        doc=_("amplification of one mode with a viscous damper, an inertia without spring, over the frequency"),
+        doc=mark("amplification of one mode with a viscous damper, an inertia without spring, over the frequency"),
         source="Book (252)",
         takes=(RATIO, XI, _definition(SYSTEM), BETA),
-        returns=(gives("amplification", _("amplitude over static angle; None at a resonance without damping")),),
+        returns=(gives("amplification", mark("amplitude over static angle; None at a resonance without damping")),),
         answer=_viscous,
     ),
     Calculation(
         name="absorber_optimum",
-        doc=_("best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper"),
-        source=_("Book (250), (251); exact H∞ optimum (Nishihara, Asami)"),
-        takes=(given(RATIO.key, RATIO.doc, axes=(0, 1), above=0.0),),
+        doc=mark("best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper"),
+        source=mark("Book (250), (251); exact H∞ optimum (Nishihara, Asami)"),
+        takes=(given(RATIO.key, RATIO.meaning.doc, axes=(0, 1), above=0.0),),
         returns=(
-            gives("den_hartog", _("setting by fixed points, with the true peak")),
-            gives("h_infinity", _("setting with the smallest peak")),
-            gives("viscous_damper", _("best damper without spring")),
+            gives("den_hartog", mark("setting by fixed points, with the true peak")),
+            gives("h_infinity", mark("setting with the smallest peak")),
+            gives("viscous_damper", mark("best damper without spring")),
         ),
         answer=_optimum,
     ),
     Calculation(
         name="pendulum_absorber",
-        doc=_("order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one"),
-        source=_("rotor and pendulum, small swings"),
+        doc=mark("order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one"),
+        source=mark("rotor and pendulum, small swings"),
         takes=(
-            given("pendulum_mass_kg", _("mass of one pendulum"), "mass", above=0.0),
-            given("pivot_radius_m", _("radius of its pivot on the shaft"), "length", above=0.0),
-            given("pendulum_length_m", _("length of its arm"), "length", above=0.0),
-            given("order", _("order of the excitation, swings a turn"), low=0.0),
-            given("rotor_inertia_kgm2", _("inertia of the shaft"), "inertia", low=0.0, default=None),
-            given("count", _("number of equal pendulums"), kind="whole", low=1, default=1),
+            given("pendulum_mass_kg", mark("mass of one pendulum"), "mass", above=0.0),
+            given("pivot_radius_m", mark("radius of its pivot on the shaft"), "length", above=0.0),
+            given("pendulum_length_m", mark("length of its arm"), "length", above=0.0),
+            given("order", mark("order of the excitation, swings a turn"), low=0.0),
+            given("rotor_inertia_kgm2", mark("inertia of the shaft"), "inertia", low=0.0, default=None),
+            given("count", mark("number of equal pendulums"), kind="whole", low=1, default=1),
         ),
         returns=(
-            gives("tuning_order", _("order at which the shaft is held still")),
-            gives("effective_inertia_kgm2", _("inertia felt at the order; None at antiresonance"), "inertia"),
-            gives("total_inertia_kgm2", _("the same with that of the shaft"), "inertia"),
-            gives("swing_over_shaft", _("swing of a pendulum over that of the shaft; None at antiresonance")),
-            gives("antiresonance", _("whether the order is the tuned one: infinite inertia")),
+            gives("tuning_order", mark("order at which the shaft is held still")),
+            gives("effective_inertia_kgm2", mark("inertia felt at the order; None at antiresonance"), "inertia"),
+            gives("total_inertia_kgm2", mark("the same with that of the shaft"), "inertia"),
+            gives("swing_over_shaft", mark("swing of a pendulum over that of the shaft; None at antiresonance")),
+            gives("antiresonance", mark("whether the order is the tuned one: infinite inertia")),
         ),
         answer=_pendulum,
     ),

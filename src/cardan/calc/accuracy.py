@@ -14,7 +14,7 @@ from cardan.drive.drives import Drives
 from cardan.errors import Problem, refuse
 from cardan.maths import loops
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg
 
 from .calculation import Calculation, Values, given, gives
@@ -25,18 +25,18 @@ LAWS = ("normal", "uniform", "triangular")
 LENGTHS = ("s1", "a1", "a2", "a3", "a4")
 ANGLES = ("alpha1", "alpha2", "alpha3", "alpha4")
 
-BEND = given("alpha_deg", _("bend of the joint"), "angle", low=0.0, below=RIGHT)
-INPUT = given("phi1_deg", _("angle of the driving yoke from the plane of the shafts"), "angle")
+BEND = given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT)
+INPUT = given("phi1_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle")
 WAYS = given(
     "tol_s1_a1_a2_a3_a4_mm",
-    _("tolerances ± of the five lengths of the loop"),
+    mark("tolerances ± of the five lengths of the loop"),
     "length",
     axes=(1,),
     width=5,
     low=0.0,
 )
 TURNS = given(
-    "tol_alpha1_2_3_4_deg", _("tolerances ± of the four angles of the loop"), "angle", axes=(1,), width=4, low=0.0
+    "tol_alpha1_2_3_4_deg", mark("tolerances ± of the four angles of the loop"), "angle", axes=(1,), width=4, low=0.0
 )
 
 
@@ -213,72 +213,74 @@ def _lists(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 CALCULATIONS = (
     Calculation(
         name="rccc",
-        doc=_("both positions of a closed loop of one revolute and three cylindrical pairs, and its range"),
+        doc=mark("both positions of a closed loop of one revolute and three cylindrical pairs, and its range"),
         source="Book (141)-(156)",
         takes=(
-            given("alpha_deg", _("angles between neighbouring axes"), "angle", axes=(1,), width=4),
-            given("a_m", _("lengths between neighbouring axes"), "length", axes=(1,), width=4),
-            given("s1_m", _("way along axis 1"), "length"),
-            given("phi1_deg", _("input angle about axis 1"), "angle"),
+            given("alpha_deg", mark("angles between neighbouring axes"), "angle", axes=(1,), width=4),
+            given("a_m", mark("lengths between neighbouring axes"), "length", axes=(1,), width=4),
+            given("s1_m", mark("way along axis 1"), "length"),
+            given("phi1_deg", mark("input angle about axis 1"), "angle"),
         ),
         returns=(
-            gives("full_rotation", _("whether the input can turn all the way round")),
-            gives("cos_phi1_min", _("least cosine of the input angle; None where it makes no difference")),
-            gives("cos_phi1_max", _("largest cosine of the input angle; None where it makes no difference")),
-            gives("solutions_sorted_by_phi4", _("angles in degrees and slides in metres of both assemblies")),
-            gives("closure_residual", _("by how much the product of the matrices misses the unit matrix")),
+            gives("full_rotation", mark("whether the input can turn all the way round")),
+            gives("cos_phi1_min", mark("least cosine of the input angle; None where it makes no difference")),
+            gives("cos_phi1_max", mark("largest cosine of the input angle; None where it makes no difference")),
+            gives("solutions_sorted_by_phi4", mark("angles in degrees and slides in metres of both assemblies")),
+            gives("closure_residual", mark("by how much the product of the matrices misses the unit matrix")),
         ),
         answer=_rccc,
     ),
     Calculation(
         name="influence_coefficients",
-        doc=_("by how much angles and slides of a joint follow the errors of its loop"),
+        doc=mark("by how much angles and slides of a joint follow the errors of its loop"),
         source="Book (171), (180)",
         takes=(
             BEND,
             INPUT,
-            given("branch", _("assembly of the joint"), kind="word", choices=(IDEAL, OTHER), default=IDEAL),
+            given("branch", mark("assembly of the joint"), kind="word", choices=(IDEAL, OTHER), default=IDEAL),
         ),
         returns=(
-            gives("rows", _("numbers of the axes")),
-            gives("C_columns", _("errors of lengths")),
-            gives("C", _("slides s_2, s_3, s_4 by errors of lengths")),
-            gives("d_columns", _("errors of angles")),
-            gives("d", _("angles φ_2, φ_3, φ_4 by errors of angles")),
+            gives("rows", mark("numbers of the axes")),
+            gives("C_columns", mark("errors of lengths")),
+            gives("C", mark("slides s_2, s_3, s_4 by errors of lengths")),
+            gives("d_columns", mark("errors of angles")),
+            gives("d", mark("angles φ_2, φ_3, φ_4 by errors of angles")),
         ),
         answer=_influence,
     ),
     Calculation(
         name="tolerance_stack",
-        doc=_("what the tolerances of one joint add up to, at worst and as root of the sum of squares"),
+        doc=mark("what the tolerances of one joint add up to, at worst and as root of the sum of squares"),
         source="Book (171), (180), pp. 186-190",
         takes=(
             BEND,
             INPUT,
             WAYS,
             TURNS,
-            given("target_phi4_deg", _("allowed error of the driven angle"), "angle", above=0.0, default=None),
-            given("target_s4_mm", _("allowed shift of the driven shaft"), "length", above=0.0, default=None),
+            given("target_phi4_deg", mark("allowed error of the driven angle"), "angle", above=0.0, default=None),
+            given("target_s4_mm", mark("allowed shift of the driven shaft"), "length", above=0.0, default=None),
         ),
         returns=(
-            gives("worst_s2_s3_s4_m", _("worst case of the slides"), "length"),
-            gives("rss_s2_s3_s4_m", _("root of the sum of squares of the slides"), "length"),
-            gives("worst_phi2_phi3_phi4_rad", _("worst case of the angles"), "angle"),
-            gives("rss_phi2_phi3_phi4_rad", _("root of the sum of squares of the angles"), "angle"),
-            gives("max_over_turn_worst_phi4_rad", _("largest worst case of the driven angle"), "angle"),
-            gives("max_over_turn_worst_s4_m", _("largest worst case of the driven shaft's shift"), "length"),
-            gives("max_over_turn_rss_phi4_rad", _("largest root of squares of the driven angle"), "angle"),
-            gives("max_over_turn_rss_s4_m", _("largest root of squares of the driven shaft's shift"), "length"),
-            gives("share_of_alpha1_4_in_phi2_phi3_phi4", _("share of each tolerance in the sum of squares")),
-            gives("share_of_s1_a1_4_in_s2_s3_s4", _("share of each tolerance in the sum of squares")),
-            gives("required_alpha1_4_deg", _("tolerances of equal share that keep the target of the angle"), "angle"),
-            gives("required_s1_a1_4_m", _("tolerances of equal share that keep the target of the shift"), "length"),
+            gives("worst_s2_s3_s4_m", mark("worst case of the slides"), "length"),
+            gives("rss_s2_s3_s4_m", mark("root of the sum of squares of the slides"), "length"),
+            gives("worst_phi2_phi3_phi4_rad", mark("worst case of the angles"), "angle"),
+            gives("rss_phi2_phi3_phi4_rad", mark("root of the sum of squares of the angles"), "angle"),
+            gives("max_over_turn_worst_phi4_rad", mark("largest worst case of the driven angle"), "angle"),
+            gives("max_over_turn_worst_s4_m", mark("largest worst case of the driven shaft's shift"), "length"),
+            gives("max_over_turn_rss_phi4_rad", mark("largest root of squares of the driven angle"), "angle"),
+            gives("max_over_turn_rss_s4_m", mark("largest root of squares of the driven shaft's shift"), "length"),
+            gives("share_of_alpha1_4_in_phi2_phi3_phi4", mark("share of each tolerance in the sum of squares")),
+            gives("share_of_s1_a1_4_in_s2_s3_s4", mark("share of each tolerance in the sum of squares")),
+            gives(
+                "required_alpha1_4_deg", mark("tolerances of equal share that keep the target of the angle"), "angle"
+            ),
+            gives("required_s1_a1_4_m", mark("tolerances of equal share that keep the target of the shift"), "length"),
         ),
         answer=_stack,
     ),
     Calculation(
         name="tolerance_montecarlo",
-        doc=_("what errors drawn at random within the tolerances of one joint do, by the exact loop"),
+        doc=mark("what errors drawn at random within the tolerances of one joint do, by the exact loop"),
         source="Book pp. 186-190; random samples",
         takes=(
             BEND,
@@ -286,52 +288,54 @@ CALCULATIONS = (
             WAYS,
             TURNS,
             given(
-                "distribution", _("law of the errors, the first word of a description"), kind="word", default=LAWS[0]
+                "distribution", mark("law of the errors, the first word of a description"), kind="word", default=LAWS[0]
             ),
-            given("samples", _("how many joints to draw"), kind="whole", low=128, high=1e7, default=65536),
-            given("seed", _("start of the random numbers"), kind="whole", low=0, default=1),
+            given("samples", mark("how many joints to draw"), kind="whole", low=128, high=1e7, default=65536),
+            given("seed", mark("start of the random numbers"), kind="whole", low=0, default=1),
         ),
         returns=(
-            gives("std_phi2_phi3_phi4_rad", _("standard deviations of the angles"), "angle"),
-            gives("std_s2_s3_s4_m", _("standard deviations of the slides"), "length"),
-            gives("mean_phi2_phi3_phi4_rad", _("means of what the errors add to the angles"), "angle"),
-            gives("mean_s2_s3_s4_m", _("means of the slides"), "length"),
-            gives("quantile_95_phi2_phi3_phi4_rad", _("lower and upper bounds of 95 % of the angles"), "angle"),
-            gives("quantile_95_s2_s3_s4_m", _("lower and upper bounds of 95 % of the slides"), "length"),
-            gives("quantile_997_phi2_phi3_phi4_rad", _("lower and upper bounds of 99.7 % of the angles"), "angle"),
-            gives("quantile_997_s2_s3_s4_m", _("lower and upper bounds of 99.7 % of the slides"), "length"),
-            gives("samples", _("joints that could be assembled")),
-            gives("not_assembled", _("joints that could not")),
-            gives("seed", _("start of the random numbers")),
+            gives("std_phi2_phi3_phi4_rad", mark("standard deviations of the angles"), "angle"),
+            gives("std_s2_s3_s4_m", mark("standard deviations of the slides"), "length"),
+            gives("mean_phi2_phi3_phi4_rad", mark("means of what the errors add to the angles"), "angle"),
+            gives("mean_s2_s3_s4_m", mark("means of the slides"), "length"),
+            gives("quantile_95_phi2_phi3_phi4_rad", mark("lower and upper bounds of 95 % of the angles"), "angle"),
+            gives("quantile_95_s2_s3_s4_m", mark("lower and upper bounds of 95 % of the slides"), "length"),
+            gives("quantile_997_phi2_phi3_phi4_rad", mark("lower and upper bounds of 99.7 % of the angles"), "angle"),
+            gives("quantile_997_s2_s3_s4_m", mark("lower and upper bounds of 99.7 % of the slides"), "length"),
+            gives("samples", mark("joints that could be assembled")),
+            gives("not_assembled", mark("joints that could not")),
+            gives("seed", mark("start of the random numbers")),
         ),
         answer=_samples,
         check=_law_check,
     ),
     Calculation(
         name="chain_with_errors",
-        doc=_("what errors of every joint do to the output of a chain, exactly and to first order"),
+        doc=mark("what errors of every joint do to the output of a chain, exactly and to first order"),
         source="Book (171), (180), chained",
         takes=(
             bends(axes=(1,)),
-            given("kappa_deg_between_joints", _("angle added to that of the yokes between joints"), "angle", axes=(1,)),
-            given("phi1_deg", _("angle of the first driving yoke from the plane of its joint"), "angle"),
+            given(
+                "kappa_deg_between_joints", mark("angle added to that of the yokes between joints"), "angle", axes=(1,)
+            ),
+            given("phi1_deg", mark("angle of the first driving yoke from the plane of its joint"), "angle"),
             given(
                 "angle_errors_deg_alpha1_4_per_joint",
-                _("errors of the four angles of each joint"),
+                mark("errors of the four angles of each joint"),
                 "angle",
                 axes=(2,),
                 width=4,
             ),
             given(
                 "phase_errors_deg_before_each_joint",
-                _("errors of the angle of each driving yoke"),
+                mark("errors of the angle of each driving yoke"),
                 "angle",
                 axes=(1,),
                 default=None,
             ),
             given(
                 "linear_errors_mm_s1_a1_4_per_joint",
-                _("errors of the five lengths of each joint"),
+                mark("errors of the five lengths of each joint"),
                 "length",
                 axes=(2,),
                 width=5,
@@ -339,14 +343,14 @@ CALCULATIONS = (
             ),
         ),
         returns=(
-            gives("delta_phi_out_exact_rad", _("error of the output angle"), "angle"),
-            gives("delta_phi_out_linear_rad", _("error of the output angle to first order"), "angle"),
-            gives("axial_shift_out_exact_m", _("shift of the output shaft"), "length"),
-            gives("axial_shift_out_linear_m", _("shift of the output shaft to first order"), "length"),
-            gives("mean_over_turn_rad", _("part of the error of the angle that setting up takes away"), "angle"),
-            gives("peak_to_peak_over_turn_rad", _("change of the error of the angle over a turn"), "angle"),
-            gives("first_harmonic_rad", _("amplitude of the error of the angle once a turn"), "angle"),
-            gives("second_harmonic_rad", _("amplitude of the error of the angle twice a turn"), "angle"),
+            gives("delta_phi_out_exact_rad", mark("error of the output angle"), "angle"),
+            gives("delta_phi_out_linear_rad", mark("error of the output angle to first order"), "angle"),
+            gives("axial_shift_out_exact_m", mark("shift of the output shaft"), "length"),
+            gives("axial_shift_out_linear_m", mark("shift of the output shaft to first order"), "length"),
+            gives("mean_over_turn_rad", mark("part of the error of the angle that setting up takes away"), "angle"),
+            gives("peak_to_peak_over_turn_rad", mark("change of the error of the angle over a turn"), "angle"),
+            gives("first_harmonic_rad", mark("amplitude of the error of the angle once a turn"), "angle"),
+            gives("second_harmonic_rad", mark("amplitude of the error of the angle twice a turn"), "angle"),
         ),
         answer=_chain,
         check=_lists,

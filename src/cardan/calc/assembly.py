@@ -16,7 +16,7 @@ from cardan.errors import Problem
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.maths.peaks import peaks
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import mm
 
 from .calculation import Calculation, Values, given, gives, rows
@@ -28,14 +28,14 @@ TURN = np.linspace(0.0, 2.0 * np.pi, 361)
 
 BEARINGS = rows(
     "bearings",
-    _("bearings in any order"),
+    mark("bearings in any order"),
     SHAFT,
-    given("x_from_shaft_start_m", _("place along the power flow from the point before"), "length"),
-    given("radial", _("whether it holds across"), kind="flag", default=True),
-    given("axial", _("whether it holds along the shaft"), kind="flag", default=False),
-    given("k_radial_N_m", _("radial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
-    given("k_axial_N_m", _("axial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
-    given("housing_offset_m", _("displacement of its housing"), "length", axes=(1,), width=3, default=None),
+    given("x_from_shaft_start_m", mark("place along the power flow from the point before"), "length"),
+    given("radial", mark("whether it holds across"), kind="flag", default=True),
+    given("axial", mark("whether it holds along the shaft"), kind="flag", default=False),
+    given("k_radial_N_m", mark("radial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
+    given("k_axial_N_m", mark("axial stiffness in N/m, where statics alone cannot tell"), above=0.0, default=None),
+    given("housing_offset_m", mark("displacement of its housing"), "length", axes=(1,), width=3, default=None),
 )
 
 
@@ -142,52 +142,52 @@ def _holds(bearing: Values) -> tuple[Hold, ...]:
 CALCULATIONS = (
     Calculation(
         name="assembly_forces",
-        doc=_("force in a joint whose slides are blocked, from its errors of length"),
+        doc=mark("force in a joint whose slides are blocked, from its errors of length"),
         source="Book p. 190, (171)",
         takes=(
-            given("alpha_deg", _("bend of the joint"), "angle", low=0.0, below=RIGHT),
-            given("phi1_deg", _("angle of the driving yoke from the plane of the joint"), "angle"),
-            given("errors_mm_s1_a1_a2_a3_a4", _("errors s1, a1, a2, a3, a4 in mm"), axes=(1,), width=5),
-            given("free_slides", _("what slides freely"), kind="word", axes=(1,), choices=SLIDES, default=()),
+            given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT),
+            given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle"),
+            given("errors_mm_s1_a1_a2_a3_a4", mark("errors s1, a1, a2, a3, a4 in mm"), axes=(1,), width=5),
+            given("free_slides", mark("what slides freely"), kind="word", axes=(1,), choices=SLIDES, default=()),
             rows(
                 "shafts",
-                _("shaft 1 and shaft 2"),
-                given("bearing_span_m", _("distance between its two bearings"), "length", above=0.0),
-                given("overhang_m", _("distance from the joint to the near bearing"), "length", low=0.0),
-                given("EI_Nm2", _("bending stiffness in N·m²"), above=0.0),
-                given("EA_N", _("stiffness in tension"), "force", above=0.0),
-                given("k_radial_near_N_m", _("radial stiffness of the near bearing in N/m"), above=0.0),
-                given("k_radial_far_N_m", _("radial stiffness of the far bearing in N/m"), above=0.0),
-                given("k_axial_far_N_m", _("axial stiffness of the far bearing in N/m"), above=0.0),
+                mark("shaft 1 and shaft 2"),
+                given("bearing_span_m", mark("distance between its two bearings"), "length", above=0.0),
+                given("overhang_m", mark("distance from the joint to the near bearing"), "length", low=0.0),
+                given("EI_Nm2", mark("bending stiffness in N·m²"), above=0.0),
+                given("EA_N", mark("stiffness in tension"), "force", above=0.0),
+                given("k_radial_near_N_m", mark("radial stiffness of the near bearing in N/m"), above=0.0),
+                given("k_radial_far_N_m", mark("radial stiffness of the far bearing in N/m"), above=0.0),
+                given("k_axial_far_N_m", mark("axial stiffness of the far bearing in N/m"), above=0.0),
             ),
         ),
         returns=(
-            gives("gap_vector_frame1_m", _("gap in the joint centre, shaft 1 along z, bend about x"), "length"),
-            gives("force_magnitude_N", _("force in the joint centre"), "force"),
-            gives("force_abs_along_shaft1_N", _("its part along shaft 1"), "force"),
-            gives("force_abs_along_shaft2_N", _("its part along shaft 2"), "force"),
-            gives("strain_energy_J", _("stored energy"), "work"),
-            gives("extra_input_torque_Nm", _("torque that turning against the stored energy needs"), "torque"),
-            gives("max_force_over_turn_N", _("largest force over a turn"), "force"),
+            gives("gap_vector_frame1_m", mark("gap in the joint centre, shaft 1 along z, bend about x"), "length"),
+            gives("force_magnitude_N", mark("force in the joint centre"), "force"),
+            gives("force_abs_along_shaft1_N", mark("its part along shaft 1"), "force"),
+            gives("force_abs_along_shaft2_N", mark("its part along shaft 2"), "force"),
+            gives("strain_energy_J", mark("stored energy"), "work"),
+            gives("extra_input_torque_Nm", mark("torque that turning against the stored energy needs"), "torque"),
+            gives("max_force_over_turn_N", mark("largest force over a turn"), "force"),
         ),
         answer=_blocked,
         check=_two,
     ),
     Calculation(
         name="indeterminate_reactions",
-        doc=_("reactions of bearings that give way, under torque and in housings that are off"),
-        source=_("least complementary energy; Book p. 190 for the idea"),
+        doc=mark("reactions of bearings that give way, under torque and in housings that are off"),
+        source=mark("least complementary energy; Book p. 190 for the idea"),
         takes=(
             points(),
             START,
             YOKES,
-            given("phi1_deg", _("input angle from the start position"), "angle"),
-            given("M_out_Nm", _("torque that resists the output"), "torque", default=0.0),
+            given("phi1_deg", mark("input angle from the start position"), "angle"),
+            given("M_out_Nm", mark("torque that resists the output"), "torque", default=0.0),
             BEARINGS,
         ),
         returns=(
-            gives("degree_of_indeterminacy", _("forces and couples that balance alone leaves open")),
-            gives("bearing_reaction_N", _("force of each bearing on its shaft, in the order given"), "force"),
+            gives("degree_of_indeterminacy", mark("forces and couples that balance alone leaves open")),
+            gives("bearing_reaction_N", mark("force of each bearing on its shaft, in the order given"), "force"),
         ),
         answer=_elastic,
         check=_bearings,

@@ -6,15 +6,15 @@ import numpy as np
 
 from cardan.analysis.needle_bearing import book_load, critical_swing, needle_contact, needle_rating
 from cardan.analysis.single_joint_forces import cross_loads
-from cardan.texts import _
+from cardan.texts import mark
 
 from .calculation import Calculation, Values, at_least_zero, given, gives, positive
 from .life import ARM, BEND, SIDE, WARNINGS, said
 
-NEEDLES = given("needles", _("number of needles in a bearing"), kind="whole", above=0.0)
-NEEDLE = positive("needle_d_mm", _("diameter of a needle"), "length")
-NEEDLE_LENGTH = positive("needle_length_mm", _("effective length of a needle"), "length")
-JOURNAL = positive("journal_d_mm", _("diameter of the journal"), "length")
+NEEDLES = given("needles", mark("number of needles in a bearing"), kind="whole", above=0.0)
+NEEDLE = positive("needle_d_mm", mark("diameter of a needle"), "length")
+NEEDLE_LENGTH = positive("needle_length_mm", mark("effective length of a needle"), "length")
+JOURNAL = positive("journal_d_mm", mark("diameter of the journal"), "length")
 
 
 def _cross(values: Values) -> Values:
@@ -79,78 +79,78 @@ def _swing(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="cross_loads",
-        doc=_("load of the journals and secondary couples of a joint over the turn, and their largest values"),
+        doc=mark("load of the journals and secondary couples of a joint over the turn, and their largest values"),
         source="Book (100), (114); balance of the cross",
         takes=(
-            at_least_zero("torque_Nm", _("torque, constant on one shaft"), "torque"),
+            at_least_zero("torque_Nm", mark("torque, constant on one shaft"), "torque"),
             SIDE,
             BEND,
             ARM,
-            given("phi_deg", _("angle of the driving yoke from the plane of the shafts"), "angle", axes=(0, 1)),
+            given("phi_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle", axes=(0, 1)),
         ),
         returns=(
-            gives("journal_force_N", _("load of each journal"), "force"),
-            gives("couple_input_shaft_Nm", _("secondary couple on the input shaft"), "torque"),
-            gives("couple_output_shaft_Nm", _("secondary couple on the output shaft"), "torque"),
-            gives("journal_force_max_N", _("largest load of a journal over the turn"), "force"),
-            gives("couple_input_max_Nm", _("largest couple on the input shaft"), "torque"),
-            gives("couple_output_max_Nm", _("largest couple on the output shaft"), "torque"),
+            gives("journal_force_N", mark("load of each journal"), "force"),
+            gives("couple_input_shaft_Nm", mark("secondary couple on the input shaft"), "torque"),
+            gives("couple_output_shaft_Nm", mark("secondary couple on the output shaft"), "torque"),
+            gives("journal_force_max_N", mark("largest load of a journal over the turn"), "force"),
+            gives("couple_input_max_Nm", mark("largest couple on the input shaft"), "torque"),
+            gives("couple_output_max_Nm", mark("largest couple on the output shaft"), "torque"),
         ),
         answer=_cross,
     ),
     Calculation(
         name="needle_static_book",
-        doc=_("load that the book allows on a needle bearing; ISO 76 limits it at low speeds"),
+        doc=mark("load that the book allows on a needle bearing; ISO 76 limits it at low speeds"),
         source="Book (266)",
         takes=(
             NEEDLES,
             NEEDLE_LENGTH,
             NEEDLE,
-            positive("cycles_per_min", _("swings a minute; one for every turn of the shaft")),
+            positive("cycles_per_min", mark("swings a minute; one for every turn of the shaft")),
         ),
-        returns=(gives("load_allow_N", _("load allowed on one bearing"), "force"),),
+        returns=(gives("load_allow_N", mark("load allowed on one bearing"), "force"),),
         answer=_static,
     ),
     Calculation(
         name="needle_iso",
-        doc=_("static and dynamic capacity of a full row of needles"),
+        doc=mark("static and dynamic capacity of a full row of needles"),
         source="ISO 76, ISO 281",
         takes=(NEEDLES, NEEDLE_LENGTH, NEEDLE, JOURNAL),
         returns=(
-            gives("pitch_d_mm", _("pitch diameter"), "length"),
-            gives("gamma", _("needle over pitch diameter")),
-            gives("C0r_N", _("static capacity"), "force"),
-            gives("f_c", _("factor of ISO 281")),
-            gives("Cr_N", _("dynamic capacity"), "force"),
+            gives("pitch_d_mm", mark("pitch diameter"), "length"),
+            gives("gamma", mark("needle over pitch diameter")),
+            gives("C0r_N", mark("static capacity"), "force"),
+            gives("f_c", mark("factor of ISO 281")),
+            gives("Cr_N", mark("dynamic capacity"), "force"),
         ),
         answer=_rating,
     ),
     Calculation(
         name="needle_hertz",
-        doc=_("contact of the most loaded needle with its journal"),
-        source=_("Hertz, line contact; Stribeck's distribution of the load"),
+        doc=mark("contact of the most loaded needle with its journal"),
+        source=mark("Hertz, line contact; Stribeck's distribution of the load"),
         takes=(
-            at_least_zero("journal_force_N", _("load of the journal"), "force"),
+            at_least_zero("journal_force_N", mark("load of the journal"), "force"),
             NEEDLES,
             NEEDLE_LENGTH,
             NEEDLE,
             JOURNAL,
         ),
         returns=(
-            gives("needle_force_max_N", _("load of the most loaded needle"), "force"),
-            gives("pressure_max_MPa", _("largest pressure"), "stress"),
-            gives("half_width_mm", _("half the width of the contact"), "length"),
+            gives("needle_force_max_N", mark("load of the most loaded needle"), "force"),
+            gives("pressure_max_MPa", mark("largest pressure"), "stress"),
+            gives("half_width_mm", mark("half the width of the contact"), "length"),
         ),
         answer=_contact,
     ),
     Calculation(
         name="small_oscillation",
-        doc=_("bends from which needles reach their neighbours' tracks; below them they wear patches of their own"),
-        source=_("kinematics of pure rolling"),
+        doc=mark("bends from which needles reach their neighbours' tracks; below them they wear patches of their own"),
+        source=mark("kinematics of pure rolling"),
         takes=(NEEDLES, NEEDLE, JOURNAL, BEND),
         returns=(
-            gives("alpha_crit_inner_deg", _("on the journal"), "angle"),
-            gives("alpha_crit_outer_deg", _("on the outer race"), "angle"),
+            gives("alpha_crit_inner_deg", mark("on the journal"), "angle"),
+            gives("alpha_crit_outer_deg", mark("on the outer race"), "angle"),
             WARNINGS,
         ),
         answer=_swing,

@@ -21,7 +21,7 @@ from cardan.analysis.critical_speed import (
     uniform_speed,
 )
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .bores import bores
 from .calculation import Calculation, Values, given, gives
@@ -41,7 +41,7 @@ def length(key: str, doc: str, **options: object) -> Given:
 
 def mode_count(default: int) -> Given:
     """Return the key for how many critical speeds are wanted."""
-    return given("modes", _("how many, lowest first"), kind="whole", low=1, high=MOST, default=default)
+    return given("modes", mark("how many, lowest first"), kind="whole", low=1, high=MOST, default=default)
 
 
 def _lacking(values: Values, names: tuple[str, ...], key: Callable[[str], str], needs: str) -> Iterator[Problem]:
@@ -145,24 +145,24 @@ def _margin(values: Values) -> Values:
     }
 
 
-LENGTH = length("length_m", _("length between the ends"), above=0.0)
-OUTER = length("outer_diameter_m", _("outer diameter"), above=0.0)
-INNER = length("inner_diameter_m", _("inner diameter; 0 for a full shaft"), low=0.0, default=0.0)
-YOUNGS = given("E_Pa", _("Young's modulus"), "stress", above=0.0)
-DENSITY = given("density_kg_m3", _("density"), "density", above=0.0)
+LENGTH = length("length_m", mark("length between the ends"), above=0.0)
+OUTER = length("outer_diameter_m", mark("outer diameter"), above=0.0)
+INNER = length("inner_diameter_m", mark("inner diameter; 0 for a full shaft"), low=0.0, default=0.0)
+YOUNGS = given("E_Pa", mark("Young's modulus"), "stress", above=0.0)
+DENSITY = given("density_kg_m3", mark("density"), "density", above=0.0)
 MILLIMETRES = (
-    length("length_mm", _("length"), above=0.0),
-    length("d_out_mm", _("outer diameter"), above=0.0),
-    length("d_in_mm", _("inner diameter; 0 for a full shaft"), low=0.0, default=0.0),
-    given("E_GPa", _("Young's modulus"), "stress", above=0.0),
+    length("length_mm", mark("length"), above=0.0),
+    length("d_out_mm", mark("outer diameter"), above=0.0),
+    length("d_in_mm", mark("inner diameter; 0 for a full shaft"), low=0.0, default=0.0),
+    given("E_GPa", mark("Young's modulus"), "stress", above=0.0),
     DENSITY,
 )
-SPEED = gives("n_critical_rpm", _("first critical speed as computed"), "angular_speed")
-ACTUAL = gives("n_critical_actual_rpm", _("that of the real shaft"), "angular_speed")
-SPEEDS = gives("omega_rad_s", _("angular speeds, lowest first"), "angular_speed")
+SPEED = gives("n_critical_rpm", mark("first critical speed as computed"), "angular_speed")
+ACTUAL = gives("n_critical_actual_rpm", mark("that of the real shaft"), "angular_speed")
+SPEEDS = gives("omega_rad_s", mark("angular speeds, lowest first"), "angular_speed")
 WEAR = given(
     "k_n",
-    _("real over computed critical speed: 0.9-0.95 new, 0.7-0.8 with a worn spline"),
+    mark("real over computed critical speed: 0.9-0.95 new, 0.7-0.8 with a worn spline"),
     above=0.0,
     high=1.0,
     default=1.0,
@@ -170,75 +170,85 @@ WEAR = given(
 
 
 def _ends(key: str, default: str | None) -> Given:
-    return given(key, _("how the ends are held"), kind="word", choices=ENDS, default=default)
+    return given(key, mark("how the ends are held"), kind="word", choices=ENDS, default=default)
 
 
 CALCULATIONS = (
     Calculation(
         name="critical_speed_closed_form",
-        doc=_("critical speeds of a uniform shaft in bending, without shear and rotary inertia"),
+        doc=mark("critical speeds of a uniform shaft in bending, without shear and rotary inertia"),
         source="Book (253)-(256)",
         takes=(_ends("end_condition", "pinned-pinned"), LENGTH, OUTER, INNER, YOUNGS, DENSITY, mode_count(3)),
         returns=(
-            gives("lambda_", _("roots of the frequency equation")),
+            gives("lambda_", mark("roots of the frequency equation")),
             SPEEDS,
-            gives("speed_rpm", _("critical speeds, lowest first"), "angular_speed"),
+            gives("speed_rpm", mark("critical speeds, lowest first"), "angular_speed"),
         ),
         answer=_closed_form,
         check=bores("outer_diameter", "inner_diameter"),
     ),
     Calculation(
         name="critical_speed_book",
-        doc=_("critical speed of a shaft between joints by the book's formula, its constant, and the 60 percent rule"),
+        doc=mark(
+            "critical speed of a shaft between joints by the book's formula, its constant, and the 60 percent rule"
+        ),
         source="Book (257)-(260)",
         takes=(
-            length("length_m", LENGTH.doc, above=0.0, default=None),
-            length("outer_diameter_m", OUTER.doc, above=0.0, default=None),
+            length("length_m", LENGTH.meaning.doc, above=0.0, default=None),
+            length("outer_diameter_m", OUTER.meaning.doc, above=0.0, default=None),
             INNER,
             WEAR,
             given(
-                "max_engine_speed_rpm", _("engine speed at its maximum power"), "angular_speed", above=0.0, default=None
+                "max_engine_speed_rpm",
+                mark("engine speed at its maximum power"),
+                "angular_speed",
+                above=0.0,
+                default=None,
             ),
-            given("gear_ratio", _("speed of the shaft over that of the engine"), above=0.0, default=1.0),
+            given("gear_ratio", mark("speed of the shaft over that of the engine"), above=0.0, default=1.0),
             _ends("end_condition", None),
-            given("lambda_", _("first root of the frequency equation for other ends"), above=0.0, default=None),
+            given("lambda_", mark("first root of the frequency equation for other ends"), above=0.0, default=None),
             given(
                 "E_Pa",
-                _("Young's modulus; the book's constant for steel without it"),
+                mark("Young's modulus; the book's constant for steel without it"),
                 "stress",
                 above=0.0,
                 default=None,
             ),
-            given("density_kg_m3", _("density"), "density", above=0.0, default=None),
-            given("E_kgf_cm2", _("Young's modulus in kgf/cm²"), above=0.0, default=None),
-            given("specific_weight_gf_cm3", _("specific weight in gf/cm³"), above=0.0, default=None),
-            given("g_cm_s2", _("acceleration of free fall in cm/s²"), above=0.0, default=STANDARD),
+            given("density_kg_m3", mark("density"), "density", above=0.0, default=None),
+            given("E_kgf_cm2", mark("Young's modulus in kgf/cm²"), above=0.0, default=None),
+            given("specific_weight_gf_cm3", mark("specific weight in gf/cm³"), above=0.0, default=None),
+            given("g_cm_s2", mark("acceleration of free fall in cm/s²"), above=0.0, default=STANDARD),
         ),
         returns=(
-            gives("K_rpm_m", _("constant of the formula, lengths in metres"), "angular_speed"),
-            gives("K_rpm_cm", _("constant of the formula, lengths in centimetres"), "angular_speed"),
-            gives("n_crit_rpm", _("critical speed as computed"), "angular_speed"),
-            gives("n_crit_actual_rpm", _("that of the real shaft"), "angular_speed"),
-            gives("half_critical_rpm", _("half the computed critical speed"), "angular_speed"),
-            gives("n_crit_thin_tube_rpm", _("critical speed by the formula for thin tubes"), "angular_speed"),
-            gives("ratio_calculated_to_engine", _("computed critical speed over the greatest speed of the shaft")),
-            gives("rule_60_percent_met", _("whether this is 1.6 or more")),
+            gives("K_rpm_m", mark("constant of the formula, lengths in metres"), "angular_speed"),
+            gives("K_rpm_cm", mark("constant of the formula, lengths in centimetres"), "angular_speed"),
+            gives("n_crit_rpm", mark("critical speed as computed"), "angular_speed"),
+            gives("n_crit_actual_rpm", mark("that of the real shaft"), "angular_speed"),
+            gives("half_critical_rpm", mark("half the computed critical speed"), "angular_speed"),
+            gives("n_crit_thin_tube_rpm", mark("critical speed by the formula for thin tubes"), "angular_speed"),
+            gives("ratio_calculated_to_engine", mark("computed critical speed over the greatest speed of the shaft")),
+            gives("rule_60_percent_met", mark("whether this is 1.6 or more")),
         ),
         answer=_book,
         check=_book_check,
     ),
     Calculation(
         name="critical_speed",
-        doc=_("first critical speed of a uniform shaft: exactly, by the book's sizes alone, or from a similar shaft"),
+        doc=mark(
+            "first critical speed of a uniform shaft: exactly, by the book's sizes alone, or from a similar shaft"
+        ),
         source="Book (256)-(260)",
         takes=(
-            given("method", _("way"), kind="word", choices=("exact", "book", "scale"), default="exact"),
+            given("method", mark("way"), kind="word", choices=("exact", "book", "scale"), default="exact"),
             *(replace(one, default=None) if one.required else one for one in MILLIMETRES),
             _ends("ends", "pinned-pinned"),
             WEAR,
-            given("n_reference_rpm", _("critical speed of a similar shaft"), "angular_speed", above=0.0, default=None),
-            given("length_ratio", _("length over that of the similar shaft"), above=0.0, default=None),
-            given("diameter_ratio", _("diameters over those of the similar shaft"), above=0.0, default=1.0),
+            given(
+                "n_reference_rpm", mark("critical speed of a similar shaft"), "angular_speed", above=0.0, default=None
+            ),
+            given("length_ratio", mark("length over that of the similar shaft"), above=0.0, default=None),
+            given("diameter_ratio", mark("diameters over those of the similar shaft"), above=0.0, default=1.0),
         ),
         returns=(SPEED, ACTUAL),
         answer=_simple,
@@ -246,23 +256,25 @@ CALCULATIONS = (
     ),
     Calculation(
         name="critical_speed_margin",
-        doc=_("how far a drive stays below a critical speed, by the rules of articles and makers"),
-        source=_("articles (60 percent), makers' catalogues (70 and 65 percent, half-critical band)"),
+        doc=mark("how far a drive stays below a critical speed, by the rules of articles and makers"),
+        source=mark("articles (60 percent), makers' catalogues (70 and 65 percent, half-critical band)"),
         takes=(
-            given("n_critical_rpm", _("critical speed as computed"), "angular_speed", above=0.0),
-            given("n_max_rpm", _("greatest speed"), "angular_speed", above=0.0),
+            given("n_critical_rpm", mark("critical speed as computed"), "angular_speed", above=0.0),
+            given("n_max_rpm", mark("greatest speed"), "angular_speed", above=0.0),
             WEAR,
-            given("application", _("trade"), kind="word", choices=tuple(CATALOGUE), default="automotive"),
-            given("operating_rpm", _("speeds of running"), "angular_speed", axes=(0, 1), low=0.0, default=None),
-            length("d_out_mm", _("outer diameter, for the longest shaft"), above=0.0, default=None),
-            length("d_in_mm", _("inner diameter"), low=0.0, default=0.0),
+            given("application", mark("trade"), kind="word", choices=tuple(CATALOGUE), default="automotive"),
+            given("operating_rpm", mark("speeds of running"), "angular_speed", axes=(0, 1), low=0.0, default=None),
+            length("d_out_mm", mark("outer diameter, for the longest shaft"), above=0.0, default=None),
+            length("d_in_mm", mark("inner diameter"), low=0.0, default=0.0),
         ),
         returns=(
-            gives("ratio", _("real critical speed over the greatest speed")),
-            gives("violated", _("rules broken: article_1.6, catalogue, supercritical")),
-            gives("half_critical_band_rpm", _("speeds to keep out of, about half the critical speed"), "angular_speed"),
-            gives("half_critical_inside", _("whether a speed of running lies in it")),
-            gives("longest_length_mm", _("how long a steel shaft between joints may be"), "length"),
+            gives("ratio", mark("real critical speed over the greatest speed")),
+            gives("violated", mark("rules broken: article_1.6, catalogue, supercritical")),
+            gives(
+                "half_critical_band_rpm", mark("speeds to keep out of, about half the critical speed"), "angular_speed"
+            ),
+            gives("half_critical_inside", mark("whether a speed of running lies in it")),
+            gives("longest_length_mm", mark("how long a steel shaft between joints may be"), "length"),
         ),
         answer=_margin,
         check=bores("d_out", "d_in"),

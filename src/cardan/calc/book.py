@@ -10,17 +10,17 @@ import numpy as np
 from cardan.analysis.book import book_comparison, book_series, collinear_bend, rule_of_practice
 from cardan.analysis.book_forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 from .kinematics import ANGLE, RIGHT, START, YOKES, bends, between, drives, points, twists
 
 _CHAIN = (bends(default=None), twists(), points(default=None), YOKES, START)
 _MOTION = (
-    gives("lead_deg", _("output angle minus input angle, continuous"), "angle"),
-    gives("phi_out_deg", _("output angle from the start, continuous"), "angle"),
-    gives("ratio", _("speed ratio")),
-    gives("eps_over_omega1_sq", _("acceleration over the square of the input speed")),
+    gives("lead_deg", mark("output angle minus input angle, continuous"), "angle"),
+    gives("phi_out_deg", mark("output angle from the start, continuous"), "angle"),
+    gives("ratio", mark("speed ratio")),
+    gives("eps_over_omega1_sq", mark("acceleration over the square of the input speed")),
 )
 
 
@@ -118,7 +118,7 @@ def _series_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem
 CALCULATIONS = (
     Calculation(
         name="blokh",
-        doc=_("output motion by Blokh's closed form, freed of its poles"),
+        doc=mark("output motion by Blokh's closed form, freed of its poles"),
         source="Book (35)-(37)",
         takes=(*_CHAIN, ANGLE),
         returns=_MOTION,
@@ -127,22 +127,22 @@ CALCULATIONS = (
     ),
     Calculation(
         name="book_series",
-        doc=_("output motion by the book's series of first or second order"),
+        doc=mark("output motion by the book's series of first or second order"),
         source="Book (47)-(74)",
         takes=(
             *_CHAIN,
             ANGLE,
-            given("order", _("order of the series"), kind="whole", low=1, high=2, default=1),
+            given("order", mark("order of the series"), kind="whole", low=1, high=2, default=1),
             given(
                 "amplitude",
-                _("amplitude of a joint: α²/4 or tan²(α/2)"),
+                mark("amplitude of a joint: α²/4 or tan²(α/2)"),
                 kind="word",
                 choices=("quarter", "tau"),
                 default="quarter",
             ),
             given(
                 "phases",
-                _("phases of the joints"),
+                mark("phases of the joints"),
                 kind="word",
                 choices=("exact", "mean", "without_theta"),
                 default="exact",
@@ -150,76 +150,80 @@ CALCULATIONS = (
         ),
         returns=(
             *_MOTION,
-            gives("theta_deg", _("constant Θ_n"), "angle"),
-            gives("a_n1", _("coefficient of sin 2φ [rad]")),
-            gives("b_n1", _("coefficient of cos 2φ [rad]")),
-            gives("a_n2", _("coefficient of sin 4φ [rad]")),
-            gives("b_n2", _("coefficient of cos 4φ [rad]")),
-            gives("s_n1", _("amplitude of the second order of the turn [rad]")),
-            gives("delta_n1_mod180_deg", _("its phase"), "angle"),
-            gives("delta_80", _("irregularity by (80)")),
+            gives("theta_deg", mark("constant Θ_n"), "angle"),
+            gives("a_n1", mark("coefficient of sin 2φ [rad]")),
+            gives("b_n1", mark("coefficient of cos 2φ [rad]")),
+            gives("a_n2", mark("coefficient of sin 4φ [rad]")),
+            gives("b_n2", mark("coefficient of cos 4φ [rad]")),
+            gives("s_n1", mark("amplitude of the second order of the turn [rad]")),
+            gives("delta_n1_mod180_deg", mark("its phase"), "angle"),
+            gives("delta_80", mark("irregularity by (80)")),
         ),
         answer=_series,
         check=_series_check,
     ),
     Calculation(
         name="book_comparison",
-        doc=_("what the book's approximations say of a chain, beside the exact answer"),
+        doc=mark("what the book's approximations say of a chain, beside the exact answer"),
         source="Book (59)-(80)",
         takes=_CHAIN,
         returns=(
-            gives("delta", _("irregularity, exact")),
-            gives("delta_80", _("irregularity by (80), exact phases")),
-            gives("delta_80_mean_phases", _("irregularity by (80), mean phases")),
-            gives("delta_80_without_theta", _("irregularity by (80), phases without Θ")),
-            gives("worst_first_order_deg", _("largest angle error of the first order over a turn"), "angle"),
-            gives("worst_second_order_deg", _("largest angle error of the second order over a turn"), "angle"),
-            gives("alpha_eq_deg", _("equivalent angle, exact"), "angle"),
-            gives("alpha_eq_rule_deg", _("equivalent angle by the rule of practice"), "angle"),
+            gives("delta", mark("irregularity, exact")),
+            gives("delta_80", mark("irregularity by (80), exact phases")),
+            gives("delta_80_mean_phases", mark("irregularity by (80), mean phases")),
+            gives("delta_80_without_theta", mark("irregularity by (80), phases without Θ")),
+            gives("worst_first_order_deg", mark("largest angle error of the first order over a turn"), "angle"),
+            gives("worst_second_order_deg", mark("largest angle error of the second order over a turn"), "angle"),
+            gives("alpha_eq_deg", mark("equivalent angle, exact"), "angle"),
+            gives("alpha_eq_rule_deg", mark("equivalent angle by the rule of practice"), "angle"),
         ),
         answer=_comparison,
         check=between,
     ),
     Calculation(
         name="double_joint",
-        doc=_("double joint in one of the four arrangements of Fig. 62"),
+        doc=mark("double joint in one of the four arrangements of Fig. 62"),
         source="Book (26)-(30), Fig. 62",
         takes=(
-            given("alpha12_deg", _("bend of joint 1"), "angle", low=0.0, below=RIGHT),
-            given("alpha23_deg", _("bend of joint 2"), "angle", low=0.0, below=RIGHT),
-            given("arrangement", _("letter of the arrangement"), kind="word", choices=("a", "b", "c", "d")),
-            given("beta2_deg", _("plane twist, arrangements c and d"), "angle", default=None),
-            given("gamma2_deg", _("yoke angle of shaft 2, arrangements b and d"), "angle", default=None),
-            given("phi1_deg", _("input angle from the start position"), "angle", axes=(0, 1), default=0.0),
+            given("alpha12_deg", mark("bend of joint 1"), "angle", low=0.0, below=RIGHT),
+            given("alpha23_deg", mark("bend of joint 2"), "angle", low=0.0, below=RIGHT),
+            given("arrangement", mark("letter of the arrangement"), kind="word", choices=("a", "b", "c", "d")),
+            given("beta2_deg", mark("plane twist, arrangements c and d"), "angle", default=None),
+            given("gamma2_deg", mark("yoke angle of shaft 2, arrangements b and d"), "angle", default=None),
+            given("phi1_deg", mark("input angle from the start position"), "angle", axes=(0, 1), default=0.0),
         ),
         returns=(
-            gives("psi2_deg", _("phase angle of joint 2"), "angle"),
-            gives("delta", _("irregularity")),
-            gives("alpha_eq_deg", _("equivalent angle"), "angle"),
+            gives("psi2_deg", mark("phase angle of joint 2"), "angle"),
+            gives("delta", mark("irregularity")),
+            gives("alpha_eq_deg", mark("equivalent angle"), "angle"),
             *_MOTION,
         ),
         answer=_double,
     ),
     Calculation(
         name="rule_of_practice",
-        doc=_("equivalent angle by the rule of practice √|Σ ±α²|"),
-        source=_("workshop practice; first order of the hyperbolic polygon"),
+        doc=mark("equivalent angle by the rule of practice √|Σ ±α²|"),
+        source=mark("workshop practice; first order of the hyperbolic polygon"),
         takes=_CHAIN,
-        returns=(gives("alpha_eq_rule_deg", _("equivalent angle"), "angle"),),
+        returns=(gives("alpha_eq_rule_deg", mark("equivalent angle"), "angle"),),
         answer=_rule,
         check=between,
     ),
     Calculation(
         name="collinear_joints",
-        doc=_("exact equivalent angle of joints that work with or straight against one another"),
+        doc=mark("exact equivalent angle of joints that work with or straight against one another"),
         source="cos α_eq = Π cos^±1 α_i",
         takes=(
             bends(),
             given(
-                "sign", _("1 for a joint that works with the first, -1 against it"), kind="whole", axes=(1, 2), low=-1
+                "sign",
+                mark("1 for a joint that works with the first, -1 against it"),
+                kind="whole",
+                axes=(1, 2),
+                low=-1,
             ),
         ),
-        returns=(gives("alpha_eq_deg", _("equivalent angle"), "angle"),),
+        returns=(gives("alpha_eq_deg", mark("equivalent angle"), "angle"),),
         answer=_collinear,
         check=_collinear_check,
     ),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from cardan.errors import refuse
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import nearest
 
 from . import (
@@ -58,9 +58,9 @@ class Call(Calculation):
 
 ERRORS = Call(
     name="errors",
-    doc=_("any other formula, by its name under call; its answer, or what is wrong with its inputs"),
-    source=_("see the formula named"),
-    takes=(given("call", _("name of the formula; its own keys follow"), kind="word"),),
+    doc=mark("any other formula, by its name under call; its answer, or what is wrong with its inputs"),
+    source=mark("see the formula named"),
+    takes=(given("call", mark("name of the formula; its own keys follow"), kind="word"),),
     returns=(),
     answer=dict,
 )

@@ -12,7 +12,7 @@ from cardan.errors import InputError, Problem, refuse
 from cardan.maths import dividing_lever, offset_grooves, tilted_plane, tracta, tripod
 from cardan.synthesis.dividing_lever import lever_choice
 from cardan.synthesis.groove_offset import groove_offset
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg
 
 from .calculation import Calculation, Given, Values, given, gives, positive
@@ -23,10 +23,10 @@ def _bend(key: str, doc: str, **options: Any) -> Given:
     return given(key, doc, "angle", low=0.0, below=RIGHT, **options)
 
 
-BEND = _bend("alpha_deg", _("bend, the angle between the shafts"))
-LEVER_BEND = _bend("alpha12_deg", _("bend, the angle between the shafts"))
-DIVISION = positive("b_over_a", _("part of the lever on the side of the fixed ball end over the other part"))
-LENGTH = positive("c_over_a", _("distance of the fixed ball end from the centre of the joint over the same part"))
+BEND = _bend("alpha_deg", mark("bend, the angle between the shafts"))
+LEVER_BEND = _bend("alpha12_deg", mark("bend, the angle between the shafts"))
+DIVISION = positive("b_over_a", mark("part of the lever on the side of the fixed ball end over the other part"))
+LENGTH = positive("c_over_a", mark("distance of the fixed ball end from the centre of the joint over the same part"))
 
 
 def _lever(values: Values) -> Values:
@@ -144,19 +144,19 @@ def _tripod(values: Values) -> Values:
     }
 
 
-IRREGULARITY = gives("single_ball_irregularity", _("irregularity that one ball alone would give"))
-LEAD = gives("phi2_minus_phi1_rad", _("lead of the output over the input"), "angle")
-ANGLE = given("phi1_deg", _("input angle from the inner side of the plane of the shafts"), "angle", axes=(0, 1))
+IRREGULARITY = gives("single_ball_irregularity", mark("irregularity that one ball alone would give"))
+LEAD = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
+ANGLE = given("phi1_deg", mark("input angle from the inner side of the plane of the shafts"), "angle", axes=(0, 1))
 
 CALCULATIONS = (
     Calculation(
         name="rzeppa_lever",
-        doc=_("how far the dividing lever of a Rzeppa joint holds its cage off the bisecting plane"),
+        doc=mark("how far the dividing lever of a Rzeppa joint holds its cage off the bisecting plane"),
         source="Book (13), (14)",
         takes=(LEVER_BEND, DIVISION, LENGTH),
         returns=(
-            gives("alpha2_rad", _("angle of the cage's normal to the axis of the sliding ball end"), "angle"),
-            gives("plane_error_rad", _("the same less half the bend"), "angle"),
+            gives("alpha2_rad", mark("angle of the cage's normal to the axis of the sliding ball end"), "angle"),
+            gives("plane_error_rad", mark("the same less half the bend"), "angle"),
             IRREGULARITY,
         ),
         answer=_lever,
@@ -164,46 +164,48 @@ CALCULATIONS = (
     ),
     Calculation(
         name="rzeppa_lever_ratio",
-        doc=_("length of the dividing lever that halves one bend exactly"),
+        doc=mark("length of the dividing lever that halves one bend exactly"),
         source="Book (15), (16)",
         takes=(LEVER_BEND, DIVISION),
-        returns=(gives("c_over_a", _("distance of the fixed ball end over the part of the lever beside the other")),),
+        returns=(
+            gives("c_over_a", mark("distance of the fixed ball end over the part of the lever beside the other")),
+        ),
         answer=_even_lever,
     ),
     Calculation(
         name="rzeppa_lever_optimum",
-        doc=_("length of the dividing lever that errs least over a range of bends"),
-        source=_("minimax of the exact error of Book (13)"),
+        doc=mark("length of the dividing lever that errs least over a range of bends"),
+        source=mark("minimax of the exact error of Book (13)"),
         takes=(
             DIVISION,
-            _bend("alpha_max_deg", _("largest bend")),
-            _bend("alpha_min_deg", _("smallest bend"), default=0.0),
+            _bend("alpha_max_deg", mark("largest bend")),
+            _bend("alpha_min_deg", mark("smallest bend"), default=0.0),
         ),
         returns=(
-            gives("c_over_a", _("distance of the fixed ball end over the part of the lever beside the other")),
-            gives("plane_error_max_rad", _("largest error of the cage, of either sign"), "angle"),
-            gives("bend_of_largest_lag_deg", _("bend at which the cage leans too little by most"), "angle"),
-            gives("bend_of_largest_lead_deg", _("bend at which the cage leans too much by most"), "angle"),
-            gives("exact_bend_deg", _("bend that is halved exactly"), "angle"),
+            gives("c_over_a", mark("distance of the fixed ball end over the part of the lever beside the other")),
+            gives("plane_error_max_rad", mark("largest error of the cage, of either sign"), "angle"),
+            gives("bend_of_largest_lag_deg", mark("bend at which the cage leans too little by most"), "angle"),
+            gives("bend_of_largest_lead_deg", mark("bend at which the cage leans too much by most"), "angle"),
+            gives("exact_bend_deg", mark("bend that is halved exactly"), "angle"),
         ),
         answer=_best_lever,
         check=_range,
     ),
     Calculation(
         name="ball_plane_error",
-        doc=_("what the balls of a joint ask of its output where their plane misses the bisecting one"),
-        source=_("ball in a tilted plane, exact; mean over the balls in closed form"),
+        doc=mark("what the balls of a joint ask of its output where their plane misses the bisecting one"),
+        source=mark("ball in a tilted plane, exact; mean over the balls in closed form"),
         takes=(
             BEND,
-            given("plane_tilt_deg", _("tilt: the normal stands at half the bend and this to shaft 1"), "angle"),
-            given("tilt_sign", _("remark on the sense of the tilt; not read"), kind="word", default=""),
-            given("balls", _("number of balls"), kind="whole", default=6, low=1, high=1000),
+            given("plane_tilt_deg", mark("tilt: the normal stands at half the bend and this to shaft 1"), "angle"),
+            given("tilt_sign", mark("remark on the sense of the tilt; not read"), kind="word", default=""),
+            given("balls", mark("number of balls"), kind="whole", default=6, low=1, high=1000),
             ANGLE,
         ),
         returns=(
-            gives("mean_rad", _("mean over the balls: what the output does"), "angle"),
-            gives("spread_rad", _("largest less smallest: what play and contacts take"), "angle"),
-            gives("max_abs_rad", _("largest in size"), "angle"),
+            gives("mean_rad", mark("mean over the balls: what the output does"), "angle"),
+            gives("spread_rad", mark("largest less smallest: what play and contacts take"), "angle"),
+            gives("max_abs_rad", mark("largest in size"), "angle"),
             IRREGULARITY,
         ),
         answer=_plane,
@@ -211,83 +213,83 @@ CALCULATIONS = (
     ),
     Calculation(
         name="offset_groove_plane",
-        doc=_("plane of balls in offset grooves, and how uneven unequal offsets make the output"),
-        source=_("ball as far from one groove centre as from the other, exact; corrects Book p. 69"),
+        doc=mark("plane of balls in offset grooves, and how uneven unequal offsets make the output"),
+        source=mark("ball as far from one groove centre as from the other, exact; corrects Book p. 69"),
         takes=(
             BEND,
-            positive("c1_m", _("distance of the groove centre of shaft 1 from the centre of the joint"), "length"),
-            positive("c2_m", _("the same of shaft 2"), "length"),
-            positive("groove_radius_m", _("radius of both grooves"), "length"),
+            positive("c1_m", mark("distance of the groove centre of shaft 1 from the centre of the joint"), "length"),
+            positive("c2_m", mark("the same of shaft 2"), "length"),
+            positive("groove_radius_m", mark("radius of both grooves"), "length"),
             ANGLE,
         ),
         returns=(
-            gives("plane_tilt_rad", _("tilt of the plane, positive towards shaft 1"), "angle"),
-            gives("plane_offset_m", _("distance of the plane from the centre, positive towards shaft 1"), "length"),
+            gives("plane_tilt_rad", mark("tilt of the plane, positive towards shaft 1"), "angle"),
+            gives("plane_offset_m", mark("distance of the plane from the centre, positive towards shaft 1"), "length"),
             LEAD,
         ),
         answer=_grooves,
     ),
     Calculation(
         name="groove_offset",
-        doc=_("offset of ball grooves with which an axial play tilts the plane of the balls no more than allowed"),
-        source=_("tilt of the plane of the balls with one centre shifted, exact"),
+        doc=mark("offset of ball grooves with which an axial play tilts the plane of the balls no more than allowed"),
+        source=mark("tilt of the plane of the balls with one centre shifted, exact"),
         takes=(
-            _bend("alpha_deg", _("largest bend")),
-            given("plane_tilt_deg", _("largest tilt allowed"), "angle", above=0.0, below=RIGHT),
-            given("axial_play_m", _("shift of one shaft along its axis, to either side"), "length", low=0.0),
+            _bend("alpha_deg", mark("largest bend")),
+            given("plane_tilt_deg", mark("largest tilt allowed"), "angle", above=0.0, below=RIGHT),
+            given("axial_play_m", mark("shift of one shaft along its axis, to either side"), "length", low=0.0),
         ),
-        returns=(gives("c_m", _("offset of both groove centres"), "length"),),
+        returns=(gives("c_m", mark("offset of both groove centres"), "length"),),
         answer=_offset,
     ),
     Calculation(
         name="tracta",
-        doc=_("bends within a Tracta joint, and how uneven unequal forks make it"),
-        source=_("double joint whose middle shaft is the line of the fork centres, exact"),
+        doc=mark("bends within a Tracta joint, and how uneven unequal forks make it"),
+        source=mark("double joint whose middle shaft is the line of the fork centres, exact"),
         takes=(
             BEND,
-            positive("OA_m", _("distance of the fork centre of shaft 1 from the crossing of the axes"), "length"),
-            positive("OB_m", _("the same of shaft 2"), "length"),
+            positive("OA_m", mark("distance of the fork centre of shaft 1 from the crossing of the axes"), "length"),
+            positive("OB_m", mark("the same of shaft 2"), "length"),
             given(
                 "phi1_deg",
-                _("angle of the swivel axis of fork 1 from the plane of the shafts"),
+                mark("angle of the swivel axis of fork 1 from the plane of the shafts"),
                 "angle",
                 axes=(0, 1),
                 default=None,
             ),
         ),
         returns=(
-            gives("alpha1_rad", _("angle of shaft 1 to the line of the fork centres"), "angle"),
-            gives("alpha2_rad", _("angle of shaft 2 to it"), "angle"),
-            gives("irregularity", _("irregularity of the output")),
+            gives("alpha1_rad", mark("angle of shaft 1 to the line of the fork centres"), "angle"),
+            gives("alpha2_rad", mark("angle of shaft 2 to it"), "angle"),
+            gives("irregularity", mark("irregularity of the output")),
             LEAD,
         ),
         answer=_tracta,
     ),
     Calculation(
         name="tripod",
-        doc=_("orbit of the spider of a tripod joint, and ways of its rollers; its turn is even exactly"),
-        source=_("three rollers in three tracks, in closed form"),
+        doc=mark("orbit of the spider of a tripod joint, and ways of its rollers; its turn is even exactly"),
+        source=mark("three rollers in three tracks, in closed form"),
         takes=(
             BEND,
-            positive("track_radius_m", _("distance of the tracks from the axis of the housing"), "length"),
+            positive("track_radius_m", mark("distance of the tracks from the axis of the housing"), "length"),
             given(
                 "phi1_deg",
-                _("angle of the first track from the line of greatest slope of the spider's plane"),
+                mark("angle of the first track from the line of greatest slope of the spider's plane"),
                 "angle",
                 axes=(0, 1),
             ),
-            positive("shaft_length_m", _("from the spider to the other joint of its shaft"), "length", default=None),
+            positive("shaft_length_m", mark("from the spider to the other joint of its shaft"), "length", default=None),
         ),
         returns=(
             LEAD,
             gives(
-                "orbit_radius_m", _("radius of the circle that the spider's centre runs round three times"), "length"
+                "orbit_radius_m", mark("radius of the circle that the spider's centre runs round three times"), "length"
             ),
-            gives("center_x_m", _("spider's centre in its plane, along the line of greatest slope"), "length"),
-            gives("center_y_m", _("spider's centre in its plane, across that line"), "length"),
-            gives("roller_reach_m", _("distance of the first roller from the spider's centre"), "length"),
-            gives("track_travel_m", _("way of the first roller along its track from the middle"), "length"),
-            gives("shaft_tilt_rad", _("half angle by which the shaft nutates, for a long shaft"), "angle"),
+            gives("center_x_m", mark("spider's centre in its plane, along the line of greatest slope"), "length"),
+            gives("center_y_m", mark("spider's centre in its plane, across that line"), "length"),
+            gives("roller_reach_m", mark("distance of the first roller from the spider's centre"), "length"),
+            gives("track_travel_m", mark("way of the first roller along its track from the middle"), "length"),
+            gives("shaft_tilt_rad", mark("half angle by which the shaft nutates, for a long shaft"), "angle"),
         ),
         answer=_tripod,
     ),

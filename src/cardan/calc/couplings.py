@@ -10,7 +10,7 @@ from cardan.errors import Problem, refuse
 from cardan.maths import double_cardan, offset_cross, pin_coupling, profile_coupling
 from cardan.synthesis.centring import best_centring
 from cardan.synthesis.pin_geometry import MARGIN, best_pins
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg
 
 from .calculation import Calculation, Given, Values, at_least_zero, given, gives, positive, record
@@ -24,8 +24,8 @@ def _bend(key: str, doc: str) -> Given:
     return given(key, doc, "angle", low=0.0, below=RIGHT)
 
 
-BEND = _bend("alpha_deg", _("bend between the outer shafts"))
-TURN = given("phi1_deg", _("input angle from the inner side of the bend"), "angle", axes=(0, 1))
+BEND = _bend("alpha_deg", mark("bend between the outer shafts"))
+TURN = given("phi1_deg", mark("input angle from the inner side of the bend"), "angle", axes=(0, 1))
 
 
 def _ratios(first: float, second: float, *, crossed: bool = False) -> Values:
@@ -38,9 +38,9 @@ def _ratios(first: float, second: float, *, crossed: bool = False) -> Values:
 
 
 RATIOS = (
-    gives("ratio_max", _("largest speed ratio over a turn")),
-    gives("ratio_min", _("smallest speed ratio over a turn")),
-    gives("irregularity", _("irregularity of the output")),
+    gives("ratio_max", mark("largest speed ratio over a turn")),
+    gives("ratio_min", mark("smallest speed ratio over a turn")),
+    gives("irregularity", mark("irregularity of the output")),
 )
 
 
@@ -172,67 +172,67 @@ def _profile(number: int) -> Given:
     return record(
         f"circle{number}",
         _("circular profile of shaft {number} in its meridian plane").format(number=number),
-        given("axial_m", _("height of the centre along the shaft, from the crossing of the axes"), "length"),
-        given("radial_m", _("distance of the centre from the axis"), "length"),
-        positive("radius_m", _("radius of the profile"), "length"),
+        given("axial_m", mark("height of the centre along the shaft, from the crossing of the axes"), "length"),
+        given("radial_m", mark("distance of the centre from the axis"), "length"),
+        positive("radius_m", mark("radius of the profile"), "length"),
     )
 
 
-LEAD = gives("phi2_minus_phi1_rad", _("lead of the output over the input"), "angle")
-RATIO = gives("ratio_21", _("speed ratio"))
-FORCE = gives("contact_force_per_torque_N_per_Nm", _("contact force without friction for each N·m of input torque"))
+LEAD = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
+RATIO = gives("ratio_21", mark("speed ratio"))
+FORCE = gives("contact_force_per_torque_N_per_Nm", mark("contact force without friction for each N·m of input torque"))
 
 CALCULATIONS = (
     Calculation(
         name="double_cardan_centring",
-        doc=_("bends of a double cardan joint centred by a ball on one shaft, and how uneven it is"),
+        doc=mark("bends of a double cardan joint centred by a ball on one shaft, and how uneven it is"),
         source="triangle of the centres, exact; Book (8)-(12)",
         takes=(
             BEND,
             given(
                 "lambda_",
-                _("distance of the ball from the first centre over that of the centres"),
+                mark("distance of the ball from the first centre over that of the centres"),
                 above=0.0,
                 below=1.0,
             ),
         ),
         returns=(
-            gives("alpha12_rad", _("bend of the first joint"), "angle"),
-            gives("alpha23_rad", _("bend of the second joint"), "angle"),
-            gives("Delta_rad", _("by how much the bend is not halved"), "angle"),
-            gives("Delta_book12_rad", _("the same by the book's approximation"), "angle"),
-            gives("x_over_l", _("distance of the ball from the second centre over that of the centres")),
+            gives("alpha12_rad", mark("bend of the first joint"), "angle"),
+            gives("alpha23_rad", mark("bend of the second joint"), "angle"),
+            gives("Delta_rad", mark("by how much the bend is not halved"), "angle"),
+            gives("Delta_book12_rad", mark("the same by the book's approximation"), "angle"),
+            gives("x_over_l", mark("distance of the ball from the second centre over that of the centres")),
             *RATIOS,
         ),
         answer=_centring,
     ),
     Calculation(
         name="centring_optimum",
-        doc=_("centring ratio of a double cardan joint that is most even over a range of bends"),
+        doc=mark("centring ratio of a double cardan joint that is most even over a range of bends"),
         source="minimax of the exact irregularity",
         takes=(
-            given("alpha_max_deg", _("largest bend"), "angle", above=0.0, below=RIGHT),
-            given("alpha_min_deg", _("smallest bend"), "angle", low=0.0, below=RIGHT, default=0.0),
+            given("alpha_max_deg", mark("largest bend"), "angle", above=0.0, below=RIGHT),
+            given("alpha_min_deg", mark("smallest bend"), "angle", low=0.0, below=RIGHT, default=0.0),
         ),
         returns=(
-            gives("lambda_minimax", _("best centring ratio")),
-            gives("irregularity_max", _("largest irregularity with it")),
-            gives("lambda_sync_at_alpha_max", _("centring ratio that is exact at the largest bend")),
-            gives("irregularity_max_lambda_half", _("largest irregularity with the ball in the middle")),
+            gives("lambda_minimax", mark("best centring ratio")),
+            gives("irregularity_max", mark("largest irregularity with it")),
+            gives("lambda_sync_at_alpha_max", mark("centring ratio that is exact at the largest bend")),
+            gives("irregularity_max_lambda_half", mark("largest irregularity with the ball in the middle")),
         ),
         answer=_optimum,
         check=_between,
     ),
     Calculation(
         name="double_cardan_irregularity",
-        doc=_("irregularity of two joints whose three axes lie in one plane"),
+        doc=mark("irregularity of two joints whose three axes lie in one plane"),
         source="Möbius product; the equivalent joint in closed form",
         takes=(
-            _bend("alpha12_deg", _("bend of the first joint")),
-            _bend("alpha23_deg", _("bend of the second joint")),
+            _bend("alpha12_deg", mark("bend of the first joint")),
+            _bend("alpha23_deg", mark("bend of the second joint")),
             given(
                 "yokes",
-                _("how the inner yokes stand to each other"),
+                mark("how the inner yokes stand to each other"),
                 kind="word",
                 choices=("in_plane", "crossed"),
                 default="in_plane",
@@ -243,20 +243,20 @@ CALCULATIONS = (
     ),
     Calculation(
         name="pin_coupling",
-        doc=_("where the straight pins of a pin coupling touch, and how uneven it runs"),
+        doc=mark("where the straight pins of a pin coupling touch, and how uneven it runs"),
         source="line and cone, exact; completes Book (3)-(7)",
         takes=(
             BEND,
-            positive("a_m", _("distance from the crossing of the axes at which pin 1 starts"), "length"),
-            positive("b_m", _("distance from the crossing of the axes at which pin 2 starts"), "length"),
-            given("theta1_deg", _("slant of pin 1 to its axis"), "angle"),
-            given("theta2_deg", _("slant of pin 2 to its axis"), "angle"),
+            positive("a_m", mark("distance from the crossing of the axes at which pin 1 starts"), "length"),
+            positive("b_m", mark("distance from the crossing of the axes at which pin 2 starts"), "length"),
+            given("theta1_deg", mark("slant of pin 1 to its axis"), "angle"),
+            given("theta2_deg", mark("slant of pin 2 to its axis"), "angle"),
             TURN,
         ),
         returns=(
             LEAD,
-            gives("x_m", _("distance of the contact along pin 1"), "length"),
-            gives("y_m", _("distance of the contact along pin 2"), "length"),
+            gives("x_m", mark("distance of the contact along pin 1"), "length"),
+            gives("y_m", mark("distance of the contact along pin 2"), "length"),
             RATIO,
             FORCE,
         ),
@@ -265,33 +265,33 @@ CALCULATIONS = (
     ),
     Calculation(
         name="pin_stroke",
-        doc=_("how far the contact of a pin coupling with pins alike runs along them"),
+        doc=mark("how far the contact of a pin coupling with pins alike runs along them"),
         source="closed form of the contact in the halving plane",
         takes=(
             BEND,
-            positive("a_m", _("distance from the crossing of the axes at which the pins start"), "length"),
-            given("theta_deg", _("slant of the pins to their axes"), "angle"),
+            positive("a_m", mark("distance from the crossing of the axes at which the pins start"), "length"),
+            given("theta_deg", mark("slant of the pins to their axes"), "angle"),
         ),
         returns=(
-            gives("x_min_m", _("least distance of the contact along a pin"), "length"),
-            gives("x_max_m", _("greatest distance of the contact along a pin"), "length"),
-            gives("ball_path_eccentricity", _("eccentricity of the ellipse on which the contact runs")),
-            gives("theta_min_deg", _("slant above which the pins turn all the way round"), "angle"),
-            gives("theta_max_deg", _("slant below which they do"), "angle"),
+            gives("x_min_m", mark("least distance of the contact along a pin"), "length"),
+            gives("x_max_m", mark("greatest distance of the contact along a pin"), "length"),
+            gives("ball_path_eccentricity", mark("eccentricity of the ellipse on which the contact runs")),
+            gives("theta_min_deg", mark("slant above which the pins turn all the way round"), "angle"),
+            gives("theta_max_deg", mark("slant below which they do"), "angle"),
         ),
         answer=_stroke,
         check=_slants,
     ),
     Calculation(
         name="pin_geometry",
-        doc=_("pins alike that touch with the smallest force in a given room"),
+        doc=mark("pins alike that touch with the smallest force in a given room"),
         source="smallest largest contact force of the exact contact",
         takes=(
-            given("alpha_max_deg", _("largest bend"), "angle", above=0.0, below=RIGHT),
-            positive("radius_m", _("largest distance of the contact from the axes"), "length"),
+            given("alpha_max_deg", mark("largest bend"), "angle", above=0.0, below=RIGHT),
+            positive("radius_m", mark("largest distance of the contact from the axes"), "length"),
             given(
                 "margin_deg",
-                _("how far the slant stays from both ends of its range"),
+                mark("how far the slant stays from both ends of its range"),
                 "angle",
                 low=0.0,
                 below=RIGHT,
@@ -299,51 +299,53 @@ CALCULATIONS = (
             ),
         ),
         returns=(
-            gives("theta_deg", _("slant of the pins to their axes"), "angle"),
-            gives("a_m", _("distance from the crossing of the axes at which the pins start"), "length"),
-            gives("stroke_m", _("way of the contact along a pin at the largest bend"), "length"),
-            gives("length_m", _("length that a pin needs from its start"), "length"),
+            gives("theta_deg", mark("slant of the pins to their axes"), "angle"),
+            gives("a_m", mark("distance from the crossing of the axes at which the pins start"), "length"),
+            gives("stroke_m", mark("way of the contact along a pin at the largest bend"), "length"),
+            gives("length_m", mark("length that a pin needs from its start"), "length"),
             FORCE,
             gives(
-                "lead_per_m_rad", _("largest lead for each metre by which the distances of both pins differ"), "angle"
+                "lead_per_m_rad",
+                mark("largest lead for each metre by which the distances of both pins differ"),
+                "angle",
             ),
-            gives("theta_min_deg", _("slant above which the pins turn all the way round"), "angle"),
-            gives("theta_max_deg", _("slant below which they do"), "angle"),
+            gives("theta_min_deg", mark("slant above which the pins turn all the way round"), "angle"),
+            gives("theta_max_deg", mark("slant below which they do"), "angle"),
         ),
         answer=_geometry,
     ),
     Calculation(
         name="profile_coupling",
-        doc=_("how uneven a coupling with circular profiles runs: Clemens, curved grooves"),
+        doc=mark("how uneven a coupling with circular profiles runs: Clemens, curved grooves"),
         source="contact of two circles in their meridian planes",
         takes=(BEND, _profile(1), _profile(2), TURN),
         returns=(
             LEAD,
             RATIO,
-            gives("contact_axial1_m", _("height of the contact along shaft 1"), "length"),
-            gives("contact_radial1_m", _("distance of the contact from the axis of shaft 1"), "length"),
-            gives("contact_axial2_m", _("height of the contact along shaft 2"), "length"),
-            gives("contact_radial2_m", _("distance of the contact from the axis of shaft 2"), "length"),
+            gives("contact_axial1_m", mark("height of the contact along shaft 1"), "length"),
+            gives("contact_radial1_m", mark("distance of the contact from the axis of shaft 1"), "length"),
+            gives("contact_axial2_m", mark("height of the contact along shaft 2"), "length"),
+            gives("contact_radial2_m", mark("distance of the contact from the axis of shaft 2"), "length"),
             FORCE,
         ),
         answer=_profiles,
     ),
     Calculation(
         name="offset_cross",
-        doc=_("turn and wobble of the output shaft of a joint whose cross axes do not meet"),
+        doc=mark("turn and wobble of the output shaft of a joint whose cross axes do not meet"),
         source="loop of the joint, exact; Book Fig. 6",
         takes=(
-            _bend("alpha_deg", _("angle between shaft 1 and the line from pin 1 to the support")),
-            at_least_zero("cross_offset_m", _("distance of the axes of the cross"), "length"),
-            positive("support_distance_m", _("distance of the output support from pin 1"), "length"),
-            given("phi1_deg", _("input angle of pin 1 from the plane of the shafts"), "angle", axes=(0, 1)),
-            given("cross_sign", _("1 where pin 2 lies toward the support, -1 where away"), kind="whole", default=1),
+            _bend("alpha_deg", mark("angle between shaft 1 and the line from pin 1 to the support")),
+            at_least_zero("cross_offset_m", mark("distance of the axes of the cross"), "length"),
+            positive("support_distance_m", mark("distance of the output support from pin 1"), "length"),
+            given("phi1_deg", mark("input angle of pin 1 from the plane of the shafts"), "angle", axes=(0, 1)),
+            given("cross_sign", mark("1 where pin 2 lies toward the support, -1 where away"), kind="whole", default=1),
         ),
         returns=(
-            gives("phi2_rad", _("output angle"), "angle"),
-            gives("shaft_tilt_rad", _("angle of the output shaft with the line to its support"), "angle"),
-            gives("joint_to_support_m", _("length of the output shaft from pin 2 to its support"), "length"),
-            gives("nutation_half_angle_rad", _("half angle of its wobble, to first order"), "angle"),
+            gives("phi2_rad", mark("output angle"), "angle"),
+            gives("shaft_tilt_rad", mark("angle of the output shaft with the line to its support"), "angle"),
+            gives("joint_to_support_m", mark("length of the output shaft from pin 2 to its support"), "length"),
+            gives("nutation_half_angle_rad", mark("half angle of its wobble, to first order"), "angle"),
         ),
         answer=_crossed,
         check=_support,

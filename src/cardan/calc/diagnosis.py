@@ -10,7 +10,7 @@ import numpy as np
 from cardan.catalogue.rows import FLAGS
 from cardan.diagnosis.match import Signs, likely_causes, symptoms
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives, positive
 
@@ -48,45 +48,45 @@ def _signs(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 CALCULATIONS = (
     Calculation(
         name="diagnose",
-        doc=_("the likeliest causes of a vibration or a complaint, and how to make sure"),
-        source=_(
+        doc=mark("the likeliest causes of a vibration or a complaint, and how to make sure"),
+        source=mark(
             "table of faults of the catalogue, each with its source; the order of likelihood is a rule of this program"
         ),
         takes=(
             positive(
                 "order",
-                _("measured orders, in multiples of the shaft's speed"),
+                mark("measured orders, in multiples of the shaft's speed"),
                 axes=(0, 1),
                 entries=True,
                 default=None,
             ),
-            given("torque_sensitive", _("whether it changes with the torque"), kind="flag", default=None),
-            given("speed_dependent", _("whether it changes with speed; not ranked by"), kind="flag", default=None),
-            given("symptom", _("what is noticed"), kind="word", choices=symptoms(), default=None),
+            given("torque_sensitive", mark("whether it changes with the torque"), kind="flag", default=None),
+            given("speed_dependent", mark("whether it changes with speed; not ranked by"), kind="flag", default=None),
+            given("symptom", mark("what is noticed"), kind="word", choices=symptoms(), default=None),
             given(
                 "resonance_at_half_critical",
-                _("whether it peaks at half the critical speed"),
+                mark("whether it peaks at half the critical speed"),
                 kind="flag",
                 default=None,
             ),
-            given("at_critical", _("whether it rises steeply near the critical speed"), kind="flag", default=None),
+            given("at_critical", mark("whether it rises steeply near the critical speed"), kind="flag", default=None),
             given(
                 "transient_at_critical",
-                _("whether higher orders appear while running through a critical speed"),
+                mark("whether higher orders appear while running through a critical speed"),
                 kind="flag",
                 default=None,
             ),
-            given("wheel_order", _("whether it has the frequency of a wheel"), kind="flag", default=None),
+            given("wheel_order", mark("whether it has the frequency of a wheel"), kind="flag", default=None),
         ),
         returns=(
-            gives("first_causes", _("the four likeliest faults, by their ids in the catalogue")),
-            gives("scores", _("their points")),
+            gives("first_causes", mark("the four likeliest faults, by their ids in the catalogue")),
+            gives("scores", mark("their points")),
             *(
                 one
                 for rank in range(1, FIRST + 1)
                 for one in (
-                    gives(f"cause_{rank}", _("what it is, by rank")),
-                    gives(f"inspection_{rank}", _("how to make sure")),
+                    gives(f"cause_{rank}", mark("what it is, by rank")),
+                    gives(f"inspection_{rank}", mark("how to make sure")),
                 )
             ),
         ),

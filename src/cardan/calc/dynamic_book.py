@@ -9,7 +9,7 @@ import numpy as np
 from cardan.analysis.dynamic_book import TRUCK, truck_example, validity
 from cardan.analysis.engineering_torque import engineering_torque
 from cardan.maths.mathieu import LARGEST_A, LARGEST_Q
-from cardan.texts import _
+from cardan.texts import mark
 
 from .calculation import Calculation, Given, Values, given, gives, rows
 from .mathieu import FIRST, LAST, STIFFNESS, WAVE, fields_named, harmonics_of, label, told
@@ -86,8 +86,8 @@ def _harmonic_rows(key: str, doc: str) -> Given:
     return rows(
         key,
         doc,
-        given("order", _("order per turn of the driving shaft"), above=0.0),
-        given("amplitude_Nm", _("its amplitude"), "torque"),
+        given("order", mark("order per turn of the driving shaft"), above=0.0),
+        given("amplitude_Nm", mark("its amplitude"), "torque"),
         default=[],
     )
 
@@ -95,70 +95,73 @@ def _harmonic_rows(key: str, doc: str) -> Given:
 CALCULATIONS: tuple[Calculation, ...] = (
     Calculation(
         name="dynamic_torque_engineering",
-        doc=_(
+        doc=mark(
             "torque in the last shaft by the book's formula for sizing: mean, second order, orders of drive and load"
         ),
         source="Book (246)",
         takes=(
-            given("c_Nm_per_rad", _("stiffness of all springs in a row"), "turning_stiffness", above=0.0),
-            given("s_n1", _("amplitude of the joints' second order [rad]"), low=0.0),
-            given("a", _("parameter a = c/(J_0 ω_1²)"), above=0.0),
+            given("c_Nm_per_rad", mark("stiffness of all springs in a row"), "turning_stiffness", above=0.0),
+            given("s_n1", mark("amplitude of the joints' second order [rad]"), low=0.0),
+            given("a", mark("parameter a = c/(J_0 ω_1²)"), above=0.0),
             FIRST,
             LAST,
-            given("drive_torque_mean_Nm", _("mean torque"), "torque"),
-            _harmonic_rows("drive_torque_harmonics", _("harmonics of the drive torque")),
-            _harmonic_rows("load_torque_harmonics", _("harmonics of the load")),
+            given("drive_torque_mean_Nm", mark("mean torque"), "torque"),
+            _harmonic_rows("drive_torque_harmonics", mark("harmonics of the drive torque")),
+            _harmonic_rows("load_torque_harmonics", mark("harmonics of the load")),
         ),
         returns=(
-            gives("mean_abs_Nm", _("mean torque, without sign"), "torque"),
-            gives("order2_joint_abs_Nm", _("amplitude of second order, from the joints"), "torque"),
-            gives("engine_order_abs_Nm", _("amplitude of each order of the drive torque"), "torque"),
-            gives("load_order_abs_Nm", _("amplitude of each order of the load"), "torque"),
-            gives("speed_rad_s", _("speed that belongs to a"), "angular_speed"),
+            gives("mean_abs_Nm", mark("mean torque, without sign"), "torque"),
+            gives("order2_joint_abs_Nm", mark("amplitude of second order, from the joints"), "torque"),
+            gives("engine_order_abs_Nm", mark("amplitude of each order of the drive torque"), "torque"),
+            gives("load_order_abs_Nm", mark("amplitude of each order of the load"), "torque"),
+            gives("speed_rad_s", mark("speed that belongs to a"), "angular_speed"),
         ),
         answer=_engineering,
     ),
     Calculation(
         name="validity_check",
-        doc=_("whether the parametric term may be neglected: the book's rule, and what that costs when solved"),
-        source=_("Book (206), (207), (237); harmonic balance"),
+        doc=mark("whether the parametric term may be neglected: the book's rule, and what that costs when solved"),
+        source=mark("Book (206), (207), (237); harmonic balance"),
         takes=(
             STIFFNESS,
             WAVE,
-            given("forcing_orders", _("orders of the forcing"), axes=(1,), low=0.0, entries=True),
+            given("forcing_orders", mark("orders of the forcing"), axes=(1,), low=0.0, entries=True),
         ),
         returns=(
-            gives("stable", _("whether steady running is stable")),
-            gives("beta", _("characteristic exponent, where it is")),
-            gives("distance_to_resonance", _("distance of each order from the nearest ±β + 2r")),
-            gives("book_237_satisfied", _("whether Book (237) is met, orders 0, 1 and 2 included")),
-            gives("solved_amplitude", _("amplitude of each order under a unit forcing of it, solved")),
-            gives("simplified_amplitude", _("the same, the parametric term neglected")),
-            gives("largest_side_band", _("largest amplitude at another order, solved")),
+            gives("stable", mark("whether steady running is stable")),
+            gives("beta", mark("characteristic exponent, where it is")),
+            gives("distance_to_resonance", mark("distance of each order from the nearest ±β + 2r")),
+            gives("book_237_satisfied", mark("whether Book (237) is met, orders 0, 1 and 2 included")),
+            gives("solved_amplitude", mark("amplitude of each order under a unit forcing of it, solved")),
+            gives("simplified_amplitude", mark("the same, the parametric term neglected")),
+            gives("largest_side_band", mark("largest amplitude at another order, solved")),
             gives(
-                "neglecting_q_costs", _("error of neglecting the parametric term, a share of the simplified amplitude")
+                "neglecting_q_costs",
+                mark("error of neglecting the parametric term, a share of the simplified amplitude"),
             ),
-            gives("neglecting_q_costs_over_5_percent", _("whether that is more than 5 % anywhere: do not neglect it")),
+            gives(
+                "neglecting_q_costs_over_5_percent", mark("whether that is more than 5 % anywhere: do not neglect it")
+            ),
         ),
         answer=_validity,
     ),
     Calculation(
         name="worked_example_truck",
-        doc=_("the book's worked example, the power unit of a truck, computed anew"),
+        doc=mark("the book's worked example, the power unit of a truck, computed anew"),
         source="Book pp. 210-216",
         takes=(
-            given("speed_rpm", _("speed"), "angular_speed", above=0.0, default=TRUCK["speed"]),
-            given("a", _("parameter a"), above=0.0, high=LARGEST_A, default=TRUCK["a"]),
-            given("Q2", _("forcing of second order, a s_41"), default=TRUCK["sway"]),
-            given("q", _("parametric term as printed"), low=-LARGEST_Q, high=LARGEST_Q, default=TRUCK["q"]),
+            given("speed_rpm", mark("speed"), "angular_speed", above=0.0, default=TRUCK["speed"]),
+            given("a", mark("parameter a"), above=0.0, high=LARGEST_A, default=TRUCK["a"]),
+            given("Q2", mark("forcing of second order, a s_41"), default=TRUCK["sway"]),
+            given("q", mark("parametric term as printed"), low=-LARGEST_Q, high=LARGEST_Q, default=TRUCK["q"]),
         ),
         returns=(
-            gives("speed_squared_rad2_s2", _("square of the speed")),
-            gives("natural_frequency_rad_s", _("natural frequency √a ω_1"), "angular_speed"),
-            gives("s_41", _("amplitude Q_2/a [rad]")),
-            gives("beta", _("characteristic exponent")),
-            gives("order2_resonance_speed_rpm", _("speed of the resonance of second order"), "angular_speed"),
-            gives("principal_zone_speed_rpm", _("speed of the principal zone"), "angular_speed"),
+            gives("speed_squared_rad2_s2", mark("square of the speed")),
+            gives("natural_frequency_rad_s", mark("natural frequency √a ω_1"), "angular_speed"),
+            gives("s_41", mark("amplitude Q_2/a [rad]")),
+            gives("beta", mark("characteristic exponent")),
+            gives("order2_resonance_speed_rpm", mark("speed of the resonance of second order"), "angular_speed"),
+            gives("principal_zone_speed_rpm", mark("speed of the principal zone"), "angular_speed"),
         ),
         answer=_truck,
     ),

@@ -11,26 +11,28 @@ from cardan.analysis.forces import kinetostatics
 from cardan.analysis.gap_closure import gap_closure
 from cardan.drive.train import Hold, Train, spline_grip, train_of_points
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Given, Values, given, gives, rows
 from .kinematics import ACCELERATION, ANGLE, START, between, points
 
-SHAFT = given("shaft", _("number of the shaft"), kind="whole")
+SHAFT = given("shaft", mark("number of the shaft"), kind="whole")
 
 BEARING = (
     SHAFT,
-    given("x_from_shaft_start_m", _("place from the beginning of the shaft along it"), "length"),
-    given("radial", _("whether it holds the shaft sideways"), kind="flag", default=True),
-    given("axial", _("whether it holds the shaft lengthwise"), kind="flag", default=False),
+    given("x_from_shaft_start_m", mark("place from the beginning of the shaft along it"), "length"),
+    given("radial", mark("whether it holds the shaft sideways"), kind="flag", default=True),
+    given("axial", mark("whether it holds the shaft lengthwise"), kind="flag", default=False),
 )
 """Keys of a bearing in a list of them."""
 
-YOKES = given("gamma_deg", _("yoke angle of shafts 2 to n, driving to driven yoke"), "angle", axes=(1,), default=None)
+YOKES = given(
+    "gamma_deg", mark("yoke angle of shafts 2 to n, driving to driven yoke"), "angle", axes=(1,), default=None
+)
 
-SPEED = given("omega1_rad_s", _("input speed"), "angular_speed", default=0.0)
+SPEED = given("omega1_rad_s", mark("input speed"), "angular_speed", default=0.0)
 
-LOAD = given("M_out_Nm", _("torque that resists the output"), "torque")
+LOAD = given("M_out_Nm", mark("torque that resists the output"), "torque")
 
 _FREE: dict[str, Any] = {"default": None, "axes": (1,)}
 
@@ -200,7 +202,9 @@ def size(key: str, doc: str, **options: Any) -> Given:
 CALCULATIONS = (
     Calculation(
         name="kinetostatics",
-        doc=_("torques, secondary couples, joint forces and bearing reactions of any drive, with inertia and weight"),
+        doc=mark(
+            "torques, secondary couples, joint forces and bearing reactions of any drive, with inertia and weight"
+        ),
         source="Book pp. 129-150",
         takes=(
             points(),
@@ -209,56 +213,59 @@ CALCULATIONS = (
             ANGLE,
             SPEED,
             ACCELERATION,
-            given(LOAD.key, LOAD.doc, "torque", default=0.0),
-            given("extra_resisting_torque_Nm", _("torque that resists each shaft"), "torque", **_FREE),
-            given("J_kg_m2", _("inertia of each shaft about its axis"), "inertia", low=0.0, **_FREE),
-            given("mass_kg", _("mass of each shaft"), "mass", low=0.0, **_FREE),
-            given("cg_from_shaft_start_m", _("centre of mass of each shaft from its beginning"), "length", **_FREE),
-            given("gravity_m_s2", _("acceleration of free fall"), "acceleration", axes=(1,), width=3, default=None),
+            given(LOAD.key, LOAD.meaning.doc, "torque", default=0.0),
+            given("extra_resisting_torque_Nm", mark("torque that resists each shaft"), "torque", **_FREE),
+            given("J_kg_m2", mark("inertia of each shaft about its axis"), "inertia", low=0.0, **_FREE),
+            given("mass_kg", mark("mass of each shaft"), "mass", low=0.0, **_FREE),
+            given("cg_from_shaft_start_m", mark("centre of mass of each shaft from its beginning"), "length", **_FREE),
+            given("gravity_m_s2", mark("acceleration of free fall"), "acceleration", axes=(1,), width=3, default=None),
             given(
                 "cross_inertia_b_c_n_kg_m2",
-                _("inertia of each cross about driving journals, driven journals and normal"),
+                mark("inertia of each cross about driving journals, driven journals and normal"),
                 "inertia",
                 low=0.0,
                 axes=(2,),
                 width=3,
                 default=None,
             ),
-            given("cross_mass_kg", _("mass of each cross"), "mass", low=0.0, **_FREE),
+            given("cross_mass_kg", mark("mass of each cross"), "mass", low=0.0, **_FREE),
             given(
-                "cross_slides_on_pins", _("whether every cross slides along its journals"), kind="flag", default=False
+                "cross_slides_on_pins",
+                mark("whether every cross slides along its journals"),
+                kind="flag",
+                default=False,
             ),
-            rows("bearings", _("what holds the shafts"), *BEARING),
+            rows("bearings", mark("what holds the shafts"), *BEARING),
             rows(
                 "splines",
-                _("sliding splines"),
+                mark("sliding splines"),
                 SHAFT,
-                given("x_from_shaft_start_m", _("place from the beginning of the shaft along it"), "length"),
-                given("mu", _("coefficient of friction"), low=0.0, default=0.0),
-                size("d_m", _("mean diameter, with friction"), default=None),
-                given("direction", _("+1 where friction pushes the parts apart, -1 where it pulls"), default=1.0),
+                given("x_from_shaft_start_m", mark("place from the beginning of the shaft along it"), "length"),
+                given("mu", mark("coefficient of friction"), low=0.0, default=0.0),
+                size("d_m", mark("mean diameter, with friction"), default=None),
+                given("direction", mark("+1 where friction pushes the parts apart, -1 where it pulls"), default=1.0),
                 default=(),
             ),
         ),
         returns=(
-            gives("M_in_Nm", _("torque that drives the input"), "torque"),
-            gives("shaft_torque_Nm", _("torque that enters each shaft"), "torque"),
-            gives("omega_rad_s", _("speed of each shaft"), "angular_speed"),
-            gives("eps_rad_s2", _("acceleration of each shaft"), "angular_acceleration"),
-            gives("couple_on_driving_yoke_Nm", _("couple of each cross on its driving yoke"), "torque"),
-            gives("couple_on_driven_yoke_Nm", _("couple of each cross on its driven yoke"), "torque"),
-            gives("joint_force_on_driven_shaft_N", _("force in each joint centre on the driven shaft"), "force"),
-            gives("bearing_reaction_N", _("force of each bearing on its shaft"), "force"),
-            gives("secondary_couple_on_shaft_Nm", _("couple across each shaft"), "torque"),
-            gives("equations", _("number of equations")),
-            gives("unknowns", _("number of unknowns")),
+            gives("M_in_Nm", mark("torque that drives the input"), "torque"),
+            gives("shaft_torque_Nm", mark("torque that enters each shaft"), "torque"),
+            gives("omega_rad_s", mark("speed of each shaft"), "angular_speed"),
+            gives("eps_rad_s2", mark("acceleration of each shaft"), "angular_acceleration"),
+            gives("couple_on_driving_yoke_Nm", mark("couple of each cross on its driving yoke"), "torque"),
+            gives("couple_on_driven_yoke_Nm", mark("couple of each cross on its driven yoke"), "torque"),
+            gives("joint_force_on_driven_shaft_N", mark("force in each joint centre on the driven shaft"), "force"),
+            gives("bearing_reaction_N", mark("force of each bearing on its shaft"), "force"),
+            gives("secondary_couple_on_shaft_Nm", mark("couple across each shaft"), "torque"),
+            gives("equations", mark("number of equations")),
+            gives("unknowns", mark("number of unknowns")),
         ),
         answer=_kinetostatics,
         check=chain_check,
     ),
     Calculation(
         name="gap_closure",
-        doc=_("whether the load keeps the clearances of all joints closed against inertia over a turn"),
+        doc=mark("whether the load keeps the clearances of all joints closed against inertia over a turn"),
         source="Book (121), (122) for any drive",
         takes=(
             points(),
@@ -267,15 +274,15 @@ CALCULATIONS = (
             SPEED,
             ACCELERATION,
             LOAD,
-            given("J_kg_m2", _("inertia of each shaft about its axis"), "inertia", low=0.0, axes=(1,)),
+            given("J_kg_m2", mark("inertia of each shaft about its axis"), "inertia", low=0.0, axes=(1,)),
         ),
         returns=(
-            gives("min_pin_couple_over_turn_Nm", _("least couple of each joint over a turn"), "torque"),
-            gives("phi1_at_min_deg", _("input angle where it occurs"), "angle"),
-            gives("min_M_out_for_closure_Nm", _("least load that keeps all joints closed"), "torque"),
-            gives("closed", _("whether all joints stay closed")),
-            gives("open_share_of_turn", _("share of the turn in which the couple of each joint is reversed")),
-            gives("phi1_at_sign_changes_deg", _("input angles where the couple of each joint turns about"), "angle"),
+            gives("min_pin_couple_over_turn_Nm", mark("least couple of each joint over a turn"), "torque"),
+            gives("phi1_at_min_deg", mark("input angle where it occurs"), "angle"),
+            gives("min_M_out_for_closure_Nm", mark("least load that keeps all joints closed"), "torque"),
+            gives("closed", mark("whether all joints stay closed")),
+            gives("open_share_of_turn", mark("share of the turn in which the couple of each joint is reversed")),
+            gives("phi1_at_sign_changes_deg", mark("input angles where the couple of each joint turns about"), "angle"),
         ),
         answer=_closure,
         check=chain_check,

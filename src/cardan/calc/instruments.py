@@ -12,7 +12,7 @@ from cardan.errors import Problem, refuse
 from cardan.mechanism.disc_integrator import roller_speed, roller_turn
 from cardan.mechanism.friction_drive import least_press, press, speed_ratio
 from cardan.mechanism.slot_cam import Contact, SlotCam, cam_forces
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg
 
 from .calculation import Calculation, Given, Values, at_least_zero, given, gives, positive
@@ -52,7 +52,7 @@ def _wheels(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
         yield Problem(key("torque_share"), text, "inconsistent")
 
 
-JAMS = _("{value:.6g}° is not above {limit:.6g}°, the angles of friction of slot and guide: the follower jams")
+JAMS = mark("{value:.6g}° is not above {limit:.6g}°, the angles of friction of slot and guide: the follower jams")
 
 
 def _cam(values: Values) -> Values:
@@ -102,7 +102,7 @@ def _jams(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
         if slope in values and all(name in values for name in frictions):
             limit = float(sum(np.arctan(values[name]) for name in frictions))
             if values[slope] <= limit:
-                text = JAMS.format(value=values[slope] / deg, limit=limit / deg)
+                text = _(JAMS).format(value=values[slope] / deg, limit=limit / deg)
                 yield Problem(key(slope), text, "out_of_range")
 
 
@@ -140,111 +140,113 @@ def _place(key: str, doc: str, **options: Any) -> Given:
 CALCULATIONS = (
     Calculation(
         name="multi_drive",
-        doc=_("differentials of several driven axles, and how axles wind one another up without them"),
+        doc=mark("differentials of several driven axles, and how axles wind one another up without them"),
         source="Book pp. 84-85",
         takes=(
-            given("axles", _("number of driven axles"), kind="whole", low=1, high=100),
-            positive("wheel_radius_max_m", _("largest rolling radius"), "length"),
-            positive("wheel_radius_min_m", _("smallest rolling radius"), "length"),
-            positive("torque_share", _("shares of the torque that the axles shall get"), axes=(1,), default=None),
+            given("axles", mark("number of driven axles"), kind="whole", low=1, high=100),
+            positive("wheel_radius_max_m", mark("largest rolling radius"), "length"),
+            positive("wheel_radius_min_m", mark("smallest rolling radius"), "length"),
+            positive("torque_share", mark("shares of the torque that the axles shall get"), axes=(1,), default=None),
             positive(
                 "stiffness_Nm_per_rad",
-                _("stiffness of the line between two axles, at the wheels"),
+                mark("stiffness of the line between two axles, at the wheels"),
                 "turning_stiffness",
                 default=None,
             ),
-            positive("slip_torque_Nm", _("torque at which the wheels of an axle slip"), "torque", default=None),
+            positive("slip_torque_Nm", mark("torque at which the wheels of an axle slip"), "torque", default=None),
         ),
         returns=(
-            gives("differentials", _("differentials that free the axles")),
-            gives("simple_ratios", _("ratio of each with its carrier held, in size")),
-            gives("torque_share", _("share of each axle with these")),
-            gives("redundant_loops_without_differentials", _("closed loops without them")),
-            gives("windup_rad_per_m", _("twist between two axles for each metre travelled [rad/m]")),
-            gives("relative_slip", _("difference of the radii over their mean")),
-            gives("circulating_torque_Nm_per_m", _("torque between two axles gained on each metre [N·m/m]")),
-            gives("slips_after_m", _("way after which a wheel slips"), "length"),
+            gives("differentials", mark("differentials that free the axles")),
+            gives("simple_ratios", mark("ratio of each with its carrier held, in size")),
+            gives("torque_share", mark("share of each axle with these")),
+            gives("redundant_loops_without_differentials", mark("closed loops without them")),
+            gives("windup_rad_per_m", mark("twist between two axles for each metre travelled [rad/m]")),
+            gives("relative_slip", mark("difference of the radii over their mean")),
+            gives("circulating_torque_Nm_per_m", mark("torque between two axles gained on each metre [N·m/m]")),
+            gives("slips_after_m", mark("way after which a wheel slips"), "length"),
         ),
         answer=_axles,
         check=_wheels,
     ),
     Calculation(
         name="helical_cam",
-        doc=_("forces on a drum cam with helical slots that shifts two followers against friction"),
-        source=_("Litvin (6.164)-(6.182), with the balance of the followers restored and the sign of a_41 put right"),
+        doc=mark("forces on a drum cam with helical slots that shifts two followers against friction"),
+        source=mark(
+            "Litvin (6.164)-(6.182), with the balance of the followers restored and the sign of a_41 put right"
+        ),
         takes=(
-            positive("r3_m", _("radius of the cam"), "length"),
-            positive("l_m", _("length of the cam"), "length"),
-            at_least_zero("G3_N", _("weight of the cam"), "force"),
-            at_least_zero("Q2_N", _("load of follower 2 along the axis"), "force"),
-            at_least_zero("Q4_N", _("load of follower 4 along the axis"), "force"),
-            given("beta2_deg", _("slope of slot 2 from the generatrix"), "angle", above=0.0, high=RIGHT),
-            given("beta4_deg", _("slope of slot 4 from the generatrix"), "angle", above=0.0, high=RIGHT),
-            _friction("fE", _("friction of slot 2 and its follower")),
-            _friction("fF", _("friction of slot 4 and its follower")),
-            _friction("fN", _("friction of follower 2 in its guide")),
-            _friction("fS", _("friction of follower 4 in its guide")),
-            _friction("fC", _("friction at the rim of the end that is pushed against the housing")),
-            _friction("fC_end", _("friction at the plane of that end")),
-            _friction("fD", _("friction at the rim of the other end")),
-            given("psi_deg", _("angle at which the driving force acts"), "angle"),
-            _place("zE_m", _("place of follower 2 along the axis, from the middle")),
-            _place("zF_m", _("place of follower 4")),
-            _place("zP_m", _("place of the driving force")),
-            _place("zG_m", _("place of the centre of mass"), default=0.0),
+            positive("r3_m", mark("radius of the cam"), "length"),
+            positive("l_m", mark("length of the cam"), "length"),
+            at_least_zero("G3_N", mark("weight of the cam"), "force"),
+            at_least_zero("Q2_N", mark("load of follower 2 along the axis"), "force"),
+            at_least_zero("Q4_N", mark("load of follower 4 along the axis"), "force"),
+            given("beta2_deg", mark("slope of slot 2 from the generatrix"), "angle", above=0.0, high=RIGHT),
+            given("beta4_deg", mark("slope of slot 4 from the generatrix"), "angle", above=0.0, high=RIGHT),
+            _friction("fE", mark("friction of slot 2 and its follower")),
+            _friction("fF", mark("friction of slot 4 and its follower")),
+            _friction("fN", mark("friction of follower 2 in its guide")),
+            _friction("fS", mark("friction of follower 4 in its guide")),
+            _friction("fC", mark("friction at the rim of the end that is pushed against the housing")),
+            _friction("fC_end", mark("friction at the plane of that end")),
+            _friction("fD", mark("friction at the rim of the other end")),
+            given("psi_deg", mark("angle at which the driving force acts"), "angle"),
+            _place("zE_m", mark("place of follower 2 along the axis, from the middle")),
+            _place("zF_m", mark("place of follower 4")),
+            _place("zP_m", mark("place of the driving force")),
+            _place("zG_m", mark("place of the centre of mass"), default=0.0),
         ),
         returns=(
-            gives("R23E_N", _("force of follower 2"), "force"),
-            gives("R43F_N", _("force of follower 4"), "force"),
-            gives("P_N", _("driving force"), "force"),
-            gives("RCm_N", _("reaction of the end plane"), "force"),
-            gives("RCn_N", _("normal reaction at the rim of that end"), "force"),
-            gives("RDn_N", _("normal reaction at the rim of the other end"), "force"),
-            gives("xC_m", _("place of the first, along the weight"), "length"),
-            gives("yC_m", _("place of the first, across the weight"), "length"),
-            gives("xD_m", _("place of the other, along the weight"), "length"),
-            gives("yD_m", _("place of the other, across the weight"), "length"),
-            gives("sign_zC", _("1 or -1: end of the cam that is pushed against the housing")),
-            gives("imbalance", _("largest of the six sums of forces and moments, as a share of the largest force")),
+            gives("R23E_N", mark("force of follower 2"), "force"),
+            gives("R43F_N", mark("force of follower 4"), "force"),
+            gives("P_N", mark("driving force"), "force"),
+            gives("RCm_N", mark("reaction of the end plane"), "force"),
+            gives("RCn_N", mark("normal reaction at the rim of that end"), "force"),
+            gives("RDn_N", mark("normal reaction at the rim of the other end"), "force"),
+            gives("xC_m", mark("place of the first, along the weight"), "length"),
+            gives("yC_m", mark("place of the first, across the weight"), "length"),
+            gives("xD_m", mark("place of the other, along the weight"), "length"),
+            gives("yD_m", mark("place of the other, across the weight"), "length"),
+            gives("sign_zC", mark("1 or -1: end of the cam that is pushed against the housing")),
+            gives("imbalance", mark("largest of the six sums of forces and moments, as a share of the largest force")),
         ),
         answer=_cam,
         check=_jams,
     ),
     Calculation(
         name="friction_drive",
-        doc=_("how hard two smooth wheels must be pressed together to carry a torque"),
+        doc=mark("how hard two smooth wheels must be pressed together to carry a torque"),
         source="Litvin (7.1)-(7.3)",
         takes=(
-            at_least_zero("torque_Nm", _("torque on the driven wheel"), "torque"),
-            positive("radius_m", _("radius of that wheel"), "length"),
-            positive("friction", _("coefficient of friction of rest")),
-            given("safety", _("safety against slipping, usually 2 to 3"), low=1.0, default=2.5),
-            positive("driving_radius_m", _("radius of the driving wheel"), "length", default=None),
+            at_least_zero("torque_Nm", mark("torque on the driven wheel"), "torque"),
+            positive("radius_m", mark("radius of that wheel"), "length"),
+            positive("friction", mark("coefficient of friction of rest")),
+            given("safety", mark("safety against slipping, usually 2 to 3"), low=1.0, default=2.5),
+            positive("driving_radius_m", mark("radius of the driving wheel"), "length", default=None),
         ),
         returns=(
-            gives("press_min_N", _("normal force below which the wheels slip"), "force"),
-            gives("press_N", _("normal force with the safety"), "force"),
-            gives("ratio", _("speed of the driving wheel over that of the driven one")),
+            gives("press_min_N", mark("normal force below which the wheels slip"), "force"),
+            gives("press_N", mark("normal force with the safety"), "force"),
+            gives("ratio", mark("speed of the driving wheel over that of the driven one")),
         ),
         answer=_press,
     ),
     Calculation(
         name="disc_integrator",
-        doc=_("turn of a roller that moves over a turning disc"),
+        doc=mark("turn of a roller that moves over a turning disc"),
         source="Litvin (7.4)",
         takes=(
-            given("omega1_rad_s", _("speed of the disc"), "angular_speed"),
-            positive("roller_radius_m", _("radius of the roller"), "length"),
-            _place("rho_start_m", _("distance of the roller from the middle of the disc at the start")),
-            _place("rho_end_m", _("the same at the end")),
-            at_least_zero("duration_s", _("time between"), "time"),
-            given("law", _("how the roller moves"), kind="word", choices=("linear",), default="linear"),
+            given("omega1_rad_s", mark("speed of the disc"), "angular_speed"),
+            positive("roller_radius_m", mark("radius of the roller"), "length"),
+            _place("rho_start_m", mark("distance of the roller from the middle of the disc at the start")),
+            _place("rho_end_m", mark("the same at the end")),
+            at_least_zero("duration_s", mark("time between"), "time"),
+            given("law", mark("how the roller moves"), kind="word", choices=("linear",), default="linear"),
         ),
         returns=(
-            gives("phi2_rad", _("turn of the roller"), "angle"),
-            gives("omega2_start_rad_s", _("speed of the roller at the start"), "angular_speed"),
-            gives("omega2_end_rad_s", _("speed of the roller at the end"), "angular_speed"),
-            gives("warnings", _("dead_zone: the roller crosses the middle of the disc, where it slips")),
+            gives("phi2_rad", mark("turn of the roller"), "angle"),
+            gives("omega2_start_rad_s", mark("speed of the roller at the start"), "angular_speed"),
+            gives("omega2_end_rad_s", mark("speed of the roller at the end"), "angular_speed"),
+            gives("warnings", mark("dead_zone: the roller crosses the middle of the disc, where it slips")),
         ),
         answer=_disc,
     ),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import DIMENSIONS, Key, factor
 
 Values: TypeAlias = dict[str, Any]
@@ -64,7 +64,7 @@ class Given:
     @property
     def doc(self) -> str:
         """What it means."""
-        return self.meaning.doc
+        return _(self.meaning.doc)
 
     @property
     def required(self) -> bool:
@@ -162,7 +162,7 @@ def rows(
     """Declare an input that is a list of tables, each with the keys of ``columns`` and those of its ``kind``."""
     more = {} if kinds is None else dict(kinds)
     if more:
-        columns += (given("kind", _("of which kind"), kind="word", choices=tuple(more)),)
+        columns += (given("kind", mark("of which kind"), kind="word", choices=tuple(more)),)
     return Given(key=key, meaning=Key(doc), kind="rows", columns=columns, default=default, kinds=more)
 
 

@@ -16,7 +16,7 @@ from cardan.drive.drives import Drives
 from cardan.drive.geometry import geometry_from_points
 from cardan.drive.validity import point_problems
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Given, Values, given, gives
 
@@ -31,7 +31,9 @@ def bends(**options: Any) -> Given:
 
 def twists(**options: Any) -> Given:
     """Declare the plane twists of a chain."""
-    return given("beta_deg", _("plane twist of joints 2 to n"), "angle", **{"axes": (1, 2), "default": None} | options)
+    return given(
+        "beta_deg", mark("plane twist of joints 2 to n"), "angle", **{"axes": (1, 2), "default": None} | options
+    )
 
 
 def points(**options: Any) -> Given:
@@ -40,11 +42,13 @@ def points(**options: Any) -> Given:
     return given("points_m", doc, "length", axes=(2,), width=3, **options)
 
 
-YOKES = given("gamma_deg", _("yoke angle of shafts 2 to n, driving to driven yoke"), "angle", axes=(1, 2), default=None)
-START = given("psi1_deg", _("phase angle of joint 1 at the start"), "angle", default=0.0)
-ANGLE = given("phi1_deg", _("input angle from the start position"), "angle", axes=(0, 1))
-SPEED = given("omega1_rad_s", _("input speed"), "angular_speed", default=None)
-ACCELERATION = given("eps1_rad_s2", _("input angular acceleration"), "angular_acceleration", default=0.0)
+YOKES = given(
+    "gamma_deg", mark("yoke angle of shafts 2 to n, driving to driven yoke"), "angle", axes=(1, 2), default=None
+)
+START = given("psi1_deg", mark("phase angle of joint 1 at the start"), "angle", default=0.0)
+ANGLE = given("phi1_deg", mark("input angle from the start position"), "angle", axes=(0, 1))
+SPEED = given("omega1_rad_s", mark("input speed"), "angular_speed", default=None)
+ACCELERATION = given("eps1_rad_s2", mark("input angular acceleration"), "angular_acceleration", default=0.0)
 
 
 def between(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
@@ -192,120 +196,120 @@ def _equivalent(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="single_joint",
-        doc=_("angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross"),
+        doc=mark("angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross"),
         source="Book (17)-(25), (103)",
         takes=(
-            given("alpha_deg", _("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             START,
             ANGLE,
             SPEED,
             ACCELERATION,
         ),
         returns=(
-            gives("phi2_deg", _("angle of the driven shaft from the start, continuous"), "angle"),
-            gives("ratio_21", _("speed ratio")),
-            gives("omega2_rad_s", _("speed of the driven shaft"), "angular_speed"),
-            gives("eps2_rad_s2", _("acceleration of the driven shaft"), "angular_acceleration"),
-            gives("cross_vs_driving_yoke_deg", _("turn of the cross in the driving yoke"), "angle"),
-            gives("cross_vs_driven_yoke_deg", _("turn of the cross in the driven yoke"), "angle"),
+            gives("phi2_deg", mark("angle of the driven shaft from the start, continuous"), "angle"),
+            gives("ratio_21", mark("speed ratio")),
+            gives("omega2_rad_s", mark("speed of the driven shaft"), "angular_speed"),
+            gives("eps2_rad_s2", mark("acceleration of the driven shaft"), "angular_acceleration"),
+            gives("cross_vs_driving_yoke_deg", mark("turn of the cross in the driving yoke"), "angle"),
+            gives("cross_vs_driven_yoke_deg", mark("turn of the cross in the driven yoke"), "angle"),
         ),
         answer=_single_joint,
     ),
     Calculation(
         name="single_joint_extremes",
-        doc=_("largest and smallest ratio, lead and acceleration of one Hooke joint"),
+        doc=mark("largest and smallest ratio, lead and acceleration of one Hooke joint"),
         source="Book Table 4, recomputed",
-        takes=(given("alpha_deg", _("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),),
+        takes=(given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),),
         returns=(
-            gives("ratio_max", _("largest speed ratio")),
-            gives("ratio_min", _("smallest speed ratio")),
-            gives("delta", _("irregularity")),
-            gives("lead_max_deg", _("largest lead of the driven shaft"), "angle"),
-            gives("phi1_at_lead_max_deg", _("input angle of that lead"), "angle"),
-            gives("eps_max_over_omega1_sq", _("largest acceleration over the square of the input speed")),
-            gives("phi1_at_first_negative_eps_extreme_deg", _("input angle of that acceleration"), "angle"),
+            gives("ratio_max", mark("largest speed ratio")),
+            gives("ratio_min", mark("smallest speed ratio")),
+            gives("delta", mark("irregularity")),
+            gives("lead_max_deg", mark("largest lead of the driven shaft"), "angle"),
+            gives("phi1_at_lead_max_deg", mark("input angle of that lead"), "angle"),
+            gives("eps_max_over_omega1_sq", mark("largest acceleration over the square of the input speed")),
+            gives("phi1_at_first_negative_eps_extreme_deg", mark("input angle of that acceleration"), "angle"),
         ),
         answer=_extremes,
     ),
     Calculation(
         name="fourier_single",
-        doc=_("Fourier amplitudes of the angle error of one Hooke joint, exact and by the book's series"),
+        doc=mark("Fourier amplitudes of the angle error of one Hooke joint, exact and by the book's series"),
         source="Book (39)-(46)",
         takes=(
-            given("alpha_deg", _("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
-            given("kmax", _("how many amplitudes"), kind="whole", low=1, high=10_000, default=5),
+            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            given("kmax", mark("how many amplitudes"), kind="whole", low=1, high=10_000, default=5),
         ),
         returns=(
-            gives("c_exact", _("amplitudes of orders 2, 4 … 2 kmax [rad]")),
-            gives("c11_book_alpha2_over_4", _("first amplitude, α²/4")),
-            gives("c11_book_series_3terms", _("first amplitude, three terms")),
-            gives("c12_book_series_2terms", _("second amplitude, two terms")),
-            gives("c13_book_series_1term", _("third amplitude, one term")),
+            gives("c_exact", mark("amplitudes of orders 2, 4 … 2 kmax [rad]")),
+            gives("c11_book_alpha2_over_4", mark("first amplitude, α²/4")),
+            gives("c11_book_series_3terms", mark("first amplitude, three terms")),
+            gives("c12_book_series_2terms", mark("second amplitude, two terms")),
+            gives("c13_book_series_1term", mark("third amplitude, one term")),
         ),
         answer=_fourier,
     ),
     Calculation(
         name="geometry_from_points",
-        doc=_("bends, plane twists and lengths from joint centres, and the motion of the output"),
+        doc=mark("bends, plane twists and lengths from joint centres, and the motion of the output"),
         source="Book (87)-(89)",
         takes=(
             points(),
             YOKES,
             START,
-            given("phi1_deg", _("input angle from the start position"), "angle", axes=(0, 1), default=None),
+            given("phi1_deg", mark("input angle from the start position"), "angle", axes=(0, 1), default=None),
             SPEED,
             ACCELERATION,
         ),
         returns=(
-            gives("axis", _("direction of each shaft")),
-            gives("normal", _("normal of each joint's plane")),
-            gives("length_m", _("length of each shaft"), "length"),
-            gives("alpha_deg", _("bend of each joint"), "angle"),
-            gives("beta_deg", _("plane twist of joints 2 to n"), "angle"),
-            gives("delta", _("irregularity")),
-            gives("ratio_max", _("largest speed ratio")),
-            gives("ratio_min", _("smallest speed ratio")),
-            gives("psi_mod180_deg", _("phase angle of each joint"), "angle"),
-            gives("phi_out_deg", _("angle of the output shaft from the start, continuous"), "angle"),
-            gives("omega_out_rad_s", _("speed of the output shaft"), "angular_speed"),
-            gives("eps_out_rad_s2", _("acceleration of the output shaft"), "angular_acceleration"),
+            gives("axis", mark("direction of each shaft")),
+            gives("normal", mark("normal of each joint's plane")),
+            gives("length_m", mark("length of each shaft"), "length"),
+            gives("alpha_deg", mark("bend of each joint"), "angle"),
+            gives("beta_deg", mark("plane twist of joints 2 to n"), "angle"),
+            gives("delta", mark("irregularity")),
+            gives("ratio_max", mark("largest speed ratio")),
+            gives("ratio_min", mark("smallest speed ratio")),
+            gives("psi_mod180_deg", mark("phase angle of each joint"), "angle"),
+            gives("phi_out_deg", mark("angle of the output shaft from the start, continuous"), "angle"),
+            gives("omega_out_rad_s", mark("speed of the output shaft"), "angular_speed"),
+            gives("eps_out_rad_s2", mark("acceleration of the output shaft"), "angular_acceleration"),
         ),
         answer=_geometry,
         check=between,
     ),
     Calculation(
         name="chain",
-        doc=_("angle, speed and acceleration of every shaft of a chain of joints"),
+        doc=mark("angle, speed and acceleration of every shaft of a chain of joints"),
         source="Book (31)-(33), (38)",
         takes=(bends(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
         returns=(
-            gives("phi_deg", _("angle of each shaft from the start, continuous"), "angle"),
-            gives("ratio_to_input", _("speed ratio of each shaft to the input")),
-            gives("omega_rad_s", _("speed of each shaft"), "angular_speed"),
-            gives("eps_rad_s2", _("acceleration of each shaft"), "angular_acceleration"),
-            gives("psi_mod180_deg", _("phase angle of each joint"), "angle"),
-            gives("cross_vs_driving_yoke_deg", _("turn of each cross in its driving yoke"), "angle"),
-            gives("cross_vs_driven_yoke_deg", _("turn of each cross in its driven yoke"), "angle"),
+            gives("phi_deg", mark("angle of each shaft from the start, continuous"), "angle"),
+            gives("ratio_to_input", mark("speed ratio of each shaft to the input")),
+            gives("omega_rad_s", mark("speed of each shaft"), "angular_speed"),
+            gives("eps_rad_s2", mark("acceleration of each shaft"), "angular_acceleration"),
+            gives("psi_mod180_deg", mark("phase angle of each joint"), "angle"),
+            gives("cross_vs_driving_yoke_deg", mark("turn of each cross in its driving yoke"), "angle"),
+            gives("cross_vs_driven_yoke_deg", mark("turn of each cross in its driven yoke"), "angle"),
         ),
         answer=_chain,
         check=between,
     ),
     Calculation(
         name="equivalent_joint",
-        doc=_("the single joint that moves like the whole chain, and the irregularity after each joint"),
+        doc=mark("the single joint that moves like the whole chain, and the irregularity after each joint"),
         source="Book (78)-(80); exact by Möbius pairs",
         takes=(bends(default=None), twists(), points(default=None), YOKES, START),
         returns=(
-            gives("delta", _("irregularity")),
-            gives("ratio_max", _("largest speed ratio")),
-            gives("ratio_min", _("smallest speed ratio")),
-            gives("delta_of_each_shaft", _("irregularity of shafts 2 to n+1")),
-            gives("book_first_order_delta_80_with_theta", _("irregularity by the book's first order")),
-            gives("tau_eq", _("tan² of half the equivalent angle")),
-            gives("alpha_eq_deg", _("equivalent angle"), "angle"),
-            gives("psi_eq_mod180_deg", _("phase of the equivalent joint; None when synchronous"), "angle"),
-            gives("eps_max_over_omega1_sq", _("largest acceleration over the square of the input speed")),
-            gives("lead_max_deg", _("largest angle error of the output about its mean"), "angle"),
+            gives("delta", mark("irregularity")),
+            gives("ratio_max", mark("largest speed ratio")),
+            gives("ratio_min", mark("smallest speed ratio")),
+            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1")),
+            gives("book_first_order_delta_80_with_theta", mark("irregularity by the book's first order")),
+            gives("tau_eq", mark("tan² of half the equivalent angle")),
+            gives("alpha_eq_deg", mark("equivalent angle"), "angle"),
+            gives("psi_eq_mod180_deg", mark("phase of the equivalent joint; None when synchronous"), "angle"),
+            gives("eps_max_over_omega1_sq", mark("largest acceleration over the square of the input speed")),
+            gives("lead_max_deg", mark("largest angle error of the output about its mean"), "angle"),
         ),
         answer=_equivalent,
         check=between,

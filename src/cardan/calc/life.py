@@ -22,7 +22,7 @@ from cardan.analysis.joint_rating import (
 )
 from cardan.analysis.life_cautions import clamped, extrapolated
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
 from .calculation import Calculation, Values, at_least_zero, given, gives, positive, rows
@@ -33,21 +33,25 @@ HOUR = 3600.0
 SLACK = 1e-12
 """What sums of decimal fractions may be off."""
 
-WARNINGS = gives("warnings", _("what to mind, in alphabetical order"))
+WARNINGS = gives("warnings", mark("what to mind, in alphabetical order"))
 
 
-CAPACITY = positive("C_N", _("dynamic capacity of one bearing"), "force")
-ARM = positive("R_mm", _("from the axis of the shaft to the middle of a bearing, half the span"), "length")
-SPEED = positive("speed_rpm", _("speed of the shaft"), "angular_speed")
-BEND = given("alpha_deg", _("bend of the joint"), "angle", low=0.0, below=RIGHT)
-TORQUE = positive("torque_Nm", _("torque of the shaft"), "torque")
-SHOCK = given("shock_factor", _("factor for shocks, 1 for moderate to 1.38 for strong ones"), low=1.0, default=1.0)
+CAPACITY = positive("C_N", mark("dynamic capacity of one bearing"), "force")
+ARM = positive("R_mm", mark("from the axis of the shaft to the middle of a bearing, half the span"), "length")
+SPEED = positive("speed_rpm", mark("speed of the shaft"), "angular_speed")
+BEND = given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT)
+TORQUE = positive("torque_Nm", mark("torque of the shaft"), "torque")
+SHOCK = given("shock_factor", mark("factor for shocks, 1 for moderate to 1.38 for strong ones"), low=1.0, default=1.0)
 SIDE = given(
-    "torque_side", _("shaft on which the torque is constant"), kind="word", choices=("input", "output"), default="input"
+    "torque_side",
+    mark("shaft on which the torque is constant"),
+    kind="word",
+    choices=("input", "output"),
+    default="input",
 )
 METHOD = given(
     "method",
-    _("law of the factor, or the table with its misprints put right"),
+    mark("law of the factor, or the table with its misprints put right"),
     kind="word",
     choices=("power_law", "table"),
     default="power_law",
@@ -184,90 +188,90 @@ def _shares(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 CALCULATIONS = (
     Calculation(
         name="f_h",
-        doc=_("factor of life of the book's rating"),
-        source=_("Book, table 6"),
-        takes=(positive("life_h", _("life"), "time"), METHOD),
-        returns=(gives("f_h", _("factor")), WARNINGS),
+        doc=mark("factor of life of the book's rating"),
+        source=mark("Book, table 6"),
+        takes=(positive("life_h", mark("life"), "time"), METHOD),
+        returns=(gives("f_h", mark("factor")), WARNINGS),
         answer=_life_factor,
         check=_outside("life", LIFE_RANGE, "h", HOUR),
     ),
     Calculation(
         name="f_na",
-        doc=_("factor of speed times bend of the book's rating"),
-        source=_("Book, table 7"),
-        takes=(positive("n_alpha_rpm_deg", _("speed times bend"), "speed_angle"), METHOD),
-        returns=(gives("f_na", _("factor")), WARNINGS),
+        doc=mark("factor of speed times bend of the book's rating"),
+        source=mark("Book, table 7"),
+        takes=(positive("n_alpha_rpm_deg", mark("speed times bend"), "speed_angle"), METHOD),
+        returns=(gives("f_na", mark("factor")), WARNINGS),
         answer=_speed_factor,
         check=_outside("n_alpha", SPEED_ANGLE_RANGE, "rpm·°", rpm * deg),
     ),
     Calculation(
         name="joint_rating",
-        doc=_("torque that a joint may carry for a life, by the book"),
-        source=_("Book (267), restored"),
-        takes=(CAPACITY, ARM, SPEED, BEND, positive("life_h", _("life"), "time"), SHOCK),
+        doc=mark("torque that a joint may carry for a life, by the book"),
+        source=mark("Book (267), restored"),
+        takes=(CAPACITY, ARM, SPEED, BEND, positive("life_h", mark("life"), "time"), SHOCK),
         returns=(
-            gives("M_nominal_Nm", _("nominal torque: 5000 h at 33.3 rpm and 3°"), "torque"),
-            gives("M_max_Nm", _("torque allowed"), "torque"),
+            gives("M_nominal_Nm", mark("nominal torque: 5000 h at 33.3 rpm and 3°"), "torque"),
+            gives("M_max_Nm", mark("torque allowed"), "torque"),
             WARNINGS,
         ),
         answer=_torque,
     ),
     Calculation(
         name="joint_life",
-        doc=_("life of a joint, by the book"),
-        source=_("Book (267), restored, solved for the life"),
+        doc=mark("life of a joint, by the book"),
+        source=mark("Book (267), restored, solved for the life"),
         takes=(CAPACITY, ARM, SPEED, BEND, TORQUE, SHOCK),
-        returns=(gives("life_h", _("life"), "time"), WARNINGS),
+        returns=(gives("life_h", mark("life"), "time"), WARNINGS),
         answer=_joint_life,
     ),
     Calculation(
         name="iso_life",
-        doc=_("life L10 of the bearings of one joint, by the mean load and by the exact integral over the turn"),
+        doc=mark("life L10 of the bearings of one joint, by the mean load and by the exact integral over the turn"),
         source="ISO 281",
         takes=(CAPACITY, ARM, TORQUE, SIDE, SPEED, BEND),
         returns=(
-            gives("L10h_simple", _("by the mean load [h]")),
-            gives("L10h_driving_bearings", _("of the bearings in the driving yoke [h]")),
-            gives("L10h_driven_bearings", _("of the bearings in the driven yoke [h]")),
+            gives("L10h_simple", mark("by the mean load [h]")),
+            gives("L10h_driving_bearings", mark("of the bearings in the driving yoke [h]")),
+            gives("L10h_driven_bearings", mark("of the bearings in the driven yoke [h]")),
         ),
         answer=_iso,
         check=_still,
     ),
     Calculation(
         name="catalogue_life",
-        doc=_("life L10 of a joint by a maker's formula"),
-        source=_("makers' catalogues; constants differ, never mix rating and formula"),
+        doc=mark("life L10 of a joint by a maker's formula"),
+        source=mark("makers' catalogues; constants differ, never mix rating and formula"),
         takes=(
-            given("convention", _("what the rating means"), kind="word", choices=tuple(CONVENTIONS)),
-            positive("rating_Nm", _("rated torque Tc, or dynamic capacity times arm"), "torque"),
+            given("convention", mark("what the rating means"), kind="word", choices=tuple(CONVENTIONS)),
+            positive("rating_Nm", mark("rated torque Tc, or dynamic capacity times arm"), "torque"),
             TORQUE,
             SPEED,
             BEND,
             SHOCK,
         ),
-        returns=(gives("L10h", _("life [h]")), WARNINGS),
+        returns=(gives("L10h", mark("life [h]")), WARNINGS),
         answer=_catalogue,
     ),
     Calculation(
         name="duty_cycle_life",
-        doc=_("life of a joint in a duty cycle, by the book"),
-        source=_("Book (268), (269), restored"),
+        doc=mark("life of a joint in a duty cycle, by the book"),
+        source=mark("Book (268), (269), restored"),
         takes=(
             CAPACITY,
             ARM,
             SHOCK,
             rows(
                 "regimes",
-                _("parts of the duty cycle"),
-                at_least_zero("torque_Nm", _("torque"), "torque"),
+                mark("parts of the duty cycle"),
+                at_least_zero("torque_Nm", mark("torque"), "torque"),
                 SPEED,
                 BEND,
-                at_least_zero("share_percent", _("share of the whole time"), "share"),
+                at_least_zero("share_percent", mark("share of the whole time"), "share"),
             ),
         ),
         returns=(
-            gives("life_each_h", _("life if each regime ran all the time; null is unlimited"), "time"),
-            gives("life_equivalent_h", _("life in the duty cycle; null is unlimited"), "time"),
+            gives("life_each_h", mark("life if each regime ran all the time; null is unlimited"), "time"),
+            gives("life_equivalent_h", mark("life in the duty cycle; null is unlimited"), "time"),
             WARNINGS,
         ),
         answer=_cycle,

@@ -9,14 +9,14 @@ import numpy as np
 from cardan.analysis.chain_friction import chain_friction
 from cardan.analysis.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
 from cardan.errors import Problem, check
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Given, Values, given, gives
 from .kinematics import RIGHT, START, YOKES, bends, between, drives, points, twists
 
 CONSTANT = given(
     "constant_torque",
-    _("where the torque is constant"),
+    mark("where the torque is constant"),
     kind="word",
     choices=("output", "input"),
     default="output",
@@ -124,34 +124,36 @@ def _rules(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="efficiency_joint",
-        doc=_("friction work of a turn and efficiency of one Hooke joint: exact, first order, and by the small angle"),
+        doc=mark(
+            "friction work of a turn and efficiency of one Hooke joint: exact, first order, and by the small angle"
+        ),
         source="Book (127)-(137), restored",
         takes=(
-            given("alpha_deg", _("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
-            _coefficient("mu_pin_reduced", _("reduced coefficient of friction of the journals")),
-            given("pin_diameter_m", _("diameter of the journals"), "length", above=0.0),
-            given("pin_span_m", _("span of the cross"), "length", above=0.0),
+            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            _coefficient("mu_pin_reduced", mark("reduced coefficient of friction of the journals")),
+            given("pin_diameter_m", mark("diameter of the journals"), "length", above=0.0),
+            given("pin_span_m", mark("span of the cross"), "length", above=0.0),
             CONSTANT,
             _coefficient(
-                "mu_bearing_reduced", _("reduced coefficient of friction of the shafts' bearings"), default=0.0
+                "mu_bearing_reduced", mark("reduced coefficient of friction of the shafts' bearings"), default=0.0
             ),
-            given("bearing_diameter_m", _("diameter of those bearings"), "length", low=0.0, default=None),
-            given("bearing_span_m", _("distance of the two bearings of a shaft"), "length", above=0.0, default=None),
+            given("bearing_diameter_m", mark("diameter of those bearings"), "length", low=0.0, default=None),
+            given("bearing_span_m", mark("distance of the two bearings of a shaft"), "length", above=0.0, default=None),
         ),
         returns=(
-            gives("pin_work_per_rev_over_torque", _("friction work of a turn in the journals over the torque")),
-            gives("bearing_work_per_rev_over_torque", _("friction work of a turn in the bearings over the torque")),
-            gives("eta_first_order", _("efficiency, friction not acting on itself")),
-            gives("eta_pins_small_angle_137", _("efficiency of the journals by the rule for small angles")),
-            gives("eta_pins_self_consistent", _("efficiency of the journals, friction acting on itself")),
-            gives("mean_pin_force_times_span_over_torque", _("mean load of a journal times span over torque")),
+            gives("pin_work_per_rev_over_torque", mark("friction work of a turn in the journals over the torque")),
+            gives("bearing_work_per_rev_over_torque", mark("friction work of a turn in the bearings over the torque")),
+            gives("eta_first_order", mark("efficiency, friction not acting on itself")),
+            gives("eta_pins_small_angle_137", mark("efficiency of the journals by the rule for small angles")),
+            gives("eta_pins_self_consistent", mark("efficiency of the journals, friction acting on itself")),
+            gives("mean_pin_force_times_span_over_torque", mark("mean load of a journal times span over torque")),
         ),
         answer=_joint,
         check=_bearings,
     ),
     Calculation(
         name="efficiency_chain",
-        doc=_("efficiency of a chain of joints with friction in their journals, exact and as a product of joints"),
+        doc=mark("efficiency of a chain of joints with friction in their journals, exact and as a product of joints"),
         source="Book (139); exact by couples of the crosses",
         takes=(
             bends(default=None),
@@ -161,38 +163,38 @@ CALCULATIONS = (
             START,
             _coefficient(
                 "kappa_mu_dc_over_d",
-                _("reduced coefficient of friction times journal diameter over span, of each joint"),
+                mark("reduced coefficient of friction times journal diameter over span, of each joint"),
                 axes=(1,),
             ),
             CONSTANT,
         ),
         returns=(
-            gives("eta_self_consistent", _("efficiency, friction acting on itself")),
-            gives("eta_product_of_joint_first_order", _("product of the joints' efficiencies of first order")),
-            gives("pin_loss_of_each_joint_over_mean_power", _("share of the power that each joint turns to heat")),
+            gives("eta_self_consistent", mark("efficiency, friction acting on itself")),
+            gives("eta_product_of_joint_first_order", mark("product of the joints' efficiencies of first order")),
+            gives("pin_loss_of_each_joint_over_mean_power", mark("share of the power that each joint turns to heat")),
         ),
         answer=_chain,
         check=_frictions,
     ),
     Calculation(
         name="efficiency_spline_branches_factors",
-        doc=_("efficiency of a sliding spline, of parallel branches, and reduced coefficients of plain journals"),
+        doc=mark("efficiency of a sliding spline, of parallel branches, and reduced coefficients of plain journals"),
         source="Book (138), (140), restored",
         takes=(
-            _coefficient("mu_spline", _("coefficient of friction of the spline"), default=None),
-            given("stroke_m", _("mean way of one displacement, one way"), "length", low=0.0, default=None),
-            _coefficient("strokes_per_s", _("displacements a second"), default=None),
-            given("spline_diameter_m", _("mean diameter of the spline"), "length", above=0.0, default=None),
-            given("rev_per_s", _("turns of the shaft a second"), above=0.0, default=None),
-            given("branch_useful_work_J", _("useful work of each branch"), "work", axes=(1,), low=0.0, default=None),
-            given("branch_eta", _("efficiency of each branch"), axes=(1,), above=0.0, high=1.0, default=None),
-            _coefficient("mu_material", _("coefficient of friction of the journals' materials"), default=None),
+            _coefficient("mu_spline", mark("coefficient of friction of the spline"), default=None),
+            given("stroke_m", mark("mean way of one displacement, one way"), "length", low=0.0, default=None),
+            _coefficient("strokes_per_s", mark("displacements a second"), default=None),
+            given("spline_diameter_m", mark("mean diameter of the spline"), "length", above=0.0, default=None),
+            given("rev_per_s", mark("turns of the shaft a second"), above=0.0, default=None),
+            given("branch_useful_work_J", mark("useful work of each branch"), "work", axes=(1,), low=0.0, default=None),
+            given("branch_eta", mark("efficiency of each branch"), axes=(1,), above=0.0, high=1.0, default=None),
+            _coefficient("mu_material", mark("coefficient of friction of the journals' materials"), default=None),
         ),
         returns=(
-            gives("eta_spline", _("efficiency of the spline")),
-            gives("eta_branches", _("efficiency of the branches together")),
-            gives("mu_reduced_new_pin", _("reduced coefficient of a new journal")),
-            gives("mu_reduced_worn_pin", _("reduced coefficient of a journal run in")),
+            gives("eta_spline", mark("efficiency of the spline")),
+            gives("eta_branches", mark("efficiency of the branches together")),
+            gives("mu_reduced_new_pin", mark("reduced coefficient of a new journal")),
+            gives("mu_reduced_worn_pin", mark("reduced coefficient of a journal run in")),
         ),
         answer=_rules,
         check=_parts,

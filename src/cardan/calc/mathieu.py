@@ -15,7 +15,7 @@ from cardan.analysis.mathieu_reduction import mathieu_reduction
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.mathieu import LARGEST_A, LARGEST_Q, LEAST_A, boundaries, damped_zone, exponents
 from cardan.maths.mathieu_forced import forced
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import rpm
 
 from .calculation import Calculation, Values, given, gives, rows
@@ -27,11 +27,11 @@ SHOWN = 1e-8
 HIGHEST = 200
 """Highest order of the boundaries told."""
 
-WAVE = given("q", _("parametric term q of the equation"), low=-LARGEST_Q, high=LARGEST_Q)
-STIFFNESS = given("a", _("parameter a of the equation, (ω_e/ω_1)²"), low=LEAST_A, high=LARGEST_A)
-DAMPING = given("n", _("damping n per radian, b/(2 J_0 ω_1)"), low=-100.0, high=100.0, default=0.0)
-FIRST = given("J_first_kgm2", _("inertia at the driving end"), "inertia", above=0.0)
-LAST = given("J_last_kgm2", _("inertia at the driven end"), "inertia", above=0.0)
+WAVE = given("q", mark("parametric term q of the equation"), low=-LARGEST_Q, high=LARGEST_Q)
+STIFFNESS = given("a", mark("parameter a of the equation, (ω_e/ω_1)²"), low=LEAST_A, high=LARGEST_A)
+DAMPING = given("n", mark("damping n per radian, b/(2 J_0 ω_1)"), low=-100.0, high=100.0, default=0.0)
+FIRST = given("J_first_kgm2", mark("inertia at the driving end"), "inertia", above=0.0)
+LAST = given("J_last_kgm2", mark("inertia at the driven end"), "inertia", above=0.0)
 
 
 @contextmanager
@@ -192,12 +192,12 @@ def _forced(values: Values) -> Values:
 CALCULATIONS: tuple[Calculation, ...] = (
     UpToOrder(
         name="mathieu_stability",
-        doc=_("exponent, growth and boundaries of y'' + 2n y' + (a - 2q cos 2z) y = 0"),
-        source=_("Hill's determinant; Book (197), (208), (221), (225) beside it"),
+        doc=mark("exponent, growth and boundaries of y'' + 2n y' + (a - 2q cos 2z) y = 0"),
+        source=mark("Hill's determinant; Book (197), (208), (221), (225) beside it"),
         takes=(
             given(
                 "a",
-                _("parameter a of the equation, (ω_e/ω_1)²"),
+                mark("parameter a of the equation, (ω_e/ω_1)²"),
                 low=LEAST_A,
                 high=LARGEST_A,
                 default=None,
@@ -206,7 +206,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
             DAMPING,
             given(
                 "boundaries_up_to_order",
-                _("order N up to which to tell the boundaries of stability"),
+                mark("order N up to which to tell the boundaries of stability"),
                 kind="whole",
                 low=0,
                 high=HIGHEST,
@@ -214,7 +214,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
             ),
             given(
                 "zone",
-                _("number of the unstable zone whose edges to tell, with damping; 1 is the principal one"),
+                mark("number of the unstable zone whose edges to tell, with damping; 1 is the principal one"),
                 kind="whole",
                 low=1,
                 high=HIGHEST,
@@ -222,32 +222,32 @@ CALCULATIONS: tuple[Calculation, ...] = (
             ),
         ),
         returns=(
-            gives("half_trace_undamped", _("cos πβ of the equation freed of its damping")),
-            gives("beta", _("characteristic exponent, where the undamped equation is stable")),
-            gives("growth_rate_per_rad", _("rate of growth per radian of shaft angle")),
-            gives("stable", _("whether nothing grows")),
-            gives("half_trace_book208", _("cos πβ by Book (208), for small q")),
-            gives("beta_book225", _("characteristic exponent by Book (225), for 0 < a < 1 and small q")),
-            gives("a_0_to_N", _("boundaries a_0 … a_N of the undamped equation")),
-            gives("b_1_to_N", _("boundaries b_1 … b_N of the undamped equation")),
-            gives("a_lower", _("lower edge of the zone; undefined where damping leaves nothing of it")),
-            gives("a_upper", _("upper edge of the zone")),
-            gives("a_lower_book221", _("lower edge of the principal zone by Book (221)")),
-            gives("a_upper_book221", _("upper edge of the principal zone by Book (221)")),
+            gives("half_trace_undamped", mark("cos πβ of the equation freed of its damping")),
+            gives("beta", mark("characteristic exponent, where the undamped equation is stable")),
+            gives("growth_rate_per_rad", mark("rate of growth per radian of shaft angle")),
+            gives("stable", mark("whether nothing grows")),
+            gives("half_trace_book208", mark("cos πβ by Book (208), for small q")),
+            gives("beta_book225", mark("characteristic exponent by Book (225), for 0 < a < 1 and small q")),
+            gives("a_0_to_N", mark("boundaries a_0 … a_N of the undamped equation")),
+            gives("b_1_to_N", mark("boundaries b_1 … b_N of the undamped equation")),
+            gives("a_lower", mark("lower edge of the zone; undefined where damping leaves nothing of it")),
+            gives("a_upper", mark("upper edge of the zone")),
+            gives("a_lower_book221", mark("lower edge of the principal zone by Book (221)")),
+            gives("a_upper_book221", mark("upper edge of the principal zone by Book (221)")),
         ),
         answer=_stability,
         check=_asked,
     ),
     Calculation(
         name="mathieu_reduction",
-        doc=_("parameters of Mathieu's equation of a drive with massless joints between two inertias"),
-        source=_("Book (187)-(196), the parametric term put right; exact: shooting and variational equations"),
+        doc=mark("parameters of Mathieu's equation of a drive with massless joints between two inertias"),
+        source=mark("Book (187)-(196), the parametric term put right; exact: shooting and variational equations"),
         takes=(
-            given("alpha_deg", _("bends of the joints"), "angle", axes=(1,), low=0.0, below=RIGHT, entries=True),
-            given("psi_deg", _("phase angles of the joints"), "angle", axes=(1,), entries=True),
+            given("alpha_deg", mark("bends of the joints"), "angle", axes=(1,), low=0.0, below=RIGHT, entries=True),
+            given("psi_deg", mark("phase angles of the joints"), "angle", axes=(1,), entries=True),
             given(
                 "stiffness_Nm_per_rad",
-                _("stiffness before, between and behind the joints"),
+                mark("stiffness before, between and behind the joints"),
                 "turning_stiffness",
                 axes=(1,),
                 above=0.0,
@@ -255,61 +255,63 @@ CALCULATIONS: tuple[Calculation, ...] = (
             ),
             FIRST,
             LAST,
-            given("speed_rpm", _("mean speed"), "angular_speed", above=0.0),
+            given("speed_rpm", mark("mean speed"), "angular_speed", above=0.0),
             given(
                 "drive_torque_Nm",
-                _("constant drive torque, and load; asks for the exact drive as well"),
+                mark("constant drive torque, and load; asks for the exact drive as well"),
                 "torque",
                 default=None,
             ),
         ),
         returns=(
-            gives("A", _("forcing by sin 2φ, Book (195) [rad]")),
-            gives("B", _("forcing by cos 2φ, Book (195) [rad]")),
-            gives("D", _("change of the compliance by cos 2φ, Book (195) [rad/(N·m)]")),
-            gives("F", _("change of the compliance by sin 2φ, Book (195) [rad/(N·m)]")),
-            gives("s_n1", _("amplitude √(A² + B²) [rad]")),
-            gives("delta1_rad", _("its phase δ_1"), "angle"),
-            gives("c_Nm_per_rad", _("stiffness of all springs in a row"), "turning_stiffness"),
-            gives("J0_kgm2", _("inertia J_1 J_(n+1)/(J_1 + J_(n+1))"), "inertia"),
-            gives("natural_frequency_rad_s", _("natural frequency √(c/J_0)"), "angular_speed"),
-            gives("a", _("parameter a = c/(J_0 ω_1²)")),
-            gives("kappa", _("place of each joint from the node of the elastic mode, a share of the twist")),
+            gives("A", mark("forcing by sin 2φ, Book (195) [rad]")),
+            gives("B", mark("forcing by cos 2φ, Book (195) [rad]")),
+            gives("D", mark("change of the compliance by cos 2φ, Book (195) [rad/(N·m)]")),
+            gives("F", mark("change of the compliance by sin 2φ, Book (195) [rad/(N·m)]")),
+            gives("s_n1", mark("amplitude √(A² + B²) [rad]")),
+            gives("delta1_rad", mark("its phase δ_1"), "angle"),
+            gives("c_Nm_per_rad", mark("stiffness of all springs in a row"), "turning_stiffness"),
+            gives("J0_kgm2", mark("inertia J_1 J_(n+1)/(J_1 + J_(n+1))"), "inertia"),
+            gives("natural_frequency_rad_s", mark("natural frequency √(c/J_0)"), "angular_speed"),
+            gives("a", mark("parameter a = c/(J_0 ω_1²)")),
+            gives("kappa", mark("place of each joint from the node of the elastic mode, a share of the twist")),
             gives(
                 "principal_zone_speeds_rpm",
-                _("speeds between which steady running is unstable without damping"),
+                mark("speeds between which steady running is unstable without damping"),
                 "angular_speed",
             ),
-            gives("q_book", _("parametric term by Book (196), half of what it should be")),
-            gives("q_corrected", _("parametric term")),
-            gives("delta0_rad", _("its phase δ_0"), "angle"),
-            gives("half_trace_exact", _("half the trace of the elastic multipliers over half a turn, exact drive")),
-            gives("half_trace_mathieu_q_book", _("the same by Mathieu's equation with the book's parametric term")),
-            gives("half_trace_mathieu_q_corrected", _("the same with the right parametric term")),
+            gives("q_book", mark("parametric term by Book (196), half of what it should be")),
+            gives("q_corrected", mark("parametric term")),
+            gives("delta0_rad", mark("its phase δ_0"), "angle"),
+            gives("half_trace_exact", mark("half the trace of the elastic multipliers over half a turn, exact drive")),
+            gives("half_trace_mathieu_q_book", mark("the same by Mathieu's equation with the book's parametric term")),
+            gives("half_trace_mathieu_q_corrected", mark("the same with the right parametric term")),
         ),
         answer=_reduction,
         check=_fits,
     ),
     Calculation(
         name="mathieu_forced",
-        doc=_("steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ): mean and amplitude of each order"),
-        source=_("harmonic balance; Book (200)-(204), (223), (236), (243)"),
+        doc=mark(
+            "steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ): mean and amplitude of each order"
+        ),
+        source=mark("harmonic balance; Book (200)-(204), (223), (236), (243)"),
         takes=(
             STIFFNESS,
             WAVE,
             DAMPING,
             rows(
                 "forcing",
-                _("terms of the right side"),
-                given("amplitude", _("amplitude Q")),
-                given("order", _("order ν; 0 is the constant Q sin δ"), low=0.0),
-                given("phase_deg", _("phase δ"), "angle", default=0.0),
+                mark("terms of the right side"),
+                given("amplitude", mark("amplitude Q")),
+                given("order", mark("order ν; 0 is the constant Q sin δ"), low=0.0),
+                given("phase_deg", mark("phase δ"), "angle", default=0.0),
             ),
         ),
         returns=(
-            gives("mean", _("mean of y")),
-            gives("order_amplitude", _("amplitude of each order that has one")),
-            gives("order_phase_deg", _("phase of each order, y = Σ A sin(νz + δ)"), "angle"),
+            gives("mean", mark("mean of y")),
+            gives("order_amplitude", mark("amplitude of each order that has one")),
+            gives("order_phase_deg", mark("phase of each order, y = Σ A sin(νz + δ)"), "angle"),
         ),
         answer=_forced,
     ),

@@ -11,7 +11,7 @@ from cardan.analysis.joint_strength import journal_stress, yoke_stress
 from cardan.analysis.spline_strength import spline_stress
 from cardan.drive.train import spline_grip
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .bores import bores
 from .calculation import Calculation, Values, at_least_zero, given, gives, positive, record
@@ -89,89 +89,89 @@ def _journal(values: Values) -> Values:
     return {"sigma_bending_MPa": found.bending, "tau_mean_MPa": found.mean_shear, "tau_max_MPa": found.shear}
 
 
-FORCE = at_least_zero("journal_force_N", _("force on a journal"), "force")
+FORCE = at_least_zero("journal_force_N", mark("force on a journal"), "force")
 
 CALCULATIONS = (
     Calculation(
         name="spline",
-        doc=_("stresses of a straight-sided spline"),
-        source=_("Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter"),
+        doc=mark("stresses of a straight-sided spline"),
+        source=mark("Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter"),
         takes=(
-            positive("D_mm", _("outer diameter"), "length"),
-            positive("d_mm", _("root diameter"), "length"),
-            positive("teeth", _("number of teeth"), kind="whole"),
-            positive("tooth_width_mm", _("width of a tooth"), "length"),
-            positive("length_mm", _("length of the teeth"), "length"),
+            positive("D_mm", mark("outer diameter"), "length"),
+            positive("d_mm", mark("root diameter"), "length"),
+            positive("teeth", mark("number of teeth"), kind="whole"),
+            positive("tooth_width_mm", mark("width of a tooth"), "length"),
+            positive("length_mm", mark("length of the teeth"), "length"),
             TORQUE,
-            at_least_zero("chamfer_mm", _("chamfer"), "length", default=0.0),
-            positive("load_share", _("share of the teeth that carry"), default=0.75, high=1.0),
+            at_least_zero("chamfer_mm", mark("chamfer"), "length", default=0.0),
+            positive("load_share", mark("share of the teeth that carry"), default=0.75, high=1.0),
         ),
         returns=(
-            gives("d_m_mm", _("mean diameter"), "length"),
-            gives("h_mm", _("height of the flanks that bear"), "length"),
-            gives("sigma_crush_MPa", _("pressure on the flanks"), "stress"),
-            gives("tau_tooth_MPa", _("shear at the roots of the teeth"), "stress"),
-            gives("tau_core_MPa", _("torsion at the root diameter"), "stress"),
+            gives("d_m_mm", mark("mean diameter"), "length"),
+            gives("h_mm", mark("height of the flanks that bear"), "length"),
+            gives("sigma_crush_MPa", mark("pressure on the flanks"), "stress"),
+            gives("tau_tooth_MPa", mark("shear at the roots of the teeth"), "stress"),
+            gives("tau_core_MPa", mark("torsion at the root diameter"), "stress"),
         ),
         answer=_spline,
         check=_flanks,
     ),
     Calculation(
         name="yoke",
-        doc=_("stresses of the arm of a yoke"),
-        source=_("Book (263); Saint-Venant's torsion"),
+        doc=mark("stresses of the arm of a yoke"),
+        source=mark("Book (263); Saint-Venant's torsion"),
         takes=(
             FORCE,
-            at_least_zero("bending_arm_mm", _("arm of the force for bending"), "length"),
-            at_least_zero("torsion_arm_mm", _("arm of the force for torsion"), "length"),
+            at_least_zero("bending_arm_mm", mark("arm of the force for bending"), "length"),
+            at_least_zero("torsion_arm_mm", mark("arm of the force for torsion"), "length"),
             record(
                 "section",
-                _("weakest section"),
-                given("shape", _("shape of the section"), kind="word", choices=tuple(SHAPES)),
-                positive("height_mm", _("height along the force"), "length"),
-                positive("width_mm", _("width across the force"), "length"),
+                mark("weakest section"),
+                given("shape", mark("shape of the section"), kind="word", choices=tuple(SHAPES)),
+                positive("height_mm", mark("height along the force"), "length"),
+                positive("width_mm", mark("width across the force"), "length"),
             ),
         ),
         returns=(
-            gives("sigma_bending_MPa", _("bending stress"), "stress"),
-            gives("tau_torsion_MPa", _("shear stress of torsion"), "stress"),
-            gives("sigma_mises_MPa", _("equivalent stress by von Mises"), "stress"),
+            gives("sigma_bending_MPa", mark("bending stress"), "stress"),
+            gives("tau_torsion_MPa", mark("shear stress of torsion"), "stress"),
+            gives("sigma_mises_MPa", mark("equivalent stress by von Mises"), "stress"),
         ),
         answer=_yoke,
     ),
     Calculation(
         name="journal",
-        doc=_("stresses at the root of a journal of the cross"),
+        doc=mark("stresses at the root of a journal of the cross"),
         source="Book (264), (265), with the grease bore",
         takes=(
             FORCE,
-            positive("length_mm", _("length of the journal"), "length"),
-            positive("d_mm", _("diameter"), "length"),
-            at_least_zero("bore_mm", _("diameter of the grease bore"), "length", default=0.0),
-            at_least_zero("arm_mm", _("arm of the force; half the length when not given"), "length", default=None),
+            positive("length_mm", mark("length of the journal"), "length"),
+            positive("d_mm", mark("diameter"), "length"),
+            at_least_zero("bore_mm", mark("diameter of the grease bore"), "length", default=0.0),
+            at_least_zero("arm_mm", mark("arm of the force; half the length when not given"), "length", default=None),
         ),
         returns=(
-            gives("sigma_bending_MPa", _("bending stress"), "stress"),
-            gives("tau_mean_MPa", _("mean shear stress"), "stress"),
-            gives("tau_max_MPa", _("largest shear stress"), "stress"),
+            gives("sigma_bending_MPa", mark("bending stress"), "stress"),
+            gives("tau_mean_MPa", mark("mean shear stress"), "stress"),
+            gives("tau_max_MPa", mark("largest shear stress"), "stress"),
         ),
         answer=_journal,
         check=bores("d", "bore"),
     ),
     Forms(
         name="spline_axial_force",
-        doc=_("friction thrust of a spline: its parts in the joint, or the thrust alone"),
+        doc=mark("friction thrust of a spline: its parts in the joint, or the thrust alone"),
         source=SPLINE_THRUST.source,
         takes=(
             *SPLINE_THRUST.takes,
             *(
                 thrust_keys := (
-                    at_least_zero("torque_Nm", _("torque at the spline, for the thrust alone"), "torque"),
-                    positive("d_m_mm", _("its mean diameter"), "length"),
-                    at_least_zero("friction", _("its coefficient of friction")),
+                    at_least_zero("torque_Nm", mark("torque at the spline, for the thrust alone"), "torque"),
+                    positive("d_m_mm", mark("its mean diameter"), "length"),
+                    at_least_zero("friction", mark("its coefficient of friction")),
                     given(
                         "pressure_angle_deg",
-                        _("pressure angle of its teeth"),
+                        mark("pressure angle of its teeth"),
                         "angle",
                         default=0.0,
                         low=0.0,
@@ -180,16 +180,16 @@ CALCULATIONS = (
                 )
             ),
         ),
-        returns=(*SPLINE_THRUST.returns, gives("axial_force_N", _("friction thrust"), "force")),
+        returns=(*SPLINE_THRUST.returns, gives("axial_force_N", mark("friction thrust"), "force")),
         answer=dict,
         forms=(
             SPLINE_THRUST,
             Calculation(
                 name="spline_axial_force",
-                doc=_("friction thrust of a spline"),
+                doc=mark("friction thrust of a spline"),
                 source="Book (123)",
                 takes=thrust_keys,
-                returns=(gives("axial_force_N", _("friction thrust"), "force"),),
+                returns=(gives("axial_force_N", mark("friction thrust"), "force"),),
                 answer=_thrust,
             ),
         ),

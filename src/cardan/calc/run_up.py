@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from cardan.analysis.joint_run_up import joint_run_up
 from cardan.analysis.run_up import run_up
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 from .kinematics import RIGHT
@@ -64,52 +64,58 @@ def _answer(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="run_up",
-        doc=_("peak while running up through resonance: an oscillator under a rising frequency, or behind a joint"),
-        source=_("exact in complex error functions; behind a joint by impulse responses"),
+        doc=mark("peak while running up through resonance: an oscillator under a rising frequency, or behind a joint"),
+        source=mark("exact in complex error functions; behind a joint by impulse responses"),
         takes=(
             given(
                 "natural_frequency_rad_s",
-                _("natural frequency of the oscillator"),
+                mark("natural frequency of the oscillator"),
                 "frequency",
                 above=0.0,
                 default=None,
             ),
-            given("damping_ratio", _("its damping ratio"), above=0.0, below=1.0, default=None),
+            given("damping_ratio", mark("its damping ratio"), above=0.0, below=1.0, default=None),
             given(
                 "sweep_acceleration_rad_s2",
-                _("rise of the frequency of its force"),
+                mark("rise of the frequency of its force"),
                 "angular_acceleration",
                 above=0.0,
                 default=None,
             ),
-            given("equation", _("the oscillator's equation"), kind="word", choices=(EQUATION,), default=EQUATION),
-            given("alpha_deg", _("bend of the joint"), "angle", low=0.0, below=RIGHT, default=None),
+            given("equation", mark("the oscillator's equation"), kind="word", choices=(EQUATION,), default=EQUATION),
+            given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT, default=None),
             given(
-                "stiffness_Nm_per_rad", _("stiffness of the driven shaft"), "turning_stiffness", above=0.0, default=None
+                "stiffness_Nm_per_rad",
+                mark("stiffness of the driven shaft"),
+                "turning_stiffness",
+                above=0.0,
+                default=None,
             ),
-            given("inertia_kgm2", _("inertia at its end"), "inertia", above=0.0, default=None),
-            given("damping_Nms_per_rad", _("damping of the driven shaft"), "turning_damping", low=0.0, default=0.0),
+            given("inertia_kgm2", mark("inertia at its end"), "inertia", above=0.0, default=None),
+            given("damping_Nms_per_rad", mark("damping of the driven shaft"), "turning_damping", low=0.0, default=0.0),
             given(
                 "input_acceleration_rad_s2",
-                _("acceleration of the driving shaft"),
+                mark("acceleration of the driving shaft"),
                 "angular_acceleration",
                 above=0.0,
                 default=None,
             ),
-            given("t_s", _("instants of the curve"), "time", axes=(1,), low=0.0, default=None),
-            given("t_max_s", _("end of the run"), "time", above=0.0),
+            given("t_s", mark("instants of the curve"), "time", axes=(1,), low=0.0, default=None),
+            given("t_max_s", mark("end of the run"), "time", above=0.0),
         ),
         returns=(
-            gives("y", _("response at the instants, over the static one")),
-            gives("torque_Nm", _("torque at the instants"), "torque"),
-            gives("peak_abs", _("largest response")),
-            gives("peak_torque_Nm", _("largest torque"), "torque"),
-            gives("peak_time_s", _("when"), "time"),
-            gives("peak_input_speed_rad_s", _("input speed then"), "angular_speed"),
-            gives("passing_time_s", _("when the frequency of the force passes the natural one"), "time"),
-            gives("steady_peak_abs", _("largest steady response: the limit of a slow run-up")),
+            gives("y", mark("response at the instants, over the static one")),
+            gives("torque_Nm", mark("torque at the instants"), "torque"),
+            gives("peak_abs", mark("largest response")),
+            gives("peak_torque_Nm", mark("largest torque"), "torque"),
+            gives("peak_time_s", mark("when"), "time"),
+            gives("peak_input_speed_rad_s", mark("input speed then"), "angular_speed"),
+            gives("passing_time_s", mark("when the frequency of the force passes the natural one"), "time"),
+            gives("steady_peak_abs", mark("largest steady response: the limit of a slow run-up")),
             gives(
-                "critical_speed_order2_rad_s", _("speed at which order 2 meets the natural frequency"), "angular_speed"
+                "critical_speed_order2_rad_s",
+                mark("speed at which order 2 meets the natural frequency"),
+                "angular_speed",
             ),
         ),
         answer=_answer,

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.analysis.simulation import Simulation, Status
 from cardan.analysis.transient import simulate
 from cardan.errors import InputError, Problem, check
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 from .torsion_tables import MODEL, model_of, model_problems
@@ -17,9 +17,11 @@ from .torsion_tables import MODEL, model_of, model_problems
 _NAMES = {"angle": "initial_angles", "speed": "initial_speed", "span": "t_end"}
 
 _CAUSES = {
-    Status.DIVERGED: _("the motion leaves all bounds at {time:.6g} s"),
-    Status.SNAPPED: _("at {time:.6g} s the torque snaps a joint without inertia through: no static balance holds it"),
-    Status.STALLED: _("at {time:.6g} s no step is short enough for the tolerance"),
+    Status.DIVERGED: mark("the motion leaves all bounds at {time:.6g} s"),
+    Status.SNAPPED: mark(
+        "at {time:.6g} s the torque snaps a joint without inertia through: no static balance holds it"
+    ),
+    Status.STALLED: mark("at {time:.6g} s no step is short enough for the tolerance"),
 }
 
 
@@ -47,7 +49,7 @@ def _answer(values: Values) -> Values:
     except InputError as error:
         raise error.renamed(lambda field: _NAMES.get(field, field)) from None
     status = Status(int(found.status))
-    text = _CAUSES.get(status)
+    text = _(_CAUSES.get(status, ""))
     check([Problem("t_end", text.format(time=float(found.ended)))] if text else [])
     return {
         "station_angle_rad": found.angle[-1],
@@ -74,39 +76,39 @@ def _extremes(found: Simulation) -> Values:
 CALCULATIONS = (
     Calculation(
         name="torsional_simulation",
-        doc=_("torsional motion of a drive in time: angles, speeds and torques at the end, and their extremes"),
+        doc=mark("torsional motion of a drive in time: angles, speeds and torques at the end, and their extremes"),
         source="exact equations of motion, one coordinate a group of stations that joints bind together",
         takes=(
             *MODEL,
             given(
                 "initial_speed_rad_s",
-                _("speed of all coordinates at the start; the forced one without it, else 0"),
+                mark("speed of all coordinates at the start; the forced one without it, else 0"),
                 "angular_speed",
                 default=None,
             ),
             given(
                 "initial_angles_rad",
-                _("angle of every coordinate at the start, in the order of stations; 0 without it"),
+                mark("angle of every coordinate at the start, in the order of stations; 0 without it"),
                 "angle",
                 axes=(1,),
                 entries=True,
                 default=None,
             ),
-            given("t_end_s", _("how long"), "time", above=0.0),
+            given("t_end_s", mark("how long"), "time", above=0.0),
         ),
         returns=(
-            gives("station_angle_rad", _("angle of every station"), "angle"),
-            gives("station_speed_rad_s", _("speed of every station"), "angular_speed"),
-            gives("element_torque_Nm", _("torque of every element, positive along the power flow"), "torque"),
-            gives("energy_J", _("kinetic and elastic energy"), "work"),
-            gives("energy_residual_J", _("what the account of energy misses"), "work"),
-            gives("input_torque_Nm", _("torque that forces the speed of the first station"), "torque"),
-            gives("highest_element_torque_Nm", _("highest torque of every element over the whole time"), "torque"),
-            gives("lowest_element_torque_Nm", _("lowest torque of every element over the whole time"), "torque"),
-            gives("highest_station_speed_rad_s", _("highest speed of every station over the time"), "angular_speed"),
-            gives("lowest_station_speed_rad_s", _("lowest speed of every station over the time"), "angular_speed"),
-            gives("method", _("what integrated: explicit or implicit")),
-            gives("steps", _("steps taken")),
+            gives("station_angle_rad", mark("angle of every station"), "angle"),
+            gives("station_speed_rad_s", mark("speed of every station"), "angular_speed"),
+            gives("element_torque_Nm", mark("torque of every element, positive along the power flow"), "torque"),
+            gives("energy_J", mark("kinetic and elastic energy"), "work"),
+            gives("energy_residual_J", mark("what the account of energy misses"), "work"),
+            gives("input_torque_Nm", mark("torque that forces the speed of the first station"), "torque"),
+            gives("highest_element_torque_Nm", mark("highest torque of every element over the whole time"), "torque"),
+            gives("lowest_element_torque_Nm", mark("lowest torque of every element over the whole time"), "torque"),
+            gives("highest_station_speed_rad_s", mark("highest speed of every station over the time"), "angular_speed"),
+            gives("lowest_station_speed_rad_s", mark("lowest speed of every station over the time"), "angular_speed"),
+            gives("method", mark("what integrated: explicit or implicit")),
+            gives("steps", mark("steps taken")),
         ),
         answer=_answer,
         check=_problems,

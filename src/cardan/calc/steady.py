@@ -14,14 +14,14 @@ from cardan.analysis.torsional_model import TorsionalModel
 from cardan.errors import InputError, Problem
 from cardan.maths.arrays import Array
 from cardan.maths.periodic import Status
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 from .torsion_tables import MODEL, model_of, model_problems
 
 MEAN_SPEED = given(
     "mean_speed_rad_s",
-    _("mean speed of a free drive; its constant drive torque is sought"),
+    mark("mean speed of a free drive; its constant drive torque is sought"),
     "angular_speed",
     default=None,
 )
@@ -119,45 +119,47 @@ def _table(orders: list[str], curves: Orders) -> list[dict[str, Array]]:
 CALCULATIONS = (
     Calculation(
         name="periodic_response",
-        doc=_("steady torsional running at a speed: torque of every element and speed of every station by orders"),
+        doc=mark("steady torsional running at a speed: torque of every element and speed of every station by orders"),
         source="harmonic balance of the exact equations of motion",
         takes=(*MODEL, MEAN_SPEED),
         returns=(
-            gives("elements", _("of every element: mean, amplitude and phase of each order, true extremes")),
-            gives("station_speed_order_amplitude_rad_s", _("amplitude of every station's speed by order")),
-            gives("constant_drive_torque_Nm", _("constant torque on the first station that keeps the mean speed")),
-            gives("drive_torque_mean_Nm", _("mean torque that the input needs to turn at its speed")),
-            gives("drive_torque_order_amplitude_Nm", _("amplitude of that torque by order")),
-            gives("stable", _("whether small disturbances die out")),
-            gives("verdict", _("stable, neutral, unstable or unknown")),
-            gives("status", _("converged, coarse or no_convergence")),
-            gives("residual", _("by how much the equations fail to hold, over the largest torque")),
-            gives("power_residual", _("what the power balance misses, over the power that flows")),
+            gives("elements", mark("of every element: mean, amplitude and phase of each order, true extremes")),
+            gives("station_speed_order_amplitude_rad_s", mark("amplitude of every station's speed by order")),
+            gives("constant_drive_torque_Nm", mark("constant torque on the first station that keeps the mean speed")),
+            gives("drive_torque_mean_Nm", mark("mean torque that the input needs to turn at its speed")),
+            gives("drive_torque_order_amplitude_Nm", mark("amplitude of that torque by order")),
+            gives("stable", mark("whether small disturbances die out")),
+            gives("verdict", mark("stable, neutral, unstable or unknown")),
+            gives("status", mark("converged, coarse or no_convergence")),
+            gives("residual", mark("by how much the equations fail to hold, over the largest torque")),
+            gives("power_residual", mark("what the power balance misses, over the power that flows")),
         ),
         answer=_response,
         check=speed_problems,
     ),
     Calculation(
         name="floquet_stability",
-        doc=_("whether steady torsional running is stable: multipliers of a period, growth, nearest zone of resonance"),
+        doc=mark(
+            "whether steady torsional running is stable: multipliers of a period, growth, nearest zone of resonance"
+        ),
         source="exact equations of motion linearised about their periodic motion",
         takes=(*MODEL, MEAN_SPEED),
         returns=(
-            gives("multiplier_period_rad", _("shaft angle of a period")),
-            gives("multiplier_modulus_sorted", _("by what each disturbance is multiplied over a period")),
-            gives("multiplier_angle_deg", _("angle of these multipliers"), "angle"),
-            gives("multipliers_removed", _("left out of a free drive: shift in time, and any speed being possible")),
-            gives("spectral_radius", _("the largest of them")),
-            gives("stable", _("whether every disturbance dies out")),
-            gives("verdict", _("stable, neutral, unstable or unknown")),
-            gives("growth_rate_1_per_s", _("rate at which the largest disturbance grows")),
-            gives("kind", _("how a growing disturbance swings: repeating, doubling or combination")),
-            gives("disturbance_order", _("lowest order at which it swings")),
-            gives("nearest_zone", _("nearest zone of parametric resonance")),
-            gives("nearest_zone_rad_s", _("its speed by the straight drive")),
-            gives("status", _("of the steady motion: converged, coarse or no_convergence")),
-            gives("determinant_residual", _("what the product of the multipliers misses against the damping")),
-            gives("torques_left_out", _("numbers of torques whose order does not repeat within two turns")),
+            gives("multiplier_period_rad", mark("shaft angle of a period")),
+            gives("multiplier_modulus_sorted", mark("by what each disturbance is multiplied over a period")),
+            gives("multiplier_angle_deg", mark("angle of these multipliers"), "angle"),
+            gives("multipliers_removed", mark("left out of a free drive: shift in time, and any speed being possible")),
+            gives("spectral_radius", mark("the largest of them")),
+            gives("stable", mark("whether every disturbance dies out")),
+            gives("verdict", mark("stable, neutral, unstable or unknown")),
+            gives("growth_rate_1_per_s", mark("rate at which the largest disturbance grows")),
+            gives("kind", mark("how a growing disturbance swings: repeating, doubling or combination")),
+            gives("disturbance_order", mark("lowest order at which it swings")),
+            gives("nearest_zone", mark("nearest zone of parametric resonance")),
+            gives("nearest_zone_rad_s", mark("its speed by the straight drive")),
+            gives("status", mark("of the steady motion: converged, coarse or no_convergence")),
+            gives("determinant_residual", mark("what the product of the multipliers misses against the damping")),
+            gives("torques_left_out", mark("numbers of torques whose order does not repeat within two turns")),
         ),
         answer=_stability,
         check=speed_problems,

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.analysis.stepped import Node, placed_speeds, stepped_speeds
 from cardan.errors import Problem
 from cardan.maths.rotor_beams import Section, round_section
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .bending import DENSITY, INNER, LENGTH, MILLIMETRES, OUTER, SPEEDS, YOUNGS, length, mode_count
 from .bores import segment_bores
@@ -109,91 +109,97 @@ def _beam(values: Values) -> Values:
     return {"n_critical_1_rpm": speed[0], "n_critical_2_rpm": speed[1]}
 
 
-PLACE = length("x_mm", _("place from the start of the shaft"), low=0.0)
+PLACE = length("x_mm", mark("place from the start of the shaft"), low=0.0)
 
 
 CALCULATIONS = (
     Calculation(
         name="critical_speed_stepped",
-        doc=_("critical speeds of a stepped shaft with supports, masses and hinges at its nodes, exactly"),
-        source=_("transfer matrices of Timoshenko's beam, Wittrick-Williams count"),
+        doc=mark("critical speeds of a stepped shaft with supports, masses and hinges at its nodes, exactly"),
+        source=mark("transfer matrices of Timoshenko's beam, Wittrick-Williams count"),
         takes=(
             given(
                 "theory",
-                _("with or without shear and rotary inertia"),
+                mark("with or without shear and rotary inertia"),
                 kind="word",
                 choices=THEORIES,
                 default=THEORIES[1],
             ),
             given(
-                "whirl", _("at a given spin, or as fast as it whirls"), kind="word", choices=WHIRLS, default=WHIRLS[1]
+                "whirl",
+                mark("at a given spin, or as fast as it whirls"),
+                kind="word",
+                choices=WHIRLS,
+                default=WHIRLS[1],
             ),
-            given("speed_rad_s", _("spin; 0 at rest, negative against the whirl"), "angular_speed", default=0.0),
+            given("speed_rad_s", mark("spin; 0 at rest, negative against the whirl"), "angular_speed", default=0.0),
             mode_count(3),
             rows(
                 "segments",
-                _("sections from end to end"),
+                mark("sections from end to end"),
                 LENGTH,
                 OUTER,
                 INNER,
                 YOUNGS,
                 DENSITY,
-                given("poisson", _("Poisson's ratio"), low=0.0, below=0.5, default=0.3),
+                given("poisson", mark("Poisson's ratio"), low=0.0, below=0.5, default=0.3),
             ),
             rows(
                 "nodes",
-                _("ends of the sections, one more than these"),
-                given("end", _("how an end is held"), kind="word", choices=("pinned", "fixed", "free"), default=None),
-                given("pinned", _("whether a rigid bearing holds it"), kind="flag", default=False),
-                given("hinge", _("whether a joint passes no moment there"), kind="flag", default=False),
-                given("support_stiffness_N_per_m", _("stiffness of a support"), "stiffness", low=0.0, default=0.0),
+                mark("ends of the sections, one more than these"),
+                given(
+                    "end", mark("how an end is held"), kind="word", choices=("pinned", "fixed", "free"), default=None
+                ),
+                given("pinned", mark("whether a rigid bearing holds it"), kind="flag", default=False),
+                given("hinge", mark("whether a joint passes no moment there"), kind="flag", default=False),
+                given("support_stiffness_N_per_m", mark("stiffness of a support"), "stiffness", low=0.0, default=0.0),
                 given(
                     "tilt_stiffness_Nm_per_rad",
-                    _("stiffness against tilting"),
+                    mark("stiffness against tilting"),
                     "turning_stiffness",
                     low=0.0,
                     default=0.0,
                 ),
-                given("mass_kg", _("mass"), "mass", low=0.0, default=0.0),
-                given("diametral_inertia_kgm2", _("moment of inertia across"), "inertia", low=0.0, default=0.0),
-                given("polar_inertia_kgm2", _("moment of inertia about the shaft"), "inertia", low=0.0, default=0.0),
+                given("mass_kg", mark("mass"), "mass", low=0.0, default=0.0),
+                given("diametral_inertia_kgm2", mark("moment of inertia across"), "inertia", low=0.0, default=0.0),
+                given("polar_inertia_kgm2", mark("moment of inertia about the shaft"), "inertia", low=0.0, default=0.0),
             ),
         ),
         returns=(
             SPEEDS,
-            gives("rigid_modes", _("how many of them are zero: motions without bending")),
-            gives("lost_modes", _("modes without a critical speed, for parts with more inertia about than across")),
+            gives("rigid_modes", mark("how many of them are zero: motions without bending")),
+            gives("lost_modes", mark("modes without a critical speed, for parts with more inertia about than across")),
         ),
         answer=_stepped,
         check=_stepped_check,
     ),
     Calculation(
         name="critical_speed_beam",
-        doc=_("first two critical speeds of a stepped shaft with springs, masses and supports anywhere along it"),
-        source=_("transfer matrices without shear and rotary inertia"),
+        doc=mark("first two critical speeds of a stepped shaft with springs, masses and supports anywhere along it"),
+        source=mark("transfer matrices without shear and rotary inertia"),
         takes=(
-            rows("segments", _("sections from end to end"), *MILLIMETRES),
+            rows("segments", mark("sections from end to end"), *MILLIMETRES),
             rows(
                 "springs",
-                _("springs that hold it sideways"),
+                mark("springs that hold it sideways"),
                 PLACE,
-                given("k_N_per_m", _("stiffness"), "stiffness", above=0.0),
+                given("k_N_per_m", mark("stiffness"), "stiffness", above=0.0),
                 default=(),
             ),
             rows(
                 "masses",
-                _("yokes, slip parts, bearings"),
+                mark("yokes, slip parts, bearings"),
                 PLACE,
-                given("mass_kg", _("mass"), "mass", low=0.0),
+                given("mass_kg", mark("mass"), "mass", low=0.0),
                 default=(),
             ),
             rows(
                 "supports",
-                _("rigid supports"),
+                mark("rigid supports"),
                 PLACE,
                 given(
                     "type",
-                    _("whether it holds the slope too"),
+                    mark("whether it holds the slope too"),
                     kind="word",
                     choices=("pinned", "fixed"),
                     default="pinned",
@@ -202,8 +208,8 @@ CALCULATIONS = (
             ),
         ),
         returns=(
-            gives("n_critical_1_rpm", _("first critical speed"), "angular_speed"),
-            gives("n_critical_2_rpm", _("second critical speed"), "angular_speed"),
+            gives("n_critical_1_rpm", mark("first critical speed"), "angular_speed"),
+            gives("n_critical_2_rpm", mark("second critical speed"), "angular_speed"),
         ),
         answer=_beam,
         check=_beam_check,

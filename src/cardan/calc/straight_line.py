@@ -8,14 +8,14 @@ import numpy as np
 
 from cardan.analysis.straight_line import line_modes, line_response
 from cardan.errors import Problem, check
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 
-INERTIA = given("inertia_kgm2", _("inertia of each station"), "inertia", axes=(1,), low=0.0)
+INERTIA = given("inertia_kgm2", mark("inertia of each station"), "inertia", axes=(1,), low=0.0)
 STIFFNESS = given(
     "stiffness_Nm_per_rad",
-    _("stiffness of each element between neighbouring stations"),
+    mark("stiffness of each element between neighbouring stations"),
     "turning_stiffness",
     axes=(1,),
     above=0.0,
@@ -82,41 +82,41 @@ def _forced(values: Values) -> Values:
 CALCULATIONS = (
     Calculation(
         name="torsional_natural_frequencies",
-        doc=_("torsional natural frequencies of a straight free line of shafts, and the speeds that meet them"),
-        source=_("(K - ω²J) x = 0 with ratio 1 at every joint"),
+        doc=mark("torsional natural frequencies of a straight free line of shafts, and the speeds that meet them"),
+        source=mark("(K - ω²J) x = 0 with ratio 1 at every joint"),
         takes=(INERTIA, STIFFNESS),
         returns=(
-            gives("omega_rad_s", _("natural frequencies, 0 for the free turning"), "frequency"),
-            gives("order2_critical_speed_rpm", _("speeds at which order 2 meets them"), "angular_speed"),
-            gives("parametric_principal_speed_rpm", _("speeds of the principal parametric zones"), "angular_speed"),
-            gives("mode_shape", _("angle of each station in each mode, the largest 1")),
+            gives("omega_rad_s", mark("natural frequencies, 0 for the free turning"), "frequency"),
+            gives("order2_critical_speed_rpm", mark("speeds at which order 2 meets them"), "angular_speed"),
+            gives("parametric_principal_speed_rpm", mark("speeds of the principal parametric zones"), "angular_speed"),
+            gives("mode_shape", mark("angle of each station in each mode, the largest 1")),
         ),
         answer=_modes,
         check=fitting(),
     ),
     Calculation(
         name="linear_forced_response",
-        doc=_("steady torsional vibration of a straight line of shafts under a harmonic torque at one station"),
-        source=_("complex stiffness c(1 + iη) + iωb of each element"),
+        doc=mark("steady torsional vibration of a straight line of shafts under a harmonic torque at one station"),
+        source=mark("complex stiffness c(1 + iη) + iωb of each element"),
         takes=(
             INERTIA,
             STIFFNESS,
             given(
                 "damping_Nms_per_rad",
-                _("viscous damping of each element"),
+                mark("viscous damping of each element"),
                 "turning_damping",
                 axes=(1,),
                 low=0.0,
                 default=None,
             ),
-            given("loss_factor", _("structural damping of each element"), axes=(1,), low=0.0, default=None),
-            given("torque_station", _("station of the torque, counted from 1"), kind="whole", low=1),
-            given("torque_amplitude_Nm", _("amplitude of the torque"), "torque", default=1.0),
-            given("omega_rad_s", _("frequency of the torque"), "frequency", axes=(0, 1), low=0.0),
+            given("loss_factor", mark("structural damping of each element"), axes=(1,), low=0.0, default=None),
+            given("torque_station", mark("station of the torque, counted from 1"), kind="whole", low=1),
+            given("torque_amplitude_Nm", mark("amplitude of the torque"), "torque", default=1.0),
+            given("omega_rad_s", mark("frequency of the torque"), "frequency", axes=(0, 1), low=0.0),
         ),
         returns=(
-            gives("station_amplitude_rad", _("amplitude of each station"), "angle"),
-            gives("element_torque_Nm", _("amplitude of the torque in each element"), "torque"),
+            gives("station_amplitude_rad", mark("amplitude of each station"), "angle"),
+            gives("element_torque_Nm", mark("amplitude of the torque in each element"), "torque"),
         ),
         answer=_forced,
         check=fitting("damping", "loss_factor"),

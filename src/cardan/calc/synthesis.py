@@ -12,7 +12,7 @@ from cardan.errors import Problem
 from cardan.synthesis.phases import phases
 from cardan.synthesis.setting import settings
 from cardan.synthesis.spline_pitch import best_pitched, steps
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Given, Values, given, gives
 from .kinematics import bends, between, points, twists
@@ -93,56 +93,60 @@ def _yokes(key: str, doc: str) -> Given:
 CALCULATIONS = (
     Calculation(
         name="synthesis_continuous",
-        doc=_("yoke angles that make a chain synchronous or as even as can be, and what they can reach"),
+        doc=mark("yoke angles that make a chain synchronous or as even as can be, and what they can reach"),
         source="hyperbolic polygon; Book (77)-(86) is its first order",
         takes=(
             bends(axes=(1,), default=None),
             twists(axes=(1,)),
             points(default=None),
-            _yokes("gamma_deg", _("present yoke angle of shafts 2 to n")),
+            _yokes("gamma_deg", mark("present yoke angle of shafts 2 to n")),
             given(
-                "fixed_gamma_deg", _("yoke angles that must stay, by shaft number"), "angle", kind="table", default=None
+                "fixed_gamma_deg",
+                mark("yoke angles that must stay, by shaft number"),
+                "angle",
+                kind="table",
+                default=None,
             ),
         ),
         returns=(
-            gives("delta_min", _("smallest irregularity")),
-            gives("delta_max", _("largest irregularity")),
-            gives("synchronous_feasible", _("whether the chain can be synchronous")),
-            gives("alpha_eq_min_deg", _("smallest equivalent angle"), "angle"),
-            gives("alpha_eq_max_deg", _("largest equivalent angle"), "angle"),
-            gives("gamma_deg", _("best yoke angles"), "angle"),
-            gives("gamma_deg_sets", _("best yoke angles and their mirror image"), "angle"),
-            gives("delta", _("irregularity that the best yoke angles leave")),
-            gives("delta_of_each_shaft", _("irregularity of shafts 2 to n+1 then")),
-            gives("psi_mod180_deg", _("phase angle of each joint then"), "angle"),
-            gives("delta_per_rad", _("growth of the irregularity for each yoke turned, per radian")),
-            gives("limiting_joint", _("number of the joint that bends too much for the others")),
+            gives("delta_min", mark("smallest irregularity")),
+            gives("delta_max", mark("largest irregularity")),
+            gives("synchronous_feasible", mark("whether the chain can be synchronous")),
+            gives("alpha_eq_min_deg", mark("smallest equivalent angle"), "angle"),
+            gives("alpha_eq_max_deg", mark("largest equivalent angle"), "angle"),
+            gives("gamma_deg", mark("best yoke angles"), "angle"),
+            gives("gamma_deg_sets", mark("best yoke angles and their mirror image"), "angle"),
+            gives("delta", mark("irregularity that the best yoke angles leave")),
+            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1 then")),
+            gives("psi_mod180_deg", mark("phase angle of each joint then"), "angle"),
+            gives("delta_per_rad", mark("growth of the irregularity for each yoke turned, per radian")),
+            gives("limiting_joint", mark("number of the joint that bends too much for the others")),
         ),
         answer=_continuous,
         check=_check,
     ),
     Calculation(
         name="synthesis_spline",
-        doc=_("best yoke angles that spline teeth allow, all looked at"),
+        doc=mark("best yoke angles that spline teeth allow, all looked at"),
         source="enumeration on the exact model",
         takes=(
             bends(axes=(1,), default=None),
             twists(axes=(1,)),
             points(default=None),
-            given("spline_teeth", _("teeth of the spline on shafts 2 to n"), kind="whole", axes=(1,), low=1),
-            _yokes("gamma_offset_deg", _("yoke angle of shafts 2 to n from which the teeth count")),
+            given("spline_teeth", mark("teeth of the spline on shafts 2 to n"), kind="whole", axes=(1,), low=1),
+            _yokes("gamma_offset_deg", mark("yoke angle of shafts 2 to n from which the teeth count")),
         ),
         returns=(
-            gives("delta_min", _("smallest irregularity")),
-            gives("delta_second_best", _("irregularity of the runner-up")),
-            gives("n_distinct", _("different yoke angles each spline allows")),
-            gives("gamma_deg", _("best yoke angles"), "angle"),
-            gives("gamma_deg_minimisers", _("all equally good sets found"), "angle"),
-            gives("gamma_deg_sets", _("best sets, best first"), "angle"),
-            gives("delta_of_each_set", _("irregularity each set leaves")),
-            gives("delta_of_each_shaft", _("irregularity of shafts 2 to n+1 with the best set")),
-            gives("psi_mod180_deg", _("phase angle of each joint with the best set"), "angle"),
-            gives("delta_per_rad", _("growth of the irregularity for each yoke turned, per radian")),
+            gives("delta_min", mark("smallest irregularity")),
+            gives("delta_second_best", mark("irregularity of the runner-up")),
+            gives("n_distinct", mark("different yoke angles each spline allows")),
+            gives("gamma_deg", mark("best yoke angles"), "angle"),
+            gives("gamma_deg_minimisers", mark("all equally good sets found"), "angle"),
+            gives("gamma_deg_sets", mark("best sets, best first"), "angle"),
+            gives("delta_of_each_set", mark("irregularity each set leaves")),
+            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1 with the best set")),
+            gives("psi_mod180_deg", mark("phase angle of each joint with the best set"), "angle"),
+            gives("delta_per_rad", mark("growth of the irregularity for each yoke turned, per radian")),
         ),
         answer=_spline,
         check=_check,

@@ -10,7 +10,7 @@ from cardan.analysis.torques import Asynchronous, Constant, Falling, History, La
 from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Given, Values, given, rows
 from .kinematics import RIGHT
@@ -22,59 +22,59 @@ def _each(key: str, doc: str, dimension: str, **options: object) -> Given:
 
 SHAFTS = rows(
     "shafts",
-    _("shafts along the power flow, each with its stations"),
-    _each("inertia_kgm2", _("inertia of every station"), "inertia", low=0.0),
-    _each("stiffness_Nm_per_rad", _("between neighbouring stations"), "turning_stiffness", above=0.0, default=()),
-    _each("damping_Nms_per_rad", _("between neighbouring stations"), "turning_damping", low=0.0, default=None),
-    _each("gap_rad", _("whole play between neighbouring stations"), "angle", low=0.0, default=None),
-    _each("ground_damping_Nms_per_rad", _("of every station to ground"), "turning_damping", low=0.0, default=None),
+    mark("shafts along the power flow, each with its stations"),
+    _each("inertia_kgm2", mark("inertia of every station"), "inertia", low=0.0),
+    _each("stiffness_Nm_per_rad", mark("between neighbouring stations"), "turning_stiffness", above=0.0, default=()),
+    _each("damping_Nms_per_rad", mark("between neighbouring stations"), "turning_damping", low=0.0, default=None),
+    _each("gap_rad", mark("whole play between neighbouring stations"), "angle", low=0.0, default=None),
+    _each("ground_damping_Nms_per_rad", mark("of every station to ground"), "turning_damping", low=0.0, default=None),
 )
 """Shafts with their stations."""
 
 JOINTS = rows(
     "joints",
-    _("joints between the shafts"),
-    given("alpha_deg", _("bend"), "angle", low=0.0, below=RIGHT),
-    given("psi_deg", _("phase of the driving yoke at the start position"), "angle", default=0.0),
+    mark("joints between the shafts"),
+    given("alpha_deg", mark("bend"), "angle", low=0.0, below=RIGHT),
+    given("psi_deg", mark("phase of the driving yoke at the start position"), "angle", default=0.0),
 )
 """Joints between the shafts."""
 
 TORQUES = rows(
     "torques",
-    _("torques on stations, positive with the rotation"),
-    given("shaft", _("number of the shaft from 1"), kind="whole"),
-    given("station", _("number of the station on its shaft from 1"), kind="whole"),
+    mark("torques on stations, positive with the rotation"),
+    given("shaft", mark("number of the shaft from 1"), kind="whole"),
+    given("station", mark("number of the station on its shaft from 1"), kind="whole"),
     default=(),
     kinds={
-        "constant": (given("value_Nm", _("torque"), "torque"),),
+        "constant": (given("value_Nm", mark("torque"), "torque"),),
         "harmonic": (
-            given("amplitude_Nm", _("amplitude"), "torque"),
-            given("order", _("swings in one turn of the station")),
-            given("phase_deg", _("phase of the sine at the start position"), "angle", default=0.0),
+            given("amplitude_Nm", mark("amplitude"), "torque"),
+            given("order", mark("swings in one turn of the station")),
+            given("phase_deg", mark("phase of the sine at the start position"), "angle", default=0.0),
         ),
         "linear_speed": (
-            given("M0_Nm", _("torque at standstill"), "torque"),
-            given("slope_Nms_per_rad", _("by how much it falls with the speed"), "turning_damping"),
+            given("M0_Nm", mark("torque at standstill"), "torque"),
+            given("slope_Nms_per_rad", mark("by how much it falls with the speed"), "turning_damping"),
         ),
         "speed_table": (
-            _each("omega_rad_s", _("speeds of the table, rising"), "angular_speed"),
-            _each("M_Nm", _("torques at these speeds"), "torque"),
+            _each("omega_rad_s", mark("speeds of the table, rising"), "angular_speed"),
+            _each("M_Nm", mark("torques at these speeds"), "torque"),
         ),
         "time_history": (
-            _each("t_s", _("times of the table, rising"), "time"),
-            _each("M_Nm", _("torques at these times"), "torque"),
+            _each("t_s", mark("times of the table, rising"), "time"),
+            _each("M_Nm", mark("torques at these times"), "torque"),
         ),
         "asynchronous": (
-            given("omega_sync_rad_s", _("synchronous speed; negative turns the other way"), "angular_speed"),
-            given("M_pullout_Nm", _("pull-out torque"), "torque", low=0.0),
-            given("slip_pullout", _("slip at the pull-out torque"), above=0.0),
+            given("omega_sync_rad_s", mark("synchronous speed; negative turns the other way"), "angular_speed"),
+            given("M_pullout_Nm", mark("pull-out torque"), "torque", low=0.0),
+            given("slip_pullout", mark("slip at the pull-out torque"), above=0.0),
         ),
     },
 )
 """Torques on stations."""
 
 INPUT_SPEED = given(
-    "input_speed_rad_s", _("speed forced on the first station; free without it"), "angular_speed", default=None
+    "input_speed_rad_s", mark("speed forced on the first station; free without it"), "angular_speed", default=None
 )
 """Speed forced on the first station."""
 

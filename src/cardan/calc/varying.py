@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from cardan.analysis.random_bend import random_bend
 from cardan.analysis.varying_bend import swinging_chain, swinging_joint
 from cardan.errors import Problem
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .calculation import Calculation, Values, given, gives
 from .kinematics import ACCELERATION, RIGHT
 
-TIME = given("t_s", _("time"), "time", axes=(0, 1))
+TIME = given("t_s", mark("time"), "time", axes=(0, 1))
 
 
 def _swing_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
@@ -83,65 +83,65 @@ def _random_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem
 CALCULATIONS = (
     Calculation(
         name="varying_angle_single",
-        doc=_("one joint whose bend swings harmonically, the plane of the shafts at rest"),
+        doc=mark("one joint whose bend swings harmonically, the plane of the shafts at rest"),
         source="Book (96)-(98), completed",
         takes=(
-            given("alpha_mean_deg", _("mean bend"), "angle"),
-            given("alpha_amp_deg", _("amplitude of the bend"), "angle"),
-            given("alpha_omega_rad_s", _("angular frequency of the bend"), "angular_speed"),
-            given("alpha_phase_deg", _("phase of the bend at time zero"), "angle", default=0.0),
-            given("omega1_at_t0_rad_s", _("input speed at time zero"), "angular_speed"),
+            given("alpha_mean_deg", mark("mean bend"), "angle"),
+            given("alpha_amp_deg", mark("amplitude of the bend"), "angle"),
+            given("alpha_omega_rad_s", mark("angular frequency of the bend"), "angular_speed"),
+            given("alpha_phase_deg", mark("phase of the bend at time zero"), "angle", default=0.0),
+            given("omega1_at_t0_rad_s", mark("input speed at time zero"), "angular_speed"),
             ACCELERATION,
-            given("psi1_deg", _("phase angle of the joint at time zero"), "angle", default=0.0),
+            given("psi1_deg", mark("phase angle of the joint at time zero"), "angle", default=0.0),
             TIME,
         ),
         returns=(
-            gives("alpha_deg", _("bend"), "angle"),
-            gives("alpha_rate_rad_s", _("rate of the bend"), "angular_speed"),
-            gives("alpha_acc_rad_s2", _("acceleration of the bend"), "angular_acceleration"),
-            gives("phi1_rad", _("input angle"), "angle"),
-            gives("omega2_rad_s", _("speed of the driven shaft"), "angular_speed"),
-            gives("eps2_rad_s2", _("acceleration of the driven shaft"), "angular_acceleration"),
+            gives("alpha_deg", mark("bend"), "angle"),
+            gives("alpha_rate_rad_s", mark("rate of the bend"), "angular_speed"),
+            gives("alpha_acc_rad_s2", mark("acceleration of the bend"), "angular_acceleration"),
+            gives("phi1_rad", mark("input angle"), "angle"),
+            gives("omega2_rad_s", mark("speed of the driven shaft"), "angular_speed"),
+            gives("eps2_rad_s2", mark("acceleration of the driven shaft"), "angular_acceleration"),
         ),
         answer=_single,
         check=_swing_check,
     ),
     Calculation(
         name="varying_angle_double",
-        doc=_("planar double joint whose bends swing, one as a sine, the other as a cosine"),
+        doc=mark("planar double joint whose bends swing, one as a sine, the other as a cosine"),
         source="Book (99)",
         takes=(
-            given("alpha12_mean_deg", _("mean bend of joint 1"), "angle"),
-            given("alpha12_sin_amp_deg", _("amplitude of the bend of joint 1"), "angle"),
-            given("alpha23_mean_deg", _("mean bend of joint 2"), "angle"),
-            given("alpha23_cos_amp_deg", _("amplitude of the bend of joint 2"), "angle"),
-            given("omega_angle_rad_s", _("angular frequency of the bends"), "angular_speed"),
-            given("omega1_rad_s", _("input speed"), "angular_speed"),
-            given("gamma2_deg", _("yoke angle of shaft 2"), "angle", default=0.0),
+            given("alpha12_mean_deg", mark("mean bend of joint 1"), "angle"),
+            given("alpha12_sin_amp_deg", mark("amplitude of the bend of joint 1"), "angle"),
+            given("alpha23_mean_deg", mark("mean bend of joint 2"), "angle"),
+            given("alpha23_cos_amp_deg", mark("amplitude of the bend of joint 2"), "angle"),
+            given("omega_angle_rad_s", mark("angular frequency of the bends"), "angular_speed"),
+            given("omega1_rad_s", mark("input speed"), "angular_speed"),
+            given("gamma2_deg", mark("yoke angle of shaft 2"), "angle", default=0.0),
             TIME,
         ),
         returns=(
-            gives("omega3_rad_s", _("output speed"), "angular_speed"),
-            gives("eps3_rad_s2", _("output acceleration"), "angular_acceleration"),
+            gives("omega3_rad_s", mark("output speed"), "angular_speed"),
+            gives("eps3_rad_s2", mark("output acceleration"), "angular_acceleration"),
         ),
         answer=_double,
         check=_swing_check,
     ),
     Calculation(
         name="varying_angle_random",
-        doc=_("mean and standard deviation of the driven speed of a joint with a random bend"),
-        source=_("expectations of Book (97) over the normal law"),
+        doc=mark("mean and standard deviation of the driven speed of a joint with a random bend"),
+        source=mark("expectations of Book (97) over the normal law"),
         takes=(
-            given("alpha_mean_deg", _("mean bend"), "angle", low=0.0, below=RIGHT),
-            given("alpha_std_deg", _("standard deviation of the bend"), "angle", low=0.0),
-            given("alpha_rate_std_rad_s", _("standard deviation of its rate"), "angular_speed", low=0.0),
-            given("omega1_rad_s", _("input speed"), "angular_speed"),
-            given("phi1_deg", _("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
+            given("alpha_mean_deg", mark("mean bend"), "angle", low=0.0, below=RIGHT),
+            given("alpha_std_deg", mark("standard deviation of the bend"), "angle", low=0.0),
+            given("alpha_rate_std_rad_s", mark("standard deviation of its rate"), "angular_speed", low=0.0),
+            given("omega1_rad_s", mark("input speed"), "angular_speed"),
+            given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
         ),
         returns=(
-            gives("omega2_mean_rad_s", _("mean speed of the driven shaft"), "angular_speed"),
-            gives("omega2_std_rad_s", _("standard deviation of that speed"), "angular_speed"),
-            gives("omega2_std_first_order_rad_s", _("the same to first order in the bend's"), "angular_speed"),
+            gives("omega2_mean_rad_s", mark("mean speed of the driven shaft"), "angular_speed"),
+            gives("omega2_std_rad_s", mark("standard deviation of that speed"), "angular_speed"),
+            gives("omega2_std_first_order_rad_s", mark("the same to first order in the bend's"), "angular_speed"),
         ),
         answer=_random,
         check=_random_check,

@@ -12,7 +12,7 @@ from cardan.catalogue.rows import AngleNorm
 from cardan.drive.chain import Chain
 from cardan.maths import mobius
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import Case
 from .check import Check
@@ -65,7 +65,7 @@ def _swings(chain: Chain) -> Array:
 
 CHECK = Check(
     name="acceleration",
-    doc=_("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
+    doc=mark("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
     judge=_judge,
     crosses="map",
 )

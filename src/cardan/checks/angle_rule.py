@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.angle_limits import RULE_ANGLE, RULE_DIFFERENCE
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -41,7 +41,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="angle_rule",
-    doc=_("rule of thumb: bends at most 6°, those of two joints within 1.5°"),
+    doc=mark("rule of thumb: bends at most 6°, those of two joints within 1.5°"),
     judge=_judge,
     crosses="all",
 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.angle_limits import TABLE_TORSIONAL, angle_limits
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -53,5 +53,8 @@ def _phased(design: Design) -> bool:
 
 
 CHECK = Check(
-    name="angle_table", doc=_("table of joint angles by speed, for two joints set right"), judge=_judge, crosses="all"
+    name="angle_table",
+    doc=mark("table of joint angles by speed, for two joints set right"),
+    judge=_judge,
+    crosses="all",
 )

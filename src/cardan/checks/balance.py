@@ -10,7 +10,7 @@ import numpy as np
 from cardan.analysis.balance import SLOW, allowed_unbalance
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -97,4 +97,4 @@ def _amount(design: Design, k: int) -> Array:
     return whole
 
 
-CHECK = Check(name="balance", doc=_("unbalance of every shaft against its balance grade or norm"), judge=_judge)
+CHECK = Check(name="balance", doc=mark("unbalance of every shaft against its balance grade or norm"), judge=_judge)

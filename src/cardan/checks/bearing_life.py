@@ -14,7 +14,7 @@ from cardan.analysis.needle_bearing import needle_rating
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -98,7 +98,7 @@ def _relative(design: Design, i: int) -> Array:
 
 CHECK = Check(
     name="bearing_life",
-    doc=_("life of the needle bearings of every joint by ISO 281 against the life asked for"),
+    doc=mark("life of the needle bearings of every joint by ISO 281 against the life asked for"),
     judge=_judge,
     crosses="each",
 )

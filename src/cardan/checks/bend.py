@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.catalogue.rows import JointType
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import largest
 from .check import Check
@@ -39,4 +39,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         yield made(value=largest([*bends, moved]), limit=limit, source=source, levers=design.bends_of(i), note=note)
 
 
-CHECK = Check(name="bend", doc=_("bend of every joint against what maker, type or user allow"), judge=_judge)
+CHECK = Check(name="bend", doc=mark("bend of every joint against what maker, type or user allow"), judge=_judge)

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.catalogue.rows import MaxBend
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -46,7 +46,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="bend_at_speed",
-    doc=_("largest bend of one joint at the highest speed, a maker's guide"),
+    doc=mark("largest bend of one joint at the highest speed, a maker's guide"),
     judge=_judge,
     crosses="all",
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.needle_bearing import STATIC_PRESSURE, needle_contact
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -43,5 +43,5 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="contact_pressure", doc=_("pressure of Hertz on the needles of every joint"), judge=_judge, crosses="each"
+    name="contact_pressure", doc=mark("pressure of Hertz on the needles of every joint"), judge=_judge, crosses="each"
 )

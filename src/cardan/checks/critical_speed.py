@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.critical_speed import ARTICLE, CATALOGUE
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import rpm
 
 from .check import Check
@@ -67,5 +67,5 @@ def _note(one: Whirl) -> str:
 
 
 CHECK = Check(
-    name="critical_speed", doc=_("critical speed of every shaft in bending against the highest speed"), judge=_judge
+    name="critical_speed", doc=mark("critical speed of every shaft in bending against the highest speed"), judge=_judge
 )

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.design_torque import design_torque
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import largest
 from .check import Check
@@ -58,4 +58,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
 
 
-CHECK = Check(name="design_torque", doc=_("torque of the duty against what engine and wheels can bring"), judge=_judge)
+CHECK = Check(
+    name="design_torque", doc=mark("torque of the duty against what engine and wheels can bring"), judge=_judge
+)

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.critical_speed import HALF_BAND
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -65,5 +65,5 @@ def _nearest(speeds: list[Array], middle: Array) -> Array:
 
 
 CHECK = Check(
-    name="half_critical", doc=_("speeds of running against the band about half the critical speed"), judge=_judge
+    name="half_critical", doc=mark("speeds of running against the band about half the critical speed"), judge=_judge
 )

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.equivalence import equivalent_joint
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import largest
 from .check import Check
@@ -44,5 +44,5 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="irregularity", doc=_("unevenness of the output against the limit of the user"), judge=_judge, crosses="law"
+    name="irregularity", doc=mark("unevenness of the output against the limit of the user"), judge=_judge, crosses="law"
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.catalogue.rows import JointType
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -44,6 +44,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="joint_torque",
-    doc=_("largest torque over a turn at every joint, shocks counted, against its rating"),
+    doc=mark("largest torque over a turn at every joint, shocks counted, against its rating"),
     judge=_judge,
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.joint_strength import journal_stress
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -50,5 +50,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="journal_strength", doc=_("stress at the roots of the journals against yielding"), judge=_judge, crosses="each"
+    name="journal_strength",
+    doc=mark("stress at the roots of the journals against yielding"),
+    judge=_judge,
+    crosses="each",
 )

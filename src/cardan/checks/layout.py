@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.upkeep import ONE_SHAFT, TWO_SHAFTS
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .check import Check
 from .design import Design
@@ -32,4 +32,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
 
 
-CHECK = Check(name="layout", doc=_("rule of thumb: how many shafts a wheelbase needs"), judge=_judge)
+CHECK = Check(name="layout", doc=mark("rule of thumb: how many shafts a wheelbase needs"), judge=_judge)

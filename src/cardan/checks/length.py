@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -39,4 +39,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="length", doc=_("rule of thumb: at most 1.5 m between two joints"), judge=_judge)
+CHECK = Check(name="length", doc=mark("rule of thumb: at most 1.5 m between two joints"), judge=_judge)

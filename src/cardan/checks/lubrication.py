@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.upkeep import SEVERE
 from cardan.catalogue.rows import Lubrication
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -55,4 +55,4 @@ def _words(item: str) -> str:
     return {"needle_bearings": _("the needle bearings")}.get(item, item.replace("_", " "))
 
 
-CHECK = Check(name="lubrication", doc=_("use since the last lubrication against the intervals"), judge=_judge)
+CHECK = Check(name="lubrication", doc=mark("use since the last lubrication against the intervals"), judge=_judge)

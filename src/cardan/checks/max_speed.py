@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -36,4 +36,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="max_speed", doc=_("highest speed against the rating of every joint"), judge=_judge)
+CHECK = Check(name="max_speed", doc=mark("highest speed against the rating of every joint"), judge=_judge)

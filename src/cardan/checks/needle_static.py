@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.needle_bearing import book_load, needle_rating
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -78,7 +78,7 @@ def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="needle_static",
-    doc=_("largest load of the needle bearings against ISO 76 and the book's rule"),
+    doc=mark("largest load of the needle bearings against ISO 76 and the book's rule"),
     judge=_judge,
     crosses="each",
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.equivalence import equivalent_joint
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -36,7 +36,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="output_error",
-    doc=_("how far the output runs ahead and back against the limit of the user"),
+    doc=mark("how far the output runs ahead and back against the limit of the user"),
     judge=_judge,
     crosses="law",
 )

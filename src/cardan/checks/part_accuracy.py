@@ -7,20 +7,20 @@ from dataclasses import fields
 
 from cardan.catalogue.rows import PartLimit
 from cardan.drive.inspection import Inspection
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
 from .verdict import Verdict
 
 NAMES = {
-    "axis_offset": _("offset of the axes of the yokes of joint {number}"),
-    "yoke_perpendicularity": _("squareness of the yokes of joint {number}, on 100 mm"),
-    "face_symmetry": _("symmetry of the faces of the yokes of joint {number}"),
-    "half_height_difference": _("difference of the halves of the cross of joint {number}"),
-    "cross_perpendicularity": _("squareness of the cross of joint {number}, on 100 mm"),
-    "coplanarity": _("journals of the cross of joint {number} in one plane"),
-    "coaxiality": _("journals of the cross of joint {number} on one axis"),
+    "axis_offset": mark("offset of the axes of the yokes of joint {number}"),
+    "yoke_perpendicularity": mark("squareness of the yokes of joint {number}, on 100 mm"),
+    "face_symmetry": mark("symmetry of the faces of the yokes of joint {number}"),
+    "half_height_difference": mark("difference of the halves of the cross of joint {number}"),
+    "cross_perpendicularity": mark("squareness of the cross of joint {number}, on 100 mm"),
+    "coplanarity": mark("journals of the cross of joint {number} in one plane"),
+    "coaxiality": mark("journals of the cross of joint {number} on one axis"),
 }
 
 
@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             yield Verdict(
                 check="part_accuracy",
                 subject=f"joints[{i}]",
-                title=NAMES[one.name].format(number=i + 1),
+                title=_(NAMES[one.name]).format(number=i + 1),
                 dimension="length",
                 unit="mm",
                 value=value,
@@ -47,7 +47,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="part_accuracy",
-    doc=_("what was measured on yokes and crosses against GOST 2752-74"),
+    doc=mark("what was measured on yokes and crosses against GOST 2752-74"),
     judge=_judge,
     crosses="each",
 )

@@ -10,16 +10,16 @@ import numpy as np
 from cardan.analysis.bearing_life import CONVENTIONS
 from cardan.analysis.joint_rating import LEAST_BEND, NOMINAL, POWER, rated_bend
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
 from .verdict import Verdict
 
 SOURCES = {
-    "Tc": _("rating by T_c: 5000 h at 3° and 100 rpm; L = 1.5·10⁶/(nα)·(T_c/M)^(10/3)"),
-    "CR": _("rating by C·R: L = 1.5·10⁷/(nα)·(C·R/M)^(10/3)"),
-    "book": _("Book (267): 5000 h at 3° and 33.3 rpm"),
+    "Tc": mark("rating by T_c: 5000 h at 3° and 100 rpm; L = 1.5·10⁶/(nα)·(T_c/M)^(10/3)"),
+    "CR": mark("rating by C·R: L = 1.5·10⁷/(nα)·(C·R/M)^(10/3)"),
+    "book": mark("Book (267): 5000 h at 3° and 33.3 rpm"),
 }
 
 
@@ -55,7 +55,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         yield made(
             value=value,
             limit=allowed,
-            source=SOURCES[convention],
+            source=_(SOURCES[convention]),
             levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
             note=_("a bend below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
         )
@@ -63,7 +63,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="rated_torque",
-    doc=_("torque of the duty against the rated torque of every joint for the life"),
+    doc=mark("torque of the duty against the rated torque of every joint for the life"),
     judge=_judge,
     crosses="each",
 )

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.catalogue.rows import JointType
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -44,4 +44,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="rim_speed", doc=_("speed of the rim of joints that have a limit for it"), judge=_judge)
+CHECK = Check(name="rim_speed", doc=mark("speed of the rim of joints that have a limit for it"), judge=_judge)

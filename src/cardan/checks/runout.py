@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import mm
 
 from .check import Check
@@ -34,4 +34,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="runout", doc=_("run-out of tubes against practice"), judge=_judge)
+CHECK = Check(name="runout", doc=mark("run-out of tubes against practice"), judge=_judge)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.needle_bearing import critical_swing
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -41,7 +41,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="small_oscillation",
-    doc=_("bend of every joint against that from which needles share their tracks"),
+    doc=mark("bend of every joint against that from which needles share their tracks"),
     judge=_judge,
     crosses="each",
 )

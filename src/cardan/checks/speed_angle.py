@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.catalogue.rows import JointType
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import largest
 from .check import Check
@@ -44,4 +44,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="speed_angle", doc=_("speed times bend of every joint against its rating or type"), judge=_judge)
+CHECK = Check(name="speed_angle", doc=mark("speed times bend of every joint against its rating or type"), judge=_judge)

@@ -10,7 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.parts import known_lengths
 from cardan.drive.paths import pose_drives
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import mm
 
 from .check import Check
@@ -75,5 +75,5 @@ def _slides(drive: Drive) -> dict[int, tuple[float, float]]:
 
 
 CHECK = Check(
-    name="spline_overlap", doc=_("engaged length and way left of every spline while the drive moves"), judge=_judge
+    name="spline_overlap", doc=mark("engaged length and way left of every spline while the drive moves"), judge=_judge
 )

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from cardan.analysis.spline_strength import SplineStress, spline_stress
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -66,5 +66,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="spline_pressure", doc=_("pressure on the teeth of every spline against the limit of the user"), judge=_judge
+    name="spline_pressure",
+    doc=mark("pressure on the teeth of every spline against the limit of the user"),
+    judge=_judge,
 )

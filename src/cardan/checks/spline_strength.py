@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -47,4 +47,4 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="spline_strength", doc=_("core and teeth of every spline against yielding"), judge=_judge)
+CHECK = Check(name="spline_strength", doc=mark("core and teeth of every spline against yielding"), judge=_judge)

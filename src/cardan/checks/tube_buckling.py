@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.composite_tube import composite_tube
 from cardan.analysis.shaft_strength import wall_buckling_torque
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -81,4 +81,4 @@ def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
         )
 
 
-CHECK = Check(name="tube_buckling", doc=_("torque of tubes against buckling of their wall"), judge=_judge)
+CHECK = Check(name="tube_buckling", doc=mark("torque of tubes against buckling of their wall"), judge=_judge)

@@ -10,7 +10,7 @@ import numpy as np
 from cardan.analysis.fatigue import shaft_fatigue
 from cardan.drive.shaft import Notch
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .case import Case
 from .check import Check
@@ -81,6 +81,6 @@ def _safety(design: Design, case: Case, section: Section, k: int) -> Array:
 
 CHECK = Check(
     name="tube_fatigue",
-    doc=_("safety of every shaft against fatigue by torque that swings and turning bending"),
+    doc=mark("safety of every shaft against fatigue by torque that swings and turning bending"),
     judge=_judge,
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.shaft_strength import torsion_modulus
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -68,6 +68,6 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
 
 CHECK = Check(
     name="tube_strength",
-    doc=_("torsion and secondary couples of every shaft against yielding or a limit"),
+    doc=mark("torsion and secondary couples of every shaft against yielding or a limit"),
     judge=_judge,
 )

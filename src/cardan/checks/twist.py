@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.analysis.shaft_strength import RATED_TWIST, polar_moment
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -53,5 +53,5 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="twist", doc=_("twist of all shafts under their largest torque against 9° or the limit"), judge=_judge
+    name="twist", doc=mark("twist of all shafts under their largest torque against 9° or the limit"), judge=_judge
 )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from cardan.analysis.joint_strength import yoke_stress
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
@@ -51,5 +51,5 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="yoke_strength", doc=_("stress of the yokes of every joint against yielding"), judge=_judge, crosses="each"
+    name="yoke_strength", doc=mark("stress of the yokes of every joint against yielding"), judge=_judge, crosses="each"
 )

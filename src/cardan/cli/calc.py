@@ -33,7 +33,7 @@ def _names(incomplete: str) -> list[tuple[str, str]]:
     """Complete the name of a capability."""
     from cardan.calc import CALCULATIONS
 
-    return [(name, item.doc) for name, item in CALCULATIONS.items() if name.startswith(incomplete)]
+    return [(name, _(item.doc)) for name, item in CALCULATIONS.items() if name.startswith(incomplete)]
 
 
 def calc(
@@ -138,7 +138,7 @@ def _catalogue() -> Answer:
 
     from .answer import Answer, Column, Remark, Table
 
-    rows = [(name, item.doc, item.source) for name, item in CALCULATIONS.items()]
+    rows = [(name, _(item.doc), _(item.source)) for name, item in CALCULATIONS.items()]
     return Answer(
         sentence=_("{count} formulas, each by name with unit keys.").format(count=len(rows)),
         tables=lambda: (
@@ -164,7 +164,7 @@ def _described(item: Calculation) -> Answer:
     takes = [
         (one.key, form, _("needed") if one.required else "", doc) for one in item.takes for form, doc in [_form(one)]
     ]
-    gives = [(output.key, "", "", output.doc) for output in item.returns]
+    gives = [(output.key, "", "", _(output.doc)) for output in item.returns]
     columns = (
         Column(key="key", heading=_("takes"), left=True),
         Column(key="form", left=True),
@@ -172,7 +172,7 @@ def _described(item: Calculation) -> Answer:
         Column(key="doc", left=True, wrap=True),
     )
     return Answer(
-        sentence=f"{item.name}: {item.doc}",
+        sentence=f"{item.name}: {_(item.doc)}",
         tables=lambda: (
             Table(columns=columns, rows=takes),
             Table(
@@ -184,12 +184,12 @@ def _described(item: Calculation) -> Answer:
             columns=(Column(key="way"), *columns),
             rows=[("takes", *row) for row in takes] + [("gives", *row) for row in gives],
         ),
-        remarks=(Remark(text=_("Source: {source}").format(source=item.source)),),
+        remarks=(Remark(text=_("Source: {source}").format(source=_(item.source))),),
         content=lambda: {
             "capability": item.name,
-            "source": item.source,
+            "source": _(item.source),
             "takes": [{"key": g.key, "form": g.shape, "required": g.required, "doc": g.doc} for g in item.takes],
-            "gives": [{"key": output.key, "doc": output.doc} for output in item.returns],
+            "gives": [{"key": output.key, "doc": _(output.doc)} for output in item.returns],
         },
     )
 
@@ -207,7 +207,7 @@ def _form(one: Given) -> tuple[str, str]:
 def _answer(item: Calculation, found: dict[str, Any]) -> Answer:
     from .answer import Answer, Column, Remark, Table
 
-    docs = {output.key: output.doc for output in item.returns}
+    docs = {output.key: _(output.doc) for output in item.returns}
     rows = [(key, _short(value), docs.get(key, "")) for key, value in found.items()]
     wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
     columns = (
@@ -218,11 +218,11 @@ def _answer(item: Calculation, found: dict[str, Any]) -> Answer:
     shown = Table(columns=columns[:2], rows=[row[:2] for row in rows]) if wordy else Table(columns=columns, rows=rows)
     flat = [(key, value) for name, entry in found.items() for key, value in leaves(name, entry)]
     return Answer(
-        sentence=f"{item.name}: {item.doc}",
+        sentence=f"{item.name}: {_(item.doc)}",
         tables=lambda: (shown,),
         csv=lambda: Table(columns=columns[:2], rows=flat),
-        remarks=(Remark(text=_("Source: {source}").format(source=item.source)),),
-        content=lambda: {"capability": item.name, "source": item.source, "result": found},
+        remarks=(Remark(text=_("Source: {source}").format(source=_(item.source))),),
+        content=lambda: {"capability": item.name, "source": _(item.source), "result": found},
     )
 
 

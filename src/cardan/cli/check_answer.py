@@ -108,11 +108,11 @@ def listing() -> Answer:
     from cardan.checks import CHECKS
 
     columns = (Column(key="check", heading=_("check"), left=True), Column(key="judges", left=True, wrap=True))
-    table = Table(columns=columns, rows=[[name, one.doc] for name, one in CHECKS.items()])
+    table = Table(columns=columns, rows=[[name, _(one.doc)] for name, one in CHECKS.items()])
     return Answer(
         sentence=_("{count} checks; each runs where the drive file says enough.").format(count=len(CHECKS)),
         tables=lambda: [table],
-        content=lambda: {"checks": [{"name": name, "judges": one.doc} for name, one in CHECKS.items()]},
+        content=lambda: {"checks": [{"name": name, "judges": _(one.doc)} for name, one in CHECKS.items()]},
         csv=lambda: table,
     )
 
@@ -256,7 +256,7 @@ def _unfit(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
 def _plain(members: Sequence[Verdict]) -> str:
     from cardan.checks import CHECKS
 
-    return "; ".join(dict.fromkeys(CHECKS[one.check].doc for one in members))
+    return "; ".join(dict.fromkeys(_(CHECKS[one.check].doc) for one in members))
 
 
 def _remarks(judged: Judged) -> Iterator[Remark]:

@@ -161,7 +161,7 @@ def _joints(found: Mobility, *, strained: bool) -> Table:
     }
     cells: dict[str, list[Cell]] = {
         "joint": [one.id for one in shown],
-        "kind": [PAIRS[one.type].name for one in shown],
+        "kind": [_(PAIRS[one.type].name) for one in shown],
         "links": [" – ".join(one.links) for one in shown],
         "strained_by": [strain(one) for one in shown],
     }

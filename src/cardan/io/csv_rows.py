@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cardan.errors import Problem, check, refuse
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import DIMENSIONS
 
 MAX_BYTES = 100_000_000
 """Larger files are refused; no more of them is read."""
 
-NUMBERS = ("", _("a number"), _("two numbers"), _("three numbers"), _("four numbers"))
+NUMBERS = ("", mark("a number"), mark("two numbers"), mark("three numbers"), mark("four numbers"))
 
 
 def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> list[tuple[float, ...]]:
@@ -59,7 +59,7 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
             values = tuple(float(row[column]) * factor for column, factor in places)
         except (ValueError, IndexError):
             text = _("line {line} is not {numbers}")
-            problems.append(Problem(path.name, text.format(line=line, numbers=NUMBERS[len(columns)])))
+            problems.append(Problem(path.name, text.format(line=line, numbers=_(NUMBERS[len(columns)]))))
             continue
         if not all(math.isfinite(v) for v in values):
             problems.append(Problem(path.name, _("line {line} has a number that is not finite").format(line=line)))

@@ -12,7 +12,7 @@ import numpy as np
 from cardan.errors import Problem
 from cardan.maths import frames, screws
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
 Point: TypeAlias = tuple[float, float, float]
@@ -73,16 +73,16 @@ class Kind:
 
 
 PAIRS: dict[str, Kind] = {
-    "R": Kind(name=_("revolute"), turns="axis"),
-    "P": Kind(name=_("prismatic"), slides="axis"),
-    "H": Kind(name=_("helical"), turns="axis", slides="axis", screw=True),
-    "C": Kind(name=_("cylindrical"), turns="axis", slides="axis"),
-    "U": Kind(name=_("universal (two axes)"), turns="both"),
-    "S": Kind(name=_("spherical"), turns="all"),
-    "E": Kind(name=_("planar"), turns="axis", slides="across"),
-    "SG": Kind(name=_("sphere in cylinder"), turns="all", slides="axis"),
-    "L4": Kind(name=_("cylinder on plane"), turns="both", slides="across"),
-    "PT": Kind(name=_("point on plane"), turns="all", slides="across"),
+    "R": Kind(name=mark("revolute"), turns="axis"),
+    "P": Kind(name=mark("prismatic"), slides="axis"),
+    "H": Kind(name=mark("helical"), turns="axis", slides="axis", screw=True),
+    "C": Kind(name=mark("cylindrical"), turns="axis", slides="axis"),
+    "U": Kind(name=mark("universal (two axes)"), turns="both"),
+    "S": Kind(name=mark("spherical"), turns="all"),
+    "E": Kind(name=mark("planar"), turns="axis", slides="across"),
+    "SG": Kind(name=mark("sphere in cylinder"), turns="all", slides="axis"),
+    "L4": Kind(name=mark("cylinder on plane"), turns="both", slides="across"),
+    "PT": Kind(name=mark("point on plane"), turns="all", slides="across"),
 }
 """Code -> kind of pair; spec structure, "Kinematic pairs", after tmm Table 1."""
 
@@ -192,7 +192,7 @@ def pair_problems(pair: Pair) -> Iterator[Problem]:
 def _axis_problems(name: str, value: Point | None, wanted: bool, kind: Kind) -> Iterator[Problem]:
     if value is None:
         if wanted:
-            yield Problem(name, _("missing: {kind} has a direction here").format(kind=kind.name), "missing")
+            yield Problem(name, _("missing: {kind} has a direction here").format(kind=_(kind.name)), "missing")
     elif name == "axis2" and not kind.needs_second:
         yield Problem(name, _("of no use: only U and L4 have a second axis"), "inconsistent")
     elif not all(map(math.isfinite, value)):

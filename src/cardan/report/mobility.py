@@ -85,7 +85,9 @@ def _strained(found: Mobility) -> Table:
             Column(heading=_("held too often against"), left=True),
         ),
         rows=[
-            [Cell(text=one.id), words(PAIRS[one.type].name), words(strain(one))] for one in found.joints if one.strained
+            [Cell(text=one.id), words(_(PAIRS[one.type].name)), words(strain(one))]
+            for one in found.joints
+            if one.strained
         ],
     )
 

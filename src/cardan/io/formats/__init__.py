@@ -1,4 +1,4 @@
-"""Formats of results: one module each, with ``suffix`` and ``text``, and its name in `FORMATS`."""
+"""Formats of results: one module each, with ``suffix`` and ``content``, and its name in `FORMATS`."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from cardan.errors import refuse
-from cardan.files import write_text
+from cardan.files import write_bytes
 from cardan.texts import _
 
-from . import csv, json
+from . import csv, json, xlsx
 
-FORMATS = {module.suffix: module for module in (csv, json)}
+FORMATS = {module.suffix: module for module in (csv, json, xlsx)}
 """Suffix -> module."""
 
 
@@ -22,6 +22,8 @@ def write(result: Any, path: Path) -> None:
     ------
     InputError
         The suffix is not known or the file cannot be written.
+    MissingExtraError
+        What writes such files is not installed.
     """
     module = FORMATS.get(path.suffix.lower())
     if module is None:
@@ -29,4 +31,4 @@ def write(result: Any, path: Path) -> None:
         raise refuse(
             str(path), _("{suffix} is no format of results; known are {known}").format(suffix=path.suffix, known=known)
         )
-    write_text(path, module.text(result))
+    write_bytes(path, module.content(result))

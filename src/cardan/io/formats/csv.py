@@ -17,8 +17,19 @@ from cardan.texts import _
 suffix = ".csv"
 
 
-def text(result: Any) -> str:
-    """Return a result as CSV text.
+def content(result: Any) -> bytes:
+    """Return a result as the bytes of a CSV file.
+
+    Raises
+    ------
+    InputError
+        The result is no table.
+    """
+    return table(columns_of(result)).encode()
+
+
+def columns_of(result: Any) -> Mapping[str, Sequence[Any]]:
+    """Return a result as columns, each named with its unit.
 
     Raises
     ------
@@ -27,9 +38,9 @@ def text(result: Any) -> str:
     """
     for kind, columns in COLUMNS.items():
         if isinstance(result, kind):
-            return table(columns(result))
+            return columns(result)
     if isinstance(result, Mapping):
-        return table(result)
+        return result
     raise refuse("result", _("{kind} is no table; save it as .json").format(kind=type(result).__name__))
 
 

@@ -19,6 +19,11 @@ from cardan.io.writer import tree_of
 suffix = ".json"
 
 
+def content(result: Any) -> bytes:
+    """Return a result as the bytes of a JSON file."""
+    return text(result).encode()
+
+
 def text(result: Any) -> str:
     """Return a result as JSON text."""
     return json.dumps(plain(result), ensure_ascii=False, indent=2, allow_nan=False) + "\n"
