@@ -1,15 +1,19 @@
-"""Results as CSV and JSON."""
+"""Results as CSV, JSON and workbooks."""
 
 from __future__ import annotations
 
 import csv
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 
 from cardan import InputError, articulation, equivalent_joint, example, motion, phases, save
+from cardan.errors import MissingExtraError
+from cardan.io.formats import xlsx
 
 
 def test_motion_as_csv(tmp_path: Path) -> None:
@@ -45,4 +49,40 @@ def test_unknown_format_is_refused(tmp_path: Path) -> None:
         save(motion(example("single-20deg")), tmp_path / "a.xls")
     with pytest.raises(InputError, match="no table"):
         save(equivalent_joint(example("single-20deg")), tmp_path / "a.csv")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_table_as_a_workbook_holds_the_numbers_of_the_csv(tmp_path: Path) -> None:
+    found = motion(example("truck-printed-angles"))
+    save(found, tmp_path / "a.xlsx")
+    save(found, tmp_path / "a.csv")
+    head, *rows = openpyxl.load_workbook(tmp_path / "a.xlsx").worksheets[0].iter_rows(values_only=True)
+    named, *lines = csv.reader((tmp_path / "a.csv").read_text().splitlines())
+    assert list(head) == named
+    # A workbook holds numbers with 16 digits, as every spreadsheet does.
+    np.testing.assert_allclose(np.asarray(rows), np.asarray(lines, dtype=float), rtol=1e-15, atol=0.0)
+
+
+def test_words_of_a_table_stay_words_and_numbers_that_are_none_do_not_break_it(tmp_path: Path) -> None:
+    save({"=A1": ["=1+1", "+1", "@x"], "b": [np.nan, np.inf, -1.5]}, tmp_path / "a.xlsx")
+    cells = [cell for row in openpyxl.load_workbook(tmp_path / "a.xlsx").active for cell in row]
+    assert [cell.value for cell in cells] == ["=A1", "b", "=1+1", None, "+1", "∞", "@x", -1.5]
+    assert [cell.data_type for cell in cells[::2]] == ["s"] * 4
+
+
+def test_the_same_table_gives_the_same_workbook() -> None:
+    columns = {"a": [1.0, 2.0]}
+    first, second = (xlsx.table(columns) for _ in range(2))
+    assert first == second
+
+
+def test_more_rows_than_a_sheet_has_are_refused() -> None:
+    with pytest.raises(InputError, match="a sheet holds"):
+        xlsx.table({"a": np.zeros(1_048_576)})
+
+
+def test_without_the_library_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "xlsxwriter", None)
+    with pytest.raises(MissingExtraError, match=r"pip install 'cardan\[xlsx\]'"):
+        save({"a": [1.0]}, tmp_path / "a.xlsx")
     assert not list(tmp_path.iterdir())

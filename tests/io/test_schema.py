@@ -58,5 +58,5 @@ def test_reference_names_every_key_of_the_schema() -> None:
         assert word in text
 
 
-def test_formats_hold_a_text_each() -> None:
-    assert all(module.suffix == suffix and callable(module.text) for suffix, module in FORMATS.items())
+def test_formats_hold_a_content_each() -> None:
+    assert all(module.suffix == suffix and callable(module.content) for suffix, module in FORMATS.items())

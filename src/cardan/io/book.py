@@ -1,0 +1,136 @@
+"""Spreadsheets in memory: numbers stay numbers, words stay words, and every sheet has a name that it may have."""
+
+from __future__ import annotations
+
+import datetime
+import math
+import re
+from typing import IO, Any
+
+from cardan.errors import MissingExtraError
+from cardan.texts import _
+
+MOST_ROWS = 1_048_576
+"""Rows of a sheet."""
+
+MOST_LETTERS = 32_767
+"""Letters of a cell."""
+
+NAME_LETTERS = 31
+"""Letters of a sheet's name."""
+
+QUIET = {
+    "in_memory": True,
+    "strings_to_formulas": False,
+    "strings_to_urls": False,
+    "strings_to_numbers": False,
+}
+"""Words that look like a formula, an address or a number are words."""
+
+
+def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) -> Any:
+    """Return an empty workbook that is written to a stream when it is closed.
+
+    The same content gives the same bytes: nothing tells who made it on which machine.
+
+    Parameters
+    ----------
+    stream : binary stream
+        Where it goes.
+    title : str
+        Among its properties.
+    made : date, optional
+        Among its properties; 2000-01-01 when not given.
+
+    Raises
+    ------
+    MissingExtraError
+        What writes workbooks is not installed.
+    """
+    try:
+        from xlsxwriter import Workbook
+    except ImportError:
+        raise MissingExtraError(_("a workbook needs XlsxWriter: pip install 'cardan[xlsx]'")) from None
+    day = made or datetime.date(2000, 1, 1)
+    book = Workbook(stream, QUIET)
+    book.set_properties({"title": words(title), "created": datetime.datetime(day.year, day.month, day.day)})
+    return book
+
+
+def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> None:
+    """Write a value into a cell: what is not finite as a sign, nothing as an empty cell.
+
+    Parameters
+    ----------
+    sheet : worksheet
+    row, column : int
+        From 0.
+    value : number, str, bool or None
+    form : format, optional
+        How it looks.
+    """
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, bool):
+        sheet.write_boolean(row, column, value, form)
+    elif isinstance(value, int | float) and math.isfinite(value):
+        sheet.write_number(row, column, value, form)
+    elif isinstance(value, float):
+        sign = "" if math.isnan(value) else "∞" if value > 0 else "−∞"
+        put(sheet, row, column, sign, form)
+    elif value is None or value == "":
+        sheet.write_blank(row, column, None, form)
+    else:
+        sheet.write_string(row, column, words(str(value)), form)
+
+
+def words(text: str) -> str:
+    """Return a text as a cell can hold it: cut to its length, without halves of letters.
+
+    Examples
+    --------
+    >>> words("=1+1"), len(words("a" * 40_000))
+    ('=1+1', 32767)
+    """
+    whole = text.encode("utf-8", "replace").decode("utf-8")
+    if len(whole) <= MOST_LETTERS:
+        return whole
+    return whole[: MOST_LETTERS - 1] + "…"
+
+
+def sheet_name(wanted: str, taken: set[str], *, ending: str = "") -> str:
+    """Return a name that a sheet may have and no other has, and take it.
+
+    Parameters
+    ----------
+    wanted : str
+        What it should be called.
+    taken : set of str
+        Names of the other sheets, in small letters; the new one is added.
+    ending : str
+        Kept when the name has to be cut.
+
+    Examples
+    --------
+    >>> taken = set()
+    >>> sheet_name("Losses: joints/supports", taken), sheet_name("LOSSES joints supports", taken)
+    ('Losses joints supports', 'LOSSES joints supports 2')
+    >>> sheet_name("'Forces on all shafts of the drive'", taken, ending=" data")
+    'Forces on all shafts of th data'
+    """
+    plain = " ".join(re.sub(r"[\[\]:*?/\\\x00-\x1f]", " ", words(wanted)).split()).strip("' ") or "-"
+    count, name = 1, ""
+    while not name or name.lower() in taken or name.lower() == "history":
+        tail = ending if count == 1 else f"{ending} {count}"
+        room = NAME_LETTERS - _units(tail)
+        kept = plain
+        while _units(kept) > room:
+            kept = kept[:-1]
+        name, count = f"{kept.rstrip()}{tail}", count + 1
+    taken.add(name.lower())
+    return name
+
+
+def _units(text: str) -> int:
+    """Return the length of a text as spreadsheets count it."""
+    return len(text.encode("utf-16-le")) // 2
