@@ -77,7 +77,7 @@ def _joints(on: Subject) -> Table:
                 *(number(fixed(float(x), 1), float(x)) for x in centre[k]),
                 number(fixed(float(bend[k])), float(bend[k]), "failed" if steep else "plain"),
                 number(fixed(float(twist[k - 1])), float(twist[k - 1])) if k else words("–"),
-                number(fixed(half_turn(float(phase[k]))), float(phase[k])),
+                number(fixed(half_turn(float(phase[k]))), half_turn(float(phase[k]))),
             ]
         )
     return Table(

@@ -129,7 +129,7 @@ def _table(verdicts: Sequence[Verdict], title: str, *, note: str = "", sources: 
             words(title_of(group)),
             _figure(one, float(one.value)),
             words(label(one.unit)),
-            Cell(text=f"{sense} {_figure(one, limit).text}"),
+            _figure(one, limit, sense),
             number(fixed(float(one.utilisation)), float(one.utilisation)),
             words(_("beyond") if one.advice and one.state == "failed" else said, tone),
         ]
@@ -138,11 +138,13 @@ def _table(verdicts: Sequence[Verdict], title: str, *, note: str = "", sources: 
     return Table(columns=(*verdict_columns(), *by), rows=rows, title=title, note=note)
 
 
-def _figure(one: Verdict, value: float) -> Cell:
+def _figure(one: Verdict, value: float, sense: str = "") -> Cell:
+    """Return a figure in the unit of its verdict, behind its sense where it is a limit."""
     shown = value / (factor(one.dimension, one.unit) if one.dimension else 1.0)
     if shown == float("inf"):
-        return Cell(text="∞")
-    return number("0" if abs(shown) < 1e-9 else significant(shown), shown)
+        return Cell(text=f"{sense} ∞".strip())
+    text = "0" if abs(shown) < 1e-9 else significant(shown)
+    return number(f"{sense} {text}".strip(), shown)
 
 
 def _cures(found: Sequence[Cure], title: str) -> Table:
@@ -161,8 +163,8 @@ def _cures(found: Sequence[Cure], title: str) -> Table:
         rows.append(
             [
                 words(one.path),
-                Cell(text=_value(one.now)),
-                Cell(text=_value(one.value)),
+                _value(one.now),
+                _value(one.value),
                 words(effect + (f" ({one.note})" if one.note else "")),
                 words(", ".join(one.breaks), "warning" if one.breaks else "plain"),
             ]
@@ -180,8 +182,8 @@ def _cures(found: Sequence[Cure], title: str) -> Table:
     )
 
 
-def _value(value: float | int | str) -> str:
-    return value if isinstance(value, str) else f"{value:.10g}"
+def _value(value: float | int | str) -> Cell:
+    return words(value) if isinstance(value, str) else number(f"{value:.10g}", value)
 
 
 def _lacking(verdicts: Sequence[Verdict]) -> Table:
