@@ -36,7 +36,14 @@ _SIDES = {"left": "left", "centre": "center", "right": "right"}
 _LEVELS = {"top": "top", "middle": "center", "bottom": "bottom"}
 
 
-def render(figures: Figure | Sequence[Figure], target: IO[bytes], format: Format, *, dpi: float = 160.0) -> None:
+def render(
+    figures: Figure | Sequence[Figure],
+    target: IO[bytes],
+    format: Format,
+    *,
+    dpi: float = 160.0,
+    words: bool = True,
+) -> None:
     """Draw figures, one below the other, in a PDF one a page.
 
     Parameters
@@ -49,11 +56,13 @@ def render(figures: Figure | Sequence[Figure], target: IO[bytes], format: Format
         Kind of picture.
     dpi : float
         Dots per inch of a PNG.
+    words : bool
+        With title, sentence and source: in a file of its own.
     """
     from matplotlib import rc_context
 
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
-    pages = [laid_out(figure, words=True) for figure in several]
+    pages = [laid_out(figure, words=words) for figure in several]
     with rc_context(STYLE):  # type: ignore[arg-type]
         if format == "pdf":
             _pdf(pages, several, target)
