@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cardan.catalogue import TABLES, catalogue, material, with_files
+from cardan.catalogue import TABLES, Catalogue, catalogue, material, with_files
 from cardan.catalogue.rows import FLAGS, AnglePair, Fault, Grade, JointSize, LifeFactor
+from cardan.catalogue.telling import row_flat
 from cardan.errors import InputError
+from cardan.texts import speaking
 
 ROWS = [row for rows in catalogue().tables.values() for row in rows.values()]
 
@@ -139,3 +141,17 @@ def test_figures_that_contradict_each_other_are_refused(tmp_path: Path) -> None:
         with_files(catalogue(), [own])
     fields = [problem.field.removeprefix(f"{own}: ") for problem in caught.value.problems]
     assert fields == ["materials[0].ultimate_strength_MPa", "joint_types[0].max_torque_Nm"]
+
+
+def test_rows_are_told_in_the_language_spoken_and_kept_as_their_file_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("cardan.catalogue.telling._", str.upper)
+    known = Catalogue(tables=catalogue().tables)
+    with speaking("ru"):
+        fault, grade = known.row(Fault, "F10"), known.grade("C22")
+    own = known.tables["faults"]["F10"]
+    assert isinstance(own, Fault)
+    for name in ("fault", "inspection", "repair", "source"):
+        assert getattr(fault, name) == getattr(own, name).upper()
+    assert (fault.id, fault.symptoms, grade.id, grade.parts) == (own.id, own.symptoms, "20", ("tube",))
+    assert row_flat(grade)["parts"] == "TUBE"
+    assert known.row(Fault, "F10") is own

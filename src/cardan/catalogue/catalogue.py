@@ -6,17 +6,18 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
 
 from cardan.drive.material import Material
 from cardan.errors import Problem, check, refuse
-from cardan.texts import _
+from cardan.texts import _, language
 
 from .reading import rows_of
 from .rows import TABLES, Grade, Row
+from .telling import told
 
 R = TypeVar("R", bound=Row)
 
@@ -29,12 +30,12 @@ FILES = ("materials", "joint_types", "joint_sizes", "norms", "faults")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Catalogue:
-    """Rows by table and id.
+    """Rows by table and id; its methods tell them in the language spoken here.
 
     Attributes
     ----------
     tables : mapping
-        Name of the table -> id -> row.
+        Name of the table -> id -> row, as its file has it.
     """
 
     tables: Mapping[str, Mapping[str, Row]]
@@ -42,12 +43,14 @@ class Catalogue:
     def rows(self, cls: type[R]) -> Mapping[str, R]:
         """Return the rows of the first table of a class, by id."""
         name = next(name for name, kind in TABLES.items() if kind is cls)
-        return self.tables.get(name, {})  # type: ignore[return-value]
+        return self.table(name, cls)
 
     def table(self, name: str, cls: type[R]) -> Mapping[str, R]:
         """Return the rows of a table, by id."""
         assert TABLES[name] is cls
-        return self.tables.get(name, {})  # type: ignore[return-value]
+        if language() == "en":
+            return self.tables.get(name, {})  # type: ignore[return-value]
+        return _told(self, name, language())  # type: ignore[return-value]
 
     def row(self, cls: type[R], name: str, *, field: str = "id") -> R:
         """Return a row by its id.
@@ -86,6 +89,12 @@ class Catalogue:
         spelled = {other.casefold(): other for row in rows.values() for other in row.every_name}
         text = _("{name} is not in the catalogue").format(name=repr(name))
         raise refuse(field, text + _near(name.casefold(), spelled), "unknown_key")
+
+
+@lru_cache(maxsize=256)
+def _told(known: Catalogue, name: str, _code: str) -> Mapping[str, Row]:
+    """Return the rows of a table in a language, which is the one spoken here."""
+    return {id: told(row) for id, row in known.tables.get(name, {}).items()}
 
 
 def _near(name: str, spelled: Mapping[str, str]) -> str:

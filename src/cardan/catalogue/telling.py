@@ -1,14 +1,23 @@
-"""Rows as a catalogue file has them, and the keys that a row can have."""
+"""Rows as a catalogue file has them and in the language spoken here, and the keys that a row can have."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import is_dataclass
-from typing import Any, NamedTuple
+from dataclasses import is_dataclass, replace
+from typing import Any, NamedTuple, TypeVar
 
 from cardan.drive.keys import NAMED, fields_of
+from cardan.texts import _
 
 from .rows import TABLES, Row
+
+R = TypeVar("R", bound=Row)
+
+SENTENCES = ("source", "note", "name", "family", "treatment", "lubricant", "fault", "inspection", "repair")
+"""Fields of rows that people read and no program compares."""
+
+WORDS = ("parts", "uses")
+"""Fields of rows with a list of such words; rows keep them as they are, for they are compared."""
 
 
 class RowKey(NamedTuple):
@@ -38,9 +47,27 @@ def row_keys(table: str) -> Iterator[RowKey]:
 
 def _of_class(cls: Any, before: str) -> Iterator[RowKey]:
     for one in fields_of(cls).values():
-        yield RowKey(before + one.spelling, one.required, one.key.doc)
+        yield RowKey(before + one.spelling, one.required, _(one.key.doc))
         if is_dataclass(one.type) and one.type not in NAMED:
             yield from _of_class(one.type, f"{before}{one.spelling}.")
+
+
+def told(row: R) -> R:
+    """Return a row with its sentences in the language spoken here; those of a user's file stay as they are.
+
+    Parameters
+    ----------
+    row : Row
+
+    Examples
+    --------
+    >>> from cardan.catalogue import catalogue
+    >>> told(catalogue().tables["faults"]["F37"]).repair
+    'replace the shaft'
+    """
+    own = {name: getattr(row, name, "") for name in SENTENCES}
+    said = {name: _(text) for name, text in own.items() if text}
+    return row if all(said[name] == own[name] for name in said) else replace(row, **said)
 
 
 def row_tree(row: Any) -> dict[str, Any]:
@@ -84,7 +111,8 @@ def _spread(tree: Mapping[str, Any], before: str) -> Iterator[tuple[str, Any]]:
         if isinstance(value, Mapping):
             yield from _spread(value, f"{before}{key}.")
         else:
-            yield before + key, ", ".join(map(_said, value)) if isinstance(value, list) else value
+            said = _ if key in WORDS else _said
+            yield before + key, ", ".join(map(said, value)) if isinstance(value, list) else value
 
 
 def _said(value: Any) -> str:

@@ -109,7 +109,7 @@ def _listing(known: Catalogue) -> Answer:
 
     rows: list[list[Cell]] = []
     for name, kind in TABLES.items():
-        doc = (kind.__doc__ or "").strip().splitlines()[0].rstrip(".")
+        doc = _((kind.__doc__ or "").strip().splitlines()[0]).rstrip(".")
         rows.append([name, len(known.tables.get(name, {})), doc])
     columns = (
         Column(key="table", heading=_("table"), left=True),
@@ -199,7 +199,7 @@ def _row(known: Catalogue, name: str, wanted: str) -> Answer:
 
     from .answer import Answer, Column, Remark, Table
 
-    rows = known.tables.get(name, {})
+    rows = known.table(name, TABLES[name])
     row: Row
     if TABLES[name] is Grade:
         row = known.grade(wanted, field="ID")
@@ -226,7 +226,7 @@ def _row(known: Catalogue, name: str, wanted: str) -> Answer:
         sentence=_("{table}: {id}.").format(table=name, id=row.id),
         tables=lambda: [table],
         remarks=tuple(remarks),
-        content=lambda: {"table": name, "row": row_tree(row)},
+        content=lambda: {"table": name, "row": row_tree(known.tables[name][row.id])},
         csv=lambda: Table(columns=tuple(Column(key=key) for key in flat), rows=[list(flat.values())]),
     )
 
