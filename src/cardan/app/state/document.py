@@ -6,9 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cardan.drive.drive import Drive
-from cardan.errors import InputError, Problem
+from cardan.errors import InputError, Problem, refuse
 from cardan.files import Enclosed
-from cardan.io import loads
+from cardan.io import dumps, loads
+from cardan.io.drive_file import parsed
+from cardan.texts import _
+
+from .workspace import MAX_UPLOAD
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,3 +64,25 @@ def changed(document: Document, change: Callable[[str], str], folder: Enclosed) 
         The change cannot be made.
     """
     return read(change(document.text), folder)
+
+
+def sent(name: str, content: bytes, folder: Enclosed) -> str:
+    """Return the TOML text of a file that a user sent, JSON translated.
+
+    A file that is TOML but no sound drive is taken as it is: what is wrong with it is then shown beside it.
+
+    Raises
+    ------
+    InputError
+        It is too large, no text, or neither TOML nor a drive in JSON.
+    """
+    if len(content) > MAX_UPLOAD:
+        raise refuse(name, _("is larger than {limit} MB; no drive file is").format(limit=MAX_UPLOAD // 10**6))
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise refuse(name, _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
+    if name.lower().endswith(".json"):
+        return dumps(loads(text, folder=folder, form="json", name=name))
+    parsed(text, "toml", name)
+    return text

@@ -11,7 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.texts import speaking
 
 from .choices import Choices
-from .document import Document, changed, read
+from .document import Document, changed, read, sent
 from .history import History
 from .workspace import Workspace
 
@@ -42,6 +42,10 @@ class Session:
         Name of the file in the workspace; empty for one that was never saved.
     selected : str
         Path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
+    notice : str
+        What the user should be told first; empty for nothing.
+    rebuild : function
+        Builds the parts of the page anew: another file, another language.
     """
 
     def __init__(self, workspace: Workspace, choices: Choices | None = None) -> None:
@@ -51,13 +55,22 @@ class Session:
         self.drive: Drive | None = None
         self.name = ""
         self.selected = ""
+        self.notice = ""
         self.history = History()
         self._saved = ""
+        self._gesture = ""
+        self.rebuild: Listener = _nothing
         self._listeners: dict[Change, list[Listener]] = {}
 
     def listen(self, change: Change, listener: Listener) -> None:
         """Have a function called after every change of a sort."""
         self._listeners.setdefault(change, []).append(listener)
+
+    def forget_parts(self) -> None:
+        """Forget all listeners but those of the page itself, before its parts are built anew."""
+        self._listeners = {
+            change: listeners[:1] for change, listeners in self._listeners.items() if change == "choices"
+        }
 
     def tell(self, change: Change) -> None:
         """Call all who want to know of a change, in the user's language."""
@@ -96,17 +109,37 @@ class Session:
         self.history, self.selected, self.name = History(), "", name
         self._saved = text if saved else ""
         self.drive = None
+        was_empty = self.empty
         self._now(read(text, self.workspace.enclosed))
         self.tell("file")
         self.tell("selection")
+        if was_empty != self.empty:
+            self.rebuild()
+
+    def take(self, name: str, content: bytes) -> None:
+        """Begin with a file that the user sent; it is read as data and written nowhere.
+
+        Raises
+        ------
+        InputError
+            It is too large, no text, or no TOML or JSON.
+        """
+        self.open(sent(name, content, self.workspace.enclosed), saved=False)
 
     def rewrite(self, text: str) -> None:
         """Take a whole new text, as from the editor."""
         if text != self.document.text:
             self._step(read(text, self.workspace.enclosed))
 
-    def change(self, how: Callable[[str], str]) -> None:
+    def change(self, how: Callable[[str], str], *, gesture: str = "") -> None:
         """Change the text by a function of it.
+
+        Parameters
+        ----------
+        how : function
+            Text before -> text behind.
+        gesture : str
+            Changes of the same gesture, such as a drag, are undone together.
 
         Raises
         ------
@@ -114,8 +147,18 @@ class Session:
             The change cannot be made; everything stays as it was.
         """
         after = changed(self.document, how, self.workspace.enclosed)
-        if after.text != self.document.text:
+        if after.text == self.document.text:
+            return
+        if gesture and gesture == self._gesture:
+            self._now(after)
+            self.tell("file")
+        else:
             self._step(after)
+        self._gesture = gesture
+
+    def end_gesture(self) -> None:
+        """End a gesture: what follows is a step of its own."""
+        self._gesture = ""
 
     def undo(self) -> None:
         """Go a step back."""
@@ -148,12 +191,14 @@ class Session:
             self.tell("selection")
 
     def choose(self, **choices: Any) -> None:
-        """Change how the user likes to see things."""
-        self.choices = replace(self.choices, **choices)
+        """Change how the user likes to see things; another language builds the page anew."""
+        before, self.choices = self.choices, replace(self.choices, **choices)
         self.tell("choices")
+        if self.choices.language != before.language:
+            self.rebuild()
 
     def _step(self, document: Document) -> None:
-        self.history = self.history.after(self.document.text)
+        self.history, self._gesture = self.history.after(self.document.text), ""
         self._now(document)
         self.tell("file")
 
@@ -163,3 +208,7 @@ class Session:
         if document.drive is not None:
             self.drive = document.drive
             self.tell("drive")
+
+
+def _nothing() -> None:
+    """Stand where no page is."""

@@ -1,0 +1,138 @@
+"""The page: the drive in the middle, its file on the left, its verdicts on the right, the answers below."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, unquote
+
+from nicegui import ui
+
+from cardan.io import example, example_names, example_text
+from cardan.texts import _
+
+from .parts.answers import Answers
+from .parts.editor import Editor
+from .parts.header import Header
+from .parts.keys import Keys
+from .parts.start import Start
+from .parts.verdicts import Verdicts
+from .parts.view import View
+from .state.jobs import Jobs
+from .state.session import Session
+
+STATIC = Path(__file__).parent / "static"
+
+ICON = STATIC / "icon.svg"
+
+CHOSEN = "cardan_choices"
+"""Cookie with the choices of a user."""
+
+YEAR = 365 * 24 * 3600
+
+
+def serve_files(app: Any) -> None:
+    """Serve style and pictures of the page."""
+    app.add_static_files("/cardan", STATIC)
+
+    @app.get("/cardan-examples/{name}.svg")
+    def picture(name: str) -> Any:
+        from starlette.responses import Response
+
+        text = example_picture(name)
+        head = {"Cache-Control": "max-age=86400"}
+        return Response(text or "", 200 if text else 404, head, media_type="image/svg+xml")
+
+
+@cache
+def example_picture(name: str) -> str:
+    """Return the picture of a shipped example as SVG; nothing where there is none of that name."""
+    from cardan.drive.solids import solids
+    from cardan.figures.drive import space_figure
+    from cardan.figures.render_svg import inline_svg
+
+    if name not in example_names():
+        return ""
+    drive = example(name)
+    return inline_svg(space_figure(drive, solids(drive), name="sketch"))
+
+
+def kept_choices(cookies: Mapping[str, str]) -> Mapping[str, Any]:
+    """Return the choices that the browser kept; none where they make no sense."""
+    try:
+        kept = json.loads(unquote(cookies.get(CHOSEN, "{}")))
+    except ValueError:
+        return {}
+    return kept if isinstance(kept, dict) else {}
+
+
+def open_example(session: Session, name: str) -> None:
+    """Open a shipped example as a new file.
+
+    Raises
+    ------
+    InputError
+        There is no such example.
+    """
+    session.open(example_text(name), saved=False)
+
+
+def build(session: Session, jobs: Jobs) -> None:
+    """Build the page of one window.
+
+    Parameters
+    ----------
+    session : Session
+        What its user works on.
+    jobs : Jobs
+        Where long answers are made.
+    """
+    ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
+    dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
+    ui.query("body").classes("cardan")
+    _tell_browser(session)
+
+    def chosen() -> None:
+        dark.value = {"auto": None, "light": False, "dark": True}[session.choices.theme]
+        kept = quote(json.dumps(session.choices.kept()))
+        ui.run_javascript(f"document.cookie='{CHOSEN}={kept}; path=/; max-age={YEAR}; samesite=strict'")
+
+    session.listen("choices", chosen)
+    whole = ui.element("div").classes("page")
+
+    def filled() -> None:
+        with session.speaking(), whole:
+            whole.clear()
+            session.forget_parts()
+            _tell_browser(session)
+            _parts(session, jobs)
+
+    session.rebuild = filled
+    filled()
+    if session.notice:
+        ui.notify(session.notice, type="negative", timeout=0, close_button=_("close"))
+
+
+def _tell_browser(session: Session) -> None:
+    """Tell the browser in which language the page is."""
+    ui.run_javascript(f"document.documentElement.lang='{session.choices.language}'")
+
+
+def _parts(session: Session, jobs: Jobs) -> None:
+    Header(session, jobs)
+    Keys(session)
+    if session.empty:
+        Start(session)
+        return
+    with ui.element("main").classes("desk"):
+        with ui.element("section").classes("pane file").props(f'aria-label="{_("Drive file")}"'):
+            Editor(session)
+        with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
+            View(session)
+        with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
+            Answers(session, jobs)
+        with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
+            Verdicts(session)

@@ -1,0 +1,160 @@
+"""Where the drive lies: its points as a table, and in plan and side view to be dragged."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from nicegui import events, ui
+from nicegui.element import Element
+
+from cardan.app.state.form import Entry, parts, section, tree_of
+from cardan.app.state.session import Session
+from cardan.io.amend import amend
+from cardan.texts import _
+from cardan.units import DIMENSIONS
+
+from .fields import KeyField, attempt
+
+COLUMNS = {
+    "points": {"input": ("point",), "joints": ("centre",), "shafts": (), "output": ("point",)},
+    "angles": {"input": (), "joints": ("bend", "plane_twist"), "shafts": ("length", "yoke_angle"), "output": ()},
+    "slopes": {
+        "input": (),
+        "joints": (),
+        "shafts": ("length", "side_slope", "plan_slope", "yoke_angle"),
+        "output": (),
+    },
+}
+"""Form of the geometry -> the keys of each table that give it."""
+
+
+class DragViews(Element, component="drag.js"):
+    """Plan and side view whose points can be dragged."""
+
+    def __init__(self, titles: tuple[str, str]) -> None:
+        super().__init__()
+        self._props.update(points=[], selected="", titles=list(titles))
+
+    def show(self, points: list[dict[str, Any]], selected: str) -> None:
+        """Show points: path, name, short, at [mm], end."""
+        self._props.update(points=points, selected=selected)
+        self.update()
+
+
+class Centres:
+    """The geometry as a table, and the views to drag it in.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive it shows and changes.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.fields: dict[str, KeyField] = {}
+        self._shape: tuple[str, ...] = ()
+        self.views = DragViews((_("Side view"), _("Plan")))
+        self.views.on("moving", lambda event: self._moved(event, last=False))
+        self.views.on("moved", lambda event: self._moved(event, last=True))
+        self.views.on("touched", lambda event: session.select(event.args["path"]))
+        self.hint = ui.label(_("Drag a point or move it with the arrow keys: 1 mm, with shift 10 mm.")).classes("hint")
+        self.body = ui.element("div").classes("centres")
+        self._follow()
+        session.listen("text", self._follow)
+        session.listen("selection", self._draw)
+
+    def _follow(self) -> None:
+        tree = tree_of(self.session.document.text)
+        if tree is None:
+            return
+        found = list(_geometry(tree))
+        shape = tuple(entry.key() for _title, entry in found)
+        if shape != self._shape:
+            self._build(found)
+            self._shape = shape
+        for _title, entry in found:
+            self.fields[entry.key()].show(entry)
+        self._draw()
+
+    def _build(self, found: list[tuple[str, Entry]]) -> None:
+        self.fields = {}
+        self.body.clear()
+        with self.body:
+            before = ""
+            for title, entry in found:
+                if title != before:
+                    ui.label(title).classes("of")
+                before = title
+                self.fields[entry.key()] = KeyField(self.session, entry, removable=False)
+
+    def _draw(self) -> None:
+        drive = self.session.drive
+        points = [] if drive is None else list(_points(self.session.document.text, drive))
+        self.views.set_visibility(bool(points))
+        self.hint.set_visibility(bool(points))
+        self.views.show(points, self.session.selected)
+
+    def _moved(self, event: events.GenericEventArguments, *, last: bool) -> None:
+        path, at = event.args["path"], event.args["at"]
+        tree = tree_of(self.session.document.text) or {}
+        entry = next((one for _title, one in _geometry(tree) if one.path == path and one.size == 3), None)
+        if entry is None or not _sound(at):
+            return
+        share = DIMENSIONS["length"]["mm"] / entry.units[entry.unit]
+        value = [float(f"{float(x) * share:.9g}") for x in at]
+        gesture = f"drag {path}"
+        attempt(self.session, lambda text: amend(text, {entry.key(): value}), gesture=gesture)
+        if last:
+            self.session.end_gesture()
+
+
+def _sound(at: Any) -> bool:
+    return isinstance(at, list) and len(at) == 3 and all(isinstance(x, int | float) and abs(x) < 1e9 for x in at)
+
+
+def _form(tree: Mapping[str, Any]) -> str:
+    """Return in which form a file gives the geometry, also one that is not sound yet."""
+    joints = [one for one in tree.get("joints", []) if isinstance(one, dict)]
+    keys = {str(key) for joint in joints for key in joint}
+    if any(key.startswith("bend_") for key in keys):
+        return "angles"
+    shafts = [one for one in tree.get("shafts", []) if isinstance(one, dict)]
+    if any(str(key).startswith(("side_slope", "plan_slope")) for one in shafts for key in one):
+        return "slopes"
+    return "points"
+
+
+def _geometry(tree: Mapping[str, Any]) -> list[tuple[str, Entry]]:
+    """Return the keys that say where the drive lies, each with the title of its table."""
+    wanted = COLUMNS[_form(tree)]
+    found: list[tuple[str, Entry]] = []
+    for path, title in parts(tree):
+        names = wanted.get(path.partition("[")[0], ())
+        if names:
+            entries = {one.name: one for one in section(tree, path).entries}
+            found += [(title, entries[name]) for name in names if name in entries]
+    return found
+
+
+def _points(text: str, drive: Any) -> list[dict[str, Any]]:
+    """Return the points of a drive given by points, as the views show them; none for another form."""
+    if drive.form != "points" or drive.input.point is None or drive.output.point is None:
+        return []
+    mm = DIMENSIONS["length"]["mm"]
+    ends = {"input": drive.input.point, "output": drive.output.point}
+    inner = {f"joints[{k}]": joint.centre for k, joint in enumerate(drive.joints)}
+    rows = {"input": ends["input"], **inner, "output": ends["output"]}
+    names = {path: title for path, title in parts(tree_of(text) or {})}
+    return [
+        {
+            "path": path,
+            "name": names.get(path, path),
+            "short": path[7:-1] and str(int(path[7:-1]) + 1) if path in inner else "",
+            "at": [round(x / mm, 6) for x in at],
+            "end": path in ends,
+        }
+        for path, at in rows.items()
+        if at is not None
+    ]

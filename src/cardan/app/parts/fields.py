@@ -1,0 +1,135 @@
+"""One key of the drive file as a field to fill in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from cardan.app.state.form import LONG, Entry, converted, problems_of, shown, written
+from cardan.app.state.session import Session
+from cardan.errors import InputError
+from cardan.io.amend import amend
+from cardan.texts import _
+from cardan.units import label
+
+
+class KeyField:
+    """A key: its name, what stands there, its unit, what is wrong with it.
+
+    Parameters
+    ----------
+    session : Session
+        Whose file it changes.
+    entry : Entry
+        The key.
+    removable : bool
+        Show what takes the key out of the file.
+    """
+
+    def __init__(self, session: Session, entry: Entry, *, removable: bool = True) -> None:
+        self.session = session
+        self.entry = entry
+        self._silent = False
+        with ui.element("div").classes("key").mark(f"key-{entry.key()}") as self.row:
+            with ui.element("div").classes("line"):
+                name = ui.label(entry.name.replace("_", " ")).classes("name")
+                name.tooltip(entry.doc)
+                self.widget = self._widget()
+                self._unit()
+                if removable and not entry.required:
+                    out = ui.button(icon="close", on_click=self.remove).props("flat dense round size=xs")
+                    out.props(f'aria-label="{_("take out")} {entry.name}"')
+            ui.label(entry.doc).classes("hint")
+            self.wrong = ui.label("").classes("wrong").props("role=alert")
+        self.judge()
+
+    def show(self, entry: Entry) -> None:
+        """Show what stands there now, without moving anything."""
+        self.entry = entry
+        self._silent = True
+        value = self._value()
+        if self.widget.value != value:
+            self.widget.value = value
+        self._silent = False
+        self.judge()
+
+    def judge(self) -> None:
+        """Show what is wrong with it."""
+        path = f"{self.entry.path}.{self.entry.name}" if self.entry.path else self.entry.name
+        found = problems_of(path, self.session.document.problems, self.entry.units)
+        self.wrong.set_text(" ".join(found))
+        self.wrong.set_visibility(bool(found))
+        self.row.classes(add="bad" if found else "", remove="" if found else "bad")
+
+    def remove(self) -> None:
+        """Take the key out of the file."""
+        apply(self.session, {self.entry.key(): None})
+
+    def _value(self) -> Any:
+        if self.entry.sort == "flag":
+            return self.entry.default if self.entry.value is None else bool(self.entry.value)
+        text = shown(self.entry)
+        return (text or None) if self.entry.sort == "choice" else text
+
+    def _widget(self) -> Any:
+        entry = self.entry
+        told = f'dense outlined aria-label="{entry.name} {label(entry.unit)}"'
+        if entry.sort == "flag":
+            return ui.switch(value=bool(self._value()), on_change=lambda event: self._typed(event.value)).props(told)
+        if entry.sort == "choice":
+            options = list(dict.fromkeys([*entry.choices, *([shown(entry)] if entry.given else [])]))
+            return ui.select(options, value=self._value(), on_change=lambda event: self._typed(event.value)).props(told)
+        if entry.name in LONG:
+            widget: Any = ui.textarea(value=shown(entry)).props(f"{told} autogrow")
+        else:
+            widget = ui.input(value=shown(entry), autocomplete=list(entry.offered) or None).props(told)
+        if not entry.given and isinstance(entry.default, int | float | str) and entry.default != "":
+            widget.props(f'placeholder="{entry.default}"')
+        widget.on("change", lambda: self._typed(widget.value))
+        widget.on("keydown.enter", lambda: self._typed(widget.value))
+        return widget
+
+    def _unit(self) -> None:
+        entry = self.entry
+        if len(entry.units) < 2:
+            if entry.unit:
+                ui.label(label(entry.unit)).classes("unit")
+            return
+        options = {unit: label(unit) for unit in entry.units}
+        chosen = ui.select(options, value=entry.unit, on_change=lambda event: self._turned(event.value))
+        chosen.props(f'dense borderless options-dense aria-label="{_("unit of")} {entry.name}"').classes("unit")
+
+    def _typed(self, value: Any) -> None:
+        if self._silent:
+            return
+        if self.entry.sort == "flag":
+            new: Any = bool(value)
+        elif self.entry.sort == "choice" and value in ("true", "false"):
+            new = value == "true"
+        else:
+            new = written(self.entry, str(value or ""))
+        if new != self.entry.value:
+            apply(self.session, {self.entry.key(): new})
+
+    def _turned(self, unit: str) -> None:
+        """Write the same amount in another unit."""
+        entry = self.entry
+        if unit != entry.unit:
+            value = converted(entry, unit) if entry.given else None
+            if value is not None:
+                apply(self.session, {entry.key(unit): value})
+
+
+def apply(session: Session, values: dict[str, Any]) -> None:
+    """Change keys of the file; say why where it cannot be."""
+    attempt(session, lambda text: amend(text, values))
+
+
+def attempt(session: Session, change: Callable[[str], str], *, gesture: str = "") -> None:
+    """Change the file; say why where it cannot be."""
+    try:
+        session.change(change, gesture=gesture)
+    except InputError as error:
+        ui.notify(str(error), type="negative", position="top")

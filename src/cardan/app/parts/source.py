@@ -1,0 +1,60 @@
+"""The drive file as text, both ways in step with everything else."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nicegui import ui
+
+from cardan.app.state.session import Session
+from cardan.texts import _
+
+QUIET = 0.4
+"""Seconds without a key after which the text is read."""
+
+
+class Source:
+    """The text of the file, with what is wrong with it below.
+
+    Parameters
+    ----------
+    session : Session
+        Whose file it shows and changes.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self._silent = False
+        self._due: ui.timer | None = None
+        theme = "vscodeDark" if session.choices.theme == "dark" else "vscodeLight"
+        self.text: Any = ui.codemirror(session.document.text, language="TOML", theme=theme, on_change=self._typed)  # type: ignore[arg-type]
+        self.text.classes("source").mark("source").props(f'aria-label="{_("text of the drive file")}"')
+        self.problems = ui.element("div").classes("problems").props("role=status")
+        self._judge()
+        session.listen("text", self._follow)
+
+    def _typed(self) -> None:
+        if self._silent:
+            return
+        if self._due is not None:
+            self._due.cancel()
+        self._due = ui.timer(QUIET, self._read, once=True)
+
+    def _read(self) -> None:
+        self._due = None
+        self._silent = True
+        self.session.rewrite(self.text.value)
+        self._silent = False
+
+    def _follow(self) -> None:
+        if not self._silent and self.text.value != self.session.document.text:
+            self._silent = True
+            self.text.value = self.session.document.text
+            self._silent = False
+        self._judge()
+
+    def _judge(self) -> None:
+        self.problems.clear()
+        with self.problems:
+            for problem in self.session.document.problems:
+                ui.label(str(problem)).classes("wrong")

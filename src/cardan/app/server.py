@@ -1,0 +1,153 @@
+"""Starts the app: a server on this machine, a page for every visitor."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+import socket
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cardan.errors import InputError, MissingExtraError, refuse
+from cardan.texts import _, language
+
+from .guard import LOCAL, VISITOR, Guard
+from .state.choices import choices_of
+from .state.session import Session
+from .state.workspace import Workspace
+
+PORT = 8321
+"""Port that is tried first; any free one when it is taken and none was asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """How the app starts.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder with the drive files: nothing outside it is read or written.
+    file : str
+        Name of the file in it to open; empty to offer the examples.
+    host : str
+        Address to listen at; anything but this machine asks for a token and gives each visitor a folder of their own.
+    port : int or None
+        Port to listen at; None for the usual or any free one.
+    show : bool
+        Open the browser.
+    """
+
+    folder: Path
+    file: str = ""
+    host: str = "127.0.0.1"
+    port: int | None = None
+    show: bool = True
+
+    @property
+    def shared(self) -> bool:
+        """Whether others than the user of this machine can reach it."""
+        return self.host not in LOCAL
+
+
+def start(how: Start) -> None:
+    """Run the app until it is interrupted.
+
+    Parameters
+    ----------
+    how : Start
+        Where and with which file.
+
+    Raises
+    ------
+    InputError
+        The port is taken, or there is no such folder or file.
+    MissingExtraError
+        NiceGUI is not installed.
+    """
+    try:
+        from nicegui import app, ui
+    except ImportError:
+        raise MissingExtraError(_("the app needs NiceGUI: pip install 'cardan[app]'")) from None
+    from . import page
+    from .state.jobs import Jobs
+
+    if not how.folder.is_dir():
+        raise refuse(str(how.folder), _("is no folder"))
+    if how.file:
+        Workspace(how.folder).read(how.file)
+    port, token = _port(how), secrets.token_urlsafe(24) if how.shared else ""
+    jobs = Jobs()
+    app.on_shutdown(jobs.close)
+    page.serve_files(app)
+
+    @ui.page("/", title="cardan", favicon=page.ICON, response_timeout=20)
+    def index(client: Any) -> None:
+        session = _session(how, client.request)
+        with session.speaking():
+            page.build(session, jobs)
+
+    app.add_middleware(Guard, names=() if how.shared else LOCAL, token=token, apart=how.shared)  # type: ignore[arg-type]
+    address = f"http://{'localhost' if how.host in ('0.0.0.0', '::') else how.host}:{port}/"
+    told = address + (f"?token={token}" if token else "")
+    print(_("cardan is at {address} - ctrl-C ends it").format(address=told), flush=True)
+    try:
+        ui.run(
+            host=how.host,
+            port=port,
+            title="cardan",
+            reload=False,
+            show=told if how.show else False,
+            show_welcome_message=False,
+            uvicorn_logging_level="error",
+        )
+    finally:
+        jobs.close()
+
+
+def _session(how: Start, request: Any) -> Session:
+    """Return a session for one window of a visitor."""
+    from . import page
+
+    kept = page.kept_choices(request.cookies)
+    choices = choices_of({"language": language(), **kept})
+    folder = how.folder
+    if how.shared:
+        folder = folder / "visitors" / _visitor(request)
+        folder.mkdir(parents=True, exist_ok=True)
+    session = Session(Workspace(folder), choices)
+    asked = request.query_params.get("file", "") or ("" if how.shared else how.file)
+    example = request.query_params.get("example", "")
+    try:
+        if example:
+            page.open_example(session, example)
+        elif asked:
+            session.open(session.workspace.read(asked), asked)
+    except InputError as error:
+        session.notice = str(error)
+    return session
+
+
+def _visitor(request: Any) -> str:
+    """Return the name of a visitor's own folder."""
+    return hashlib.sha256(request.cookies[VISITOR].encode()).hexdigest()[:32]
+
+
+def _port(how: Start) -> int:
+    """Return the port to listen at.
+
+    Raises
+    ------
+    InputError
+        The one asked for is taken.
+    """
+    for port in (how.port,) if how.port else (PORT, 0):
+        with socket.socket(socket.AF_INET6 if ":" in how.host else socket.AF_INET) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((how.host, port))
+                return int(probe.getsockname()[1])
+            except OSError as error:
+                why = error.strerror or str(error)
+    raise refuse("port", _("{port} at {host} cannot be used: {why}").format(port=how.port, host=how.host, why=why))
