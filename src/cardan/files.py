@@ -8,7 +8,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cardan.errors import refuse
-from cardan.texts import _
+from cardan.texts import _, mark
+
+REFUSALS = (
+    mark("No such file or directory"),
+    mark("Permission denied"),
+    mark("Is a directory"),
+    mark("Not a directory"),
+    mark("File exists"),
+    mark("File name too long"),
+    mark("No space left on device"),
+    mark("Read-only file system"),
+    mark("Too many open files"),
+    mark("Input/output error"),
+)
+"""What systems commonly say of a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +53,17 @@ class Enclosed:
 def folder_of(folder: str | Path | Enclosed) -> Path | Enclosed:
     """Return the folder in which the files that another one names are looked for."""
     return Path(folder) if isinstance(folder, str) else folder
+
+
+def refusal(error: OSError) -> str:
+    """Return why the system refused a file, in its own words, without numbers.
+
+    Examples
+    --------
+    >>> refusal(FileNotFoundError(2, "No such file or directory"))
+    'No such file or directory'
+    """
+    return _(error.strerror or str(error))
 
 
 def write_text(path: Path, text: str) -> None:
@@ -75,7 +100,7 @@ def write_bytes(path: Path, content: bytes) -> None:
         os.replace(temporary, path)
         temporary = None
     except OSError as error:
-        raise refuse(str(path), _("cannot be written: {why}").format(why=error.strerror or error)) from None
+        raise refuse(str(path), _("cannot be written: {why}").format(why=refusal(error))) from None
     finally:
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)

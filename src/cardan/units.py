@@ -11,6 +11,8 @@ from dataclasses import MISSING, dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
+from cardan.texts import _
+
 deg = math.pi / 180
 arcmin = deg / 60
 mm = 1e-3
@@ -137,7 +139,22 @@ def label(unit: str) -> str:
     >>> label("rad_s2"), label("mm")
     ('rad/s²', 'mm')
     """
-    return LABELS.get(unit, unit)
+    return spoken(LABELS.get(unit, unit))
+
+
+def spoken(printed: str) -> str:
+    """Return a printed unit in the language spoken here, signs before it as they are.
+
+    Examples
+    --------
+    >>> spoken("± N·m")
+    '± N·m'
+    >>> from cardan.texts import speaking
+    >>> with speaking("ru"):
+    ...     spoken("± N·m")
+    '± Н·м'
+    """
+    return " ".join(_(part) for part in printed.split(" "))
 
 
 def nearest(word: str, known: Any) -> str | None:

@@ -13,11 +13,14 @@ from babel.messages.extract import extract_from_dir
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
+from cardan.catalogue import catalogue
+from cardan.catalogue.rows import TABLES
+from cardan.catalogue.telling import SENTENCES, WORDS
 from cardan.drive.keys import fields_of
 from cardan.io.reference import SECTIONS
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
-from cardan.texts import DOMAIN, FOLDER, LANGUAGES
+from cardan.texts import DOMAIN, FOLDER, LANGUAGES, speaking
 from cardan.units import DIMENSIONS, LABELS
 
 SOURCE = FOLDER.parent
@@ -30,24 +33,30 @@ Texts = str | tuple[str, ...]
 
 
 def extracted() -> Catalog:
-    """Return every sentence of the sources: of code, of templates, on keys of files; and the labels of units."""
+    """Return every sentence of the sources: of code and templates, of the catalogue, on keys; and the units."""
     found = _empty()
     options = {"**.html": {"trimmed": "true"}}
     for name, _line, text, comments, context in extract_from_dir(SOURCE, METHODS, options, KEYWORDS):
         if text:
             found.add(text, locations=[(name, None)], auto_comments=comments, context=context)
-    for name, text in _declared():
-        found.add(text, locations=[(name, None)])
+    with speaking("en"):
+        for name, text in _declared():
+            found.add(text, locations=[(name, None)])
     return found
 
 
 def _declared() -> Iterator[tuple[str, str]]:
-    """Yield the sentences on tables and keys of the files, and the labels of units, each with where it stands."""
-    for cls in dict.fromkeys((*(cls for _title, cls in SECTIONS), Mechanism, Pair)):
+    """Yield the sentences of tables, keys and rows, and the labels of units, each with where it stands."""
+    for cls in dict.fromkeys((*(cls for _title, cls in SECTIONS), Mechanism, Pair, *TABLES.values())):
         name = cls.__module__.removeprefix("cardan.").replace(".", "/") + ".py"
         yield name, (cls.__doc__ or "").strip().splitlines()[0]
         for one in fields_of(cls).values():
             yield name, one.key.doc
+    for table, rows in catalogue().tables.items():
+        for row in rows.values():
+            words = [getattr(row, name, "") for name in SENTENCES]
+            words += [word for name in WORDS for word in getattr(row, name, ())]
+            yield from ((f"catalogue/{table}", word) for word in words if word)
     for unit in dict.fromkeys(unit for units in DIMENSIONS.values() for unit in units):
         if LABELS.get(unit, unit).strip("°′%1"):
             yield "units.py", LABELS.get(unit, unit)

@@ -57,7 +57,7 @@ def read(cls: type, table: Mapping[str, Any], path: str, problems: list[Problem]
             values[name] = _value(fields_of(cls)[name], fields_of(cls)[name].type, value, key, factor, here, problems)
     for name, one in fields_of(cls).items():
         if one.required and name not in values:
-            problems.append(Problem(f"{path}.{one.spelling}", _("missing: {doc}").format(doc=one.key.doc)))
+            problems.append(Problem(f"{path}.{one.spelling}", _("missing: {doc}").format(doc=_(one.key.doc))))
     if len(problems) > before:
         return None
     try:

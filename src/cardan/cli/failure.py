@@ -48,7 +48,9 @@ def about(name: str) -> Iterator[None]:
 
 def reason(error: OSError) -> str:
     """Return why the system refused a file, in its own words, without numbers."""
-    return (error.strerror or str(error)).lower()
+    from cardan.files import refusal
+
+    return refusal(error).lower()
 
 
 def answer(error: BaseException, arguments: Sequence[str]) -> int:
@@ -104,7 +106,9 @@ def _reader_gone(error: BaseException | None) -> bool:
 def _usage(error: Any) -> str:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "cardan"
-    text = " ".join(str(error.format_message()).split()).replace("Value error, ", "")
+    from .typer_words import reworded
+
+    text = reworded(" ".join(str(error.format_message()).split()).replace("Value error, ", ""))
     text = text[:1].lower() + text[1:].rstrip(".")
     return _("{text}; see {command} --help").format(text=text, command=command)
 

@@ -184,7 +184,7 @@ def kinds_answer() -> Answer:
                     "steepest_deg": degrees(kind.steepest),
                     "types": [row.id for row in types_of(name)],
                     "keys": [
-                        {"key": one.spelling, "required": one.required, "doc": one.key.doc}
+                        {"key": one.spelling, "required": one.required, "doc": _(one.key.doc)}
                         for field, one in fields_of(kind).items()
                         if field not in fields_of(Joint)
                     ],

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import import_module
 from typing import Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
+
+from cardan.texts import LANGUAGES, _
 
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -36,20 +39,49 @@ class Entry:
     entries: Mapping[str, Entry] = field(default_factory=dict)
 
 
-def _plain(parameters: list[Any]) -> list[Any]:
-    """Return the parameters; a flag is a flag and needs no word for its type."""
+@cache
+def _language_option() -> Any:
+    """Return the option ``--lang`` of every command. `cardan.cli.main` obeys it before any command is imported."""
+    single = typer.Typer(add_completion=False)
+    text = _("Language of the answers: {languages}. CARDAN_LANG sets it for good.")
+    text = text.format(languages=", ".join(f"{code} ({name})" for code, name in LANGUAGES.items()))
+    wanted: str = typer.Option("", "--lang", metavar="|".join(LANGUAGES), show_default=False, help=text)
+
+    @single.command()
+    def command(lang: str = wanted) -> None:
+        pass
+
+    option = typer.main.get_command(single).params[0]
+    option.expose_value = False
+    return option
+
+
+def _common(parameters: list[Any]) -> list[Any]:
+    """Return the parameters with the language before the help; a flag is a flag and needs no word for its type."""
+    parameters = [*parameters[:-1], _language_option(), *parameters[-1:]]
     for parameter in parameters:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""
+        parameter.help = _(parameter.help) if parameter.help else parameter.help
     return parameters
 
 
+def _usage(command: Any, ctx: Any, formatter: Any) -> None:
+    """Write how a command is called."""
+    pieces = [_(piece) for piece in command.collect_usage_pieces(ctx)]
+    formatter.write_usage(ctx.command_path, " ".join(pieces), prefix=_("Usage:") + " ")
+
+
 class Command(TyperCommand):
-    """A command whose help shows flags without ``<bool>``."""
+    """A command that takes ``--lang``, whose help shows flags without ``<bool>`` and speaks our language."""
 
     def get_params(self, ctx: Any) -> list[Any]:
         """Return the parameters of the command."""
-        return _plain(super().get_params(ctx))
+        return _common(super().get_params(ctx))
+
+    def format_usage(self, ctx: Any, formatter: Any) -> None:
+        """Write how the command is called."""
+        _usage(self, ctx, formatter)
 
 
 class Group(TyperGroup):
@@ -64,7 +96,11 @@ class Group(TyperGroup):
 
     def get_params(self, ctx: Any) -> list[Any]:
         """Return the parameters before the command."""
-        return _plain(super().get_params(ctx))
+        return _common(super().get_params(ctx))
+
+    def format_usage(self, ctx: Any, formatter: Any) -> None:
+        """Write how a command of the group is called."""
+        _usage(self, ctx, formatter)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Return the command itself, for a run or for completion."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TextIO
 
 
@@ -21,6 +22,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         What follows ``cardan`` on the command line; that of the process by default.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        from cardan.texts import language, speaking
+
+        with speaking(os.environ.get("CARDAN_LANG", "")):
+            asked, rest = _asked(given)
+            with speaking(asked or language()), _all_speaking():
+                return _run(rest)
+    except BaseException as error:
+        from .failure import answer
+
+        return answer(error, given)
+
+
+def _run(given: list[str]) -> int:
+    """Run one command in the language spoken here; help texts are made where modules are loaded, so that comes now."""
     try:
         sys.stdout, sys.stderr = sys.stdout or _nowhere(), sys.stderr or _nowhere()
         from .app import app
@@ -39,6 +55,64 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return interrupted(given)
     return code if isinstance(code, int) else 0
+
+
+def _asked(given: Sequence[str]) -> tuple[str, list[str]]:
+    """Return the language that ``--lang`` asks for, wherever it stands, empty where it does not; and all else.
+
+    Raises
+    ------
+    InputError
+        It is not one that we speak.
+    """
+    end = given.index("--") if "--" in given else len(given)
+    asked, rest, words = "", [], iter(given[:end])
+    for word in words:
+        if word == "--lang" or word.startswith("--lang="):
+            value = word.removeprefix("--lang=") if "=" in word else next(words, None)
+            if value is None:
+                return asked, list(given)  # the parser says what is missing
+            asked = _known(value)
+        else:
+            rest.append(word)
+    return asked, [*rest, *given[end:]]
+
+
+def _known(given: str) -> str:
+    from cardan.texts import LANGUAGES, _
+
+    if given in LANGUAGES:
+        return given
+    from cardan.errors import refuse
+
+    text = _("there is no language {given}; there are {known}")
+    raise refuse("--lang", text.format(given=repr(given), known=", ".join(LANGUAGES)))
+
+
+@contextmanager
+def _all_speaking() -> Iterator[None]:
+    """Let typer, which asks the `gettext` of the process, and processes started from here speak the language too."""
+    from cardan.texts import DOMAIN, FOLDER, language
+
+    if language() == "en":
+        yield
+        return
+    import gettext
+
+    names = {name: os.environ.get(name) for name in ("LANGUAGE", "CARDAN_LANG")}
+    domain = gettext.textdomain()
+    gettext.bindtextdomain(DOMAIN, str(FOLDER))
+    gettext.textdomain(DOMAIN)
+    os.environ.update(dict.fromkeys(names, language()))
+    try:
+        yield
+    finally:
+        gettext.textdomain(domain)
+        for name, value in names.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def _nowhere() -> TextIO:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from cardan.errors import refuse
 from cardan.texts import _
+from cardan.units import spoken
 
 from .answer import Answer, Cell, Column, Remark, Table, Tone, printed
 
@@ -236,7 +237,7 @@ def _print_table(console: Console, table: Table) -> None:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
     cells = [[printed(value, column.form) for value, column in zip(row, columns, strict=True)] for row in table.rows]
-    headings = [[column.heading for column in columns], [column.unit for column in columns]]
+    headings = [[column.heading for column in columns], [spoken(column.unit) for column in columns]]
     widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
     if columns[-1].wrap:
         widths[-1] = min(widths[-1], max(NARROWEST, console.width - GAP - sum(GAP + width for width in widths[:-1])))

@@ -15,6 +15,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.maths.arrays import Array
+from cardan.units import spoken
 
 from .wording import significant
 
@@ -192,7 +193,7 @@ class Axis:
     @property
     def title(self) -> str:
         """Label with its unit in brackets."""
-        return f"{self.label} [{self.unit}]" if self.unit else self.label
+        return f"{self.label} [{spoken(self.unit)}]" if self.unit else self.label
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,8 @@ import json
 from collections.abc import Sequence
 from html import escape
 
+from cardan.texts import language
+
 from . import palette
 from .figure import Figure
 from .page import laid_out
@@ -37,7 +39,8 @@ def render(figures: Figure | Sequence[Figure]) -> str:
         "h1{font-size:1.1rem;margin:0}figure{margin:0 0 2.5rem}p{margin:.2rem 0;color:#5a6474}"
     )
     return (
-        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{style}</style>'
+        f'<!doctype html>\n<html lang="{language()}"><head><meta charset="utf-8"><title>{title}</title>'
+        f"<style>{style}</style>"
         f"<script>{program()}</script></head><body>\n{blocks}\n</body></html>\n"
     )
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cardan.errors import Problem, check, refuse
+from cardan.files import refusal
 from cardan.texts import _, mark
 from cardan.units import DIMENSIONS
 
@@ -44,7 +45,7 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
     except csv.Error as error:
         raise refuse(str(path.name), _("is no CSV: {why}").format(why=error)) from None
     except OSError as error:
-        raise refuse(str(path.name), _("cannot be read: {why}").format(why=error.strerror or error)) from None
+        raise refuse(str(path.name), _("cannot be read: {why}").format(why=refusal(error))) from None
     except UnicodeDecodeError:
         raise refuse(str(path.name), _("is not UTF-8 text")) from None
     if not rows:

@@ -11,7 +11,7 @@ from typing import Any
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check, refuse
-from cardan.files import Enclosed, folder_of, write_text
+from cardan.files import Enclosed, folder_of, refusal, write_text
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
@@ -70,7 +70,7 @@ def text_of(where: Path) -> tuple[str, str]:
             raise refuse(str(where), _("is larger than {limit} MB; no drive file is").format(limit=MAX_BYTES // 10**6))
         text = content.decode("utf-8-sig")
     except OSError as error:
-        raise refuse(str(where), _("cannot be read: {why}").format(why=error.strerror or error)) from None
+        raise refuse(str(where), _("cannot be read: {why}").format(why=refusal(error))) from None
     except UnicodeDecodeError as error:
         raise refuse(str(where), _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from None
     return text, where.suffix.lower().lstrip(".") or "toml"

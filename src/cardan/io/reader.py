@@ -180,7 +180,7 @@ def _values(cls: type, table: Mapping[str, Any], written: str, path: str, found:
             values[name] = _blank(one.type)
         elif one.required:
             here = f"{written}.{one.spelling}" if written else one.spelling
-            found.refuse(here, _("missing: {doc}").format(doc=one.key.doc), there)
+            found.refuse(here, _("missing: {doc}").format(doc=_(one.key.doc)), there)
             values[name] = _blank(one.type)
     return values
 

@@ -9,6 +9,7 @@ from typing import Any, get_args, get_origin
 from cardan.drive.drive import Drive
 from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.mechanism.mechanism import Mechanism
+from cardan.texts import _
 from cardan.units import label
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -40,7 +41,7 @@ def _file(cls: Any, title: str) -> dict[str, Any]:
     """Return the schema of a file; each table in it is defined once."""
     head = _table(cls)
     head["properties"] = {
-        "format": {"const": cls.format, "description": "version of the file format"},
+        "format": {"const": cls.format, "description": _("version of the file format")},
         **head["properties"],
     }
     head["required"] = ["format", *head.get("required", [])]
@@ -134,5 +135,5 @@ def _range(one: Field, factor: float) -> dict[str, float]:
 
 def _described(one: Field, spelling: str) -> str:
     unit = spelling.removeprefix(one.key.mirror if one.key.mirror and spelling.startswith(one.key.mirror) else one.name)
-    opposite = " (with the opposite sign)" if one.spellings[spelling] < 0 else ""
-    return f"{one.key.doc}{opposite}" + (f" [{label(unit.lstrip('_'))}]" if unit else "")
+    opposite = " " + _("(with the opposite sign)") if one.spellings[spelling] < 0 else ""
+    return f"{_(one.key.doc)}{opposite}" + (f" [{label(unit.lstrip('_'))}]" if unit else "")

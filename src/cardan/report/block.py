@@ -10,6 +10,7 @@ from cardan.figures import Figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.texts import _
+from cardan.units import spoken
 
 Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
 
@@ -46,11 +47,14 @@ class Cell:
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """A column of a table: its heading with the unit of its numbers."""
+    """A column of a table: its heading with the unit of its numbers, both in the language spoken here."""
 
     heading: str
     unit: str = ""
     left: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "unit", spoken(self.unit))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,7 +162,7 @@ def key(name: str, value: float, unit: str, verdict: Cell | None = None, text: s
         The number as it is to be written.
     """
     shown = text or ("0" if abs(value) < 1e-5 else significant(value))
-    return [words(name), number(shown, value), words(unit), words("–"), words("–"), verdict or words("")]
+    return [words(name), number(shown, value), words(spoken(unit)), words("–"), words("–"), verdict or words("")]
 
 
 def of_shaft(k: int, name: str = "", *, end: str = "") -> Cell:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cardan.figures.figure import Figure
-from cardan.texts import _
+from cardan.texts import _, language
 
 from .block import Listing, Picture, Points, Table, Words
 
@@ -53,7 +53,7 @@ def text(content: Content) -> str:
 
 
 def _page(content: Content, drawn: Callable[[Figure], str], program: str) -> str:
-    page: str = _template().render(_=_, report=content, drawn=drawn, kind=_kind, program=program)
+    page: str = _template().render(_=_, language=language(), report=content, drawn=drawn, kind=_kind, program=program)
     return page
 
 

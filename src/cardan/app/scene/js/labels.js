@@ -1,0 +1,107 @@
+// Texts as HTML over the canvas: crisp at any size; where two would lie on one another, the less important one goes.
+
+import { THREE } from "nicegui-scene";
+
+const RANK = { dimension: 0, angle: 1, joint: 2, shaft: 3 }; // what is kept first; others come after
+const SHIFTS = [
+  [0, -16],
+  [0, 16],
+  [34, -12],
+  [-34, -12],
+  [34, 16],
+  [-34, 16],
+];
+
+const SEEN = new THREE.Vector3();
+
+export class Labels {
+  constructor(parent) {
+    this.layer = document.createElement("div");
+    this.layer.className = "cardan-labels";
+    parent.append(this.layer);
+    this.still = [];
+    this.moving = [];
+  }
+
+  show(labels) {
+    this.still.forEach(({ element }) => element.remove());
+    this.still = labels.map((label) => ({ ...this.make(label.text, label.role), ...label, place: new THREE.Vector3(...label.at) }));
+    this.still.sort((a, b) => (RANK[a.role] ?? 9) - (RANK[b.role] ?? 9));
+  }
+
+  make(text, role) {
+    const element = document.createElement("span");
+    element.textContent = text;
+    element.dataset.role = role;
+    this.layer.append(element);
+    return { element, width: 0 };
+  }
+
+  visible(on) {
+    for (const label of this.still) {
+      label.on = on(label.group);
+      if (!label.on) label.element.style.visibility = "hidden";
+    }
+  }
+
+  // Texts of arrows: a list of [arrow, place], another one every frame.
+  follow(texts) {
+    const kept = new Map(this.moving.map((label) => [label.arrow, label]));
+    this.moving = texts.map(([arrow, place]) => {
+      const label = kept.get(arrow) ?? { ...this.make(arrow.text, "arrow"), arrow, on: true };
+      kept.delete(arrow);
+      label.place = place;
+      return label;
+    });
+    for (const { element } of kept.values()) element.remove();
+  }
+
+  // Lay all texts out for a camera and a canvas of this size [CSS pixels].
+  place(camera, width, height) {
+    const taken = [];
+    for (const label of [...this.still, ...this.moving]) {
+      if (!label.on) continue;
+      const { element } = label;
+      if (!label.width) [label.width, label.height] = [element.offsetWidth, element.offsetHeight];
+      SEEN.copy(label.place).project(camera);
+      const inside = Math.abs(SEEN.x) < 1.05 && Math.abs(SEEN.y) < 1.05 && SEEN.z > -1 && SEEN.z < 1;
+      const spot = inside && free(taken, ((SEEN.x + 1) / 2) * width, ((1 - SEEN.y) / 2) * height, label, width, height);
+      element.style.visibility = spot ? "visible" : "hidden";
+      label.spot = spot || null;
+      if (!spot) continue;
+      taken.push(spot);
+      element.style.transform = `translate(${Math.round(spot.left)}px, ${Math.round(spot.top)}px)`;
+    }
+  }
+
+  // Draw the texts into a picture.
+  paint(context, ratio) {
+    context.save();
+    context.scale(ratio, ratio);
+    context.textBaseline = "middle";
+    for (const { element, spot } of [...this.still, ...this.moving]) {
+      if (!spot || element.style.visibility !== "visible") continue;
+      const style = getComputedStyle(element);
+      context.font = style.font;
+      context.fillStyle = style.backgroundColor;
+      context.beginPath();
+      context.roundRect(spot.left, spot.top, spot.right - spot.left, spot.bottom - spot.top, 4);
+      context.fill();
+      context.fillStyle = style.color;
+      context.fillText(element.textContent, spot.left + parseFloat(style.paddingLeft), (spot.top + spot.bottom) / 2 + 1);
+    }
+    context.restore();
+  }
+}
+
+// The first place round a point where a text of this size covers no other; null where there is none.
+function free(taken, x, y, { width, height }, right, bottom) {
+  for (const [dx, dy] of SHIFTS) {
+    const left = Math.min(Math.max(x + dx - width / 2 + Math.sign(dx) * (width / 2 - 17), 2), Math.max(right - width - 2, 2));
+    const top = Math.min(Math.max(y + dy - height / 2, 2), Math.max(bottom - height - 2, 2));
+    const spot = { left, top, right: left + width, bottom: top + height };
+    const hit = taken.some((o) => o.left < spot.right && spot.left < o.right && o.top < spot.bottom && spot.top < o.bottom);
+    if (!hit) return spot;
+  }
+  return null;
+}
