@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
     from .answer import Answer
 
-STEP = 1e-9
-"""Yokes turned by less than this [rad] stay as they are in the file."""
-
 
 def applied(
     answer: Answer,
@@ -51,10 +48,9 @@ def applied(
     also : mapping of str to value
         What else changes in the file, by paths with units.
     """
-    import numpy as np
-
     from cardan.drive.paths import with_values
     from cardan.io import dumps, edit
+    from cardan.synthesis.setting import values_of
 
     from .answer import Remark, percent
     from .output import write_text
@@ -62,13 +58,7 @@ def applied(
 
     best = (*found.pose_settings, *found.settings, found.as_built)[0]
     chosen = best if label is None else named(every_setting(found), label)
-    present = [shaft.yoke_angle for shaft in drive.shafts[1:-1]]
-    angles = np.rad2deg(chosen.yoke_angle)
-    values = dict(also) | {
-        f"shafts[{k + 1}].yoke_angle_deg": round(float(angle), 12)
-        for k, angle in enumerate(angles)
-        if abs(np.sin(chosen.yoke_angle[k] - present[k])) > STEP
-    }
+    values = dict(also) | values_of(chosen, drive)
     if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
         form = "json" if out.suffix.lower() == ".json" else "toml"
         written = dumps(with_values(drive, values), form=form)

@@ -19,6 +19,7 @@ from cardan.units import arcmin
 
 from .balance import checks, refused
 from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, words
+from .lacking import of_accuracy
 from .subject import Subject
 
 CURVED = 0.02
@@ -27,9 +28,9 @@ CURVED = 0.02
 
 def erring(on: Subject) -> Page | None:
     """Return the page of the accuracy; None where no joint has an error or a tolerance."""
-    spread = any(joint.tolerance is not None for joint in on.drive.joints)
-    if not spread and all(joint.error is None for joint in on.drive.joints):
+    if of_accuracy(on.drive):
         return None
+    spread = any(joint.tolerance is not None for joint in on.drive.joints)
     title = _("Accuracy")
     try:
         known = transmission_error(on.drive)

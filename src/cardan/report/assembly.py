@@ -17,6 +17,7 @@ from cardan.units import deg
 
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, words
+from .lacking import of_assembly
 from .subject import Subject
 
 NOTHING = 1e-9
@@ -28,9 +29,9 @@ EVEN_WORK = 1e-6
 
 def straining(on: Subject) -> Page | None:
     """Return the page of the forces of assembly; None where the file tells neither stiffness nor misalignment."""
-    off = any(any(one.offset) for one in on.drive.supports)
-    if not off and not any(one.stiffness or one.axial_stiffness for one in on.drive.supports):
+    if of_assembly(on.drive):
         return None
+    off = any(any(one.offset) for one in on.drive.supports)
     try:
         found = assembly(on.drive)
     except InputError as error:

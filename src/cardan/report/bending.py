@@ -16,6 +16,7 @@ from cardan.units import mm, rpm
 
 from .balance import checks, refused
 from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, number, of_shaft, words
+from .lacking import of_bending
 from .subject import Subject
 
 MESH = 2e-3
@@ -25,12 +26,7 @@ MESH = 2e-3
 def whirling(on: Subject) -> Page | None:
     """Return the page of the critical speeds; None where the file leaves out bodies of shafts or all bearings."""
     drive = on.drive
-    between = drive.shafts[1:-1]
-    held = {support.shaft for support in drive.supports}
-    ends = [shaft for shaft in (drive.shafts[0], drive.shafts[-1]) if shaft.has_body and shaft.number in held]
-    if not all(shaft.has_body for shaft in between) or not (between or ends):
-        return None
-    if len(between) > 1 and not drive.supports:
+    if of_bending(drive):
         return None
     title = _("Critical speeds")
     try:

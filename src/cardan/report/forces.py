@@ -24,6 +24,7 @@ from cardan.units import deg
 
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, of_shaft
+from .lacking import of_forces
 from .subject import Subject
 
 NOTHING = 1e-9
@@ -32,7 +33,7 @@ NOTHING = 1e-9
 
 def carrying(on: Subject) -> Page | None:
     """Return the page of the forces; None where the drive carries no torque or nothing holds its shafts."""
-    if on.drive.duty.torque is None or not on.drive.supports:
+    if of_forces(on.drive):
         return None
     remark: list[Block] = []
     try:

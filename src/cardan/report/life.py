@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.analysis.joint_bearings import joint_bearings
 from cardan.analysis.life import METHODS, Life, life
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
@@ -18,6 +17,7 @@ from cardan.units import deg, rpm
 
 from .balance import refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, words
+from .lacking import of_life
 from .subject import Subject
 
 HOUR = 3600.0
@@ -31,11 +31,8 @@ SHOWN = 12
 
 def lasting(on: Subject) -> Page | None:
     """Return the page of the life; None where the file asks for none, or says nothing of bearings or of the duty."""
-    drive, duty = on.drive, on.drive.duty
-    parts = bool(duty.blocks) or duty.torque_history is not None
-    running = parts or (duty.torque is not None and duty.speed is not None)
-    own = joint_bearings(drive)[0]
-    if not running or not (parts or duty.life is not None) or not (np.any(own.rated) or any(own.convention)):
+    drive = on.drive
+    if of_life(drive):
         return None
     title = _("Life")
     try:

@@ -14,13 +14,13 @@ from cardan.texts import _
 
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
+from .lacking import of_losses
 from .subject import Subject
 
 
 def rubbing(on: Subject) -> Page | None:
     """Return the page of the losses; None where the file gives no torque, no speed or no friction."""
-    duty = on.drive.duty
-    if duty.torque is None or duty.speed is None or not _rubs(on.drive):
+    if of_losses(on.drive):
         return None
     title = _("Losses")
     try:
@@ -52,13 +52,6 @@ def _keys(found: Losses) -> Iterator[list[Cell]]:
         text = percent(found.efficiency, 4).removesuffix(" %")
         yield key(_("efficiency"), 100.0 * found.efficiency, "%", part, text)
     yield key(_("heat of all parts"), found.heat, "W", part if not found.efficiency > 0.0 else None)
-
-
-def _rubs(drive: Drive) -> bool:
-    joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
-    supports = any(support.friction is not None for support in drive.supports)
-    splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
-    return joints or supports or splines
 
 
 def _table(drive: Drive, found: Losses) -> Table:

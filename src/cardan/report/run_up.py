@@ -21,7 +21,8 @@ from cardan.units import rpm
 
 from .balance import checks, refused
 from .block import Block, Cell, Column, Page, Picture, Table, Words, key, number, words
-from .subject import Subject
+from .lacking import of_run_up
+from .subject import Progress, Subject
 
 SMOOTH, STRIKING = 20.0, 600.0
 """Steps in a period of the fastest swing, and in drives with play: contacts fall somewhere within a step."""
@@ -39,18 +40,24 @@ ENERGY = 1e-4
 """Share of the largest energy or work that the account of energy may miss: contacts fall into steps."""
 
 
-def running_up(on: Subject) -> Page | None:
-    """Return the page of a run-up; None where the duty has none, or the file no torsional line."""
+def running_up(on: Subject, progress: Progress | None = None) -> Page | None:
+    """Return the page of a run-up; None where the duty has none, or the file no torsional line.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+    """
     drive, course = on.drive, on.drive.duty.run_up
-    if course is None or turns_freely(drive, drive.duty):
-        return None
-    if not drive.stations and all(shaft.stiffness is None for shaft in drive.shafts):
+    if course is None or of_run_up(drive) or turns_freely(drive, drive.duty):
         return None
     title = _("Running up")
     try:
         modes = torsion_modes(drive)
         steps = _steps(modes, course)
-        found = None if steps > MOST else _followed(drive, course, play=_plays(modes))
+        found = None if steps > MOST else _followed(drive, course, progress, play=_plays(modes))
     except InputError as error:
         return refused("run-up", title, error)
     if found is None:
@@ -81,10 +88,10 @@ def _steps(modes: TorsionModes, course: RunUp) -> float:
     return (1.0 + AFTER) * course.duration * fastest / (2.0 * math.pi) * each
 
 
-def _followed(drive: Drive, course: RunUp, *, play: bool) -> Transient:
+def _followed(drive: Drive, course: RunUp, progress: Progress | None, *, play: bool) -> Transient:
     swings = 2.0 * max(abs(course.start), abs(course.end)) / (2.0 * math.pi) * course.duration
     samples = int(min(max(ACROSS * swings, SAMPLES[0]), SAMPLES[1]))
-    return transient(drive, times=samples, method=FixedStep(per_period=STRIKING if play else SMOOTH))
+    return transient(drive, times=samples, method=FixedStep(per_period=STRIKING if play else SMOOTH), progress=progress)
 
 
 def _speed_at(course: RunUp, time: float) -> float:

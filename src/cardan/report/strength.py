@@ -15,6 +15,7 @@ from cardan.units import deg
 
 from .balance import refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, of_shaft, words
+from .lacking import of_strength
 from .subject import Subject
 
 MPA = 1e6
@@ -28,7 +29,7 @@ AMBER = 0.9
 def bearing_up(on: Subject) -> Page | None:
     """Return the page of the strength; None where the file gives no torque, or nothing that could be judged."""
     title = _("Strength")
-    if not _loaded(on.drive):
+    if of_strength(on.drive):
         return None
     try:
         found = strength(on.drive, known=on.known)
@@ -45,11 +46,6 @@ def bearing_up(on: Subject) -> Page | None:
     answer = figures[0].sentence
     alarms = [Words(text=answer, tone="failed")] if found.enough is False else []
     return Page(name="strength", title=title, answer=answer, blocks=blocks, keys=list(_keys(found)), alarms=alarms)
-
-
-def _loaded(drive: Drive) -> bool:
-    duty = drive.duty
-    return duty.torque is not None or bool(duty.blocks) or duty.torque_history is not None
 
 
 def _keys(found: Strength) -> Iterator[list[Cell]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -23,7 +23,8 @@ from cardan.units import deg, rpm
 
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
-from .subject import Subject
+from .lacking import of_orders, of_stability, of_torsion
+from .subject import Progress, Subject
 
 MODES = 4
 """Modes in the tables."""
@@ -47,34 +48,97 @@ SMALL = 1e-6
 def twisting(on: Subject) -> Page | None:
     """Return the page of torsional vibration; None where the file gives neither stations nor stiffnesses."""
     drive = on.drive
-    if not drive.stations and all(shaft.stiffness is None for shaft in drive.shafts):
+    if of_torsion(drive):
         return None
-    title = _("Torsional vibration")
     try:
-        modes = torsion_modes(drive)
-        known = drive.duty.speed is not None
-        runs = torsion_response(drive) if known else None
-        swept = _swept(drive)
+        modes, runs = torsion_modes(drive), _running(drive)
+        swept = None if of_orders(drive) else _swept(drive)
         mapped = _mapped(drive, modes)
     except InputError as error:
-        return refused("torsion", title, error)
+        return refused("torsion", _("Torsional vibration"), error)
+    more: list[Block] = []
+    if swept is not None:
+        more += _sweep(swept)
+    if mapped is not None:
+        more += _map(mapped, modes)
+    return _page(drive, modes, runs, more)
+
+
+def swinging(on: Subject) -> Page | None:
+    """Return the page of the modes and of the motion at the speed of the duty alone; None as of `twisting`."""
+    if of_torsion(on.drive):
+        return None
+    try:
+        modes, runs = torsion_modes(on.drive), _running(on.drive)
+    except InputError as error:
+        return refused("torsion", _("Torsional vibration"), error)
+    return _page(on.drive, modes, runs, [])
+
+
+def ordered(on: Subject, progress: Progress | None = None) -> Page | None:
+    """Return the page of the orders over the speeds in use; None where the file has no range of them.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+    """
+    if of_orders(on.drive):
+        return None
+    title = _("Orders over the speeds in use")
+    try:
+        swept = _swept(on.drive, progress)
+    except InputError as error:
+        return refused("orders", title, error)
+    blocks = _sweep(swept)
+    return Page(name="orders", title=title, answer=_said(blocks), blocks=blocks)
+
+
+def stable(on: Subject, progress: Progress | None = None) -> Page | None:
+    """Return the page of where torsional vibration grows; None where the file has no speed, or bends next to nothing.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+    """
+    if of_stability(on.drive):
+        return None
+    title = _("Where torsional vibration grows")
+    try:
+        modes = torsion_modes(on.drive)
+        mapped = _mapped(on.drive, modes, progress)
+    except InputError as error:
+        return refused("stability", title, error)
+    if mapped is None:
+        return None
+    blocks = _map(mapped, modes)
+    return Page(name="stability", title=title, answer=_said(blocks), blocks=blocks)
+
+
+def _said(blocks: Sequence[Block]) -> str:
+    """Return the sentence under the first figure."""
+    return next((one.figure.sentence for one in blocks if isinstance(one, Picture)), "")
+
+
+def _page(drive: Drive, modes: TorsionModes, runs: TorsionResponse | None, more: Sequence[Block]) -> Page:
+    """Return the page of modes and motion, with more after these."""
     alarms = list(_alarms(modes, runs))
     blocks: list[Block] = [*alarms, Picture(figure=campbell_figure(modes)), _mode_table(modes)]
     blocks += [Picture(figure=shapes_figure(modes)), _joint_table(drive, modes)]
     if runs is not None and bool(runs.steady.found):
         blocks += [Picture(figure=response_figure(runs)), _torque_table(runs)]
-    if swept is not None:
-        blocks += [Picture(figure=sweep_figure(swept)), Picture(figure=waterfall_figure(swept))]
-    if mapped is not None:
-        blocks.append(Picture(figure=map_figure(mapped)))
-        if _plays(modes):
-            blocks.append(_finer(mapped))
+    blocks += more
     if modes.train.assumed:
         blocks.append(Points(title=_("Assumed"), items=list(_assumed(modes))))
     blocks.append(_checks(modes, runs))
     return Page(
         name="torsion",
-        title=title,
+        title=_("Torsional vibration"),
         answer=_answer(modes, runs),
         blocks=blocks,
         keys=list(_keys(modes, runs)),
@@ -82,16 +146,28 @@ def twisting(on: Subject) -> Page | None:
     )
 
 
-def _swept(drive: Drive) -> TorsionResponse | None:
-    """Return the motions over the speeds in use; None where there is no range of them."""
+def _running(drive: Drive) -> TorsionResponse | None:
+    """Return the motion at the speed of the duty; None where there is none."""
+    return None if drive.duty.speed is None else torsion_response(drive)
+
+
+def _sweep(swept: TorsionResponse) -> list[Block]:
+    return [Picture(figure=sweep_figure(swept)), Picture(figure=waterfall_figure(swept))]
+
+
+def _map(mapped: Stability, modes: TorsionModes) -> list[Block]:
+    return [Picture(figure=map_figure(mapped)), *([_finer(mapped)] if _plays(modes) else [])]
+
+
+def _swept(drive: Drive, progress: Progress | None = None) -> TorsionResponse:
+    """Return the motions over the speeds in use, of which there is a range."""
     between = drive.duty.speed_range
-    if between is None:
-        return None
+    assert between is not None
     low, high = max(between[0], 0.05 * between[1]), between[1]
-    return torsion_response(drive, speed=np.linspace(low, high, SWEEP))
+    return torsion_response(drive, speed=np.linspace(low, high, SWEEP), progress=progress)
 
 
-def _mapped(drive: Drive, modes: TorsionModes) -> Stability | None:
+def _mapped(drive: Drive, modes: TorsionModes, progress: Progress | None = None) -> Stability | None:
     """Return where vibration grows, about the speed and the bends of the drive; None where it has none of them."""
     bend = float(np.max(given_chain(drive).bend))
     if not drive.duty.speed or bend < LITTLE:
@@ -99,7 +175,8 @@ def _mapped(drive: Drive, modes: TorsionModes) -> Stability | None:
     runs = abs(drive.duty.speed) / rpm
     across, up = (COARSE_ACROSS, COARSE_UP) if _plays(modes) else (ACROSS, UP)
     speeds = np.linspace(0.5 * runs, 1.5 * runs, across)
-    return stability(drive, over={"duty.speed_rpm": speeds, BEND: np.linspace(0.3, 1.6, up) * min(bend, WIDEST) / deg})
+    bends = np.linspace(0.3, 1.6, up) * min(bend, WIDEST) / deg
+    return stability(drive, over={"duty.speed_rpm": speeds, BEND: bends}, progress=progress)
 
 
 def _plays(modes: TorsionModes) -> bool:

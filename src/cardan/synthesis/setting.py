@@ -10,6 +10,7 @@ import numpy as np
 from cardan.analysis.equivalence import SYNCHRONOUS, equivalent_joint
 from cardan.analysis.motion import phase_angles
 from cardan.drive.chain import Chain
+from cardan.drive.drive import Drive
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace, unit_complex
 from cardan.maths.mobius import Pair
@@ -50,6 +51,34 @@ class YokeSetting:
     vertex: Array
     change: Array
     pose_irregularity: Array = field(default_factory=lambda: np.zeros(0))
+
+
+STEP = 1e-9
+"""Yokes turned by less than this [rad] stay as they are in the file."""
+
+
+def values_of(setting: YokeSetting, drive: Drive) -> dict[str, float]:
+    """Return what a setting changes in the file of a drive, by paths with their unit.
+
+    Parameters
+    ----------
+    setting : YokeSetting
+        Of this drive.
+    drive : Drive
+        As it stands in the file.
+
+    Examples
+    --------
+    >>> from cardan.synthesis.phases import phases
+    >>> drive = Drive.from_angles([0.2, 0.2], yoke_angles=[0.3])
+    >>> values_of(phases(drive).settings[0], drive)
+    {'shafts[1].yoke_angle_deg': 0.0}
+    """
+    return {
+        f"shafts[{shaft.number - 1}].yoke_angle_deg": round(float(np.rad2deg(angle)), 12) + 0.0
+        for shaft, angle in zip(drive.shafts[1:-1], setting.yoke_angle, strict=True)
+        if abs(np.sin(angle - shaft.yoke_angle)) > STEP
+    }
 
 
 def wrapped(angle: Array) -> Array:

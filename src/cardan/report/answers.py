@@ -1,0 +1,296 @@
+"""Every question that can be asked about a drive by itself: the pages of the report, one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, cast
+
+from cardan.analysis.machine_torques import turns_freely
+from cardan.analysis.mobility import mobility
+from cardan.analysis.strength import strength
+from cardan.catalogue import Catalogue
+from cardan.checks import check
+from cardan.drive.drive import Drive
+from cardan.drive.laws import unmapped
+from cardan.errors import InputError
+from cardan.texts import _
+
+from . import lacking as lacks
+from .accuracy import erring
+from .assembly import straining
+from .balance import refused
+from .bending import whirling
+from .block import Page
+from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
+from .forces import carrying
+from .lacking import Lacking, named, told
+from .life import lasting
+from .losses import rubbing
+from .mobility import binding
+from .moving import moving
+from .phasing import phasing
+from .run_up import running_up
+from .selection import choosing, of_selection
+from .strength import bearing_up
+from .subject import Progress, Subject
+from .torsion import ordered, stable, swinging
+from .turning import turning
+from .verdicts import judged
+
+Choices: TypeAlias = Mapping[str, Any]
+"""What the user chose beside the drive."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """A question that can be asked by itself.
+
+    Parameters
+    ----------
+    title : function
+        What it is called, in the language spoken.
+    page : function
+        From a drive, who watches the work, and what the user chose to the page; None where nothing can be told.
+    lacking : function
+        What the drive file lacks for it.
+    otherwise : function
+        Why nothing can be told although nothing is missing.
+    quick : bool
+        Whether it is there at once; the others are worth a process of their own.
+    """
+
+    title: Callable[[], str]
+    page: Callable[[Subject, Progress | None, Choices], Page | None]
+    lacking: Callable[[Subject], Lacking]
+    otherwise: Callable[[Subject], str]
+    quick: bool = True
+
+
+def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
+    """Return a drive to be asked about.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive, of joints of any kinds.
+    known : Catalogue, optional
+        Norms, types and sizes that it is judged by; the shipped ones when not given.
+    """
+    if unmapped(drive.joints):
+        # What the pages ask for it has under the same names.
+        return cast(Subject, replace(asked_by_laws(drive, None), known=known))
+    return Subject(drive=drive, known=known)
+
+
+def answered(name: str, on: Subject, progress: Progress | None = None, choices: Choices | None = None) -> Page:
+    """Return the answer to one question about a drive; where there is none, a page that says what it lacks.
+
+    Parameters
+    ----------
+    name : str
+        One of `ANSWERS`.
+    on : Subject
+        The drive, as of `subject`.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+    choices : mapping of str to value, optional
+        What the user chose: of "selection" the number of the ``joint``.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> answered("motion", subject(Drive.from_angles([20 * deg, 20 * deg]))).title
+    'Motion'
+    >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:49]
+    'To be told, it needs more in the drive file: duty'
+    """
+    asked = ANSWERS[name]
+    missing = asked.lacking(on)
+    if missing:
+        return Page(name=name, title=asked.title(), answer=told(missing), blocks=())
+    try:
+        page = asked.page(on, progress, choices or {})
+    except InputError as error:
+        return refused(name, asked.title(), error)
+    return page or Page(name=name, title=asked.title(), answer=asked.otherwise(on), blocks=())
+
+
+def _plain(made: Callable[[Subject], Page | None]) -> Callable[[Subject, Progress | None, Choices], Page | None]:
+    return lambda on, _progress, _choices: made(on)
+
+
+def _watched(
+    made: Callable[[Subject, Progress | None], Page | None],
+) -> Callable[[Subject, Progress | None, Choices], Page | None]:
+    return lambda on, progress, _choices: made(on, progress)
+
+
+def _of(lacking: Callable[[Drive], Lacking]) -> Callable[[Subject], Lacking]:
+    return lambda on: lacking(on.drive)
+
+
+def _nothing(_on: Subject) -> str:
+    return _("There is nothing to be told of this drive.")
+
+
+def _by_laws(on: object) -> Followed | None:
+    return on if isinstance(on, Followed) else None
+
+
+def _turning(on: Subject) -> Page:
+    own = _by_laws(on)
+    return turning(on) if own is None else turning_by_laws(own)
+
+
+def _yokes(on: Subject) -> Page:
+    own = _by_laws(on)
+    return phasing(on) if own is None else yokes_refused(own)
+
+
+def _moving(on: Subject) -> Page:
+    own = on if _by_laws(on) is None else Subject(drive=on.drive)
+    if own.unmoved is not None:
+        return refused("movement", _("While moving"), own.unmoved)
+    return moving(own)
+
+
+def _limits(on: Subject) -> Page | None:
+    return judged(on).page
+
+
+def _unjudged(on: Subject) -> str:
+    missing = [path for one in check(on.drive, known=on.known) for path in one.missing]
+    return told(named(missing)) if missing else _nothing(on)
+
+
+def _unheld(on: Subject) -> Lacking:
+    try:
+        mobility(on.drive)
+    except InputError as error:
+        return named([one.field for one in error.problems])
+    return ()
+
+
+def _loose(_on: Subject) -> str:
+    return _("The drive file leaves bearings out: shafts that nothing holds say nothing of binding. Add supports.")
+
+
+def _weak(on: Subject) -> str:
+    missing = strength(on.drive, known=on.known).missing
+    return told(named(missing)) if missing else _nothing(on)
+
+
+def _free(on: Subject) -> str:
+    if turns_freely(on.drive, on.drive.duty):
+        return _("Torques turn its input freely; a run-up at a steady rate forces a speed on it.")
+    return _nothing(on)
+
+
+def _straight(_on: Subject) -> str:
+    return _("The joints bend next to nothing: they do not make torsional vibration grow.")
+
+
+def _exact(_on: Subject) -> str:
+    return _("The errors given do nothing to the output.")
+
+
+def _fits(_on: Subject) -> str:
+    return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
+
+
+ANSWERS: dict[str, Answer] = {
+    "motion": Answer(
+        title=lambda: _("Motion"), page=_plain(_turning), lacking=_of(lacks.of_nothing), otherwise=_nothing
+    ),
+    "movement": Answer(
+        title=lambda: _("While moving"),
+        page=_plain(_moving),
+        lacking=_of(lacks.of_movement),
+        otherwise=_nothing,
+        quick=False,
+    ),
+    "phases": Answer(
+        title=lambda: _("Yoke angles"), page=_plain(_yokes), lacking=_of(lacks.of_nothing), otherwise=_nothing
+    ),
+    "forces": Answer(
+        title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
+    ),
+    "losses": Answer(title=lambda: _("Losses"), page=_plain(rubbing), lacking=_of(lacks.of_losses), otherwise=_nothing),
+    "accuracy": Answer(
+        title=lambda: _("Accuracy"), page=_plain(erring), lacking=_of(lacks.of_accuracy), otherwise=_exact
+    ),
+    "torsion": Answer(
+        title=lambda: _("Modes and running"),
+        page=_plain(swinging),
+        lacking=_of(lacks.of_torsion),
+        otherwise=_nothing,
+        quick=False,
+    ),
+    "orders": Answer(
+        title=lambda: _("Orders"),
+        page=_watched(ordered),
+        lacking=_of(lacks.of_orders),
+        otherwise=_nothing,
+        quick=False,
+    ),
+    "stability": Answer(
+        title=lambda: _("Stability map"),
+        page=_watched(stable),
+        lacking=_of(lacks.of_stability),
+        otherwise=_straight,
+        quick=False,
+    ),
+    "run-up": Answer(
+        title=lambda: _("Running up"),
+        page=_watched(running_up),
+        lacking=_of(lacks.of_run_up),
+        otherwise=_free,
+        quick=False,
+    ),
+    "bending": Answer(
+        title=lambda: _("Critical speeds"),
+        page=_plain(whirling),
+        lacking=_of(lacks.of_bending),
+        otherwise=_nothing,
+        quick=False,
+    ),
+    "life": Answer(title=lambda: _("Life"), page=_plain(lasting), lacking=_of(lacks.of_life), otherwise=_nothing),
+    "strength": Answer(
+        title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
+    ),
+    "limits": Answer(
+        title=lambda: _("Limits"),
+        page=_plain(_limits),
+        lacking=_of(lacks.of_nothing),
+        otherwise=_unjudged,
+        quick=False,
+    ),
+    "mobility": Answer(title=lambda: _("How it is held"), page=_plain(binding), lacking=_unheld, otherwise=_loose),
+    "assembly": Answer(
+        title=lambda: _("Assembly"), page=_plain(straining), lacking=_of(lacks.of_assembly), otherwise=_fits
+    ),
+    "selection": Answer(
+        title=lambda: _("Choice of joints"),
+        page=lambda on, _progress, choices: choosing(on, choices.get("joint")),
+        lacking=of_selection,
+        otherwise=_nothing,
+    ),
+}
+"""Every question by its name, in the order in which one asks them."""
+
+GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
+    (lambda: _("Motion"), ("motion", "movement")),
+    (lambda: _("Phases"), ("phases",)),
+    (lambda: _("Forces"), ("forces",)),
+    (lambda: _("Losses"), ("losses",)),
+    (lambda: _("Accuracy"), ("accuracy",)),
+    (lambda: _("Torsion"), ("torsion", "orders", "stability", "run-up")),
+    (lambda: _("Bending"), ("bending",)),
+    (lambda: _("Life"), ("life",)),
+    (lambda: _("Strength"), ("strength",)),
+    (lambda: _("Limits"), ("limits",)),
+    (lambda: _("Mobility"), ("mobility", "assembly")),
+    (lambda: _("Selection"), ("selection",)),
+)
+"""Questions that belong together, with what they are called together."""

@@ -1,0 +1,116 @@
+"""What can be put into a drive file with one touch: settings of the yokes, and changes that cure failed verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cardan.analysis.equivalence import SYNCHRONOUS
+from cardan.errors import InputError
+from cardan.figures.kinds import kind_name
+from cardan.figures.wording import excess, percent
+from cardan.synthesis.phases import Phasing, phases
+from cardan.synthesis.setting import YokeSetting, values_of
+from cardan.texts import _
+
+from .subject import Subject
+
+SHOWN = 3
+"""Settings with spline teeth beside the exact ones."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Applicable:
+    """A change of the drive file that has a name.
+
+    Parameters
+    ----------
+    label : str
+        What it is called.
+    effect : str
+        What it comes to, in a few words.
+    values : mapping of str to value
+        Path with unit -> value, as `cardan.io.edit` takes them; empty where the file has it so.
+    """
+
+    label: str
+    effect: str = ""
+    values: Mapping[str, float | int | str] = field(default_factory=dict)
+
+
+def settings(on: Subject) -> tuple[Applicable, ...]:
+    """Return the settings of the yokes that can be applied, as in the table of settings, without the one as built.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+
+    Examples
+    --------
+    >>> from cardan.drive.drive import Drive
+    >>> uneven = Drive.from_angles([0.3, 0.3], yoke_angles=[0.7])
+    >>> [(one.label, one.effect) for one in settings(Subject(drive=uneven))]
+    [('A', 'leaves 0 %')]
+    """
+    found = _phasing(on)
+    if found is None:
+        return ()
+    several = (*found.settings, *found.spline_settings[:SHOWN], *found.pose_settings)
+    return tuple(_of(one, on) for one in several)
+
+
+def synchronous(on: Subject) -> Applicable | str:
+    """Return the setting that makes the drive synchronous, or in a sentence why there is none to apply.
+
+    Parameters
+    ----------
+    on : Subject
+        The drive.
+
+    Examples
+    --------
+    >>> from cardan.drive.drive import Drive
+    >>> synchronous(Subject(drive=Drive.from_angles([0.3])))
+    'A single joint has no second one to undo it.'
+    """
+    if on.joints == 1:
+        return _("A single joint has no second one to undo it.")
+    try:
+        found = _phasing(on)
+    except InputError as error:
+        return "; ".join(problem.message for problem in error.problems)
+    if found is None:
+        own = ", ".join(f"{k} ({kind_name(joint)})" for k, joint in enumerate(on.drive.joints, start=1))
+        return _("Yoke angles cannot be found for these joints: {joints}.").format(joints=own)
+    if found.as_built.irregularity < SYNCHRONOUS:
+        return _("The yokes stand right: the drive is synchronous.")
+    exact = [one for one in found.settings if one.irregularity < SYNCHRONOUS]
+    if not exact:
+        return _why_not(on, found)
+    return _of(exact[0], on)
+
+
+def _phasing(on: Subject) -> Phasing | None:
+    """Return what the yokes can do; None where joints turn by laws of their own that count."""
+    if isinstance(on, Subject):
+        return on.phasing
+    try:
+        return phases(on.drive)
+    except InputError:
+        return None
+
+
+def _why_not(on: Subject, found: Phasing) -> str:
+    least = percent(found.irregularity_min)
+    if found.limiting_joint is None or len(found.limiting_joints) != 1:
+        text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
+        return text.format(least=least)
+    i = found.limiting_joint - 1
+    why = excess(found, on.joints, float(on.bend[i]), on.drive.joints[i].kind)
+    return _("It cannot be made synchronous. {why}").format(why=why)
+
+
+def _of(one: YokeSetting, on: Subject) -> Applicable:
+    effect = _("leaves {share}").format(share=percent(one.irregularity))
+    return Applicable(label=one.label, effect=effect, values=values_of(one, on.drive))

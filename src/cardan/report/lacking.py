@@ -1,0 +1,173 @@
+"""What a drive file lacks for a part of the report: each part asks here whether it can be told at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import islice
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.analysis.joint_bearings import joint_bearings
+from cardan.drive.drive import Drive
+from cardan.drive.keys import fields_of
+from cardan.synthesis.lever import key_of
+from cardan.texts import _
+
+Lacking: TypeAlias = tuple[tuple[str, ...], ...]
+"""Paths that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
+
+PARTLY = ("duty.blocks", "duty.torque_history")
+"""Duties in parts, that stand for one torque and one speed."""
+
+
+def told(lacking: Lacking) -> str:
+    """Return in a sentence what is to be added to the drive file.
+
+    Parameters
+    ----------
+    lacking : tuple of tuple of str
+        Paths; of each inner tuple any one would do.
+
+    Examples
+    --------
+    >>> told((("duty.torque",), ("joints[0].friction", "supports[0].friction")))
+    'To be told, it needs more in the drive file: duty.torque_Nm; joints[0].friction or supports[0].friction.'
+    """
+    either = _(" or ")
+    keys = "; ".join(either.join(map(key_of, some)) for some in lacking)
+    return _("To be told, it needs more in the drive file: {keys}.").format(keys=keys)
+
+
+def of_forces(drive: Drive) -> Lacking:
+    """Return what the forces lack."""
+    return _absent((drive.duty.torque is not None, "duty.torque"), (bool(drive.supports), "supports"))
+
+
+def of_losses(drive: Drive) -> Lacking:
+    """Return what the losses lack."""
+    joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
+    supports = any(support.friction is not None for support in drive.supports)
+    splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
+    return _absent(
+        (drive.duty.torque is not None, "duty.torque"),
+        (drive.duty.speed is not None, "duty.speed"),
+        (
+            joints or supports or splines,
+            *_in_a_joint(drive, "friction"),
+            "supports[0].friction",
+            "shafts[1].spline.friction",
+        ),
+    )
+
+
+def of_strength(drive: Drive) -> Lacking:
+    """Return what the strength lacks."""
+    return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
+
+
+def of_life(drive: Drive) -> Lacking:
+    """Return what the life lacks."""
+    duty, parts = drive.duty, _in_parts(drive)
+    own = joint_bearings(drive)[0]
+    rated = bool(np.any(own.rated) or any(own.convention))
+    cross = _absent(
+        (not np.all(np.isnan(own.span)), *_in_a_joint(drive, "cross", ".span")),
+        (not np.all(np.isnan(own.capacity)), *_in_a_joint(drive, "needles", ".capacity")),
+    )
+    return (
+        *_absent(
+            (parts or duty.torque is not None, "duty.torque", *PARTLY),
+            (parts or duty.speed is not None, "duty.speed", *PARTLY),
+            (parts or duty.life is not None, "duty.life", *PARTLY),
+        ),
+        *(() if rated else cross or (("joints[0].rating.torque",),)),
+    )
+
+
+def of_accuracy(drive: Drive) -> Lacking:
+    """Return what the accuracy lacks."""
+    some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
+    keys = (*_in_a_joint(drive, "tolerance"), *_in_a_joint(drive, "error"))
+    return _absent((some, *(keys or ("joints[0].type",))))
+
+
+def of_assembly(drive: Drive) -> Lacking:
+    """Return what the forces of assembly lack."""
+    some = any(any(one.offset) or one.stiffness or one.axial_stiffness for one in drive.supports)
+    return _absent((some, "supports[0].offset", "supports[0].stiffness", "supports[0].axial_stiffness"))
+
+
+def of_torsion(drive: Drive) -> Lacking:
+    """Return what torsional vibration lacks."""
+    some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
+    return _absent((some, "stations", "shafts[1].stiffness"))
+
+
+def of_orders(drive: Drive) -> Lacking:
+    """Return what the orders over the speeds in use lack."""
+    return (*of_torsion(drive), *_absent((drive.duty.speed_range is not None, "duty.speed_range")))
+
+
+def of_stability(drive: Drive) -> Lacking:
+    """Return what the map of stability lacks."""
+    return (*of_torsion(drive), *_absent((bool(drive.duty.speed), "duty.speed")))
+
+
+def of_run_up(drive: Drive) -> Lacking:
+    """Return what a run-up lacks."""
+    return (*of_torsion(drive), *_absent((drive.duty.run_up is not None, "duty.run_up")))
+
+
+def of_bending(drive: Drive) -> Lacking:
+    """Return what the critical speeds lack."""
+    held = {support.shaft for support in drive.supports}
+    ends = [shaft for shaft in (drive.shafts[0], drive.shafts[-1]) if shaft.has_body and shaft.number in held]
+    between = drive.shafts[1:-1]
+    bodies = tuple(
+        (f"shafts[{shaft.number - 1}].outer", f"shafts[{shaft.number - 1}].segments")
+        for shaft in between
+        if not shaft.has_body
+    )
+    if not between:
+        return _absent((bool(ends), "shafts[0].outer"), (bool(ends) or bool(held), "supports"))
+    return (*bodies, *_absent((bool(drive.supports) or len(between) == 1, "supports")))
+
+
+def of_movement(drive: Drive) -> Lacking:
+    """Return what the movement lacks."""
+    return _absent((bool(drive.movements), "movements"))
+
+
+def of_nothing(drive: Drive) -> Lacking:
+    """Return that nothing is missing."""
+    return ()
+
+
+Asked: TypeAlias = Callable[[Drive], Lacking]
+
+
+def _in_parts(drive: Drive) -> bool:
+    return bool(drive.duty.blocks) or drive.duty.torque_history is not None
+
+
+def _in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
+    """Return the path of a key in the first joint that can have it; none where no joint of the drive can."""
+    able = (k for k, joint in enumerate(drive.joints) if key in fields_of(type(joint)))
+    return tuple(f"joints[{k}].{key}{inner}" for k in islice(able, 1))
+
+
+def _absent(*conditions: tuple[bool | str, ...]) -> Lacking:
+    """Return the paths of the conditions that are not met: whether it is met, then what would meet it."""
+    return tuple(tuple(map(str, paths)) for met, *paths in conditions if not met and paths)
+
+
+def named(paths: Sequence[str]) -> Lacking:
+    """Return paths all of which are missing, each once.
+
+    Examples
+    --------
+    >>> named(["duty.torque", "duty.torque"])
+    (('duty.torque',),)
+    """
+    return tuple((path,) for path in dict.fromkeys(paths))

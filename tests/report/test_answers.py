@@ -1,0 +1,152 @@
+"""The answers one by one: each is the page of the report, and where there is none says which keys would give it."""
+
+from dataclasses import replace
+
+import pytest
+
+from cardan.checks import check
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.paths import place
+from cardan.errors import InputError
+from cardan.io import edit, example, example_names, example_text, loads
+from cardan.report import subject as subjects
+from cardan.report.answers import ANSWERS, GROUPS, answered, subject
+from cardan.report.applying import Applicable, settings, synchronous
+from cardan.report.lacking import told
+from cardan.report.lights import lights, sentence, with_cures
+from cardan.report.loaded import loaded
+from cardan.report.subject import Subject
+from cardan.report.turning import turning
+from cardan.synthesis.lever import key_of
+from cardan.units import deg
+
+SAME = {"forces", "losses", "accuracy", "life", "strength", "mobility", "assembly", "bending"}
+"""Answers that are pages of the report as they stand."""
+
+
+def shape(page):
+    """Return all words of a page, without its pictures."""
+    return (page.title, page.answer, [repr(one) for one in page.blocks if "Picture" not in type(one).__name__])
+
+
+def wrong_with(drive, path):
+    """Return what is wrong with a path; nothing where it leads to a value."""
+    try:
+        place(drive, path)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("name", ["truck-supports", "overconstrained-pump", "propshaft-with-rzeppa", "car-propshaft"])
+def test_an_answer_is_the_page_of_the_report(name):
+    drive = example(name)
+    on = subject(drive)
+    pages = {page.name: page for page in loaded(on)}
+    for one in SAME:
+        page = answered(one, on)
+        if one in pages:
+            assert shape(page) == shape(pages[one])
+            assert page.blocks
+        else:
+            assert not page.blocks
+            assert page.answer
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_no_answer_is_silent_and_keys_named_are_keys_of_the_file(name):
+    drive = example(name)
+    on = subject(drive)
+    for one, asked in ANSWERS.items():
+        missing = asked.lacking(on)
+        if missing:
+            assert answered(one, on).answer == told(missing)
+        for path in (path for some in missing for path in some):
+            # It may be a table, or one that the file has none of, but it is known.
+            assert "no such field" not in wrong_with(drive, key_of(path))
+
+
+def test_giving_the_keys_that_are_missing_gives_the_answer():
+    bare = Drive.from_angles([20 * deg, 20 * deg])
+    assert "duty.torque_Nm" in answered("forces", subject(bare)).answer
+    loaded = replace(bare, duty=Duty(torque=100.0, speed=100.0))
+    assert "supports" in answered("forces", subject(loaded)).answer
+    assert "duty.torque_Nm" not in answered("forces", subject(loaded)).answer
+    assert answered("selection", subject(loaded)).blocks
+    assert "duty.torque_Nm" in answered("selection", subject(bare)).answer
+    rubbing = replace(loaded, joints=tuple(replace(joint, friction=0.01) for joint in loaded.joints))
+    assert "friction" in answered("losses", subject(loaded)).answer
+    assert "needs more" not in answered("losses", subject(rubbing)).answer
+
+
+def test_why_there_is_nothing_although_no_key_is_missing():
+    assert "bearings out" in answered("mobility", subject(example("two-piece-rubber-bearing"))).answer
+    pump = example("overconstrained-pump")
+    assert answered("accuracy", subject(pump)).answer == "The errors given do nothing to the output."
+
+
+def test_groups_hold_every_answer_once():
+    assert [name for _title, names in GROUPS for name in names] == list(ANSWERS)
+
+
+def test_the_page_of_the_motion_asks_nothing_about_the_yokes(monkeypatch):
+    def never(*_args, **_kwargs):
+        raise AssertionError("asked")
+
+    monkeypatch.setattr(subjects, "phases", never)
+    monkeypatch.setattr(subjects, "articulation", never)
+    assert turning(Subject(drive=example("truck-power-unit"))).blocks
+
+
+def test_a_joint_may_be_chosen_by_its_number():
+    on = subject(example("truck-supports"))
+    whole, third = answered("selection", on), answered("selection", on, None, {"joint": 3})
+    assert whole.blocks[0].title == third.blocks[0].title
+    assert whole.answer != third.answer
+    assert "no joint 9" in answered("selection", on, None, {"joint": 9}).blocks[0].text
+
+
+def test_a_setting_applied_makes_the_drive_even():
+    text = example_text("truck-power-unit")
+    best = synchronous(subject(loads(text)))
+    assert isinstance(best, Applicable)
+    after = subject(loads(edit(text, best.values)))
+    assert after.even
+    assert synchronous(after) == "The yokes stand right: the drive is synchronous."
+    assert all(one.values == {} for one in settings(after) if one.label == best.label)
+
+
+def test_why_a_drive_cannot_be_made_even():
+    assert "Joint 2 bends more" in synchronous(Subject(drive=Drive.from_angles([10 * deg, 30 * deg, 20 * deg])))
+    assert synchronous(subject(example("single-20deg"))) == "A single joint has no second one to undo it."
+
+
+@pytest.mark.parametrize("name", ["truck-duty-cycle", "truck-power-unit"])
+def test_every_cure_cures_when_it_is_written_into_the_file(name):
+    text = example_text(name)
+    shown = with_cures(subject(loads(text)))
+    tried = 0
+    for one in shown:
+        for cure in one.cures[:1]:
+            after = {other.name: other for other in lights(subject(loads(edit(text, cure.values))))}
+            assert one.name not in after or after[one.name].tone != "failed"
+            tried += 1
+    assert tried
+
+
+def test_lights_tell_what_check_tells():
+    drive = example("truck-supports")
+    shown = lights(subject(drive))
+    failed = {one.title for one in check(drive) if one.run and not one.advice and one.state == "failed"}
+    assert sum(one.tone == "failed" for one in shown) <= len(failed)
+    assert {one.title for one in shown if one.tone == "failed"} <= {
+        *failed,
+        *(one.title for one in shown if "(and" in one.title),
+    }
+    assert [one.advice for one in shown] == sorted(one.advice for one in shown)
+    assert "not kept" in sentence(shown)
+
+
+def test_a_run_up_without_a_course_of_the_speed_names_the_key():
+    assert "duty.run_up" in answered("run-up", subject(example("truck-power-unit"))).answer
