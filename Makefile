@@ -9,10 +9,13 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constr
 EXAMPLE ?= truck-printed-angles
 WORKERS ?= 2
 
-.PHONY: help report test lint docs bench clean all
+FILE ?=
+
+.PHONY: help report app test lint docs bench clean all
 
 help:
 	@echo "make report   the report of a shipped example (EXAMPLE=$(EXAMPLE)) as out/$(EXAMPLE).html"
+	@echo "make app      the app in the browser, with a drive of your own by FILE=drive.toml"
 	@echo "make test     all tests, docstring and documentation examples"
 	@echo "make lint     format, lint, types, import contracts"
 	@echo "make docs     the documentation as docs/_build/html/index.html"
@@ -22,6 +25,9 @@ help:
 report: $(VENV)/.run
 	@mkdir -p out
 	$(BIN)/cardan report examples/$(EXAMPLE).toml -o out/$(EXAMPLE).html
+
+app: $(VENV)/.app
+	$(BIN)/cardan app $(FILE)
 
 test: $(VENV)/.test
 	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -q
@@ -51,9 +57,13 @@ $(VENV)/.run: $(VENV)/.made pyproject.toml constraints.txt
 	$(PIP) --editable .
 	@touch $@
 
+$(VENV)/.app: $(VENV)/.made pyproject.toml constraints.txt
+	$(PIP) --editable '.[app,pdf,xlsx]'
+	@touch $@ $(VENV)/.run
+
 $(VENV)/.test: $(VENV)/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[test,docs]'
-	@touch $@ $(VENV)/.run $(VENV)/.docs
+	@touch $@ $(VENV)/.run $(VENV)/.app $(VENV)/.docs
 
 $(VENV)/.lint: $(VENV)/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[lint]'
