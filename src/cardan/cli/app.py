@@ -209,6 +209,12 @@ COMMANDS = {
         _("List the shipped examples, or copy one."),
         ("cardan example", "cardan example single-20deg"),
     ),
+    "app": Entry(
+        "browser",
+        QUESTIONS,
+        _("The drive turning in the browser, every answer beside it."),
+        ("cardan app truck.toml", "cardan app truck.toml --port 8080 --no-browser"),
+    ),
     "convert": Entry(
         "convert",
         FILES,
