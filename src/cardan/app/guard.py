@@ -20,7 +20,7 @@ LOCAL = ("127.0.0.1", "localhost", "::1")
 App: TypeAlias = Any
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Guard:
     """A layer before the pages that turns strangers away.
 

@@ -91,6 +91,7 @@ def build(session: Session, jobs: Jobs) -> None:
         Where long answers are made.
     """
     ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
+    ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#b36b00")
     dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
     ui.query("body").classes("cardan")
     _tell_browser(session)

@@ -88,7 +88,7 @@ def start(how: Start) -> None:
         with session.speaking():
             page.build(session, jobs)
 
-    app.add_middleware(Guard, names=() if how.shared else LOCAL, token=token, apart=how.shared)  # type: ignore[arg-type]
+    app.add_middleware(Guard, names=() if how.shared else LOCAL, token=token, apart=how.shared)
     address = f"http://{'localhost' if how.host in ('0.0.0.0', '::') else how.host}:{port}/"
     told = address + (f"?token={token}" if token else "")
     print(_("cardan is at {address} - ctrl-C ends it").format(address=told), flush=True)

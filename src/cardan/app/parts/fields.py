@@ -14,6 +14,53 @@ from cardan.io.amend import amend
 from cardan.texts import _
 from cardan.units import label
 
+AXES = ("x", "y", "z")
+
+
+class Triple:
+    """Three numbers beside each other, of a point or a direction.
+
+    Parameters
+    ----------
+    value : str
+        The three, with blanks between.
+    told : str
+        What screen readers call them.
+    typed : function
+        Called with all three once one of them changed.
+    """
+
+    def __init__(self, value: str, told: str, typed: Callable[[str], None]) -> None:
+        self._typed = typed
+        with ui.element("div").classes("triple"):
+            self._inputs = [
+                ui.input(prefix=axis, value=part).props(f'dense outlined aria-label="{told} {axis}"')
+                for axis, part in zip(AXES, self._parts(value), strict=True)
+            ]
+        for one in self._inputs:
+            one.on("change", self._changed)
+            one.on("keydown.enter", self._changed)
+
+    @property
+    def value(self) -> str:
+        """The three, with blanks between; empty while any is missing."""
+        parts = ["".join(str(one.value or "").split()) for one in self._inputs]
+        return " ".join(parts) if all(parts) else ""
+
+    @value.setter
+    def value(self, text: str) -> None:
+        for one, part in zip(self._inputs, self._parts(text), strict=True):
+            if one.value != part:
+                one.value = part
+
+    def _changed(self) -> None:
+        if self.value:
+            self._typed(self.value)
+
+    @staticmethod
+    def _parts(text: str) -> list[str]:
+        return [*text.split(), "", "", ""][:3]
+
 
 class KeyField:
     """A key: its name, what stands there, its unit, what is wrong with it.
@@ -76,6 +123,9 @@ class KeyField:
     def _widget(self) -> Any:
         entry = self.entry
         told = f'dense outlined aria-label="{entry.name} {label(entry.unit)}"'
+        if entry.sort == "point" and entry.size == 3:
+            self.row.classes("wide")
+            return Triple(shown(entry), f"{entry.name} {label(entry.unit)}", self._typed)
         if entry.sort == "flag":
             return ui.switch(value=bool(self._value()), on_change=lambda event: self._typed(event.value)).props(told)
         if entry.sort == "choice":
