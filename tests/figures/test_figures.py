@@ -7,6 +7,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
 
 from cardan import figures
 from cardan.analysis.articulation import articulation
@@ -16,6 +18,7 @@ from cardan.analysis.motion import motion
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.figure import Bars, Curve, axis, steps, written
+from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
@@ -228,3 +231,18 @@ def test_names_are_escaped():
     for figure in figures.for_result(drive):
         ElementTree.fromstring(inline_svg(figure))
         assert "<b>&" not in str(described(figure)).replace("<b>&lt;", "")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the secondary couple is largest on shaft 2;",
+        "Момент на входе меняется; дополнительный изгибающий момент наибольший на валу 2;",
+    ],
+)
+def test_the_caption_stays_within_the_page_in_any_script(said: str) -> None:
+    figure = figures.Figure(name="words", title=said, sentence=" ".join([said] * 8), source=said, rows=())
+    page = laid_out(figure, words=True)
+    font = FontProperties(family="DejaVu Sans")
+    widths = [TextPath((0.0, 0.0), line, size=8.2, prop=font).get_extents().width / 72.0 for line in page.caption]
+    assert 0.8 * page.width < max(widths) < page.width - 0.1  # drawn 0.1 in from the left

@@ -18,6 +18,9 @@ LETTER = 0.066
 RULE_LETTER = 0.055
 """Width of an average letter beside a rule."""
 
+BROADER = 0.2
+"""By how much a Cyrillic letter is wider than an average Latin one, in the usual fonts."""
+
 LINE = 0.13
 """Height of a line of such words."""
 
@@ -79,7 +82,7 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
         Draw title, sentence and source too: in a file of its own.
     """
     letters = int((figure.width - 0.2) / (0.87 * LETTER))
-    heading = tuple(textwrap.wrap(figure.title, int(letters * 0.66))) if words else ()
+    heading = _lines(figure.title, 0.66 * letters) if words else ()
     top = 0.08 + 0.24 * len(heading)
     legend, top = _legend(figure, top)
     panels: list[tuple[Panel, Box]] = []
@@ -96,7 +99,7 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
     caption: tuple[str, ...] = ()
     place = top + 0.1
     if words:
-        caption = (*textwrap.wrap(figure.sentence, letters), *textwrap.wrap(figure.source, letters))
+        caption = (*_lines(figure.sentence, letters), *_lines(figure.source, letters))
         top = place + 0.165 * len(caption) + 0.06
     return Page(
         width=figure.width,
@@ -107,6 +110,22 @@ def laid_out(figure: Figure, *, words: bool) -> Page:
         caption=caption,
         caption_top=place,
     )
+
+
+def breadth(text: str) -> float:
+    """Return how many average Latin letters are as wide as a text.
+
+    Examples
+    --------
+    >>> breadth("joint"), breadth("вал 2")
+    (5.0, 5.6)
+    """
+    return len(text) + BROADER * sum("\u0400" <= letter <= "\u04ff" for letter in text)
+
+
+def _lines(text: str, letters: float) -> tuple[str, ...]:
+    """Return a text in lines as wide as so many average Latin letters."""
+    return tuple(textwrap.wrap(text, int(letters * len(text) / breadth(text)))) if text else ()
 
 
 def ranges(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -171,7 +190,7 @@ def labels(panel: Panel, box: Box) -> dict[int, Label]:
     for k, item in enumerate(panel.series):
         if isinstance(item, Rule | Band) and item.upright and item.text:
             value = item.value if isinstance(item, Rule) else item.high
-            at, wide = box.width * float(share(panel.x, low, high, np.asarray(value))), RULE_LETTER * len(item.text)
+            at, wide = box.width * float(share(panel.x, low, high, np.asarray(value))), RULE_LETTER * breadth(item.text)
             before = at + wide > box.width + 0.1 and at > wide
             spans.append((at - wide if before else at, wide, k, before))
     found: dict[int, Label] = {}
@@ -211,7 +230,7 @@ def _legend(figure: Figure, top: float) -> tuple[tuple[Entry, ...], float]:
     entries = figure.entries if figure.legend else ()
     placed, left, line = [], 0.1, top
     for item in entries:
-        need = 0.36 + LETTER * len(item.label) + 0.12
+        need = 0.36 + LETTER * breadth(item.label) + 0.12
         if left + need > figure.width and left > 0.1:
             left, line = 0.1, line + 0.19
         placed.append(Entry(item=item, left=left, top=line + 0.09))
