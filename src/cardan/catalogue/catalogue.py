@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from cardan.drive.material import Material
 from cardan.errors import Problem, check, refuse
+from cardan.files import refusal
 from cardan.texts import _, language
 
 from .reading import rows_of
@@ -143,7 +144,7 @@ def with_files(base: Catalogue, paths: Iterable[str | Path]) -> Catalogue:
         try:
             tree = tomllib.loads(Path(path).read_text(encoding="utf-8"))
         except OSError as error:
-            problems.append(Problem(str(path), _("cannot be read: {why}").format(why=error.strerror or error)))
+            problems.append(Problem(str(path), _("cannot be read: {why}").format(why=refusal(error))))
             continue
         except ValueError as error:
             problems.append(Problem(str(path), _("is not TOML: {why}").format(why=error)))
