@@ -113,6 +113,16 @@ def build(session: Session, jobs: Jobs) -> None:
 
     session.rebuild = filled
     filled()
+
+    def dimmed(event: Any) -> None:
+        session.dark = bool(event.args)
+        session.tell("choices")
+
+    ui.on("cardan-dark", dimmed)
+    ui.run_javascript(
+        "const dim=matchMedia('(prefers-color-scheme: dark)');if(dim.matches)emitEvent('cardan-dark',true);"
+        "dim.addEventListener('change',()=>emitEvent('cardan-dark',dim.matches))"
+    )
     if session.notice:
         ui.notify(session.notice, type="negative", timeout=0, close_button=_("close"))
 

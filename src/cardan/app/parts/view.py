@@ -2,13 +2,212 @@
 
 from __future__ import annotations
 
-from nicegui import ui
+from typing import Any
 
+from nicegui import run, ui
+
+import cardan
+from cardan.app.scene.element import SceneView
 from cardan.app.state.session import Session
+from cardan.drive.drive import Drive
+from cardan.errors import CardanError
+from cardan.figures.scene import Scene, scene
+from cardan.texts import _, speaking
+
+LOADED = ("forces", "couples")
+"""Groups that need the forces of the drive."""
+
+QUIET = 0.35
+"""Seconds without an edit after which forces and mode shapes are reckoned anew."""
+
+FOLLOWING = (
+    "if(!window.cardanPhi){window.cardanPhi=true;let last=0;addEventListener('cardan-angle',e=>{"
+    "const now=performance.now();if(now-last<60)return;last=now;"
+    "const turned=Math.round(e.detail.angle*180/Math.PI)%360;"
+    "for(const one of document.querySelectorAll('.phi'))one.textContent='φ = '+turned+'°'})}"
+)
+"""Lets the browser write the angle it shows, without asking the server."""
 
 
 class View:
-    """The view in space with its controls."""
+    """The view in space with its controls.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive it shows.
+    """
 
     def __init__(self, session: Session) -> None:
-        ui.label("3-D")
+        self.session = session
+        self.shown: Scene | None = None
+        self.on: set[str] | None = None
+        self.mode: str | None = None
+        self.pose: int | None = None
+        self._waiting: ui.timer | None = None
+        with ui.element("div").classes("stage"):
+            self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
+            self.scene.mark("scene")
+            self.told = ui.label("").classes("told").props("role=status")
+            self._tools()
+        self._bar()
+        ui.run_javascript(FOLLOWING)
+        self._theme()
+        self._follow()
+        session.listen("drive", self._follow)
+        session.listen("selection", lambda: self.scene.select(session.selected or None))
+        session.listen("choices", self._theme)
+
+    def _tools(self) -> None:
+        with ui.element("div").classes("tools"):
+            looks = {"iso": _("in space"), "side": _("side"), "plan": _("plan"), "front": _("front")}
+            for name, title in looks.items():
+                button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
+                button.props("flat dense no-caps size=sm").mark(f"look-{name}")
+            with ui.dropdown_button(_("show")).props("flat dense no-caps size=sm").mark("show"):
+                self.switches = ui.element("div").classes("switches")
+            colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
+            ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
+                f'dense options-dense borderless aria-label="{_("colour")}"'
+            ).mark("colour")
+            poses = self._poses()
+            if poses:
+                ui.select(poses, value=None, on_change=lambda event: self._posed(event.value)).props(
+                    f'dense options-dense borderless aria-label="{_("pose")}"'
+                ).mark("pose")
+
+    def _bar(self) -> None:
+        with ui.element("div").classes("bar"):
+            self.play = ui.button(icon="pause", on_click=lambda: self._play(not self.scene.playing))
+            self.play.props(f'flat dense round aria-label="{_("turn or hold the drive")}"').mark("play")
+            ui.label(_("slow")).classes("hint")
+            ui.slider(min=0, max=1, step=0.01, value=0.35, on_change=lambda event: self._speed(event.value)).props(
+                f'dense aria-label="{_("speed of the picture")}"'
+            ).classes("speed")
+            ui.label(_("fast")).classes("hint")
+            ui.label("φ = 0°").classes("phi")
+            self.shapes = ui.select({"": _("turning")}, value="", on_change=lambda event: self._swing(event.value))
+            self.shapes.props(f'dense options-dense borderless aria-label="{_("turning or swinging")}"').mark("shapes")
+            ask = ui.button(_("mode shapes"), on_click=self._ask_modes).props("flat dense no-caps size=sm")
+            ask.mark("mode-shapes")
+
+    def _poses(self) -> dict[int | None, str]:
+        drive = self.session.drive
+        if drive is None or not drive.poses:
+            return {}
+        return {None: _("as drawn"), **{k: pose.name for k, pose in enumerate(drive.poses)}}
+
+    def _follow(self) -> None:
+        """Show the drive as it is now; forces and mode shapes follow once the user is quiet."""
+        drive = self.session.drive
+        if drive is None:
+            return
+        self._show(self._made(drive))
+        if self._asks_more():
+            if self._waiting is not None:
+                self._waiting.cancel()
+            self._waiting = ui.timer(QUIET, self._complete, once=True)
+
+    def _asks_more(self) -> bool:
+        return self.mode is not None or bool(self.on and self.on.intersection(LOADED))
+
+    def _made(self, drive: Drive, *, forces: bool = False, modes: bool = False) -> Scene:
+        pose = self.pose if self.pose is not None and self.pose < len(drive.poses) else None
+        try:
+            verdicts = cardan.check(drive)
+        except CardanError:
+            verdicts = ()
+        return scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+
+    async def _complete(self) -> None:
+        """Add forces and mode shapes, away from the page's own work."""
+        drive, language = self.session.drive, self.session.choices.language
+        if drive is None:
+            return
+        forces, modes = bool(self.on and self.on.intersection(LOADED)), self.mode is not None
+
+        def made() -> Scene:
+            with speaking(language):
+                return self._made(drive, forces=forces, modes=modes)
+
+        found = await run.io_bound(made)
+        if found is not None and drive is self.session.drive:
+            with self.session.speaking():
+                self._show(found)
+
+    def _show(self, found: Scene) -> None:
+        self.shown = found
+        if self.on is None:
+            self.on = {group.name for group in found.groups if group.on}
+        self.scene.show(found.described())
+        self.scene.groups(self.on)
+        self._switches(found)
+        self._shapes(found)
+
+    def _switches(self, found: Scene) -> None:
+        assert self.on is not None
+        titles = {group.name: (group.title, group.text) for group in found.groups}
+        asked = {"forces": _("forces"), "couples": _("secondary couples")}
+        titles |= {name: (title, found.missing.get(name, "")) for name, title in asked.items() if name not in titles}
+        self.switches.clear()
+        with self.switches:
+            for name, (title, text) in titles.items():
+                switch = ui.checkbox(title, value=name in self.on)
+                switch.on_value_change(lambda event, name=name: self._switched(name, event.value))
+                switch.props("dense").mark(f"group-{name}")
+                if text:
+                    ui.label(text).classes("hint")
+
+    def _switched(self, name: str, on: bool) -> None:
+        assert self.on is not None
+        self.on = self.on | {name} if on else self.on - {name}
+        self.scene.groups(self.on)
+        if on and name in LOADED:
+            ui.timer(0.01, self._complete, once=True)
+
+    def _ask_modes(self) -> None:
+        self.mode = self.mode or ""
+        ui.timer(0.01, self._complete, once=True)
+
+    def _shapes(self, found: Scene) -> None:
+        names = {"": _("turning"), **{mode.name: mode.name for mode in found.modes}}
+        if self.mode not in names:
+            self.mode = "" if self.mode is not None else None
+        if self.shapes.options != names:
+            self.shapes.set_options(names, value=self.mode or "")
+        self._swing(self.mode or "")
+        lacking = "" if self.mode is None or found.modes else found.missing.get("modes", "")
+        self.told.set_text(lacking)
+
+    def _swing(self, name: str) -> None:
+        found = self.shown
+        if found is None:
+            return
+        if self.mode is not None:
+            self.mode = name
+        place = next((k for k, mode in enumerate(found.modes) if mode.name == name), None)
+        self.scene.mode(place)
+        if place is not None:
+            self.told.set_text(found.modes[place].text)
+        elif found.modes:
+            self.told.set_text("")
+
+    def _posed(self, pose: Any) -> None:
+        self.pose = pose
+        with self.session.speaking():
+            self._follow()
+
+    def _play(self, on: bool) -> None:
+        self.scene.play(on)
+        self._played(on)
+
+    def _played(self, on: bool) -> None:
+        self.play.set_icon("pause" if on else "play_arrow")
+
+    def _speed(self, share: float) -> None:
+        """Turn slow or fast: from half a turn a minute to a turn a second, evenly by ear and eye."""
+        self.scene.speed(0.5 * 120.0**share)
+
+    def _theme(self) -> None:
+        theme = self.session.choices.theme
+        self.scene.theme("dark" if theme == "dark" or (theme == "auto" and self.session.dark) else "light")

@@ -44,6 +44,8 @@ class Session:
         Path of the part the user looks at, ``joints[1]``, ``shafts[2]``; empty for none.
     notice : str
         What the user should be told first; empty for nothing.
+    dark : bool
+        Whether the system of the user is dark; asked of the browser.
     rebuild : function
         Builds the parts of the page anew: another file, another language.
     """
@@ -56,6 +58,7 @@ class Session:
         self.name = ""
         self.selected = ""
         self.notice = ""
+        self.dark = False
         self.history = History()
         self._saved = ""
         self._gesture = ""
