@@ -1,0 +1,113 @@
+"""A question about a drive, and its answer: what the pages of the app show, made here or in a process of its own."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from cardan.drive.drive import Drive
+from cardan.files import Enclosed
+from cardan.io.drive_file import known_to
+from cardan.report.answers import answered, subject
+from cardan.report.block import Page
+from cardan.report.lights import Light, lights, with_cures
+from cardan.texts import speaking
+
+from .session import Session
+
+Result: TypeAlias = Page | tuple[Light, ...]
+
+Progress: TypeAlias = Callable[[float], object]
+
+VERDICTS, CURES = "verdicts", "cures"
+"""Questions beside those of `cardan.report.answers`: the verdicts, and the same with what cures them."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Question:
+    """What somebody wants to know.
+
+    Parameters
+    ----------
+    name : str
+        A question of `cardan.report.answers.ANSWERS`, `VERDICTS` or `CURES`.
+    drive : Drive
+        About which drive.
+    folder : Path
+        Where files that the drive names are looked for, and nowhere else.
+    language : str
+        In which language.
+    choices : mapping of str to value
+        What the user chose beside the drive.
+    """
+
+    name: str
+    drive: Drive
+    folder: Path
+    language: str = "en"
+    choices: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def key(self) -> str:
+        """The same for questions with the same answer."""
+        files = []
+        for name in self.drive.settings.catalogues:
+            try:
+                told = (Enclosed(self.folder) / name).stat()
+                files.append((name, told.st_mtime_ns, told.st_size))
+            except Exception:  # a file that is not there, or not to be read: the answer will say so
+                files.append((name, 0, 0))
+        whole = (self.name, self.drive, str(self.folder), self.language, sorted(self.choices.items()), files)
+        return hashlib.sha256(pickle.dumps(whole)).hexdigest()
+
+
+def asked(session: Session, name: str, **choices: Any) -> Question | None:
+    """Return the question about the drive that a user works on; None while there is none.
+
+    Parameters
+    ----------
+    session : Session
+        What the user works on.
+    name : str
+        Which question.
+    **choices
+        What the user chose beside the drive.
+    """
+    if session.drive is None:
+        return None
+    return Question(
+        name=name,
+        drive=session.drive,
+        folder=session.workspace.folder,
+        language=session.choices.language,
+        choices=choices,
+    )
+
+
+def result(question: Question, progress: Progress | None = None) -> Result:
+    """Return the answer to a question, in its language.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+
+    Raises
+    ------
+    InputError
+        The files that the drive names cannot be read, or it cannot be judged.
+    """
+    with speaking(question.language):
+        known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
+        on = subject(question.drive, known=known)
+        if question.name == VERDICTS:
+            return lights(on)
+        if question.name == CURES:
+            return with_cures(on, progress)
+        return answered(question.name, on, progress, question.choices)
