@@ -1,0 +1,199 @@
+"""How large the parts of a drive are: what its file says, and the rest in proportion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cardan.drive.drive import Drive
+from cardan.drive.geometry import Geometry
+from cardan.drive.joints import Joint
+from cardan.drive.shaft import Shaft
+from cardan.drive.support import Support
+
+STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
+"""Yokes leave room for bends between these, and a little more."""
+
+ROOM = 0.46
+"""Share of a shaft between two joints that one yoke takes at most."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class JointSize:
+    """Sizes of a joint [m].
+
+    Attributes
+    ----------
+    radius : float
+        From the joint centre to the middle of a bearing.
+    ear : float
+        Thickness of the ears of a yoke, along the journals.
+    journal : float
+        Diameter of the journals.
+    cap : float
+        Outer radius of a bearing cap.
+    lug : float
+        Outer radius of an ear.
+    cavity : float
+        From the joint centre to the bottom between the ears.
+    given : bool
+        Whether the file says how large the joint is.
+    """
+
+    radius: float
+    ear: float
+    journal: float
+    cap: float
+    lug: float
+    cavity: float
+    given: bool
+
+    @property
+    def base(self) -> float:
+        """From the joint centre to where the hub of a yoke begins [m]."""
+        return self.cavity + 0.4 * self.radius
+
+    @property
+    def reach(self) -> float:
+        """From the joint centre to the end of a yoke's hub [m]."""
+        return self.base + 0.35 * self.radius
+
+    @property
+    def outer(self) -> float:
+        """Radius that the joint needs when it turns straight [m]."""
+        return self.radius + 0.5 * self.ear + 0.04 * self.radius
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Sizes:
+    """Sizes of all parts of a drive.
+
+    Attributes
+    ----------
+    joints : tuple of JointSize
+    bodies : tuple of float [m]
+        Radius of each shaft where it is thickest.
+    solid : tuple of bool
+        Whether the file says what the shaft looks like.
+    ends : (float, float) [m]
+        How long the input and the output shaft are drawn, from their joint.
+    usual : float [m]
+        Radius of a joint of this drive where the file says none.
+    """
+
+    joints: tuple[JointSize, ...]
+    bodies: tuple[float, ...]
+    solid: tuple[bool, ...]
+    ends: tuple[float, float]
+    usual: float
+
+
+def sizes(drive: Drive, place: Geometry) -> Sizes:
+    """Return how large the parts of a drive are drawn.
+
+    Parameters
+    ----------
+    drive : Drive
+        Its sizes filled in from the catalogue.
+    place : Geometry
+        Where it lies.
+
+    Notes
+    -----
+    A joint is as large as its cross, else as its rating, else in proportion to its shafts: their diameter where it is
+    given, else their lengths.
+    """
+    lengths = [float(one) for one in place.length]
+    between = lengths[1:-1]
+    usual = _usual(drive, lengths)
+    bends = [float(bend) for bend in place.bend]
+    joints = tuple(_joint(drive, i, usual, bends[i]) for i in range(len(drive.joints)))
+    bodies, solid = [], []
+    for k, shaft in enumerate(drive.shafts):
+        radius = thickest(shaft)
+        beside = [joints[i].radius for i in (k - 1, k) if 0 <= i < len(joints)]
+        bores = [one.bore for one in drive.supports if one.shaft == shaft.number and one.bore]
+        inner = 0 < k < len(joints)
+        alone = 0.5 * max(bores) if bores and not inner else (0.66 if inner else 0.5) * min(beside)
+        bodies.append(alone if radius is None else radius)
+        solid.append(radius is not None)
+    far = 1.5 * min(lengths) if not between else max(0.6 * max(between), min(between))
+    ends = tuple(
+        _end(drive, number, length, size, far)
+        for number, length, size in (
+            (1, lengths[0], joints[0]),
+            (len(drive.shafts), lengths[-1], joints[-1]),
+        )
+    )
+    return Sizes(joints=joints, bodies=tuple(bodies), solid=tuple(solid), ends=ends, usual=usual)  # type: ignore[arg-type]
+
+
+def thickest(shaft: Shaft) -> float | None:
+    """Return the radius of a shaft where it is thickest [m], None where the file does not say."""
+    if shaft.outer is not None:
+        return 0.5 * shaft.outer
+    return 0.5 * max(one.outer for one in shaft.segments) if shaft.segments else None
+
+
+def span_of(joint: Joint) -> float | None:
+    """Return the distance of the middles of opposite bearings of a joint [m], None where the file does not say."""
+    if joint.cross is not None and joint.cross.span is not None:
+        return joint.cross.span
+    outer = joint.rating.outer if joint.rating is not None else None
+    if outer is not None:
+        return 0.78 * outer
+    for name, share in (("groove_radius", 2.3), ("track_radius", 2.4)):
+        value = getattr(joint, name, None)
+        if value is not None:
+            return share * float(value)
+    return None
+
+
+def _usual(drive: Drive, lengths: Sequence[float]) -> float:
+    """Return the radius of a joint whose size the file does not say [m]."""
+    given = [0.5 * span for span in map(span_of, drive.joints) if span is not None]
+    tubes = [1.02 * radius for radius in map(thickest, drive.shafts[1:-1]) if radius is not None]
+    between = lengths[1:-1]
+    if between:
+        whole = sum(between) + 2.0 * max(0.6 * max(between), min(between))
+        drawn = min(0.04 * whole, 0.24 * min(between))
+    else:
+        drawn = 0.16 * min(lengths)
+    most = 0.3 * min(between) if between else 0.4 * min(lengths)
+    for found in (given, tubes):
+        if found:
+            return min(sum(found) / len(found), most)
+    return drawn
+
+
+def _joint(drive: Drive, i: int, usual: float, bend: float) -> JointSize:
+    joint = drive.joints[i]
+    span = span_of(joint)
+    radius = usual if span is None else 0.5 * span
+    cross, needles = joint.cross, joint.needles
+    journal = cross.journal if cross is not None and cross.journal is not None else 0.52 * radius
+    journal = min(journal, 0.9 * radius)
+    rolls = needles.diameter if needles is not None and needles.diameter is not None else 0.12 * journal
+    cap = min(0.5 * journal + rolls + 0.1 * journal, 0.62 * radius)
+    ear = cross.journal_length if cross is not None and cross.journal_length is not None else 0.95 * journal
+    ear = min(ear, 0.6 * radius)
+    lug = min(1.42 * cap, 0.85 * radius)
+    tilt = min(max(bend, LEAST), STEEPEST) + math.radians(4.0)
+    cavity = lug * math.cos(tilt) + (radius + 0.5 * ear) * math.sin(tilt) + 0.05 * radius
+    return JointSize(radius=radius, ear=ear, journal=journal, cap=cap, lug=lug, cavity=cavity, given=span is not None)
+
+
+def _end(drive: Drive, number: int, length: float, size: JointSize, far: float) -> float:
+    """Return how far an end shaft is drawn [m]: all that stands on it, and a piece more."""
+    reach = min(max(length, size.reach + 0.8 * size.radius), max(far, size.reach + 0.8 * size.radius))
+    held = [abs(one.position) for one in drive.supports if one.shaft == number]
+    held += [abs(one.position) for one in drive.stations if one.shaft == number and one.position is not None]
+    return max([reach, *(place + 0.9 * size.radius for place in held)])
+
+
+def bearing_radius(support: Support, body: float, *, solid: bool) -> float:
+    """Return the radius at which a support holds its shaft [m]."""
+    if support.bore is not None:
+        return 0.5 * support.bore
+    return 0.62 * body if solid else body
