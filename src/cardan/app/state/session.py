@@ -98,7 +98,7 @@ class Session:
         return not self.document.text
 
     def open(self, text: str, name: str = "", *, saved: bool = True) -> None:
-        """Begin with another file.
+        """Begin with another file; the page is built anew for it.
 
         Parameters
         ----------
@@ -111,13 +111,9 @@ class Session:
         """
         self.history, self.selected, self.name = History(), "", name
         self._saved = text if saved else ""
-        self.drive = None
-        was_empty = self.empty
-        self._now(read(text, self.workspace.enclosed))
-        self.tell("file")
-        self.tell("selection")
-        if was_empty != self.empty:
-            self.rebuild()
+        self.document = read(text, self.workspace.enclosed)
+        self.drive = self.document.drive
+        self.rebuild()
 
     def take(self, name: str, content: bytes) -> None:
         """Begin with a file that the user sent; it is read as data and written nowhere.
