@@ -38,13 +38,16 @@ def serve_files(app: Any) -> None:
     """Serve style and pictures of the page."""
     app.add_static_files("/cardan", STATIC)
 
-    @app.get("/cardan-examples/{name}.svg")
-    def picture(name: str) -> Any:
-        from starlette.responses import Response
+    app.add_api_route("/cardan-examples/{name}.svg", _picture)
 
-        text = example_picture(name)
-        head = {"Cache-Control": "max-age=86400"}
-        return Response(text or "", 200 if text else 404, head, media_type="image/svg+xml")
+
+def _picture(name: str) -> Any:
+    """Answer with the picture of a shipped example."""
+    from starlette.responses import Response
+
+    text = example_picture(name)
+    head = {"Cache-Control": "max-age=86400"}
+    return Response(text, 200 if text else 404, head, media_type="image/svg+xml")
 
 
 @cache

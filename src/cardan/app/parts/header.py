@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from nicegui import events, ui
 
@@ -76,8 +76,9 @@ class Header:
             ui.label(_("The drive is not saved. Leave it?"))
             with ui.row().classes("ends"):
                 ui.button(_("Stay"), on_click=dialog.close).props("flat no-caps")
-                ui.button(_("Leave"), on_click=lambda: (dialog.close(), then())).props("no-caps color=negative")
-        dialog.open()
+                ui.button(_("Leave"), on_click=lambda: self._after(dialog, then)).props("no-caps color=negative").mark(
+                    "leave"
+                )
 
     def open(self) -> None:
         """Offer the files of the workspace."""
@@ -88,10 +89,18 @@ class Header:
                 ui.label(_("There is no drive file yet.")).classes("hint")
             with ui.element("div").classes("files"):
                 for name in names:
-                    act = lambda name=name: (dialog.close(), self._leave(lambda: self._read(name)))  # noqa: E731
-                    ui.button(name, on_click=act).props("flat no-caps align=left").classes("file")
+                    button = ui.button(name, on_click=lambda name=name: self._after(dialog, lambda: self._take(name)))
+                    button.props("flat no-caps align=left").classes("file")
             ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
-        dialog.open()
+
+    def _after(self, dialog: ui.dialog, then: Callable[[], None]) -> None:
+        """Close a dialog and go on."""
+        dialog.close()
+        with self.session.speaking():
+            then()
+
+    def _take(self, name: str) -> None:
+        self._leave(lambda: self._read(name))
 
     def _read(self, name: str) -> None:
         self._try(lambda: self.session.open(self.session.workspace.read(name), name))
@@ -105,7 +114,7 @@ class Header:
                 content = await event.file.read()
                 dialog.close()
                 with self.session.speaking():
-                    self._leave(lambda: self._try(lambda: self.session.take(event.file.name, content)))
+                    self._leave(lambda: self._receive(event.file.name, content))
 
             def refused() -> None:
                 ui.notify(
@@ -118,7 +127,9 @@ class Header:
                 "accept=.toml,.json flat bordered"
             ).mark("upload")
             ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
-        dialog.open()
+
+    def _receive(self, name: str, content: bytes) -> None:
+        self._try(lambda: self.session.take(name, content))
 
     def save(self) -> None:
         """Write the file; ask for a name first where it has none."""
@@ -140,7 +151,6 @@ class Header:
             with ui.row().classes("ends"):
                 ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
                 ui.button(_("Save"), on_click=named).props("no-caps").mark("save-named")
-        dialog.open()
 
     def download(self) -> None:
         """Give the file to the browser."""
@@ -156,13 +166,13 @@ class Header:
         return True
 
 
-def _dialog() -> Any:
-    """Return a dialog that goes once it is closed."""
-    with ui.dialog() as dialog:
-        card = ui.card().classes("dialog")
+@contextmanager
+def _dialog() -> Iterator[ui.dialog]:
+    """Open a dialog with what is built within; it goes once it is closed."""
+    with ui.dialog() as dialog, ui.card().classes("dialog"):
+        yield dialog
     dialog.on("hide", dialog.delete)
-    card.open, card.close = dialog.open, dialog.close  # type: ignore[attr-defined]
-    return card
+    dialog.open()
 
 
 def _button(icon: str, title: str, act: Callable[[], None]) -> ui.button:

@@ -20,6 +20,9 @@ LOADED = ("forces", "couples")
 QUIET = 0.35
 """Seconds without an edit after which forces and mode shapes are reckoned anew."""
 
+SOON = 0.02
+"""Seconds by which the view follows the curves."""
+
 FOLLOWING = (
     "if(!window.cardanPhi){window.cardanPhi=true;let last=0;addEventListener('cardan-angle',e=>{"
     "const now=performance.now();if(now-last<60)return;last=now;"
@@ -45,6 +48,7 @@ class View:
         self.mode: str | None = None
         self.pose: int | None = None
         self._waiting: ui.timer | None = None
+        self._next: ui.timer | None = None
         with ui.element("div").classes("stage"):
             self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
             self.scene.mark("scene")
@@ -54,7 +58,7 @@ class View:
         ui.run_javascript(FOLLOWING)
         self._theme()
         self._follow()
-        session.listen("drive", self._follow)
+        session.listen("drive", self._soon)
         session.listen("selection", lambda: self.scene.select(session.selected or None))
         session.listen("choices", self._theme)
 
@@ -97,12 +101,18 @@ class View:
             return {}
         return {None: _("as drawn"), **{k: pose.name for k, pose in enumerate(drive.poses)}}
 
+    def _soon(self) -> None:
+        """Follow once curves and verdicts have been sent, and once for several edits of a drag."""
+        if self._next is None:
+            self._next = ui.timer(SOON, self._follow, once=True)
+
     def _follow(self) -> None:
         """Show the drive as it is now; forces and mode shapes follow once the user is quiet."""
-        drive = self.session.drive
+        drive, self._next = self.session.drive, None
         if drive is None:
             return
-        self._show(self._made(drive))
+        with self.session.speaking():
+            self._show(self._made(drive))
         if self._asks_more():
             if self._waiting is not None:
                 self._waiting.cancel()
@@ -194,8 +204,7 @@ class View:
 
     def _posed(self, pose: Any) -> None:
         self.pose = pose
-        with self.session.speaking():
-            self._follow()
+        self._follow()
 
     def _play(self, on: bool) -> None:
         self.scene.play(on)

@@ -179,7 +179,7 @@ def section(tree: Mapping[str, Any], path: str, title: str = "") -> Section:
     ('hooke', ['joints[0].centre_mm'])
     """
     cls, table, base = _found(tree, path)
-    kind, kinds = "", ()
+    kind, kinds = "", tuple[str, ...]()
     if base in KINDS:
         known, default = KINDS[base]
         kinds, kind = tuple(known), str(table.get("kind", default or ""))
