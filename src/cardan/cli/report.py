@@ -20,7 +20,7 @@ def report(
             "--out",
             "-o",
             metavar="PATH",
-            help=_("File to write; FILE's name with .html by default."),
+            help=_("File to write, as HTML or PDF by its ending; FILE's name with .html by default."),
             show_default=False,
         ),
     ] = None,
@@ -66,7 +66,10 @@ def report(
     from .show import show
 
     opened = open_ and _opened(place)
-    hint = _("It is open in the browser: {path}.") if opened else _("Open {path} in a browser, or print it.")
+    browsed = place.suffix.lower() != ".pdf"
+    hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path} and read on, or print it.")
+    if opened:
+        hint = _("It is open in the browser: {path}.")
     if open_ and not opened:
         hint = _("No browser answered; open {path} yourself.")
     return show(

@@ -41,17 +41,20 @@ HEAD = (2.8, 1.4)
 Line = Callable[[Array], Array]
 
 
-def inline_svg(figure: Figure) -> str:
+def inline_svg(figure: Figure, *, fonts: str = FONTS) -> str:
     """Return a figure as an SVG element for a page, without its title and sentence.
 
     Parameters
     ----------
     figure : Figure
         What to draw.
+    fonts : str
+        Fonts of its words, the first that there is.
     """
     page = laid_out(figure, words=False)
     label = escape(f"{figure.title}. {figure.sentence}")
-    return f'<svg {_head(page.width, page.height)} role="img" aria-label="{label}">{_drawn(page, figure.name)}</svg>'
+    head = f'{_head(page.width, page.height, fonts)} role="img" aria-label="{label}"'
+    return f"<svg {head}>{_drawn(page, figure.name)}</svg>"
 
 
 def document(figures: Sequence[Figure]) -> str:
@@ -74,9 +77,9 @@ def document(figures: Sequence[Figure]) -> str:
     return f"{start}<svg {size} {_head(width, height)}>{paper}{''.join(parts)}</svg>\n"
 
 
-def _head(width: float, height: float) -> str:
+def _head(width: float, height: float, fonts: str = FONTS) -> str:
     box = f"0 0 {_of(INCH * width)} {_of(INCH * height)}"
-    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" font-family="{FONTS}"'
+    return f'xmlns="http://www.w3.org/2000/svg" viewBox="{box}" font-family="{fonts}"'
 
 
 def _of(length: float) -> str:

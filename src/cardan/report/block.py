@@ -32,12 +32,15 @@ class Cell:
         The number in full precision, for whoever points at it.
     chip : str
         Colour of a chip before the text.
+    formula : str
+        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
     """
 
     text: str
     tone: Tone = "plain"
     full: str = ""
     chip: str = ""
+    formula: str = ""
 
     @property
     def sign(self) -> str:

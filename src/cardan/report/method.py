@@ -73,7 +73,7 @@ def _equal(bend: float) -> Cell:
 
 
 def _equations(on: Subject) -> Table:
-    rows = [[words(name), words(line), words(put), words(source)] for name, line, put, source in _lines(on)]
+    rows = [[words(name), line, words(put), words(source)] for name, line, put, source in _lines(on)]
     return Table(
         title=_("Equations used"),
         columns=(
@@ -86,14 +86,15 @@ def _equations(on: Subject) -> Table:
     )
 
 
-def _lines(on: Subject) -> Iterator[tuple[str, str, str, str]]:
+def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
+    """Yield what is reckoned, its equation, the same with numbers, and its source."""
     a, b = (float(abs(part)) for part in on.whole.pair)
     if on.even:
         b = 0.0
     half = 0.5 * float(on.train.bend[0])
     yield (
         _("joint 1"),
-        "τ = tan²(α/2)",
+        Cell(text="τ = tan²(α/2)", formula="tau = tan^2 alpha/2"),
         f"tan²({fixed(half / deg, 3)}°) = {significant(float(np.tan(half)) ** 2)}",
         _("Book (18), as a map of the circle"),
     )
@@ -102,31 +103,34 @@ def _lines(on: Subject) -> Iterator[tuple[str, str, str, str]]:
         gamma, beta = (fixed(float(part[0]) / deg) for part in (on.train.yoke_angle, on.train.plane_twist))
         yield (
             _("between joints 1 and 2"),
-            "μ = 90° − γ − β",
+            Cell(text="μ = 90° − γ − β", formula="mu = 90° - gamma - beta"),
             f"90° − ({gamma}°) − ({beta}°) = {fixed(float(turn) / deg)}°",
             _("Book (31), (38)"),
         )
     yield (
         _("whole drive"),
-        "G = J R … J R = [[a, b], [b̄, ā]]",
+        Cell(
+            text="G = J R … J R = [[a, b], [b̄, ā]]",
+            formula='G = J R dots.h.c J R = mat(a, b; macron(b), macron(a); delim: "[")',
+        ),
         f"|a| = {fixed(a, 6)}, |b| = {fixed(b, 6)}",
         _("matrix product"),
     )
     yield (
         _("irregularity"),
-        "δ = 4|a||b|",
+        Cell(text="δ = 4|a||b|", formula="delta = 4 abs(a) abs(b)"),
         f"4 · {fixed(a, 6)} · {fixed(b, 6)} = {significant(4.0 * a * b)}",
         _("Book (79), exact"),
     )
     yield (
         _("equivalent joint"),
-        "cos α = (|a| − |b|)²",
+        Cell(text="cos α = (|a| − |b|)²", formula="cos alpha = (abs(a) - abs(b))^2"),
         f"({fixed(a, 6)} − {fixed(b, 6)})² = {significant((a - b) ** 2, 6)}",
         _("matrix product"),
     )
     yield (
         _("ahead and back"),
-        "arcsin τ, τ = |b|/|a|",
+        Cell(text="arcsin τ, τ = |b|/|a|", formula="arcsin tau, quad tau = abs(b)/abs(a)"),
         f"arcsin {significant(b / a)} = {fixed(float(np.arcsin(b / a)) / deg, 4)}°",
         _("extreme of Book (19)"),
     )
@@ -135,7 +139,10 @@ def _lines(on: Subject) -> Iterator[tuple[str, str, str, str]]:
         sign = "≤" if closing.closes else ">"
         yield (
             _("can be even"),
-            _("L_max ≤ Σ of the others, L = −ln cos α"),
+            Cell(
+                text=_("L_max ≤ Σ of the others, L = −ln cos α"),
+                formula="L_max <= sum L - L_max, quad L = -ln cos alpha",
+            ),
             f"{fixed(float(closing.length[closing.longest - 1]), 5)} {sign} {fixed(closing.others, 5)}",
             _("in place of Book (77), (86)"),
         )

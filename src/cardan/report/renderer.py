@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from cardan.errors import MissingExtraError, refuse
 from cardan.texts import _
 
-from . import html
+from . import html, typeset
 
 if TYPE_CHECKING:
     from .content import Content
@@ -42,6 +42,7 @@ HTML = Renderer(written=html.written, interactive=html.interactive)
 RENDERERS: dict[str, Renderer] = {
     ".html": HTML,
     ".htm": HTML,
+    ".pdf": Renderer(written=typeset.written, library="typst", extra="pdf"),
 }
 """Every form by the ending of its file."""
 
@@ -84,5 +85,5 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
     if renderer.interactive is None:
         known = ", ".join(suffix for suffix, one in RENDERERS.items() if one.interactive)
         text = _("{path} cannot have figures to point at; only reports in {known} can")
-        raise refuse("interactive", text.format(path=path, known=known))
+        raise refuse(field, text.format(path=path, known=known))
     return renderer.interactive

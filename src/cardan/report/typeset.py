@@ -1,0 +1,124 @@
+"""The report as a PDF: its content as data, set by Typst from ``templates/report.typ``.
+
+The template never takes text for code: names and notes reach it as the strings of a JSON file, whatever stands in them.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from cardan.figures.figure import Figure
+from cardan.texts import _, language
+
+from .block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
+
+if TYPE_CHECKING:
+    from .content import Content
+
+TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
+
+FONTS = "'DejaVu Sans'"
+"""Font of the words in figures: matplotlib brings it wherever cardan is installed."""
+
+STANDARD: Final = "ua-1"
+"""The PDF can be read aloud: tagged, with words for every picture."""
+
+
+UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
+
+
+def written(content: Content) -> bytes:
+    """Return a report as a PDF file.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    import typst
+    from matplotlib import get_data_path
+
+    found, _warnings = typst.Compiler(
+        TEMPLATE,
+        root=TEMPLATE.parent,
+        font_paths=[Path(get_data_path()) / "fonts" / "ttf"],
+        sys_inputs={"report": json.dumps(_printable(as_data(content)), ensure_ascii=False)},
+    ).compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
+    assert isinstance(found, bytes)  # a single file, and no place was given to write it to
+    return found
+
+
+def as_data(content: Content) -> dict[str, Any]:
+    """Return what a report says as data for the template.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    return {
+        "language": language(),
+        "words": {
+            "kicker": _("Drive report"),
+            "summary": _("Summary"),
+            "contents": _("Contents"),
+            "figure": _("Figure"),
+            "table": _("Table"),
+        },
+        "title": content.title.strip() or _("Universal-joint drive"),
+        "note": content.note,
+        "version": content.version,
+        "date": content.date,
+        "judgement": _block(content.judgement),
+        "warnings": [_block(one) for one in content.warnings],
+        "sketch": _picture(content.sketch),
+        "tables": [_block(one) for one in (content.lights, content.cures, content.figures, content.changes) if one],
+        "pages": [_page(page) for page in content.pages],
+    }
+
+
+def _printable(data: Any) -> Any:
+    """Return data whose texts hold nothing that no PDF may show: marks of control and halves of characters."""
+    if isinstance(data, str):
+        return UNPRINTABLE.sub("\ufffd", data)
+    if isinstance(data, dict):
+        return {name: _printable(value) for name, value in data.items()}
+    return [_printable(value) for value in data] if isinstance(data, list) else data
+
+
+def _page(page: Page) -> dict[str, Any]:
+    return {"name": page.name, "title": page.title, "answer": page.answer, "blocks": list(map(_block, page.blocks))}
+
+
+def _block(block: Block) -> dict[str, Any]:
+    """Return a block with the name of its kind, which the template calls."""
+    if isinstance(block, Table):
+        columns = [{"heading": one.heading, "unit": one.unit, "left": one.left} for one in block.columns]
+        rows = [_row(row) for row in block.rows]
+        return {"kind": "table", "title": block.title, "columns": columns, "rows": rows, "note": block.note}
+    if isinstance(block, Words):
+        return {"kind": "words", "title": block.title, "text": block.text, **_toned(block.tone)}
+    if isinstance(block, Points):
+        return {"kind": "points", "title": block.title, "items": list(block.items)}
+    if isinstance(block, Listing):
+        return {"kind": "listing", "title": block.title, "text": block.text}
+    return _picture(block.figure)
+
+
+def _row(row: Sequence[Cell]) -> list[dict[str, Any]]:
+    return [{"text": one.text, "chip": one.chip, "formula": one.formula, **_toned(one.tone)} for one in row]
+
+
+def _toned(tone: Tone) -> dict[str, str]:
+    return {"tone": tone, "sign": SIGNS[tone]}
+
+
+def _picture(figure: Figure) -> dict[str, Any]:
+    from cardan.figures.render_svg import inline_svg
+
+    said = {"title": figure.title, "sentence": figure.sentence, "source": figure.source}
+    return {"kind": "picture", "drawing": inline_svg(figure, fonts=FONTS), **said}
