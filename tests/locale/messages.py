@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 from collections.abc import Iterator, Sequence
 from io import BytesIO
@@ -24,8 +25,8 @@ from cardan.texts import DOMAIN, FOLDER, LANGUAGES, speaking
 from cardan.units import DIMENSIONS, LABELS
 
 SOURCE = FOLDER.parent
-KEYWORDS: dict[str, Any] = {"_": None, "mark": None, "plural": (1, 2)}
-METHODS = [("**.py", "python"), ("**/templates/**.html", "jinja2")]
+WORDS_OF = {"_": 1, "mark": 1, "plural": 2}
+"""Function of `cardan.texts` -> how many of its arguments are sentences."""
 OTHERS = tuple(code for code in LANGUAGES if code != "en")
 """Languages that need a catalogue."""
 
@@ -35,14 +36,35 @@ Texts = str | tuple[str, ...]
 def extracted() -> Catalog:
     """Return every sentence of the sources: of code and templates, of the catalogue, on keys; and the units."""
     found = _empty()
-    options = {"**.html": {"trimmed": "true"}}
-    for name, _line, text, comments, context in extract_from_dir(SOURCE, METHODS, options, KEYWORDS):
-        if text:
-            found.add(text, locations=[(name, None)], auto_comments=comments, context=context)
+    for path in sorted(SOURCE.rglob("*.py")):
+        for text in sentences(path.read_text("utf-8")):
+            found.add(text, locations=[(path.relative_to(SOURCE).as_posix(), None)])
+    methods, options = [("**/templates/**.html", "jinja2")], {"**.html": {"trimmed": "true"}}
+    for name, _line, text, _comments, _context in extract_from_dir(SOURCE, methods, options, {"_": None}):
+        found.add(text, locations=[(name, None)])
     with speaking("en"):
         for name, text in _declared():
             found.add(text, locations=[(name, None)])
     return found
+
+
+def sentences(code: str) -> Iterator[Texts]:
+    """Yield the sentences that a Python module passes to the functions of `cardan.texts`, in their order.
+
+    Raises
+    ------
+    ValueError
+        An argument is made of parts, so that no translator sees it.
+    """
+    calls = [node for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Call)]
+    for call in sorted(calls, key=lambda node: (node.lineno, node.col_offset)):
+        name = call.func.id if isinstance(call.func, ast.Name) else ""
+        given = call.args[: WORDS_OF.get(name, 0)]
+        if any(isinstance(one, ast.JoinedStr | ast.BinOp) for one in given):
+            raise ValueError(f"line {call.lineno}: {name}() takes one whole sentence: {ast.unparse(call)}")
+        texts = tuple(one.value for one in given if isinstance(one, ast.Constant) and one.value)
+        if texts and len(texts) == WORDS_OF[name]:
+            yield texts[0] if name != "plural" else texts
 
 
 def _declared() -> Iterator[tuple[str, str]]:

@@ -11,7 +11,7 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from cardan.texts import LANGUAGES, _
+from cardan.texts import LANGUAGES, _, language
 
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -40,7 +40,7 @@ class Entry:
 
 
 @cache
-def _language_option() -> Any:
+def _language_option(_spoken: str) -> Any:
     """Return the option ``--lang`` of every command. `cardan.cli.main` obeys it before any command is imported."""
     single = typer.Typer(add_completion=False)
     text = _("Language of the answers: {languages}. CARDAN_LANG sets it for good.")
@@ -58,7 +58,7 @@ def _language_option() -> Any:
 
 def _common(parameters: list[Any]) -> list[Any]:
     """Return the parameters with the language before the help; a flag is a flag and needs no word for its type."""
-    parameters = [*parameters[:-1], _language_option(), *parameters[-1:]]
+    parameters = [*parameters[:-1], _language_option(language()), *parameters[-1:]]
     for parameter in parameters:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""

@@ -136,7 +136,6 @@ def _knows(cls: type, key: str) -> bool:
     return key in spellings_of(cls) or key in fields_of(cls)
 
 
-@cache
 def tables() -> tuple[tuple[str, type], ...]:
     """Return every table of a drive file: how the file names it, and its class.
 
@@ -145,11 +144,16 @@ def tables() -> tuple[tuple[str, type], ...]:
     >>> [title for title, cls in tables()][:5]
     ['the head of the file', '[settings]', '[input]', '[output]', "[[joints]] kind = 'hooke'"]
     """
-    return tuple(_tables(Drive, ""))
+    return _all_tables(_("the head of the file"))
+
+
+@cache
+def _all_tables(head: str) -> tuple[tuple[str, type], ...]:
+    return ((head, Drive), *list(_tables(Drive, ""))[1:])
 
 
 def _tables(cls: Any, title: str) -> Iterator[tuple[str, Any]]:
-    yield title or _("the head of the file"), cls
+    yield title, cls
     for one in fields_of(cls).values():
         inner = next((part for part in (one.type, *get_args(one.type)) if is_dataclass(part)), None)
         if inner is None:
