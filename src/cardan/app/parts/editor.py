@@ -24,10 +24,10 @@ class Editor:
     def __init__(self, session: Session) -> None:
         self.session = session
         with ui.tabs().props("dense no-caps inline-label align=left narrow-indicator").classes("ways") as tabs:
-            form = ui.tab("form", label=_("Form")).mark("way-form")
-            lies = ui.tab("geometry", label=_("Geometry")).mark("way-geometry")
-            text = ui.tab("file", label=_("File")).mark("way-file")
-        self.problems = ui.element("div").classes("problems").props("role=status").mark("problems")
+            form = ui.tab("form", label=_("Form")).props('data-mark="way-form"')
+            lies = ui.tab("geometry", label=_("Geometry")).props('data-mark="way-geometry"')
+            text = ui.tab("file", label=_("File")).props('data-mark="way-file"')
+        self.problems = ui.element("div").classes("problems").props("role=status").props('data-mark="problems"')
         with ui.tab_panels(tabs, value=form, animated=False, keep_alive=True).classes("way"):
             with ui.tab_panel(form):
                 Form(session)

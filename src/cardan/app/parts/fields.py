@@ -79,7 +79,7 @@ class KeyField:
         self.session = session
         self.entry = entry
         self._silent = False
-        with ui.element("div").classes("key").mark(f"key-{entry.key()}") as self.row:
+        with ui.element("div").classes("key").props(f'data-mark="key-{entry.key()}"') as self.row:
             with ui.element("div").classes("line"):
                 name = ui.label(entry.name.replace("_", " ")).classes("name")
                 name.tooltip(entry.doc)

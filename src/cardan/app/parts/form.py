@@ -80,7 +80,11 @@ class Form:
                 "movements": _("movement"),
                 "poses": _("pose"),
             }
-            with ui.dropdown_button(_("add"), icon="add", auto_close=True).props("flat dense no-caps").mark("add"):
+            with (
+                ui.dropdown_button(_("add"), icon="add", auto_close=True)
+                .props("flat dense no-caps")
+                .props('data-mark="add"')
+            ):
                 ui.item(_("joint"), on_click=lambda: self._add_joint())
                 for name, title in names.items():
                     ui.item(title, on_click=lambda name=name: self._add(name))
@@ -107,7 +111,9 @@ class Table:
         self.built = False
         self._shape: tuple[Any, ...] = ()
         self.fold = ui.expansion(title, value=opened, on_value_change=self._opened).classes("table")
-        self.fold.props("dense expand-separator switch-toggle-side").mark(f"table-{path or 'drive'}")
+        self.fold.props("dense expand-separator switch-toggle-side").props(
+            'data-mark="table-' + (path or "drive") + '"'
+        )
         with self.fold:
             self.body = ui.element("div").classes("keys")
         if opened:
@@ -193,7 +199,7 @@ class Table:
             ui.label(_("kind")).classes("name")
             ui.select(list(now.kinds), value=now.kind, on_change=lambda event: self._kind(event.value)).props(
                 f'dense outlined aria-label="{_("kind")}"'
-            ).mark(f"kind-{self.path}")
+            ).props(f'data-mark="kind-{self.path}"')
 
     def _kind(self, kind: str) -> None:
         apply(self.session, {f"{self.path}.kind": kind})
@@ -204,7 +210,9 @@ class Table:
             return
         options = {one.name: f"{one.name.replace('_', ' ')} – {one.doc}" for one in possible}
         chosen = ui.select(options, with_input=True, label=_("add a key …"), value=None)
-        chosen.props("dense borderless options-dense clearable").classes("more").mark(f"more-{self.path or 'drive'}")
+        chosen.props("dense borderless options-dense clearable").classes("more").props(
+            'data-mark="more-' + (self.path or "drive") + '"'
+        )
 
         def added() -> None:
             entry = next((one for one in possible if one.name == chosen.value), None)

@@ -34,7 +34,7 @@ class Header:
         self.session = session
         with ui.element("header").classes("top"):
             ui.link("cardan", "/").classes("brand")
-            self.name = ui.label().classes("name").mark("file-name").props("role=status")
+            self.name = ui.label().classes("name").props('data-mark="file-name"').props("role=status")
             ui.element("div").classes("gap")
             if not session.empty:
                 self.undo = _button("undo", _("Undo (ctrl Z)"), session.undo)
@@ -57,14 +57,14 @@ class Header:
         self.redo.set_enabled(bool(session.history.behind))
 
     def _files(self) -> None:
-        with ui.dropdown_button(_("File"), auto_close=True).props("flat dense no-caps").mark("file-menu"):
+        with ui.dropdown_button(_("File"), auto_close=True).props("flat dense no-caps").props('data-mark="file-menu"'):
             ui.item(_("New"), on_click=lambda: self._leave(lambda: self.session.open(starter(), saved=False)))
-            ui.item(_("Open …"), on_click=lambda: self.open()).mark("file-open")
-            ui.item(_("Send a file …"), on_click=lambda: self.send()).mark("file-send")
+            ui.item(_("Open …"), on_click=lambda: self.open()).props('data-mark="file-open"')
+            ui.item(_("Send a file …"), on_click=lambda: self.send()).props('data-mark="file-send"')
             if not self.session.empty:
-                ui.item(_("Save"), on_click=lambda: self.save()).mark("file-save")
-                ui.item(_("Save as …"), on_click=lambda: self.save_as()).mark("file-save-as")
-                ui.item(_("Download"), on_click=lambda: self.download()).mark("file-download")
+                ui.item(_("Save"), on_click=lambda: self.save()).props('data-mark="file-save"')
+                ui.item(_("Save as …"), on_click=lambda: self.save_as()).props('data-mark="file-save-as"')
+                ui.item(_("Download"), on_click=lambda: self.download()).props('data-mark="file-download"')
             ui.item(_("Examples"), on_click=lambda: self._leave(lambda: self.session.open("")))
 
     def _leave(self, then: Callable[[], None]) -> None:
@@ -76,8 +76,8 @@ class Header:
             ui.label(_("The drive is not saved. Leave it?"))
             with ui.row().classes("ends"):
                 ui.button(_("Stay"), on_click=dialog.close).props("flat no-caps")
-                ui.button(_("Leave"), on_click=lambda: self._after(dialog, then)).props("no-caps color=negative").mark(
-                    "leave"
+                ui.button(_("Leave"), on_click=lambda: self._after(dialog, then)).props("no-caps color=negative").props(
+                    'data-mark="leave"'
                 )
 
     def open(self) -> None:
@@ -125,7 +125,7 @@ class Header:
 
             ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_UPLOAD, auto_upload=True).props(
                 "accept=.toml,.json flat bordered"
-            ).mark("upload")
+            ).props('data-mark="upload"')
             ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
     def _receive(self, name: str, content: bytes) -> None:
@@ -150,7 +150,7 @@ class Header:
             name.on("keydown.enter", named)
             with ui.row().classes("ends"):
                 ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
-                ui.button(_("Save"), on_click=named).props("no-caps").mark("save-named")
+                ui.button(_("Save"), on_click=named).props("no-caps").props('data-mark="save-named"')
 
     def download(self) -> None:
         """Give the file to the browser."""
@@ -176,6 +176,6 @@ def _dialog() -> Iterator[ui.dialog]:
 
 
 def _button(icon: str, title: str, act: Callable[[], None]) -> ui.button:
-    button = ui.button(icon=icon, on_click=act).props(f'flat dense round aria-label="{title}"').mark(icon)
+    button = ui.button(icon=icon, on_click=act).props(f'flat dense round aria-label="{title}" data-mark="{icon}"')
     button.tooltip(title)
     return button

@@ -26,24 +26,24 @@ class SettingsMenu:
         with ui.element("div").classes("languages").props("role=group"):
             for code, title in LANGUAGES.items():
                 button = ui.button(code, on_click=lambda code=code: session.choose(language=code))
-                button.props(f'flat dense no-caps size=sm aria-label="{title}"').mark(f"language-{code}")
+                button.props(f'flat dense no-caps size=sm aria-label="{title}"').props(f'data-mark="language-{code}"')
                 if code == session.choices.language:
                     button.classes("on").props("aria-pressed=true")
         title = _("How to show it")
-        with ui.button(icon="tune").props(f'flat dense round aria-label="{title}"').mark("settings"):
+        with ui.button(icon="tune").props(f'flat dense round aria-label="{title}"').props('data-mark="settings"'):
             ui.tooltip(title)
             with ui.menu().props("max-height=80vh"), ui.element("div").classes("settings"):
                 themes = {"auto": _("as the system"), "light": _("light"), "dark": _("dark")}
                 ui.label(_("Page")).classes("head")
                 ui.toggle(
                     themes, value=session.choices.theme, on_change=lambda event: session.choose(theme=event.value)
-                ).props("dense no-caps flat").mark("theme")
+                ).props("dense no-caps flat").props('data-mark="theme"')
                 ui.label(_("Decimal sign")).classes("head")
                 ui.toggle(
                     {".": "1.5", ",": "1,5"},
                     value=session.choices.decimal,
                     on_change=lambda event: session.choose(decimal=event.value),
-                ).props("dense no-caps flat").mark("decimal")
+                ).props("dense no-caps flat").props('data-mark="decimal"')
                 ui.label(_("Units of the answers")).classes("head")
                 for dimension, title in _dimensions().items():
                     options = {unit: label(unit) or unit for unit in DIMENSIONS[dimension]}
@@ -54,7 +54,9 @@ class SettingsMenu:
                             options,
                             value=session.choices.units.get(dimension, usual),
                             on_change=lambda event, dimension=dimension: self._unit(dimension, event.value),
-                        ).props(f'dense options-dense borderless aria-label="{title}"').mark(f"unit-{dimension}")
+                        ).props(f'dense options-dense borderless aria-label="{title}"').props(
+                            f'data-mark="unit-{dimension}"'
+                        )
 
     def _unit(self, dimension: str, unit: str) -> None:
         kept = {one: held for one, held in self.session.choices.units.items() if one != dimension}

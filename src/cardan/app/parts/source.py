@@ -28,7 +28,7 @@ class Source:
         self._due: ui.timer | None = None
         theme = "vscodeDark" if session.choices.theme == "dark" else "vscodeLight"
         self.text: Any = ui.codemirror(session.document.text, language="TOML", theme=theme, on_change=self._typed)  # type: ignore[arg-type]
-        self.text.classes("source").mark("source").props(f'aria-label="{_("text of the drive file")}"')
+        self.text.classes("source").props('data-mark="source"').props(f'aria-label="{_("text of the drive file")}"')
         self.problems = ui.element("div").classes("problems").props("role=status")
         self._judge()
         session.listen("text", self._follow)

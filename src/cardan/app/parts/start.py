@@ -29,7 +29,7 @@ class Start:
             with ui.row().classes("choices"):
                 ui.button(_("New drive"), icon="add", on_click=lambda: session.open(starter(), saved=False)).props(
                     "no-caps unelevated"
-                ).mark("new")
+                ).props('data-mark="new"')
                 for name in session.workspace.names()[:6]:
                     ui.button(name, icon="description", on_click=lambda name=name: self._open(name)).props(
                         "no-caps outline"
@@ -41,7 +41,7 @@ class Start:
 
     def _card(self, name: str) -> None:
         drive = example(name)
-        with ui.element("button").classes("card").mark(f"example-{name}") as card:
+        with ui.element("button").classes("card").props(f'data-mark="example-{name}"') as card:
             ui.element("img").props(f'src="/cardan-examples/{name}.svg" loading=lazy alt=""')
             ui.label(drive.name or name).classes("head")
             count = len(drive.joints)

@@ -51,7 +51,7 @@ class View:
         self._next: ui.timer | None = None
         with ui.element("div").classes("stage"):
             self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
-            self.scene.mark("scene")
+            self.scene.props('data-mark="scene"')
             self.told = ui.label("").classes("told").props("role=status")
             self._tools()
         self._bar()
@@ -67,23 +67,23 @@ class View:
             looks = {"iso": _("in space"), "side": _("side"), "plan": _("plan"), "front": _("front")}
             for name, title in looks.items():
                 button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
-                button.props("flat dense no-caps size=sm").mark(f"look-{name}")
-            with ui.dropdown_button(_("show")).props("flat dense no-caps size=sm").mark("show"):
+                button.props("flat dense no-caps size=sm").props(f'data-mark="look-{name}"')
+            with ui.dropdown_button(_("show")).props("flat dense no-caps size=sm").props('data-mark="show"'):
                 self.switches = ui.element("div").classes("switches")
             colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
             ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
                 f'dense options-dense borderless aria-label="{_("colour")}"'
-            ).mark("colour")
+            ).props('data-mark="colour"')
             poses = self._poses()
             if poses:
                 ui.select(poses, value=None, on_change=lambda event: self._posed(event.value)).props(
                     f'dense options-dense borderless aria-label="{_("pose")}"'
-                ).mark("pose")
+                ).props('data-mark="pose"')
 
     def _bar(self) -> None:
         with ui.element("div").classes("bar"):
             self.play = ui.button(icon="pause", on_click=lambda: self._play(not self.scene.playing))
-            self.play.props(f'flat dense round aria-label="{_("turn or hold the drive")}"').mark("play")
+            self.play.props(f'flat dense round aria-label="{_("turn or hold the drive")}"').props('data-mark="play"')
             ui.label(_("slow")).classes("hint")
             ui.slider(min=0, max=1, step=0.01, value=0.35, on_change=lambda event: self._speed(event.value)).props(
                 f'dense aria-label="{_("speed of the picture")}"'
@@ -91,9 +91,11 @@ class View:
             ui.label(_("fast")).classes("hint")
             ui.label("φ = 0°").classes("phi")
             self.shapes = ui.select({"": _("turning")}, value="", on_change=lambda event: self._swing(event.value))
-            self.shapes.props(f'dense options-dense borderless aria-label="{_("turning or swinging")}"').mark("shapes")
+            self.shapes.props(f'dense options-dense borderless aria-label="{_("turning or swinging")}"').props(
+                'data-mark="shapes"'
+            )
             ask = ui.button(_("mode shapes"), on_click=self._ask_modes).props("flat dense no-caps size=sm")
-            ask.mark("mode-shapes")
+            ask.props('data-mark="mode-shapes"')
 
     def _poses(self) -> dict[int | None, str]:
         drive = self.session.drive
@@ -164,7 +166,7 @@ class View:
             for name, (title, text) in titles.items():
                 switch = ui.checkbox(title, value=name in self.on)
                 switch.on_value_change(lambda event, name=name: self._switched(name, event.value))
-                switch.props("dense").mark(f"group-{name}")
+                switch.props("dense").props(f'data-mark="group-{name}"')
                 if text:
                     ui.label(text).classes("hint")
 
