@@ -8,7 +8,8 @@ from cardan.analysis.book import BookComparison
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, angle_axis, axis
+from .figure import Curve, Figure, Panel, Row, Rule, axis
+from .turning import across
 from .wording import significant
 
 
@@ -27,8 +28,6 @@ def book_figure(found: BookComparison) -> Figure:
     """
     angle = np.asarray(found.angle) / deg
     exact, first, second = (np.asarray(row) / deg for row in (found.exact, found.first_order, found.second_order))
-    plain = angle_axis("")
-    plain = Axis(low=plain.low, high=plain.high, ticks=plain.ticks, texts=plain.texts)
     upper = Panel(
         series=(
             Rule(value=0.0, dash="solid", role="faint"),
@@ -38,7 +37,7 @@ def book_figure(found: BookComparison) -> Figure:
                 x=angle, y=second, role="second order", label=_("second order, c = tan²(α/2)"), width=1.4, dash="dotted"
             ),
         ),
-        x=plain,
+        x=across(angle),
         y=axis(_("Angle error of the output"), "°", [exact, first, second], least=0.02),
     )
     lower = Panel(
@@ -47,7 +46,7 @@ def book_figure(found: BookComparison) -> Figure:
             Curve(x=angle, y=first - exact, role="first order", width=1.4, dash="dashed"),
             Curve(x=angle, y=second - exact, role="second order", width=1.4, dash="dotted"),
         ),
-        x=angle_axis(_("input angle φ₁ from the start position")),
+        x=across(angle, named=True),
         y=axis(
             _("Error of the approximation"), "°", [first - exact, second - exact], mirrored=0.0, least=1e-4, count=4
         ),

@@ -179,6 +179,9 @@ class Axis:
         Logarithmic.
     grid : bool
         Draw lines across the panel at the ticks.
+    turning : bool
+        Whether it is the input angle from the start position [°] that runs along it: a place on it is a position of
+        the drive.
     """
 
     label: str = ""
@@ -189,6 +192,7 @@ class Axis:
     texts: tuple[str, ...] = ()
     log: bool = False
     grid: bool = True
+    turning: bool = False
 
     @property
     def title(self) -> str:

@@ -25,6 +25,28 @@ ROLES = {
 }
 """Role -> colour, beside the shafts."""
 
+DARK = {
+    "#3b4252": "#b9c2d3",
+    "#0072b2": "#4fa8e0",
+    "#d98a00": "#f0ab3c",
+    "#009e73": "#33c79b",
+    "#b5528b": "#e089bb",
+    "#3f9fd8": "#86ccf5",
+    "#7a5230": "#c39a70",
+    "#8a8b00": "#c9ca3a",
+    "#1c2330": "#e6eaf1",
+    "#6b7484": "#a3adbc",
+    "#d5dae2": "#3a4351",
+    "#e7eaef": "#2c3440",
+    "#ffffff": "#1b212b",
+    "#1f4e8c": "#8ab4f0",
+    "#9aa3b2": "#8791a1",
+    "#1b7f4b": "#5fd096",
+    "#b36b00": "#f0b45a",
+    "#b3261e": "#ff8a80",
+}
+"""Colour on white -> the same on a dark page: lighter, as far apart, still no red but for a failed limit."""
+
 DASHES = ("solid", "dashed", "dotted", "dashdot")
 
 

@@ -87,6 +87,8 @@ class PanelWriter:
         x, y = _widened(panel, self.box)
         self.layout[f"xaxis{self.tail}"] = _axis(panel.x, x, panel.bare, self.across, f"y{self.tail}", panel.x.title)
         self.layout[f"yaxis{self.tail}"] = _axis(panel.y, y, panel.bare, self.upright, f"x{self.tail}", "")
+        if panel.x.turning:
+            self.layout["meta"]["turning"].append(self.tail)
 
     def _flat(self, item: Series) -> None:
         if isinstance(item, Curve):
@@ -332,7 +334,9 @@ def _widened(panel: Panel, box: Box) -> tuple[tuple[float, float], tuple[float, 
 
 
 def _list(values: Any) -> list[float | None]:
-    return [float(value) if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]
+    every = np.asarray(values, dtype=float)
+    told: list[float | None] = every.tolist()
+    return told if bool(np.isfinite(every).all()) else [v if v is not None and np.isfinite(v) else None for v in told]
 
 
 def _faded(hexadecimal: str, opacity: float) -> str:

@@ -88,6 +88,7 @@ def described(figure: Figure) -> Spec:
             "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": 1.0, "yanchor": "top"},
             "shapes": [],
             "annotations": [],
+            "meta": {"turning": []},  # tails of the axes, as in "xaxis2", along which the input angle runs
         },
     }
     shown: set[str] = set()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,7 +33,8 @@ def across(angle: Array, *, named: bool = False) -> Axis:
         made = axis(label, "°" if named else "", [angle], margin=0.0, least=1.0)
     else:
         made = angle_axis(label, stop)
-    return made if named else Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)
+    bare = Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)
+    return replace(made if named else bare, turning=True)
 
 
 def shaft_name(number: int, count: int) -> str:

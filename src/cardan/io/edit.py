@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.paths import place, read, with_values
+from cardan.files import Enclosed
 
 from .drive_file import loads
 from .writer import whole
 
 
 def edit(
-    text: str, values: Mapping[str, Any], *, folder: str | Path = ".", catalogues: Sequence[str | Path] = ()
+    text: str, values: Mapping[str, Any], *, folder: str | Path | Enclosed = ".", catalogues: Sequence[str | Path] = ()
 ) -> str:
     """Return a TOML drive file with other values; comments and layout stay.
 
@@ -25,7 +26,7 @@ def edit(
     values : mapping of str to value
         Path with unit -> value in that unit, as in `cardan.drive.paths`. A field given in another unit, or by its
         opposite (``yoke_lead``), is replaced; None takes it out.
-    folder : str or Path
+    folder : str, Path or Enclosed
         Where files that the drive file names are looked for.
     catalogues : sequence of str or Path
         Catalogue files beside those that it names.

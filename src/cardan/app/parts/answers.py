@@ -1,0 +1,373 @@
+"""The answers under the view: one tab for each question; quick ones follow every edit, long ones in the background."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import background_tasks, ui
+
+from cardan.app.state.jobs import Job, Jobs
+from cardan.app.state.session import Session
+from cardan.app.state.work import Question, asked, result
+from cardan.drive.drive import Drive
+from cardan.errors import CardanError, InputError
+from cardan.io import edit
+from cardan.report.answers import ANSWERS, GROUPS, subject
+from cardan.report.applying import Applicable, settings
+from cardan.report.block import Page
+from cardan.texts import _, speaking
+
+from .blocks import Export, PageView
+
+AT_ONCE = ("motion",)
+"""Answers so quick that they are made while the edit is worked on."""
+
+QUIET = 0.4
+"""Seconds without an edit after which a long answer is begun."""
+
+LOOK = 0.15
+"""Seconds between two looks at how far a long answer is."""
+
+
+class Answers:
+    """The tabs with the answers.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive they are about.
+    jobs : Jobs
+        Where long answers are made.
+    export : function, optional
+        Takes a figure or a page along; no buttons for it when not given.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs, *, export: Export | None = None) -> None:
+        self.session = session
+        self.sheets: dict[str, Sheet] = {}
+        ui.add_head_html('<link rel="stylesheet" href="/cardan/answers.css">')
+        jobs.start()
+        ui.context.client.on_delete(lambda: jobs.leave(session))
+        with ui.element("div").classes("asked"):
+            self._tabs = ui.tabs(on_change=lambda event: self.open(str(event.value))).props(
+                "dense no-caps align=left outside-arrows mobile-arrows"
+            )
+            with self._tabs:
+                for title, names in GROUPS:
+                    ui.tab(names[0], label=title()).mark(f"tab-{names[0]}")
+        self._bodies = ui.element("div").classes("sheets")
+        self._groups: dict[str, ui.toggle] = {}
+        with self._bodies:
+            for _title, names in GROUPS:
+                if len(names) > 1:
+                    self._groups[names[0]] = self._toggle(names)
+            for name in ANSWERS:
+                self.sheets[name] = Sheet(name, session, jobs, export)
+        self.shown = GROUPS[0][1][0]
+        self._within = {names[0]: names[0] for _title, names in GROUPS}
+        self._tabs.set_value(self.shown)
+        self._show()
+        session.listen("drive", self._follow)
+        session.listen("text", self._judge)
+        session.listen("choices", self._anew)
+
+    def open(self, group: str) -> None:
+        """Open a tab."""
+        if group in self._within:
+            self._switch(self._within[group])
+
+    def _toggle(self, names: tuple[str, ...]) -> ui.toggle:
+        titles = {name: ANSWERS[name].title() for name in names}
+        made = ui.toggle(titles, value=names[0], on_change=lambda event: self._inner(names[0], str(event.value)))
+        return made.props("dense no-caps flat size=sm").classes("inner").mark(f"inner-{names[0]}")
+
+    def _inner(self, group: str, name: str) -> None:
+        self._within[group] = name
+        self._switch(name)
+
+    def _switch(self, name: str) -> None:
+        if name != self.shown:
+            self.shown = name
+            with self.session.speaking():
+                self._show()
+
+    def _show(self) -> None:
+        for group, toggle in self._groups.items():
+            toggle.set_visibility(self._within[group] == self.shown)
+        for name, sheet in self.sheets.items():
+            sheet.body.set_visibility(name == self.shown)
+            if name != self.shown:
+                sheet.rest()
+        self.sheets[self.shown].wake()
+
+    def _follow(self) -> None:
+        self.sheets[self.shown].follow()
+
+    def _judge(self) -> None:
+        self._bodies.classes(**{"remove" if self.session.document.valid else "add": "unsound"})
+
+    def _anew(self) -> None:
+        for sheet in self.sheets.values():
+            sheet.about = None
+        self._follow()
+
+
+class Sheet:
+    """One answer.
+
+    Parameters
+    ----------
+    name : str
+        Which of `ANSWERS`.
+    session : Session
+        Whose drive it is about.
+    jobs : Jobs
+        Where it is made if it takes long.
+    export : function or None
+        Takes a figure or the page along.
+    """
+
+    def __init__(self, name: str, session: Session, jobs: Jobs, export: Export | None) -> None:
+        self.name = name
+        self.session = session
+        self.about: Drive | None = None
+        self.job: Job | None = None
+        self._jobs = jobs
+        self._asked = 0
+        self._choices: dict[str, Any] = {}
+        self._settings: tuple[Applicable, ...] = ()
+        self._due: ui.timer | None = None
+        self._watch: ui.timer | None = None
+        with ui.element("div").classes("sheet") as self.body:
+            self._progress = Progress(self.cancel, self.begin)
+            if name == "selection":
+                self._joints = ui.select({0: _("all joints")}, value=0, label=_("joint"), on_change=self._chosen)
+                self._joints.props("dense options-dense outlined").classes("choice").mark("choice-joint")
+            self.view = PageView(export, self._pressed)
+
+    @property
+    def quick(self) -> bool:
+        """Whether it is there at once."""
+        return ANSWERS[self.name].quick
+
+    def wake(self) -> None:
+        """Come up to date: it is looked at now."""
+        if self.about is not self.session.drive:
+            self.begin()
+
+    def follow(self) -> None:
+        """Follow an edit; a long answer waits until the user is quiet."""
+        if self.quick:
+            self.begin()
+            return
+        self._stale()
+        self._hold()
+        self._jobs_end()
+        self._due = self._timer(QUIET, self.begin, once=True)
+
+    def rest(self) -> None:
+        """Nobody looks: begin nothing, and give up what is not done."""
+        self._hold()
+        if self.job is not None and not self.job.finished:
+            self.about = None
+            self._jobs_end()
+
+    def begin(self) -> None:
+        """Answer now."""
+        question = asked(self.session, self.name, **self._choices)
+        if question is None:
+            return
+        self._hold()
+        self._asked += 1
+        self.about = question.drive
+        if self.name == "selection":
+            self._offer(question.drive)
+        if self.name in AT_ONCE:
+            self._made(question, self._asked, _answer(question))
+        elif self.quick:
+            self._stale()
+            background_tasks.create(self._beside(question, self._asked), name=f"answer {self.name}")
+        else:
+            self._stale()
+            self.job = self._jobs.ask(question, self.session)
+            if self.job.finished:
+                self._look()
+            else:
+                self._progress.show(self.job)
+                self._watch = self._timer(LOOK, self._look)
+
+    def cancel(self) -> None:
+        """Give up a long answer."""
+        self._jobs_end()
+        self._look()
+
+    async def _beside(self, question: Question, number: int) -> None:
+        """Answer beside the page's own work."""
+        found = await asyncio.to_thread(_answer, question)
+        if not self.body.is_deleted:
+            with self.body:
+                self._made(question, number, found)
+
+    def _made(self, question: Question, number: int, found: tuple[Page, tuple[Applicable, ...]] | str) -> None:
+        if number != self._asked:
+            return  # a newer question is on its way
+        with speaking(question.language):
+            if isinstance(found, str):
+                self._progress.fail(found)
+                return
+            page, self._settings = found
+            self._show(page)
+
+    def _look(self) -> None:
+        """See how far the long answer is."""
+        job = self.job
+        if job is None:
+            return
+        with self.body, speaking(job.question.language):
+            if not job.finished and not job.unwanted:
+                self._progress.show(job)
+                return
+            self._end_watch()
+            if job.state == "done":
+                self._show(job.result)
+            elif job.state == "failed":
+                self._progress.fail(job.message)
+            elif job.question.drive is self.session.drive and self.about is job.question.drive:
+                self._progress.stopped()
+
+    def _show(self, page: Page) -> None:
+        self._progress.hide()
+        self.view.element.classes(remove="stale")
+        apply = _("apply")
+        self.view.show(page, {one.label: apply for one in self._settings if one.values})
+
+    def _pressed(self, label: str) -> None:
+        """Put a setting of the yokes into the file."""
+        chosen = next((one for one in self._settings if one.label == label), None)
+        if chosen is not None:
+            applied(self.session, chosen)
+
+    def _chosen(self) -> None:
+        number = int(self._joints.value or 0)
+        self._choices = {"joint": number} if number else {}
+        with self.session.speaking():
+            self.begin()
+
+    def _offer(self, drive: Drive) -> None:
+        """Offer the joints that there are."""
+        options = {0: _("all joints"), **{k: f"{k} {one.name}".strip() for k, one in enumerate(drive.joints, start=1)}}
+        if options != self._joints.options:
+            if self._joints.value not in options:
+                self._choices = {}
+            self._joints.set_options(options, value=self._joints.value if self._joints.value in options else 0)
+
+    def _stale(self) -> None:
+        self.view.element.classes(add="stale")
+
+    def _hold(self) -> None:
+        if self._due is not None:
+            self._due.cancel()
+            self._due = None
+        self._end_watch()
+
+    def _end_watch(self) -> None:
+        if self._watch is not None:
+            self._watch.cancel()
+            self._watch = None
+
+    def _jobs_end(self) -> None:
+        if self.job is not None and not self.job.finished:
+            self._jobs.cancel(self.job)
+
+    def _timer(self, seconds: float, what: Callable[[], object], *, once: bool = False) -> ui.timer:
+        def spoken() -> None:
+            with self.session.speaking():
+                what()
+
+        with self.body:
+            return ui.timer(seconds, spoken, once=once)
+
+
+class Progress:
+    """How far a long answer is, and the buttons to stop it or to begin again.
+
+    Parameters
+    ----------
+    cancel, begin : function
+        What the buttons do.
+    """
+
+    def __init__(self, cancel: Callable[[], object], begin: Callable[[], object]) -> None:
+        with ui.element("div").classes("progress").props("role=status") as self.body:
+            self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
+            self._said = ui.label()
+            self._stop = ui.button(_("cancel"), on_click=cancel).props("flat dense no-caps size=sm").mark("cancel")
+            self._again = ui.button(_("reckon it"), on_click=begin).props("flat dense no-caps size=sm").mark("again")
+        self.hide()
+
+    def show(self, job: Job) -> None:
+        """Show how far a job is."""
+        self._set(bar=True, stop=True, again=False, failed=False)
+        if job.share > 0.0:
+            self._bar.props(remove="indeterminate")
+            self._bar.set_value(job.share)
+        else:
+            self._bar.props(add="indeterminate")
+        self._said.text = _told(job)
+
+    def stopped(self) -> None:
+        """Show that it was given up."""
+        self._set(bar=False, stop=False, again=True, failed=False)
+        self._said.text = _("Stopped; what stands below is older.")
+
+    def fail(self, message: str) -> None:
+        """Show why it failed."""
+        self._set(bar=False, stop=False, again=True, failed=True)
+        self._said.text = message
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self.body.set_visibility(False)
+
+    def _set(self, *, bar: bool, stop: bool, again: bool, failed: bool) -> None:
+        self.body.set_visibility(True)
+        self._bar.set_visibility(bar)
+        self._stop.set_visibility(stop)
+        self._again.set_visibility(again)
+        self._said.classes(**{"add" if failed else "remove": "wrong"})
+
+
+def applied(session: Session, change: Applicable) -> None:
+    """Put a change into the file of a session, and say so, or why not."""
+    try:
+        session.change(lambda text: edit(text, change.values, folder=session.workspace.enclosed))
+    except InputError as error:
+        ui.notify(str(error), type="negative", multi_line=True, close_button=_("close"))
+    else:
+        ui.notify(_("{change}: applied").format(change=change.label), type="positive", timeout=1500)
+
+
+def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:
+    """Return a quick answer with what can be applied of it, or why there is none."""
+    try:
+        page = result(question)
+        assert isinstance(page, Page)
+        if question.name != "phases":
+            return page, ()
+        with speaking(question.language):
+            return page, settings(subject(question.drive))
+    except CardanError as error:
+        return str(error)
+
+
+def _told(job: Job) -> str:
+    if job.state == "waiting":
+        return _("Waiting for its turn …")
+    left = job.left
+    if left is None:
+        return _("Reckoning …")
+    if left < 60.0:
+        return _("Reckoning, about {count} s left").format(count=max(1, round(left)))
+    return _("Reckoning, about {count} min left").format(count=round(left / 60.0))

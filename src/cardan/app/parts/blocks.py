@@ -1,0 +1,235 @@
+"""Pages of the report as elements of the app: words and tables as they stand, figures as charts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from html import escape
+from typing import TypeAlias
+
+from nicegui import ui
+
+from cardan.figures import Figure
+from cardan.report.block import Block, Cell, Listing, Page, Picture, Points, Table, Words
+from cardan.texts import _
+
+from .chart import Chart
+
+Export: TypeAlias = Callable[[Figure | Page], object]
+"""What takes a figure or a page away from the app, into a file."""
+
+BUTTONS = "(event) => { const one = event.target.closest('[data-do]'); if (one) emit(one.dataset.do); }"
+"""Tells which button of a table was pressed."""
+
+
+def words_html(block: Words) -> str:
+    """Return a paragraph; with a tone a remark with its sign.
+
+    Examples
+    --------
+    >>> words_html(Words(text="a < b"))
+    '<p>a &lt; b</p>'
+    """
+    title = f"<h4>{escape(block.title)}</h4>" if block.title else ""
+    if block.tone == "plain":
+        return f"{title}<p>{escape(block.text)}</p>"
+    sign = f'<span class="sign" aria-hidden="true">{block.sign}</span>'
+    return f'{title}<p class="remark {block.tone}">{sign}{escape(block.text)}</p>'
+
+
+def points_html(block: Points) -> str:
+    """Return a list of short remarks."""
+    items = "".join(f"<li>{escape(item)}</li>" for item in block.items)
+    return f"<h4>{escape(block.title)}</h4><ul>{items}</ul>"
+
+
+def listing_html(block: Listing) -> str:
+    """Return text as it stands in a file."""
+    return f"<h4>{escape(block.title)}</h4><pre>{escape(block.text)}</pre>"
+
+
+def cell_html(cell: Cell, *, left: bool, button: str = "") -> str:
+    """Return a cell of a table: its tone as sign and colour, its number in full for whoever points at it.
+
+    Parameters
+    ----------
+    cell : Cell
+        What it says.
+    left : bool
+        Words, not a number.
+    button : str
+        A button behind it, as HTML.
+
+    Examples
+    --------
+    >>> cell_html(Cell(text="0.79", full="0.7912", tone="good"), left=False)
+    '<td class="good" title="0.7912"><span class="sign" aria-hidden="true">✓</span>0.79</td>'
+    """
+    names = " ".join(filter(None, ["left" if left else "", "" if cell.tone == "plain" else cell.tone]))
+    attributes = (f' class="{names}"' if names else "") + (f' title="{escape(cell.full)}"' if cell.full else "")
+    chip = f'<i class="chip" style="background:{escape(cell.chip)}"></i>' if cell.chip else ""
+    sign = f'<span class="sign" aria-hidden="true">{cell.sign}</span>' if cell.sign else ""
+    return f"<td{attributes}>{chip}{sign}{escape(cell.text)}{button}</td>"
+
+
+def table_html(block: Table, buttons: Mapping[str, str] | None = None) -> str:
+    """Return a table, its numbers to the right under headings with their units.
+
+    Parameters
+    ----------
+    block : Table
+        What it holds.
+    buttons : mapping of str to str
+        First cell of a row, or heading of a column -> what its button says.
+    """
+    given = buttons or {}
+
+    def button(name: str) -> str:
+        if name not in given:
+            return ""
+        return f'<button type="button" class="apply" data-do="{escape(name)}">{escape(given[name])}</button>'
+
+    heads = []
+    for k, column in enumerate(block.columns):
+        unit = f' <span class="unit">{escape(column.unit)}</span>' if column.unit else ""
+        side = ' class="left"' if column.left else ""
+        heads.append(f'<th scope="col"{side}>{escape(column.heading)}{unit}{button(column.heading) if k else ""}</th>')
+    rows = []
+    for row in block.rows:
+        cells = [
+            cell_html(cell, left=column.left, button=button(cell.text) if k == 0 else "")
+            for k, (column, cell) in enumerate(zip(block.columns, row, strict=True))
+        ]
+        rows.append(f"<tr>{''.join(cells)}</tr>")
+    title = f"<h4>{escape(block.title)}</h4>" if block.title else ""
+    note = f'<p class="small">{escape(block.note)}</p>' if block.note else ""
+    head, body = f"<thead><tr>{''.join(heads)}</tr></thead>", f"<tbody>{''.join(rows)}</tbody>"
+    return f'{title}<div class="wide"><table>{head}{body}</table></div>{note}'
+
+
+def block_html(block: Block, buttons: Mapping[str, str] | None = None) -> str:
+    """Return any block but a picture."""
+    if isinstance(block, Table):
+        return table_html(block, buttons)
+    if isinstance(block, Words):
+        return words_html(block)
+    if isinstance(block, Points):
+        return points_html(block)
+    assert isinstance(block, Listing)
+    return listing_html(block)
+
+
+class Text:
+    """Words or a table on the page."""
+
+    def __init__(self, block: Block, buttons: Mapping[str, str], pressed: Callable[[str], object]) -> None:
+        self.element = ui.html(block_html(block, buttons), sanitize=False).classes("block")
+        self.element.on("click", lambda event: pressed(str(event.args)), js_handler=BUTTONS)
+
+    def fits(self, block: Block) -> bool:
+        """Whether a block can be shown in its place."""
+        return not isinstance(block, Picture)
+
+    def show(self, block: Block, buttons: Mapping[str, str]) -> None:
+        """Show another block in its place."""
+        self.element.set_content(block_html(block, buttons))
+
+
+class Drawn:
+    """A figure on the page, with its title, its sentence, and a button to take it along."""
+
+    def __init__(self, block: Picture, export: Export | None) -> None:
+        self.figure = block.figure
+        with ui.element("figure").classes("block") as self.element:
+            with ui.element("div").classes("heading"):
+                self.title = ui.label().classes("title")
+                if export is not None:
+                    button = ui.button(icon="download", on_click=lambda: export(self.figure))
+                    button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').mark("save-figure")
+            self.chart = Chart(self.figure)
+            with ui.element("figcaption"):
+                self.sentence = ui.label()
+                self.source = ui.label().classes("small")
+        self._tell()
+
+    def fits(self, block: Block) -> bool:
+        """Whether a block can be shown in its place: another state of the same figure."""
+        return isinstance(block, Picture) and block.figure.name == self.figure.name
+
+    def show(self, block: Block, _buttons: Mapping[str, str]) -> None:
+        """Show another state of the figure."""
+        assert isinstance(block, Picture)
+        self.figure = block.figure
+        self.chart.show(self.figure)
+        self._tell()
+
+    def _tell(self) -> None:
+        self.title.text = self.figure.title
+        self.sentence.text = self.figure.sentence
+        self.source.text = self.figure.source
+
+
+class PageView:
+    """A page of the report in the app; another state of it takes its place without a flicker.
+
+    Parameters
+    ----------
+    export : function, optional
+        Takes a figure or the page along; no buttons for it when not given.
+    pressed : function, optional
+        Called with the name of a button of a table.
+    """
+
+    def __init__(self, export: Export | None = None, pressed: Callable[[str], object] = lambda name: None) -> None:
+        self._export = export
+        self._pressed = pressed
+        self.page: Page | None = None
+        self._parts: list[Text | Drawn] = []
+        with ui.element("article").classes("answer") as self.element:
+            with ui.element("div").classes("heading"):
+                self._answer = ui.label().classes("said").props("role=status").mark("answer")
+                if export is not None:
+                    self._button = ui.button(icon="download", on_click=self._take)
+                    self._button.props(f'flat dense round size=sm aria-label="{_("save this page")}"').mark("save-page")
+            self._blocks = ui.element("div").classes("blocks")
+
+    def show(self, page: Page, buttons: Mapping[str, str] | None = None) -> None:
+        """Show a page, or another state of it.
+
+        Parameters
+        ----------
+        page : Page
+            What to show.
+        buttons : mapping of str to str
+            Name -> what a button beside it says, in the first table that has such names.
+        """
+        self.page = page
+        self._answer.text = page.answer
+        given = _placed(page.blocks, buttons or {})
+        same = 0
+        while same < min(len(self._parts), len(page.blocks)) and self._parts[same].fits(page.blocks[same]):
+            self._parts[same].show(page.blocks[same], given[same])
+            same += 1
+        for part in self._parts[same:]:
+            part.element.delete()
+        del self._parts[same:]
+        with self._blocks:
+            for block, names in zip(page.blocks[same:], given[same:], strict=True):
+                made = Drawn(block, self._export) if isinstance(block, Picture) else Text(block, names, self._pressed)
+                self._parts.append(made)
+
+    def _take(self) -> None:
+        if self.page is not None and self._export is not None:
+            self._export(self.page)
+
+
+def _placed(blocks: Sequence[Block], buttons: Mapping[str, str]) -> list[Mapping[str, str]]:
+    """Return the buttons of every block: all of them stand in the first table that has rows or columns so called."""
+    given: list[Mapping[str, str]] = [{} for _block in blocks]
+    for k, block in enumerate(blocks):
+        if isinstance(block, Table) and any(
+            name in buttons
+            for name in (*(row[0].text for row in block.rows), *(one.heading for one in block.columns[1:]))
+        ):
+            given[k] = buttons
+            break
+    return given

@@ -1,0 +1,160 @@
+// A chart that is updated in place, follows light and dark, and shares the angle of the drive with the view in space.
+// Curves over the input angle have a cursor: the window's "cardan-angle" moves it, pressing on the chart sends
+// "cardan-go-to". The cursor is a line of the page, moved by a transform alone: nothing is drawn anew while it moves.
+const CONFIG = {
+  displaylogo: false,
+  responsive: false,
+  modeBarButtonsToRemove: ["lasso2d", "select2d", "toImage", "autoScale2d"],
+};
+const TURN = 360;
+const STEP = 5;
+
+const faded = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)).join(",");
+
+// Return a copy of plotly's data or layout in the colours of a dark page.
+function darkened(thing, colours, rgb) {
+  if (typeof thing === "string") {
+    if (thing in colours) return colours[thing];
+    const found = /^rgba\((\d+,\d+,\d+),/.exec(thing);
+    return found && found[1] in rgb ? thing.replace(found[1], rgb[found[1]]) : thing;
+  }
+  if (Array.isArray(thing)) return typeof thing[0] === "number" ? thing : thing.map((one) => darkened(one, colours, rgb));
+  if (thing === null || typeof thing !== "object") return thing;
+  return Object.fromEntries(Object.entries(thing).map(([key, one]) => [key, darkened(one, colours, rgb)]));
+}
+
+export default {
+  template: `<div class="cardan-chart" tabindex="0" role="img" :aria-label="label" @keydown="key">
+    <div ref="plot" class="plot"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
+  props: { spec: Object, label: String, dark: Object },
+  watch: {
+    spec() {
+      this.draw();
+    },
+  },
+  async mounted() {
+    this.lines = [];
+    this.angle = window.cardanAngle ?? 0;
+    this.shown = true;
+    this.rgb = Object.fromEntries(Object.entries(this.dark).map(([from, to]) => [faded(from), faded(to)]));
+    this.ends = [];
+    const { Plotly } = await import("nicegui-plotly");
+    if (this.gone) return;
+    this.Plotly = Plotly;
+    await this.draw();
+    if (this.gone) return;
+    this.listen();
+  },
+  unmounted() {
+    this.gone = true;
+    for (const end of this.ends) end();
+    if (this.Plotly && this.$refs.plot) this.Plotly.purge(this.$refs.plot);
+  },
+  methods: {
+    listen() {
+      const on = (target, name, handler, how) => {
+        target.addEventListener(name, handler, how);
+        this.ends.push(() => target.removeEventListener(name, handler, how));
+      };
+      const watch = (observer, ...what) => {
+        observer.observe(...what);
+        this.ends.push(() => observer.disconnect());
+      };
+      on(window, "cardan-angle", (event) => {
+        this.angle = event.detail.angle;
+        if (this.shown) this.place();
+      });
+      on(this.$refs.plot, "pointerdown", this.press, true);
+      on(window, "pointermove", (event) => this.pressed && this.go(event), true);
+      on(window, "pointerup", () => (this.pressed = null), true);
+      on(window, "pointercancel", () => (this.pressed = null), true);
+      watch(new IntersectionObserver(([one]) => (this.shown = one.isIntersecting) && this.place()), this.$el);
+      watch(new MutationObserver(() => this.isDark() !== this.drawnDark && this.draw()), document.body, {
+        attributes: true,
+        attributeFilter: ["class"],
+      });
+      let width = this.$el.clientWidth;
+      watch(
+        new ResizeObserver(() => {
+          if (!this.$el.clientWidth || this.$el.clientWidth === width) return;
+          width = this.$el.clientWidth;
+          requestAnimationFrame(() => !this.gone && this.draw());
+        }),
+        this.$el,
+      );
+    },
+    isDark() {
+      return document.body.classList.contains("body--dark");
+    },
+    async draw() {
+      if (!this.Plotly || this.gone) return;
+      this.drawnDark = this.isDark();
+      let { data, layout } = this.spec;
+      if (this.drawnDark) {
+        data = darkened(data, this.dark, this.rgb);
+        layout = darkened(layout, this.dark, this.rgb);
+      }
+      const turns = layout.meta.turning;
+      const size = { width: this.$el.clientWidth || 600 };
+      const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, ...size };
+      const plot = this.$refs.plot;
+      await this.Plotly.react(plot, data, { ...layout, ...looks, dragmode: turns.length ? false : "zoom" }, CONFIG);
+      if (!this.afterplot && plot.on) {
+        this.afterplot = true;
+        plot.on("plotly_afterplot", this.measure);
+      }
+      plot.style.touchAction = turns.length ? "pan-y" : "";
+      this.measure();
+    },
+    // Note where the panels stand, so that the cursor needs no look at the page while it moves.
+    measure() {
+      const whole = this.$refs.plot?._fullLayout;
+      if (!whole || this.gone) return;
+      const turns = this.spec.layout.meta.turning;
+      const cursors = this.$refs.cursors;
+      while (cursors.children.length > turns.length) cursors.lastChild.remove();
+      while (cursors.children.length < turns.length) cursors.append(document.createElement("div"));
+      this.lines = turns.map((tail, k) => {
+        const [x, y] = [whole[`xaxis${tail}`], whole[`yaxis${tail}`]];
+        const line = cursors.children[k];
+        line.style.top = `${y._offset}px`;
+        line.style.height = `${y._length}px`;
+        const box = { left: x._offset, width: x._length, top: y._offset, height: y._length };
+        return { line, low: x.range[0], high: x.range[1], ...box };
+      });
+      this.place();
+    },
+    place() {
+      const degrees = (((this.angle * TURN) / (2 * Math.PI)) % TURN + TURN) % TURN;
+      for (const { line, low, high, left, width } of this.lines) {
+        const here = degrees >= low && degrees <= high;
+        line.style.visibility = here ? "visible" : "hidden";
+        if (here) line.style.transform = `translateX(${left + ((degrees - low) / (high - low)) * width}px)`;
+      }
+    },
+    press(event) {
+      if (event.button !== 0 || this.$refs.plot._fullLayout?.dragmode !== false) return;
+      const frame = this.$refs.plot.getBoundingClientRect();
+      const [x, y] = [event.clientX - frame.left, event.clientY - frame.top];
+      const inside = ({ left, width, top, height }) => x >= left && x <= left + width && y >= top && y <= top + height;
+      const found = this.lines.find(inside);
+      if (!found) return;
+      this.pressed = { ...found, origin: frame.left };
+      this.go(event);
+    },
+    go(event) {
+      const { left, width, low, high, origin } = this.pressed;
+      const share = Math.min(Math.max((event.clientX - origin - left) / width, 0), 1);
+      this.turn(((low + share * (high - low)) * 2 * Math.PI) / TURN);
+    },
+    turn(angle) {
+      window.dispatchEvent(new CustomEvent("cardan-go-to", { detail: { angle } }));
+    },
+    key(event) {
+      const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!way || !this.lines.length || event.target !== this.$el) return;
+      event.preventDefault();
+      this.turn(this.angle + (way * STEP * 2 * Math.PI) / TURN);
+    },
+  },
+};

@@ -1,0 +1,240 @@
+"""The verdicts beside the view: traffic lights with their values, why they are so, and what cures the failed ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from html import escape
+
+from nicegui import ui
+
+from cardan.app.state.jobs import Job, Jobs
+from cardan.app.state.session import Session
+from cardan.app.state.work import CURES, VERDICTS, asked, result
+from cardan.errors import CardanError
+from cardan.report.answers import subject
+from cardan.report.applying import Applicable, synchronous
+from cardan.report.block import SIGNS
+from cardan.report.lights import Light, sentence
+from cardan.texts import _
+
+from .answers import applied
+
+QUIET = 0.4
+"""Seconds without an edit after which cures are looked for."""
+
+LOOK = 0.2
+"""Seconds between two looks whether they were found."""
+
+PRESSED = """(event) => {
+  const button = event.target.closest('[data-do]');
+  if (button) return emit(button.dataset.do);
+  const summary = event.target.closest('summary');
+  if (summary) emit('look ' + summary.parentElement.dataset.name);
+}"""
+"""Tells which cure was pressed, or which verdict opened or closed."""
+
+
+class Verdicts:
+    """The list of verdicts.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive they are about.
+    jobs : Jobs
+        Where cures are looked for.
+    compare : function, optional
+        Called to compare the drive with others; no button for it when not given.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs, *, compare: Callable[[], object] | None = None) -> None:
+        self.session = session
+        self.lights: tuple[Light, ...] = ()
+        self.opened: set[str] = set()
+        self._jobs = jobs
+        self._job: Job | None = None
+        self._due: ui.timer | None = None
+        self._watch: ui.timer | None = None
+        with ui.element("div").classes("lights") as self.body:
+            self._problems = ui.html("", sanitize=False).props("role=alert").mark("problems-of-verdicts")
+            self._summed = ui.label().classes("summed").props("role=status").mark("judgement")
+            with ui.element("div").classes("tools"):
+                even = ui.button(_("make synchronous"), on_click=self._even).props("outline dense no-caps size=sm")
+                even.mark("make-synchronous")
+                if compare is not None:
+                    button = ui.button(_("compare with …"), on_click=compare)
+                    button.props("outline dense no-caps size=sm").mark("compare")
+            self._told = ui.label().classes("hint").props("role=status")
+            self._list = ui.html("", sanitize=False).classes("list").mark("verdicts")
+            self._list.on("click", lambda event: self._pressed(str(event.args)), js_handler=PRESSED)
+        self._told.set_visibility(False)
+        session.listen("drive", self._follow)
+        session.listen("text", self._judge)
+        session.listen("choices", self._follow)
+        self._follow()
+        self._judge()
+
+    def _follow(self) -> None:
+        """Judge the drive as it is now; cures come once the user is quiet."""
+        self._end()
+        self._told.set_visibility(False)
+        question = asked(self.session, VERDICTS)
+        if question is None:
+            return
+        try:
+            found = result(question)
+        except CardanError as error:
+            self._summed.text = str(error)
+            self._show(())
+            return
+        assert isinstance(found, tuple)
+        self._summed.text = sentence(found)
+        self._show(found)
+        if any(one.tone == "failed" for one in found):
+            self._due = self._timer(QUIET, self._search, once=True)
+
+    def _search(self) -> None:
+        question = asked(self.session, CURES)
+        if question is None:
+            return
+        self._job = self._jobs.ask(question, self.session)
+        if self._job.finished:
+            self._look()
+        else:
+            self._watch = self._timer(LOOK, self._look)
+
+    def _look(self) -> None:
+        job = self._job
+        if job is None or not job.finished:
+            return
+        self._end()
+        if job.state == "done" and job.question.drive is self.session.drive:
+            self._show(job.result)
+
+    def _show(self, found: Sequence[Light]) -> None:
+        self.lights = tuple(found)
+        self._list.set_content(lights_html(self.lights, self.opened))
+
+    def _judge(self) -> None:
+        """Show what is wrong with the file, over the verdicts of when it was sound."""
+        document = self.session.document
+        self._list.classes(**{"remove" if document.valid else "add": "stale"})
+        said = "".join(f"<li>{escape(str(one))}</li>" for one in document.problems)
+        head = escape(_("The file describes no drive; the verdicts below are those of when it last did."))
+        self._problems.set_content("" if document.valid else f'<p class="wrong">{head}</p><ul>{said}</ul>')
+
+    def _pressed(self, what: str) -> None:
+        action, _space, name = what.partition(" ")
+        if action == "look":
+            self.opened ^= {name}
+            light = next((one for one in self.lights if one.name == name), None)
+            if light is not None and name in self.opened and light.tone == "failed":
+                self.session.select(field_of(light))
+            return
+        number, _space, name = name.partition(" ")
+        light = next((one for one in self.lights if one.name == name), None)
+        if light is not None and int(number) < len(light.cures):
+            with self.session.speaking():
+                applied(self.session, light.cures[int(number)])
+
+    def _even(self) -> None:
+        """Put the best exact setting of the yokes into the file, or say why there is none."""
+        drive = self.session.drive
+        if drive is None:
+            return
+        with self.session.speaking():
+            found = synchronous(subject(drive))
+            if isinstance(found, Applicable):
+                applied(self.session, found)
+            else:
+                self._told.text = found
+                self._told.set_visibility(True)
+
+    def _end(self) -> None:
+        for timer in (self._due, self._watch):
+            if timer is not None:
+                timer.cancel()
+        self._due = self._watch = None
+        if self._job is not None and not self._job.finished:
+            self._jobs.cancel(self._job)
+
+    def _timer(self, seconds: float, what: Callable[[], object], *, once: bool = False) -> ui.timer:
+        def spoken() -> None:
+            with self.session.speaking():
+                what()
+
+        with self.body:
+            return ui.timer(seconds, spoken, once=once)
+
+
+def field_of(light: Light) -> str:
+    """Return the path of what a failed verdict is to be cured at: of its first cure, else a lever, else its part.
+
+    Examples
+    --------
+    >>> from cardan.report.block import Cell
+    >>> light = Light(name="bend", title="bend", tone="failed", verdict="failed", value=Cell(text="50"), unit="°",
+    ...               limit="≤ 40 °", used=1.25, source="", why="", path="joints[0]", levers=("joints[0].bend",))
+    >>> field_of(light)
+    'joints[0].bend'
+    """
+    paths = [path for cure in light.cures for path in cure.values]
+    return next(iter((*paths, *light.levers, light.path)), "")
+
+
+def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
+    """Return the list of verdicts, rules of thumb under a heading of their own.
+
+    Parameters
+    ----------
+    lights : sequence of Light
+        The verdicts.
+    opened : set of str
+        Names of those that show more.
+    """
+    parts = [_light(one, one.name in opened) for one in lights if not one.advice]
+    advice = [_light(one, one.name in opened) for one in lights if one.advice]
+    if advice:
+        parts.append(f"<h3>{escape(_('Advice: rules of thumb, they fail no drive'))}</h3>")
+    return "".join([*parts, *advice])
+
+
+def _light(one: Light, opened: bool) -> str:
+    value = f"{escape(one.value.text)} {escape(one.unit)}".strip()
+    full = f' title="{escape(one.value.full)}"' if one.value.full else ""
+    summary = (
+        f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
+        f'<span>{escape(one.title)}<span class="word">{escape(one.verdict)}</span></span>'
+        f'<span class="value"{full}>{value}</span></summary>'
+    )
+    state = " open" if opened else ""
+    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one)}</details>'
+
+
+def _more(one: Light) -> str:
+    share = min(one.used, 1.0) if one.used == one.used else 1.0
+    said = _("{share} % of the limit").format(share=f"{100.0 * one.used:.0f}" if one.used < 1e4 else "∞")
+    bar = f'<div class="used" role="img" aria-label="{escape(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
+    rows = [
+        (_("limit"), one.limit),
+        (_("used"), said),
+        (_("by"), one.source),
+        (_("why"), one.why),
+        (_("depends on"), ", ".join(one.levers[:6])),
+    ]
+    told = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in rows if text)
+    return f'<div class="more">{bar}<dl>{told}</dl>{"".join(_cures(one))}</div>'
+
+
+def _cures(one: Light) -> list[str]:
+    if not one.cures:
+        return []
+    word = escape(_("apply"))
+    made = [f"<h3>{escape(_('Cures'))}</h3>"]
+    for k, cure in enumerate(one.cures):
+        name = escape(f"cure {k} {one.name}")
+        made.append(
+            f'<div class="cure"><code>{escape(cure.label)}</code><small>{escape(cure.effect)}</small>'
+            f'<button type="button" class="apply" data-do="{name}">{word}</button></div>'
+        )
+    return made
