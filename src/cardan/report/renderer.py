@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from cardan.errors import MissingExtraError, refuse
 from cardan.texts import _
 
-from . import html, typeset
+from . import html, typeset, workbook
 
 if TYPE_CHECKING:
     from .content import Content
@@ -43,6 +43,7 @@ RENDERERS: dict[str, Renderer] = {
     ".html": HTML,
     ".htm": HTML,
     ".pdf": Renderer(written=typeset.written, library="typst", extra="pdf"),
+    ".xlsx": Renderer(written=workbook.written, library="xlsxwriter", extra="xlsx"),
 }
 """Every form by the ending of its file."""
 

@@ -1,0 +1,164 @@
+"""The report as a workbook: a sheet a page, charts of the spreadsheet's own, and the numbers they are drawn from."""
+
+from __future__ import annotations
+
+import datetime
+import io
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from cardan.io.book import MOST_LETTERS, opened, put, sheet_name
+from cardan.texts import _
+
+from .block import Listing, Page, Picture, Table
+from .chart_data import ChartData
+from .charts import split
+from .looks import CODE, Looks
+from .paper import Paper
+
+if TYPE_CHECKING:
+    from .content import Content
+
+HEADER = 90
+"""Letters of the drive's name above a printed page."""
+
+
+def written(content: Content) -> bytes:
+    """Return a report as a workbook.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+    """
+    stream = io.BytesIO()
+    book = opened(stream, title=content.title, made=datetime.date.fromisoformat(content.date))
+    foot = f"cardan {content.version} · {content.date}"
+    sheets = Sheets(book, content.title, foot)
+    summary = sheets.new(_("Summary"))
+    names = [sheets.page(page) for page in content.pages]
+    _summary(Paper(book, summary, sheets.looks, _tables_of(content)), content, names)
+    sheets.fill()
+    book.close()
+    return stream.getvalue()
+
+
+def written_page(page: Page, *, title: str, version: str) -> bytes:
+    """Return one page of a report as a workbook.
+
+    Parameters
+    ----------
+    page : Page
+        The page.
+    title : str
+        Name of the drive.
+    version : str
+        Version of cardan that reckoned it.
+    """
+    stream = io.BytesIO()
+    book = opened(stream, title=page.title)
+    sheets = Sheets(book, title, f"cardan {version}")
+    sheets.page(page)
+    sheets.fill()
+    book.close()
+    return stream.getvalue()
+
+
+class Sheets:
+    """The sheets of a workbook: pages first, files as they stand next, the numbers of charts last.
+
+    Parameters
+    ----------
+    book : workbook
+    title : str
+        Above every printed page.
+    foot : str
+        Below it.
+    """
+
+    def __init__(self, book: Any, title: str, foot: str) -> None:
+        self.looks = Looks(book)
+        self._book, self._title, self._foot = book, title, foot
+        self._taken: set[str] = set()
+        self._pages: list[tuple[Page, Any]] = []
+
+    def new(self, title: str, *, ending: str = "", colour: str = "") -> Any:
+        """Return an empty sheet, ready to be printed."""
+        sheet = self._book.add_worksheet(sheet_name(title, self._taken, ending=ending))
+        sheet.set_landscape()
+        sheet.set_paper(9)
+        sheet.fit_to_pages(1, 0)
+        sheet.set_margins(left=0.5, right=0.5, top=0.75, bottom=0.75)
+        sheet.set_header(f"&L {_printed(self._title)}&R {_printed(title)}")
+        sheet.set_footer(f"&L {_printed(self._foot)}&R&P / &N")
+        if colour:
+            sheet.set_tab_color(colour)
+        return sheet
+
+    def page(self, page: Page) -> str:
+        """Make the sheet of a page, and return its name; `fill` writes it."""
+        sheet = self.new(page.title)
+        self._pages.append((page, sheet))
+        name: str = sheet.get_name()
+        return name
+
+    def fill(self) -> None:
+        """Write all pages, with the sheets that they need."""
+        for page, _sheet in self._pages:
+            for listing in (one for one in page.blocks if isinstance(one, Listing)):
+                _listed(self.new(listing.title), listing, self.looks)
+        for page, sheet in self._pages:
+            native = any(split(one.figure)[0] for one in page.blocks if isinstance(one, Picture))
+            data = None
+            if native:
+                data = ChartData(self.new(page.title, ending=f" {_('data')}", colour="#9aa3b2"), self.looks)
+            tables = [one for one in page.blocks if isinstance(one, Table)]
+            paper = Paper(self._book, sheet, self.looks, tables, data)
+            paper.head(page.title, page.answer)
+            for block in page.blocks:
+                paper.block(block)
+            paper.close()
+
+
+def _tables_of(content: Content) -> list[Table]:
+    every = (content.lights, content.cures, content.figures, content.changes)
+    return [one for one in every if isinstance(one, Table)]
+
+
+def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
+    """Write the first page: the judgement, what must not be overlooked, limits, changes, key figures, contents."""
+    paper.head(content.title, content.note)
+    paper.remark(content.judgement)
+    for one in content.warnings:
+        paper.remark(one)
+    paper.space()
+    for block in (content.lights, content.cures):
+        if block is not None:
+            paper.block(block)
+    paper.image(content.sketch)
+    paper.space()
+    paper.block(content.figures)
+    paper.block(content.changes)
+    for page, name in zip(content.pages, names, strict=True):
+        paper.line(page.title, link=name, color="accent", underline=1)
+    paper.space()
+    paper.line(f"cardan {content.version} · {content.date}", font_size=9, color="muted")
+    paper.close()
+
+
+def _listed(sheet: Any, listing: Listing, looks: Looks) -> None:
+    """Write a text line by line, each in a cell."""
+    look = looks(font_name=CODE, font_size=10)
+    put(sheet, 0, 0, listing.title, looks(bold=True, font_size=16, color="accent"))
+    sheet.freeze_panes(1, 0)
+    sheet.set_column(0, 0, 120)
+    row = 1
+    for line in listing.text.splitlines():
+        for start in range(0, len(line) or 1, MOST_LETTERS):
+            put(sheet, row, 0, line[start : start + MOST_LETTERS], look)
+            row += 1
+
+
+def _printed(text: str) -> str:
+    """Return words for the head or the foot of a printed page, where & begins a command."""
+    return text[:HEADER].replace("&", "&&")
