@@ -39,6 +39,7 @@ AMERICAN = {
         ("joint 2 in the plane of joint 3", "joint 2 in the plane of joint 3"),
         ("tube 60 × 3 mm", "tube 2.362 × 0.1181 in"),
         ("set joints[1].centre_mm or shafts[2].length_mm", "set joints[1].centre_mm or shafts[2].length_mm"),
+        ("at 600 / 900 / 1\u202f500 rpm", "at 62.83 / 94.25 / 157.1 rad/s"),
         ("nothing, 0.00°, is left", "nothing, 0.00 rad, is left"),
     ],
 )

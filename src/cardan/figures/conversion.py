@@ -18,18 +18,18 @@ from cardan.units import DIMENSIONS, LABELS, label, preferred, spoken
 
 from .wording import significant
 
-NUMBER = (
-    r"(?<![\w.,])(?:(?P<sign{n}>[±+−-]) ?)?(?P<whole{n}>\d[\d\u202f]*)(?P<part{n}>\.\d+)?"
-    r"(?:·10(?P<power{n}>[⁻⁰¹²³⁴-⁹]+))?"
-)
-"""A number as people read it; ``{n}`` tells several in one pattern apart."""
+NUMBER = r"(?<![\w.,])(?:(?P<sign>[±+−-]) ?)?(?P<whole>\d[\d\u202f]*)(?P<part>\.\d+)?(?:·10(?P<power>[⁻⁰¹²³⁴-⁹]+))?"
+"""A number as people read it."""
+
+ANY = re.sub(r"\?P<\w+>", "", NUMBER)
+"""The same without names."""
 
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
-ALONE = re.compile(NUMBER.format(n=""))
+ALONE = re.compile(NUMBER)
 
-JOINED = r"(?: ?(?:…|–|×|±|to|and|or|by|до|и|или|на) ?)"
-"""What stands between two numbers that share the unit behind the second one."""
+JOINED = r"(?: ?(?:…|–|/|×|±|to|and|or|by|до|и|или|на) ?)"
+"""What stands between numbers that share the unit behind the last one."""
 
 OF_PART = re.compile(
     r"(?:\d,|\b(?:joints?|shafts?|supports?|modes?|orders?|zones?|settings?|вал\w*|шарнир\w*|опор\w*|форм\w*|поряд\w*|зон\w*))"
@@ -179,7 +179,7 @@ class Conversion:
         if ratio == 1.0:
             return self.signed(text)
         found = ALONE.findall(text)
-        return self.signed(ALONE.sub(lambda one: _scaled(one, "", ratio, full if len(found) == 1 else None), text))
+        return self.signed(ALONE.sub(lambda one: _scaled(one, ratio, full if len(found) == 1 else None), text))
 
     def signed(self, text: str) -> str:
         """Return a text with the decimal sign of the choice."""
@@ -198,9 +198,13 @@ class Conversion:
         known = "|".join(re.escape(one) for one in sorted(self.labels, key=len, reverse=True) if one not in WORDS)
         end = r"(?![\w²³·]|/[^\W\d])"
         return re.compile(
-            rf"(?:{NUMBER.format(n='1')}(?P<same>\s?(?:{known}))?(?P<between>{JOINED}))?{NUMBER.format(n='2')}"
-            rf"(?P<space>\s?)(?P<unit>{known}){end}"
+            rf"(?P<run>(?:{ANY}(?:\s?(?:{known}))?{JOINED})*){NUMBER}(?P<space>\s?)(?P<unit>{known}){end}"
         )
+
+    @cached_property
+    def _held(self) -> re.Pattern[str]:
+        known = "|".join(re.escape(one) for one in sorted(self.labels, key=len, reverse=True))
+        return re.compile(rf"{NUMBER}(?:(?P<space>\s?)(?P<unit>{known}))?")
 
     @cached_property
     def _bracketed(self) -> re.Pattern[str]:
@@ -208,19 +212,17 @@ class Conversion:
 
     def _one(self, found: re.Match[str]) -> str:
         unit, ratio = self.labels[found["unit"]]
-        space = "" if unit in ("°", "′") else "\u00a0" if found["space"] == "\u00a0" else " "
-        last = _scaled(found, "2", ratio)
-        if found["between"] is None:
-            return f"{last}{space}{unit}"
-        own = (found["same"] or "").strip()
-        if own:
-            first, first_ratio = self.labels[own]
-            head = f"{_scaled(found, '1', first_ratio)}{'' if first in ('°', '′') else ' '}{first}"
-        elif OF_PART.search(found.string[: found.start()]):
-            head = found.string[found.start("whole1") : found.start("between")]
-        else:
-            head = _scaled(found, "1", ratio)
-        return f"{head}{found['between']}{last}{space}{unit}"
+        run = found["run"]
+        if run and not OF_PART.search(found.string[: found.start()]):
+            run = self._held.sub(lambda one: self._of_run(one, ratio), run)
+        return f"{run}{_scaled(found, ratio)}{_space(unit)}{unit}"
+
+    def _of_run(self, found: re.Match[str], ratio: float) -> str:
+        """Return a number that shares the unit behind a later one, unless it has its own."""
+        if not found["unit"]:
+            return _scaled(found, ratio)
+        unit, own = self.labels[found["unit"]]
+        return f"{_scaled(found, own)}{_space(unit)}{unit}"
 
 
 def names_of(words: Iterable[str]) -> tuple[str, ...]:
@@ -239,16 +241,19 @@ def _add(found: dict[str, tuple[str, float]], printed: str, new: str, ratio: flo
         found[one] = (new, ratio)
 
 
-def _scaled(found: re.Match[str], n: str, ratio: float, full: float | None = None) -> str:
-    """Return a number of a match times a ratio, with no coarser a last digit than it has."""
-    sign, whole, part = found[f"sign{n}"] or "", found[f"whole{n}"].replace("\u202f", ""), found[f"part{n}"] or ""
-    power = int((found[f"power{n}"] or "0").translate(RAISED))
+def _space(unit: str) -> str:
+    return "" if unit in ("°", "′") else " "
+
+
+def _scaled(found: re.Match[str], ratio: float, full: float | None = None) -> str:
+    """Return the number of a match times a ratio, with no coarser a last digit than it has."""
+    sign, whole, part = found["sign"] or "", found["whole"].replace("\u202f", ""), found["part"] or ""
+    power = int((found["power"] or "0").translate(RAISED))
     read = float(f"{whole}{part}e{power}")
-    exact = read if full is None else abs(full)
-    value = float(f"{exact * ratio:.12g}")  # 25.4 mm are one inch, not next to it
+    value = float(f"{(read if full is None else abs(full)) * ratio:.12g}")  # 25.4 mm are one inch, not next to it
+    gap = " " if sign and found.string[found.end("sign")] == " " else ""
     if read == 0.0 or value == 0.0 or not math.isfinite(value):
-        return found[0] if not n else f"{sign}{whole}{part}"
+        return f"{sign}{gap}{whole}{part}"
     step = 10.0 ** (power - max(len(part) - 1, 0)) * ratio
     last, first = math.floor(math.log10(step) + 1e-9), math.floor(math.log10(value) + 1e-9)
-    gap = " " if sign == "±" and found.string[found.end(f"sign{n}")] == " " else ""
     return f"{sign}{gap}{significant(value, max(DIGITS if part else WHOLE, first - last + 1))}"
