@@ -149,4 +149,4 @@ def _parts(session: Session, jobs: Jobs) -> None:
         with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
             Answers(session, jobs)
         with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
-            Verdicts(session)
+            Verdicts(session, jobs)
