@@ -16,7 +16,7 @@ from cardan.texts import _
 from cardan.units import deg, mm
 
 from . import palette
-from .scene import SceneArea, SceneGroup, SceneLabel, SceneLine
+from .scene_parts import SceneArea, SceneGroup, SceneLabel, SceneLine
 from .wording import fixed, half_turn, significant
 
 STEP = math.radians(5.0)
@@ -212,10 +212,13 @@ def _bends(paper: _Paper) -> None:
     for i in range(build.count):
         bend, middle = float(build.place.bend[i]), build.centre(i)
         a, normal = build.axis(i + 1), build.place.normal[i]
-        radius = 2.5 * build.sizes.joints[i].radius
+        start, stop = _ends(build, i + 2)
+        clear = 1.35 * build.body_radius(i + 2) / max(math.sin(bend), 1e-3)
+        radius = max(3.0 * build.sizes.joints[i].radius, min(clear, 0.55 * float(np.linalg.norm(stop - start))))
         text = f"{fixed(bend / deg, 1)}°"
-        paper.sector("angles", middle, a, frames.cross(normal, a), bend, radius, "warning", text)
-        paper.line("angles", np.stack((middle, middle + 1.1 * radius * a)), "muted", dashed=True)
+        paper.sector("angles", middle, a, frames.cross(normal, a), bend, radius, "warning", text, say=False)
+        paper.line("angles", np.stack((middle, middle + 1.12 * radius * a)), "muted", dashed=True)
+        paper.label("angles", text, middle + 1.18 * radius * a, "value")
 
 
 def _yokes(paper: _Paper) -> None:

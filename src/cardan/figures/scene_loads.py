@@ -16,9 +16,10 @@ from cardan.errors import InputError
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.texts import _
+from cardan.units import spoken
 
 from . import palette
-from .scene import SceneArrow, SceneGroup
+from .scene_parts import SceneArrow, SceneGroup
 from .turning import shaft_name
 from .wording import significant
 
@@ -148,5 +149,5 @@ def amount(value: float, unit: str) -> str:
     ('2.31 kN', '0.0400 N·m')
     """
     if abs(value) >= 1e3:
-        return f"{significant(value / 1e3, 3)} k{unit}"
-    return f"{significant(value, 3)} {unit}"
+        return f"{significant(value / 1e3, 3)} {spoken('k' + unit)}"
+    return f"{significant(value, 3)} {spoken(unit)}"

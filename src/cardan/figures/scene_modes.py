@@ -19,8 +19,8 @@ from cardan.units import rpm
 
 from . import palette
 from .bending import said
-from .scene import SceneCurve, SceneMode
 from .scene_loads import sentence
+from .scene_parts import SceneCurve, SceneMode
 from .wording import significant
 
 FRAMES = 48

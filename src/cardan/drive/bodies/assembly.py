@@ -23,7 +23,7 @@ from cardan.texts import _
 from .build import Build, Track, length_text
 from .crossed import double_joint, hooke, offset_cross, offset_shaft
 from .even import MAKERS
-from .shaft import disc, flange, ring, shaft_pieces
+from .shaft import disc, flange, ring, shaft_pieces, washer
 from .sizes import bearing_radius, sizes
 from .support import bearing, bracket, floor_frame, rubber
 
@@ -186,7 +186,7 @@ def _shaft(build: Build, k: int) -> None:
     for place, thin in necks:
         if build.drive.supports and thin > 0.0 and _axial_at(build, k, place):
             collars = (
-                placed(ring(0.9 * thin, 1.16 * thin, 0.25 * thin, 24), None, (place + d * 0.75 * thin, 0, 0))
+                placed(washer(0.9 * thin, 1.16 * thin, 0.25 * thin), None, (place + d * 0.75 * thin, 0, 0))
                 for d in (1, -1)
             )
             track = build.ends[1] if k == 1 else build.starts[k]
@@ -197,7 +197,14 @@ def _shaft(build: Build, k: int) -> None:
         build.free[k] = track
         path = "input" if k == 1 else "output"
         build.add(
-            "flange", k, path, text, track, placed(flange(radius, sense), None, (end, 0, 0)), role=role, shade=0.2
+            "flange",
+            k,
+            path,
+            text,
+            track,
+            placed(flange(radius, sense), None, (end - 0.05 * sense * radius, 0, 0)),
+            role=role,
+            shade=0.2,
         )
 
 
@@ -282,7 +289,7 @@ def _station(build: Build, number: int) -> None:
     track = build.twin(build.ends[1] if k == 1 else build.starts[k])
     build.stations[number] = track
     path, role = f"stations[{number}]", f"shaft {k}"
-    shape = placed(disc(radius, thick, shaft_radius, 8), None, (place, 0.0, 0.0))
+    shape = placed(disc(radius, thick, shaft_radius, 6), None, (place, 0.0, 0.0))
     build.add("station", k, path, text, track, shape, role=role, shade=0.15)
     if one.absorber is not None:
         side = -1.0 if k == 1 else 1.0

@@ -224,8 +224,12 @@ def forks(
     bore: bool = True,
     away: float = 0.0,
     part: str = "",
+    tip: float = 0.0,
 ) -> None:
-    """Add a yoke of joint i and its bearing caps; ``away`` is how far off the joint centre it swings."""
+    """Add a yoke of joint i and its bearing caps.
+
+    It swings ``away`` off the joint centre; ears without bores end at ``tip``, counted toward the hub.
+    """
     from .yoke import caps, fork
 
     k = i + 1 if driving else i + 2
@@ -233,7 +237,7 @@ def forks(
     reach = build.reach(i, driving=driving) - away
     cavity = min(size.cavity, 0.66 * reach)
     body = build.body_radius(k)
-    made = fork(size.radius, size.ear, size.lug, size.cap if bore else 0.0, cavity, reach, body)
+    made = fork(size.radius, size.ear, size.lug, size.cap if bore else 0.0, cavity, reach, body, tip)
     turn = BACK if driving else None
     shift = np.asarray([-away if driving else away, 0.0, 0.0])
     text = _("driving yoke of shaft {number}") if driving else _("driven yoke of shaft {number}")

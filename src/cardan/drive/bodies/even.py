@@ -115,23 +115,24 @@ def weiss(build: Build, i: int) -> None:
     """Add the two claws of a Weiss joint and the balls where their grooves cross."""
     joint, size, path = build.drive.joints[i], build.sizes.joints[i], f"joints[{i}]"
     assert isinstance(joint, Weiss)
-    forks(build, i, size, driving=True, bore=False)
-    _turned_fork(build, i, size)
+    tip = -0.5 * size.radius
+    forks(build, i, size, driving=True, bore=False, tip=tip)
+    _turned_fork(build, i, size, tip)
     groove = joint.groove_radius or 0.72 * size.radius
     middle, _across, _normal = _halving(build, i)
     theta, said = _theta(build, i), _say(build, i, _("ball of {joint}"))
     for j in range(4):
         way = _in_plane(build, i, theta + (j + 0.5) * 0.5 * np.pi)
         own = build.along(build.centre(i), way, frames.cross(np.broadcast_to(middle, way.shape), way))
-        shape = placed(ball(0.3 * groove, 18), None, (0.86 * groove, 0.0, 0.0))
+        shape = placed(ball(0.32 * groove, 18), None, (0.94 * groove, 0.0, 0.0))
         build.add("ball", i + 1, path, said, own, shape, role="cross", shade=0.55)
     own = build.along(build.centre(i), middle, _in_plane(build, i, theta))
     build.add("ball", i + 1, path, said, own, ball(0.28 * groove, 18), role="cross", shade=0.4)
 
 
-def _turned_fork(build: Build, i: int, size: JointSize) -> None:
+def _turned_fork(build: Build, i: int, size: JointSize, tip: float) -> None:
     """Add a driven claw a quarter turn from the mark of its shaft."""
-    forks(build, i, size, driving=False, bore=False)
+    forks(build, i, size, driving=False, bore=False, tip=tip)
     last = build.solids.pop()
     quarter = np.asarray([(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)])
     build.add(last.part, last.number, last.path, last.text, last.track, placed(last.surface, quarter), role=last.role)
@@ -140,8 +141,9 @@ def _turned_fork(build: Build, i: int, size: JointSize) -> None:
 def tracta(build: Build, i: int) -> None:
     """Add the two forks of a Tracta joint and the slotted halves between them."""
     size, path = build.sizes.joints[i], f"joints[{i}]"
-    forks(build, i, size, driving=True, bore=False)
-    _turned_fork(build, i, size)
+    tip = -0.3 * size.radius
+    forks(build, i, size, driving=True, bore=False, tip=tip)
+    _turned_fork(build, i, size, tip)
     middle, _across, _normal = _halving(build, i)
     own = build.along(build.centre(i), middle, _in_plane(build, i, _theta(build, i)))
     inner = 0.96 * (size.radius - 0.5 * size.ear)
@@ -194,7 +196,7 @@ def _tulip(track: float, build: Build, i: int, bend: float) -> Surface:
     hole = np.where(track * np.sin(off) < 0.96 * roller, inside, 0.78 * track)
     outer = np.maximum(hole + thick, 1.12 * track)
     way = np.stack((np.cos(turn), np.sin(turn)), axis=-1)
-    mouth = -(0.5 * track + 1.2 * track * np.tan(bend))
+    mouth = -(0.08 * track + track * np.tan(bend))
     floor = max(0.55 * track + 1.1 * track * np.tan(bend), 0.7 * track)
     shell = placed(plate(outer[:, None] * way, mouth, floor, hole[:, None] * way, 0.06 * track), ACROSS)
     lid = placed(plate(outer[:, None] * way, floor - 0.1 * track, floor + 0.3 * track, bevel=0.08 * track), ACROSS)
@@ -300,13 +302,13 @@ def pins(build: Build, i: int) -> None:
     joint, size, path = build.drive.joints[i], build.sizes.joints[i], f"joints[{i}]"
     assert isinstance(joint, PinCoupling)
     slants = joint.driving_slant, joint.driving_slant if joint.driven_slant is None else joint.driven_slant
-    usual = 1.1 * size.radius
+    usual = 0.85 * size.radius
     starts = joint.driving_distance or usual, joint.driven_distance or usual
     alike = slants[0] == slants[1] and starts[0] == starts[1]
     count = 3 if alike else 1
     bend = float(build.place.bend[i])
     for (k, track, turn), driving, slant, start in zip(_sides(build, i), (True, False), slants, starts, strict=True):
-        long = 1.25 * start / max(np.cos(slant) - np.sin(slant) * np.tan(0.5 * bend), 0.35)
+        long = 1.12 * start / max(np.cos(slant) - np.sin(slant) * np.tan(0.5 * bend), 0.35)
         thin = 0.09 * start
         pin = revolved([(0.0, 0.0), (0.0, thin), (long - thin, thin), (long - 0.3 * thin, 0.7 * thin), (long, 0.0)], 14)
         lean = np.asarray([-np.cos(slant), np.sin(slant), 0.0])
@@ -367,7 +369,7 @@ def clemens(build: Build, i: int) -> None:
 
 def _link(length: float) -> Surface:
     """Return an arm along x with an eye at its hinge and a knob at its end."""
-    thin = 0.055 * length
+    thin = 0.075 * length
     bar = revolved([(0.0, 0.0), (0.0, thin), (length, 0.8 * thin), (length, 0.0)], 12)
     eye = placed(
         ring(0.5 * thin, 1.7 * thin, 2.4 * thin, 16), np.asarray([(0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])

@@ -257,7 +257,7 @@ def flange(radius: float, sense: float) -> Surface:
     """Return the flange at the free end of a shaft, its face at x = 0; ``sense`` +1 where the shaft lies behind it."""
     wide, thick = 1.75 * radius, 0.34 * radius
     disc = [(0.0, 0.0), (0.0, 0.95 * wide), (0.05 * wide, wide), (thick, wide), (thick, 1.22 * radius)]
-    made = revolved([*disc, (2.2 * thick, radius), (2.2 * thick, 0.0)], 30)
+    made = revolved([*disc, (2.2 * thick, radius), (2.2 * thick, 0.0)], 26)
     heads = bolt_ring(6, 1.45 * radius, 0.15 * radius, -0.16 * radius, 0.02 * radius)
     return placed(joined(made, heads), np.diag([sense, 1.0, sense]))
 
@@ -272,10 +272,18 @@ def disc(radius: float, thickness: float, bore: float, holes: int = 0) -> Surfac
     right += [(half, radius - edge), (half - edge, radius)]
     side = [(-x, r) for x, r in right]
     loop = [*side, *right[::-1], side[0]]
-    made = revolved(loop, 40)
+    made = revolved(loop, 32)
     if holes:
         made = joined(made, bolt_ring(holes, 0.89 * radius, 0.05 * radius, -1.12 * half, 1.12 * half))
     return made
+
+
+@lru_cache(maxsize=32)
+def washer(inner: float, outer: float, thickness: float) -> Surface:
+    """Return a flat ring, its middle at x = 0."""
+    half = 0.5 * thickness
+    loop = [(-half, inner), (-half, outer), (half, outer), (half, inner), (-half, inner)]
+    return revolved(loop, 22)
 
 
 @lru_cache(maxsize=32)

@@ -9,7 +9,7 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.maths.meshes import Surface, box, circle, joined, placed, plate, revolved, swept
 
-from .shaft import ring
+from .shaft import ring, washer
 
 
 @lru_cache(maxsize=64)
@@ -19,7 +19,7 @@ def bearing(radius: float, *, wide: bool) -> Surface:
     low, mid, out, high = radius, 1.24 * radius, 1.48 * radius, 1.72 * radius
     side = [(half, mid), (0.75 * half, mid), (0.75 * half, out), (half, out), (half, high)]
     loop = [(-half, low), *((-x, r) for x, r in side), *side[::-1], (half, low), (-half, low)]
-    return revolved(loop, 24)
+    return revolved(loop, 18)
 
 
 @lru_cache(maxsize=64)
@@ -56,9 +56,9 @@ def bracket(radius: float, *, soft: bool, wide: bool, axial: bool) -> Surface:
     inner = (2.28 if soft else 1.72) * radius
     outer = 1.17 * inner
     width = (1.6 if wide else 0.95) * radius
-    parts = [ring(inner, outer, width, 28)]
+    parts = [ring(inner, outer, width, 24)]
     if axial:
-        collar = ring(0.84 * inner, 1.04 * outer, 0.18 * radius, 24)
+        collar = washer(0.84 * inner, 1.04 * outer, 0.18 * radius)
         parts += [placed(collar, None, (side * 0.52 * width, 0.0, 0.0)) for side in (1.0, -1.0)]
     floor, half = -1.55 * outer, 1.35 * outer
     # The web reaches from the foot to the ring: between two curves, one across the foot, one along the ring.

@@ -23,7 +23,9 @@ ACROSS = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
 
 
 @lru_cache(maxsize=256)
-def fork(radius: float, ear: float, lug: float, bore: float, cavity: float, reach: float, body: float) -> Surface:
+def fork(
+    radius: float, ear: float, lug: float, bore: float, cavity: float, reach: float, body: float, tip: float = 0.0
+) -> Surface:
     """Return a yoke: its ears across y, its hub along x away from the joint centre.
 
     Parameters
@@ -38,6 +40,8 @@ def fork(radius: float, ear: float, lug: float, bore: float, cavity: float, reac
         From the joint centre to the end of the hub.
     body : float [m]
         Radius of the shaft there.
+    tip : float [m]
+        Where ears without a bore begin, from the joint centre toward the hub.
 
     Examples
     --------
@@ -46,11 +50,10 @@ def fork(radius: float, ear: float, lug: float, bore: float, cavity: float, reac
     True
     """
     inner, outer = radius - 0.5 * ear, radius + 0.5 * ear
-    root = 0.98 * lug if bore else 0.3 * lug
-    root = min(root, 0.75 * cavity)
+    root = min(0.98 * lug, 0.75 * cavity) if bore else tip
     base = cavity + 0.5 * (reach - cavity)
     wide = max(1.12 * lug, min(0.85 * body, 1.35 * lug))
-    foot = lug + (wide - lug) * min(1.0, root / base)
+    foot = lug + (wide - lug) * min(1.0, max(root, 0.0) / base)
     parts = [_hub(cavity, base, reach, wide, body)]
     parts.append(swept(_bow(inner, outer, root, cavity, base, foot, wide), range(8)))
     if bore:
@@ -158,7 +161,7 @@ def cross_body(radius: float, ear: float, journal: float, offset: float = 0.0) -
 
 def _arm(radius: float, ear: float, journal: float) -> Surface:
     """Return one arm of a cross with its two journals, along x."""
-    end, root, thin = radius + 0.46 * ear, radius - 0.5 * ear, 0.5 * journal
+    end, root, thin = radius + 0.34 * ear, radius - 0.5 * ear, 0.5 * journal
     side = [(0.0, 1.42 * thin), (0.92 * root, 1.22 * thin), (0.95 * root, thin)]
     side += [(end - 0.12 * ear, thin), (end, 0.8 * thin), (end, 0.0)]
     return revolved([*((-x, r) for x, r in side[::-1]), *side[1:]], 14)
@@ -169,7 +172,7 @@ def caps(radius: float, ear: float, cap: float) -> Surface:
     """Return the bearing caps in the ears of a yoke, across y."""
     low, high = radius - 0.52 * ear, radius + 0.5 * ear + 0.05 * cap
     top = [(high - 0.12 * cap, cap), (high, 0.86 * cap), (high, 0.5 * cap), (high - 0.1 * cap, 0.42 * cap)]
-    one = revolved([(low, 0.0), (low, cap), *top, (high - 0.1 * cap, 0.0)], 16)
+    one = revolved([(low, 0.0), (low, cap), *top, (high - 0.1 * cap, 0.0)], 14)
     upper = placed(one, Y_FIRST)
     lower = placed(upper, np.diag([1.0, -1.0, -1.0]))
     return joined(upper, lower)
