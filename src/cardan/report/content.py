@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 from cardan import __version__
@@ -39,6 +39,11 @@ from .summary import changes, judgement, key_figures, warnings
 from .turning import turning
 from .understood import understood
 from .verdicts import Judged, judged
+
+
+def today() -> str:
+    """Return the day, as in 2026-01-31, the same everywhere."""
+    return datetime.datetime.now(tz=datetime.UTC).date().isoformat()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -85,6 +90,31 @@ class Content:
     figures: Table
     changes: Table | Words
     pages: tuple[Page, ...]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Excerpt:
+    """A page of a report by itself.
+
+    Attributes
+    ----------
+    title : str
+        Name of the drive; that of the page where it has none.
+    note : str
+        Below the title.
+    page : Page
+        The page.
+    version : str
+        Version of cardan that reckoned it.
+    date : str
+        Day of the excerpt, as in 2026-01-31.
+    """
+
+    title: str
+    page: Page
+    note: str = ""
+    version: str = __version__
+    date: str = field(default_factory=today)
 
 
 def content(
@@ -170,7 +200,7 @@ def _written(
         title=drive.name or _("Universal-joint drive"),
         note=drive.note,
         version=__version__,
-        date=datetime.datetime.now(tz=datetime.UTC).date().isoformat(),
+        date=today(),
         judgement=said,
         warnings=warned,
         lights=limits.lights,

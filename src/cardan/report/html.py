@@ -12,7 +12,7 @@ from cardan.texts import _, language
 from .block import Listing, Picture, Points, Table, Words
 
 if TYPE_CHECKING:
-    from .content import Content
+    from .content import Content, Excerpt
 
 
 def written(content: Content) -> bytes:
@@ -52,8 +52,22 @@ def text(content: Content) -> str:
     return _page(content, inline_svg, "")
 
 
-def _page(content: Content, drawn: Callable[[Figure], str], program: str) -> str:
-    page: str = _template().render(_=_, language=language(), report=content, drawn=drawn, kind=_kind, program=program)
+def excerpt(part: Excerpt) -> bytes:
+    """Return a page of a report as an HTML file.
+
+    Parameters
+    ----------
+    part : Excerpt
+        The page.
+    """
+    from cardan.figures.render_svg import inline_svg
+
+    return _page(part, inline_svg, "", "excerpt.html").encode()
+
+
+def _page(said: Content | Excerpt, drawn: Callable[[Figure], str], program: str, name: str = "report.html") -> str:
+    template = _template(name)
+    page: str = template.render(_=_, language=language(), report=said, drawn=drawn, kind=_kind, program=program)
     return page
 
 
@@ -62,7 +76,7 @@ def _kind(block: object) -> str:
     return {Table: "table", Words: "words", Points: "points", Listing: "listing", Picture: "picture"}[type(block)]
 
 
-def _template() -> Any:
+def _template(name: str) -> Any:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     folder = Path(__file__).parent / "templates"
@@ -73,4 +87,4 @@ def _template() -> Any:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return world.get_template("report.html")
+    return world.get_template(name)

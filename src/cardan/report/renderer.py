@@ -14,7 +14,7 @@ from cardan.texts import _
 from . import html, typeset, workbook
 
 if TYPE_CHECKING:
-    from .content import Content
+    from .content import Content, Excerpt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,6 +25,8 @@ class Renderer:
     ----------
     written : function
         From what a report says to the bytes of its file.
+    excerpt : function
+        The same of a single page.
     interactive : function, optional
         The same with figures to point at, zoom and turn.
     library, extra : str
@@ -32,18 +34,19 @@ class Renderer:
     """
 
     written: Callable[[Content], bytes]
+    excerpt: Callable[[Excerpt], bytes]
     interactive: Callable[[Content], bytes] | None = None
     library: str = ""
     extra: str = ""
 
 
-HTML = Renderer(written=html.written, interactive=html.interactive)
+HTML = Renderer(written=html.written, excerpt=html.excerpt, interactive=html.interactive)
 
 RENDERERS: dict[str, Renderer] = {
     ".html": HTML,
     ".htm": HTML,
-    ".pdf": Renderer(written=typeset.written, library="typst", extra="pdf"),
-    ".xlsx": Renderer(written=workbook.written, library="xlsxwriter", extra="xlsx"),
+    ".pdf": Renderer(written=typeset.written, excerpt=typeset.excerpt, library="typst", extra="pdf"),
+    ".xlsx": Renderer(written=workbook.written, excerpt=workbook.excerpt, library="xlsxwriter", extra="xlsx"),
 }
 """Every form by the ending of its file."""
 
@@ -74,13 +77,7 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
         ...
     cardan.errors.InputError: path: report.odt should end in one of .html, ...
     """
-    renderer = RENDERERS.get(path.suffix.lower())
-    if renderer is None:
-        text = _("{path} should end in one of {known}").format(path=path, known=", ".join(RENDERERS))
-        raise refuse(field, text)
-    if renderer.library and find_spec(renderer.library) is None:
-        text = _("{path} needs {library}: pip install 'cardan[{extra}]'")
-        raise MissingExtraError(text.format(path=path, library=renderer.library, extra=renderer.extra))
+    renderer = form_of(path, field)
     if not interactive:
         return renderer.written
     if renderer.interactive is None:
@@ -88,3 +85,30 @@ def renderer_for(path: Path, *, interactive: bool = False, field: str = "path") 
         text = _("{path} cannot have figures to point at; only reports in {known} can")
         raise refuse(field, text.format(path=path, known=known))
     return renderer.interactive
+
+
+def form_of(path: Path, field: str = "path") -> Renderer:
+    """Return the form of a report that a file has by its ending.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    field : str
+        What the user gave it as.
+
+    Raises
+    ------
+    InputError
+        No report ends so.
+    MissingExtraError
+        What writes it is not installed.
+    """
+    renderer = RENDERERS.get(path.suffix.lower())
+    if renderer is None:
+        text = _("{path} should end in one of {known}").format(path=path, known=", ".join(RENDERERS))
+        raise refuse(field, text)
+    if renderer.library and find_spec(renderer.library) is None:
+        text = _("{path} needs {library}: pip install 'cardan[{extra}]'")
+        raise MissingExtraError(text.format(path=path, library=renderer.library, extra=renderer.extra))
+    return renderer

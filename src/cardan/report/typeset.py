@@ -17,7 +17,7 @@ from cardan.texts import _, language
 from .block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
 
 if TYPE_CHECKING:
-    from .content import Content
+    from .content import Content, Excerpt
 
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
@@ -39,6 +39,33 @@ def written(content: Content) -> bytes:
     content : Content
         What it says.
     """
+    return _set(as_data(content))
+
+
+def excerpt(part: Excerpt) -> bytes:
+    """Return a page of a report as a PDF file.
+
+    Parameters
+    ----------
+    part : Excerpt
+        The page.
+    """
+    return _set(
+        {
+            "language": language(),
+            "words": _words(),
+            "title": part.title.strip() or part.page.title,
+            "note": part.note,
+            "version": part.version,
+            "date": part.date,
+            "judgement": None,
+            "pages": [_page(part.page)],
+        }
+    )
+
+
+def _set(data: dict[str, Any]) -> bytes:
+    """Return what the template makes of its data."""
     import typst
     from matplotlib import get_data_path
 
@@ -46,7 +73,7 @@ def written(content: Content) -> bytes:
         TEMPLATE,
         root=TEMPLATE.parent,
         font_paths=[Path(get_data_path()) / "fonts" / "ttf"],
-        sys_inputs={"report": json.dumps(_printable(as_data(content)), ensure_ascii=False)},
+        sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
     ).compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
     assert isinstance(found, bytes)  # a single file, and no place was given to write it to
     return found
@@ -62,13 +89,7 @@ def as_data(content: Content) -> dict[str, Any]:
     """
     return {
         "language": language(),
-        "words": {
-            "kicker": _("Drive report"),
-            "summary": _("Summary"),
-            "contents": _("Contents"),
-            "figure": _("Figure"),
-            "table": _("Table"),
-        },
+        "words": _words(),
         "title": content.title.strip() or _("Universal-joint drive"),
         "note": content.note,
         "version": content.version,
@@ -78,6 +99,17 @@ def as_data(content: Content) -> dict[str, Any]:
         "sketch": _picture(content.sketch),
         "tables": [_block(one) for one in (content.lights, content.cures, content.figures, content.changes) if one],
         "pages": [_page(page) for page in content.pages],
+    }
+
+
+def _words() -> dict[str, str]:
+    """Return the words of the template itself."""
+    return {
+        "kicker": _("Drive report"),
+        "summary": _("Summary"),
+        "contents": _("Contents"),
+        "figure": _("Figure"),
+        "table": _("Table"),
     }
 
 

@@ -17,7 +17,7 @@ from .looks import CODE, Looks
 from .paper import Paper
 
 if TYPE_CHECKING:
-    from .content import Content
+    from .content import Content, Excerpt
 
 HEADER = 90
 """Letters of the drive's name above a printed page."""
@@ -43,22 +43,18 @@ def written(content: Content) -> bytes:
     return stream.getvalue()
 
 
-def written_page(page: Page, *, title: str, version: str) -> bytes:
-    """Return one page of a report as a workbook.
+def excerpt(part: Excerpt) -> bytes:
+    """Return a page of a report as a workbook.
 
     Parameters
     ----------
-    page : Page
+    part : Excerpt
         The page.
-    title : str
-        Name of the drive.
-    version : str
-        Version of cardan that reckoned it.
     """
     stream = io.BytesIO()
-    book = opened(stream, title=page.title)
-    sheets = Sheets(book, title, f"cardan {version}")
-    sheets.page(page)
+    book = opened(stream, title=part.title or part.page.title, made=datetime.date.fromisoformat(part.date))
+    sheets = Sheets(book, part.title, f"cardan {part.version} · {part.date}")
+    sheets.page(part.page)
     sheets.fill()
     book.close()
     return stream.getvalue()
