@@ -68,13 +68,20 @@ class Complaints:
 
 @pytest.fixture
 def page_of(chromium: Any) -> Iterator[Callable[..., Any]]:
-    """Return a function that opens a page: ``page_of(url, allow=("part of a message",), browser=None, **context)``."""
+    """Return a function that opens a page.
+
+    ``page_of(url, allow=("part of a message",), script="run before the page", browser=None, **context)``
+    """
     opened: list[tuple[Any, Complaints]] = []
 
-    def open_page(url: str, *, allow: tuple[str, ...] = (), browser: Any = None, **options: Any) -> Any:
+    def open_page(
+        url: str, *, allow: tuple[str, ...] = (), script: str = "", browser: Any = None, **options: Any
+    ) -> Any:
         context = (browser or chromium).new_context(**{"viewport": {"width": 1280, "height": 720}, **options})
         context.set_default_timeout(30_000)
         page = context.new_page()
+        if script:
+            page.add_init_script(script)
         opened.append((context, Complaints(page, allow)))
         page.goto(url)
         return page

@@ -5,47 +5,44 @@ import { floats } from "./mesh.js";
 import { materials, plain, tone } from "./studio.js";
 
 export class Areas {
-  constructor() {
-    this.root = new THREE.Group();
-    this.groups = new Map();
+  constructor(tracks) {
+    this.tracks = tracks;
+    this.meshes = [];
   }
 
   show(areas) {
     this.clear();
-    for (const { group, positions, indices, colour, opacity, text } of areas) {
+    for (const { group, positions, indices, colour, opacity, text, track = 0 } of areas) {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
       geometry.setIndex(indices);
       const material = new THREE.MeshBasicMaterial({ transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false });
       material.color.setRGB(...plain(colour), THREE.SRGBColorSpace);
       const mesh = new THREE.Mesh(geometry, material);
-      mesh.userData.text = text;
+      mesh.userData = { group, text };
       mesh.renderOrder = 2;
-      if (!this.groups.has(group)) this.groups.set(group, this.root.add(new THREE.Group()).children.at(-1));
-      this.groups.get(group).add(mesh);
+      this.tracks.groups[track].add(mesh);
+      this.meshes.push(mesh);
     }
   }
 
   visible(on) {
-    for (const [name, group] of this.groups) group.visible = on(name);
+    for (const mesh of this.meshes) mesh.visible = on(mesh.userData.group);
   }
 
   // The area a ray meets first.
   pick(ray) {
-    const seen = [...this.groups.values()].filter((group) => group.visible);
-    const [hit] = ray.intersectObjects(seen, true);
+    const [hit] = ray.intersectObjects(this.meshes.filter((mesh) => mesh.visible), false);
     return hit ? { text: hit.object.userData.text, distance: hit.distance } : null;
   }
 
   clear() {
-    for (const group of this.groups.values()) {
-      group.removeFromParent();
-      for (const { geometry, material } of group.children) {
-        geometry.dispose();
-        material.dispose();
-      }
+    for (const mesh of this.meshes) {
+      mesh.removeFromParent();
+      mesh.geometry.dispose();
+      mesh.material.dispose();
     }
-    this.groups.clear();
+    this.meshes = [];
   }
 }
 
@@ -53,15 +50,16 @@ const SIDES = 10;
 
 // A round rod along a curve that moves: a mode shape.
 export class Curves {
-  constructor(shared) {
-    this.root = new THREE.Group();
+  constructor(shared, tracks) {
+    this.tracks = tracks;
+    this.meshes = [];
     this.material = materials(shared, { metal: false });
   }
 
   show(curves, frames) {
     this.clear();
     this.frames = frames;
-    for (const { points, colour, radius } of curves) {
+    for (const { points, colour, radius, track = 0 } of curves) {
       const values = typeof points === "string" ? floats(points) : new Float32Array(points);
       const count = values.length / 3 / frames;
       const rgb = tone(colour);
@@ -82,13 +80,14 @@ export class Curves {
       const mesh = new THREE.Mesh(geometry, this.material.fast);
       mesh.frustumCulled = false;
       mesh.userData = { values, count, radius };
-      this.root.add(mesh);
+      this.tracks.groups[track].add(mesh);
+      this.meshes.push(mesh);
     }
   }
 
   // Bend all curves to a place between two frames.
   pose(before, after, share) {
-    for (const { geometry, userData } of this.root.children) {
+    for (const { geometry, userData } of this.meshes) {
       const { values, count, radius } = userData;
       const point = (k, out) => {
         const [a, b] = [3 * (before * count + k), 3 * (after * count + k)];
@@ -115,14 +114,15 @@ export class Curves {
   }
 
   quality(fine) {
-    for (const mesh of this.root.children) mesh.material = fine ? this.material.fine : this.material.fast;
+    for (const mesh of this.meshes) mesh.material = fine ? this.material.fine : this.material.fast;
   }
 
   clear() {
-    for (const mesh of [...this.root.children]) {
+    for (const mesh of this.meshes) {
       mesh.removeFromParent();
       mesh.geometry.dispose();
     }
+    this.meshes = [];
   }
 
   dispose() {

@@ -7,8 +7,8 @@ import { materials, tone } from "./studio.js";
 const UNKNOWN = "#9aa3ad"; // a body without a utilisation, where colours show utilisation
 
 export class Bodies {
-  constructor(shared) {
-    this.root = new THREE.Group();
+  constructor(shared, tracks) {
+    this.tracks = tracks;
     this.materials = {
       true: materials(shared, { metal: true }),
       false: materials(shared, { metal: false }),
@@ -17,7 +17,6 @@ export class Bodies {
     this.edge = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.28 });
     this.mark = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.38, depthWrite: false });
     this.meshes = new Map(); // by name of the mesh, for as long as a scene uses it
-    this.tracks = [];
     this.batches = new Map();
     this.by = "shaft";
     this.fine = false;
@@ -30,8 +29,7 @@ export class Bodies {
     return scene.bodies.map((b) => b.mesh).filter((key) => !this.meshes.has(key) && !scene.meshes[key]);
   }
 
-  show(scene, motion) {
-    this.motion = motion;
+  show(scene) {
     const kept = new Map();
     for (const { mesh, smooth } of scene.bodies) {
       if (kept.has(mesh)) continue;
@@ -39,19 +37,9 @@ export class Bodies {
       kept.set(mesh, this.meshes.get(mesh) ?? lit({ positions: floats(sent.positions), indices: whole(sent.indices), smooth }));
     }
     this.meshes = kept;
-    this.bodies = scene.bodies;
-    this.placeTracks(scene.tracks);
     this.fill(scene.bodies);
     this.colourBy(this.by);
     this.select(this.selected);
-  }
-
-  placeTracks(tracks) {
-    while (this.tracks.length > tracks.length) this.tracks.pop().removeFromParent();
-    tracks.forEach(({ origin }, k) => {
-      this.tracks[k] ??= this.root.add(new THREE.Group()).children.at(-1);
-      this.tracks[k].position.fromArray(origin);
-    });
   }
 
   // Make the meshes whose bodies have changed, and leave the others on the graphics card.
@@ -72,7 +60,7 @@ export class Bodies {
     for (const [key, members] of wanted) {
       const batch = this.batches.get(key) ?? this.batch(members);
       batch.members = members;
-      batch.solid.parent ?? this.tracks[members[0].track].add(batch.solid, batch.edges);
+      batch.solid.parent ?? this.tracks.groups[members[0].track].add(batch.solid, batch.edges);
       this.batches.set(key, batch);
     }
     this.dress();
@@ -117,13 +105,13 @@ export class Bodies {
     }
   }
 
-  // Give every mesh the material for this quality and mode.
+  // Give every mesh the material for this quality and mode; edges take longer than they are worth while it is fast.
   dress() {
     for (const { solid, members, edges } of this.batches.values()) {
       const kind = this.materials[this.ghost ? "ghost" : members[0].metal];
       solid.material = this.fine ? kind.fine : kind.fast;
       solid.renderOrder = this.ghost ? 2 : 0;
-      edges.visible = !this.ghost && edges.geometry.attributes.position.count > 0;
+      edges.visible = this.fine && !this.ghost && edges.geometry.attributes.position.count > 0;
     }
   }
 
@@ -156,10 +144,6 @@ export class Bodies {
       });
       tones.needsUpdate = true;
     }
-  }
-
-  pose(angle) {
-    this.tracks.forEach((group, k) => this.motion.turn(k, angle, group.quaternion));
   }
 
   // Return the body a ray meets first, with the place.
@@ -200,7 +184,7 @@ export class Bodies {
   // Corners of all bodies where they are now, for the camera.
   corners() {
     const points = [];
-    this.root.updateMatrixWorld(true);
+    this.tracks.root.updateMatrixWorld(true);
     for (const { solid } of this.batches.values()) {
       solid.geometry.boundingBox ?? solid.geometry.computeBoundingBox();
       const { min, max } = solid.geometry.boundingBox;

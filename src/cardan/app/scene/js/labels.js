@@ -15,7 +15,8 @@ const SHIFTS = [
 const SEEN = new THREE.Vector3();
 
 export class Labels {
-  constructor(parent) {
+  constructor(parent, tracks) {
+    this.tracks = tracks;
     this.layer = document.createElement("div");
     this.layer.className = "cardan-labels";
     parent.append(this.layer);
@@ -25,7 +26,7 @@ export class Labels {
 
   show(labels) {
     this.still.forEach(({ element }) => element.remove());
-    this.still = labels.map((label) => ({ ...this.make(label.text, label.role), ...label, place: new THREE.Vector3(...label.at) }));
+    this.still = labels.map((label) => ({ ...this.make(label.text, label.role), ...label, place: new THREE.Vector3(...label.at), track: label.track ?? 0 }));
     this.still.sort((a, b) => (RANK[a.role] ?? 9) - (RANK[b.role] ?? 9));
   }
 
@@ -42,6 +43,11 @@ export class Labels {
       label.on = on(label.group);
       if (!label.on) label.element.style.visibility = "hidden";
     }
+  }
+
+  // Whether any text that is switched on moves with a shaft.
+  get turning() {
+    return this.still.some((label) => label.on && label.track);
   }
 
   // Texts of arrows: a list of [arrow, place], another one every frame.
@@ -63,7 +69,9 @@ export class Labels {
       if (!label.on) continue;
       const { element } = label;
       if (!label.width) [label.width, label.height] = [element.offsetWidth, element.offsetHeight];
-      SEEN.copy(label.place).project(camera);
+      SEEN.copy(label.place);
+      if (label.track) SEEN.applyMatrix4(this.tracks.groups[label.track].matrixWorld);
+      SEEN.project(camera);
       const inside = Math.abs(SEEN.x) < 1.05 && Math.abs(SEEN.y) < 1.05 && SEEN.z > -1 && SEEN.z < 1;
       const spot = inside && free(taken, ((SEEN.x + 1) / 2) * width, ((1 - SEEN.y) / 2) * height, label, width, height);
       element.style.visibility = spot ? "visible" : "hidden";

@@ -61,11 +61,12 @@ void main() {
 const QUAD = { corners: [-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0], indices: [0, 1, 2, 2, 1, 3] };
 
 export class Lines {
-  constructor() {
-    this.root = new THREE.Group();
+  constructor(tracks, { order = 3, hidden = true } = {}) {
+    Object.assign(this, { order, hidden });
+    this.tracks = tracks; // of the scene; lines hang in them
     this.screen = { value: new THREE.Vector2(1, 1) };
     this.period = { value: 1 };
-    this.groups = new Map();
+    this.sets = [];
     const material = (opacity, depthFunc) =>
       new THREE.ShaderMaterial({
         vertexShader: VERTEX,
@@ -85,33 +86,35 @@ export class Lines {
     this.period.value = 0.022 * size;
     const sets = new Map();
     for (const line of lines) {
-      if (!sets.has(line.group)) sets.set(line.group, []);
-      sets.get(line.group).push(line);
+      const key = `${line.track ?? 0} ${line.group}`;
+      if (!sets.has(key)) sets.set(key, []);
+      sets.get(key).push(line);
     }
-    for (const [name, members] of sets) {
+    for (const members of sets.values()) {
+      const [{ group, track = 0 }] = members;
       const geometry = segments(members);
-      const both = new THREE.Group();
-      for (const material of [this.front, this.behind]) {
+      const root = new THREE.Group();
+      for (const material of this.hidden ? [this.front, this.behind] : [this.front]) {
         const mesh = new THREE.Mesh(geometry, material);
         mesh.frustumCulled = false;
-        mesh.renderOrder = 3;
-        both.add(mesh);
+        mesh.renderOrder = this.order;
+        root.add(mesh);
       }
-      this.groups.set(name, both);
-      this.root.add(both);
+      this.sets.push({ group, root, geometry });
+      this.tracks.groups[track].add(root);
     }
   }
 
   visible(on) {
-    for (const [name, group] of this.groups) group.visible = on(name);
+    for (const { group, root } of this.sets) root.visible = on(group);
   }
 
   clear() {
-    for (const group of this.groups.values()) {
-      group.removeFromParent();
-      group.children[0].geometry.dispose();
+    for (const { root, geometry } of this.sets) {
+      root.removeFromParent();
+      geometry.dispose();
     }
-    this.groups.clear();
+    this.sets = [];
   }
 
   dispose() {

@@ -1,6 +1,6 @@
 // Triangles as they come from Python, made ready to be lit: normals that break at edges, and those edges as lines.
 
-const SMOOTH = Math.cos((40 * Math.PI) / 180); // faces of a round body that meet at less are one surface
+const SMOOTH = Math.cos((25 * Math.PI) / 180); // faces of a round body that meet at less are one surface, and those with a corner in common
 const FLAT = Math.cos((8 * Math.PI) / 180); // faces of a flat body that meet at less are one plane
 const EDGE = Math.cos((30 * Math.PI) / 180); // an edge is drawn where faces meet at more
 const GRID = 1e6; // points nearer than a micrometre are one point
@@ -105,7 +105,7 @@ export function lit({ positions, indices, smooth }) {
       let [x, y, z] = [0, 0, 0];
       for (let o = start[p]; o < start[p + 1]; o++) {
         const g = corner[o] - (corner[o] % 3);
-        if (f !== g && dot(unit, f, g) < least) continue;
+        if (indices[corner[m]] !== indices[corner[o]] && dot(unit, f, g) < least) continue;
         x += area[g];
         y += area[g + 1];
         z += area[g + 2];

@@ -11,17 +11,20 @@ export class Motion {
     this.tracks = scene.tracks.map(({ origin, turn }) => ({ origin, turn: floats(turn) }));
   }
 
+  // Bring the groups of all tracks to where they are at an angle.
+  pose(groups, angle) {
+    const [before, after, share] = this.between(angle);
+    this.tracks.forEach(({ origin, turn }, k) => {
+      slerp(groups[k].quaternion, turn, before, after, share);
+      this.vector(origin, angle, groups[k].position);
+    });
+  }
+
   // The frames before and after an angle, and the share of the way between them.
   between(angle) {
     const place = ((((angle / TURN) % 1) + 1) % 1) * this.frames;
     const before = Math.floor(place) % this.frames;
     return [before, (before + 1) % this.frames, place - Math.floor(place)];
-  }
-
-  // Write the turn of a track at an angle into a quaternion.
-  turn(track, angle, quaternion) {
-    const [before, after, share] = this.between(angle);
-    return slerp(quaternion, this.tracks[track].turn, before, after, share);
   }
 
   // A vector that is the same at all angles, or has one value a frame.
@@ -47,4 +50,21 @@ export function slerp(out, turns, before, after, share) {
   const four = [0, 0, 0, 1];
   THREE.Quaternion.slerpFlat(four, 0, turns, 4 * before, turns, 4 * after, share);
   return out.fromArray(four);
+}
+
+// One group for each track, in which everything that moves with it hangs.
+export class Tracks {
+  constructor() {
+    this.root = new THREE.Group();
+    this.groups = [];
+  }
+
+  count(number) {
+    while (this.groups.length > number) this.groups.pop().removeFromParent();
+    while (this.groups.length < number) {
+      const group = new THREE.Group();
+      this.groups.push(group);
+      this.root.add(group);
+    }
+  }
 }

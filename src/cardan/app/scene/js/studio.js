@@ -24,7 +24,6 @@ uniform vec3 up;
 uniform float sky;
 const vec3 KEY = vec3(-0.42, 0.66, 0.62);
 vec3 lit(vec3 n, vec3 v, vec3 colour, float metal) {
-  if (dot(n, v) < 0.0) n = -n;
   float height = dot(n, up);
   float key = max(dot(n, KEY), 0.0);
   float turned = 1.0 - max(dot(n, v), 0.0);
@@ -106,7 +105,6 @@ export function materials(shared, { metal, ghost = false }) {
       fragmentShader: FRAGMENT,
       uniforms: all,
       defines,
-      side: THREE.DoubleSide,
       transparent: ghost,
       depthWrite: !ghost,
       polygonOffset: !ghost,

@@ -1,0 +1,345 @@
+// The 3-D view of a drive: what Python describes, drawn; it turns between frames that Python worked out.
+//
+// Other parts of the page follow without the server: every drawn frame sends "cardan-angle" {angle, view} to the
+// window, and the view turns to the angle of a "cardan-go-to" {angle}. `window.cardanView` is the view made last.
+
+import { THREE } from "nicegui-scene";
+import { Areas, Curves } from "./areas.js";
+import { Arrows } from "./arrows.js";
+import { Bodies } from "./bodies.js";
+import { Viewer, VIEWS } from "./camera.js";
+import { Ground } from "./ground.js";
+import { wire } from "./hands.js";
+import { Labels } from "./labels.js";
+import { Lines } from "./lines.js";
+import { Modes } from "./modes.js";
+import { Motion, Tracks, TURN } from "./motion.js";
+import { furnished, picture } from "./page.js";
+import { Quality, software } from "./quality.js";
+import { THEMES, uniforms } from "./studio.js";
+
+const REST = 160; // ms without motion until the picture is drawn at its best
+const HEARD = 100; // ms between two angles told to the server
+const mounted = [];
+
+// Return a view inside an element, or null where the browser has no WebGL: the element then says so.
+export function open(root, texts, emit) {
+  const page = furnished(root, texts);
+  const canvas = page.canvas;
+  const probe = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: false });
+  const slow = probe ? software(probe) : false;
+  probe?.getExtension("WEBGL_lose_context")?.loseContext();
+  const context = probe && canvas.getContext("webgl2", { alpha: false, antialias: !slow, desynchronized: slow, powerPreference: "high-performance" });
+  if (!context) {
+    page.say(texts.no_webgl);
+    return null;
+  }
+  return new View(page, context, slow, emit);
+}
+
+class View {
+  constructor(page, context, slow, emit) {
+    Object.assign(this, { page, emit, playing: false, rate: 6, angle: 0, groupsOn: null, scene: null, selected: null });
+    this.renderer = new THREE.WebGLRenderer({ canvas: page.canvas, context });
+    this.renderer.debug.checkShaderErrors = false;
+    this.renderer.info.autoReset = true;
+    this.stage = new THREE.Scene();
+    this.shared = uniforms();
+    this.tracks = new Tracks();
+    this.bodies = new Bodies(this.shared, this.tracks);
+    this.lines = new Lines(this.tracks);
+    this.areas = new Areas(this.tracks);
+    this.arrows = new Arrows(this.shared);
+    this.ground = new Ground();
+    this.modes = new Modes(new Curves(this.shared, this.tracks));
+    this.labels = new Labels(page.root, this.tracks);
+    this.parts = [this.bodies, this.lines, this.areas, this.arrows, this.ground, this.modes.curves];
+    this.stage.add(this.ground.root, this.tracks.root, this.arrows.root);
+    this.quality = new Quality(slow);
+    this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.viewer = new Viewer(page.canvas, () => this.draw());
+    this.undo = [wire(page.canvas, this), ...this.listen()];
+    this.theme("light");
+    mounted.push(this);
+    window.cardanView = this;
+  }
+
+  listen() {
+    const { canvas, root } = this.page;
+    const goTo = ({ detail }) => this.goTo(detail.angle);
+    const lost = (event) => {
+      event.preventDefault();
+      this.page.say(this.page.texts.lost);
+    };
+    const found = () => {
+      this.page.say(null);
+      this.floor();
+      this.draw();
+    };
+    window.addEventListener("cardan-go-to", goTo);
+    canvas.addEventListener("webglcontextlost", lost);
+    canvas.addEventListener("webglcontextrestored", found);
+    const sized = new ResizeObserver(() => this.resize());
+    sized.observe(root);
+    const seen = new IntersectionObserver(([{ isIntersecting }]) => {
+      this.hidden = !isIntersecting;
+      this.draw();
+    });
+    seen.observe(root);
+    return [
+      () => window.removeEventListener("cardan-go-to", goTo),
+      () => canvas.removeEventListener("webglcontextlost", lost),
+      () => canvas.removeEventListener("webglcontextrestored", found),
+      () => sized.disconnect(),
+      () => seen.disconnect(),
+    ];
+  }
+
+  // Show a whole scene; false where it counts on meshes that are not here (the sender then sends all).
+  show(scene) {
+    if (this.bodies.lacking(scene).length) return false;
+    const first = !this.scene || moved(this.scene, scene);
+    this.scene = scene;
+    this.motion = new Motion(scene);
+    for (const part of [this.lines, this.areas, this.modes.curves]) part.clear();
+    this.tracks.count(scene.tracks.length);
+    this.bodies.show(scene);
+    this.motion.pose(this.tracks.groups, this.angle);
+    this.viewer.size = scene.size;
+    this.lines.show(scene.lines, scene.size);
+    this.areas.show(scene.areas);
+    this.arrows.show(scene.arrows, this.motion, scene.size);
+    this.labels.show(scene.labels);
+    this.modes.show(scene.modes, this.motion);
+    this.bodies.haunt(this.modes.whirls);
+    this.switch();
+    this.floor();
+    if (first) this.look(this.viewer.view, false);
+    this.draw();
+    return true;
+  }
+
+  floor() {
+    if (this.scene) this.ground.lay(this.bodies, this.scene.size, this.renderer);
+  }
+
+  groups(on) {
+    this.groupsOn = new Set(on);
+    this.switch();
+  }
+
+  switch() {
+    const known = new Map((this.scene?.groups ?? []).map(({ name, on }) => [name, on]));
+    const on = (name) => (known.has(name) && this.groupsOn ? this.groupsOn.has(name) : known.get(name) ?? true);
+    for (const part of [this.lines, this.areas, this.arrows, this.labels]) part.visible(on);
+    this.draw();
+  }
+
+  mode(index) {
+    this.modes.choose(index);
+    this.bodies.haunt(this.modes.whirls);
+    this.draw();
+  }
+
+  // Start or stop; `first`: not asked for by the user, so a user who wants calm keeps it.
+  play(on, first = false) {
+    const next = on && !(first && this.calm);
+    if (next !== this.playing) {
+      this.playing = next;
+      this.emit("playing", next);
+      window.dispatchEvent(new CustomEvent("cardan-playing", { detail: { playing: next, view: this } }));
+    } else if (first && on !== next) this.emit("playing", next);
+    this.draw();
+  }
+
+  speed(turns) {
+    this.rate = turns;
+  }
+
+  goTo(angle) {
+    this.angle = angle % TURN;
+    if (this.angle < 0) this.angle += TURN;
+    this.draw();
+  }
+
+  step(frames) {
+    this.play(false);
+    if (this.motion) this.goTo(this.angle + (frames * TURN) / this.motion.frames);
+  }
+
+  // A standard view, or "axis of shafts[1]": along the axis about which that part turns.
+  look(view, smooth = !this.calm) {
+    const path = view.startsWith("axis of ") ? view.slice(8) : null;
+    const part = path && this.scene?.bodies.find((body) => body.path === path && this.motion.axis(body.track));
+    const direction = part ? this.motion.axis(part.track).toArray() : VIEWS[view];
+    if (!direction) return;
+    if (!this.scene) this.viewer.view = part ? "axis" : view;
+    else this.viewer.go(part ? "axis" : view, direction, this.bodies.corners(), smooth);
+  }
+
+  projection(kind) {
+    this.viewer.projection(kind);
+  }
+
+  theme(name) {
+    const theme = THEMES[name] ?? THEMES.light;
+    this.stage.background = new THREE.Color(theme.back);
+    this.shared.sky.value = theme.sky;
+    this.bodies.theme(theme, name === "dark");
+    this.ground.theme(theme);
+    this.page.root.dataset.theme = name;
+    this.draw();
+  }
+
+  colourBy(what) {
+    this.bodies.colourBy(what);
+    this.draw();
+  }
+
+  select(path) {
+    this.selected = path;
+    this.bodies.select(path);
+    this.draw();
+  }
+
+  touched(body) {
+    this.select(body.path);
+    this.emit("touched", body.path);
+  }
+
+  // What a ray meets first: a body, or a plane that is switched on.
+  found(ray) {
+    const body = this.bodies.pick(ray);
+    const area = this.areas.pick(ray);
+    return body && !(area && area.distance < body.distance) ? body : (area ?? body);
+  }
+
+  tip(found, event) {
+    this.page.tip(found, event);
+  }
+
+  // Whether nothing is left to be drawn.
+  get resting() {
+    return !this.pending && !this.restful;
+  }
+
+  get fps() {
+    return this.quality.fps;
+  }
+
+  get state() {
+    const { level } = this.quality;
+    return { level, calls: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles };
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.page.root;
+    if (!width || !height) return;
+    [this.width, this.height] = [width, height];
+    const fit = !this.sized;
+    this.sized = true;
+    this.drawnAt = null;
+    this.viewer.resize(width, height);
+    this.lines.screen.value.set(width, height);
+    this.ground.lines.screen.value.set(width, height);
+    if (fit) this.look(this.viewer.view, false);
+    this.render(performance.now(), this.quality.resting);
+  }
+
+  // Ask for one more frame; nothing is drawn unless something asks.
+  draw() {
+    if (!this.pending && !this.gone && !this.hidden) this.pending = requestAnimationFrame((now) => this.frame(now));
+  }
+
+  frame(now) {
+    this.pending = null;
+    if (this.gone || !this.sized || !this.scene) return;
+    this.restful = clearTimeout(this.restful);
+    const running = this.moving;
+    const passed = this.last && running ? Math.min(now - this.last, 100) : 0;
+    this.last = now;
+    this.moving = this.playing;
+    if (this.playing && this.modes.chosen) this.modes.advance(passed);
+    else if (this.playing) this.angle = (this.angle + (passed / 60_000) * this.rate * TURN) % TURN;
+    const travelling = this.viewer.advance(now);
+    this.moving ||= travelling;
+    this.render(now, this.moving || running ? this.quality.moving : this.quality.resting);
+    this.quality.drawn(now, running);
+    if (this.moving) this.draw();
+    else if (running) {
+      this.restful = setTimeout(() => {
+        this.restful = null;
+        this.draw();
+      }, REST);
+    }
+  }
+
+  render(now, { fine, ratio }) {
+    if (!this.scene || !this.sized || this.renderer.getContext().isContextLost()) return;
+    const size = `${this.width} ${this.height} ${ratio}`;
+    if (size !== this.drawnAt) {
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(this.width, this.height, false);
+      this.drawnAt = size;
+    }
+    for (const part of [this.bodies, this.arrows, this.modes.curves]) part.quality(fine);
+    this.motion.pose(this.tracks.groups, this.angle);
+    this.modes.pose(this.tracks.groups);
+    this.arrows.pose(this.angle);
+    const { camera } = this.viewer;
+    this.viewer.frame();
+    camera.updateMatrixWorld();
+    this.shared.up.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
+    this.renderer.render(this.stage, camera);
+    const seen = `${camera.matrixWorld.elements} ${camera.projectionMatrix.elements} ${size}`;
+    this.labels.follow(this.arrows.moving ? this.arrows.texts(this.angle) : []);
+    if (seen !== this.labelled || this.arrows.moving || this.labels.turning) this.labels.place(camera, this.width, this.height);
+    this.labelled = seen;
+    this.tell(now);
+  }
+
+  // Tell the page where the drive is, at each frame; the server at most every tenth of a second.
+  tell(now) {
+    if (this.angle === this.told) return;
+    this.told = this.angle;
+    window.dispatchEvent(new CustomEvent("cardan-angle", { detail: { angle: this.angle, view: this } }));
+    clearTimeout(this.late);
+    const send = () => {
+      this.sent = performance.now();
+      this.emit("angle", this.told);
+    };
+    if (now - (this.sent ?? -HEARD) >= HEARD) send();
+    else this.late = setTimeout(send, HEARD);
+  }
+
+  // A picture of what is seen, as a PNG in base 64.
+  snapshot() {
+    if (!this.sized || !this.scene) return "";
+    this.render(performance.now(), { fine: true, ratio: 2 });
+    const url = picture(this.page.canvas, this.labels, 2);
+    this.draw();
+    return url.slice(url.indexOf(",") + 1);
+  }
+
+  dispose() {
+    this.gone = true;
+    cancelAnimationFrame(this.pending);
+    clearTimeout(this.restful);
+    clearTimeout(this.late);
+    this.undo.forEach((off) => off());
+    this.viewer.dispose();
+    for (const part of this.parts) (part.dispose ?? part.clear).call(part);
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.page.empty();
+    mounted.splice(mounted.indexOf(this), 1);
+    window.cardanView = mounted.at(-1);
+  }
+}
+
+// Whether a scene lies so differently that the camera has to find it anew.
+function moved(before, after) {
+  const way = Math.hypot(...[0, 1, 2].map((k) => after.centre[k] - before.centre[k]));
+  const share = after.size / before.size;
+  return way > 0.5 * before.size || share > 1.6 || share < 0.6;
+}
