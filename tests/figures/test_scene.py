@@ -17,6 +17,7 @@ from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.figures.scene import scene
 from cardan.figures.scene_use import use_colour
+from cardan.figures.scene_words import in_words_of
 from cardan.io import example_names
 from cardan.units import deg
 
@@ -104,8 +105,13 @@ def test_lengths_are_those_between_the_joint_centres():
     drive = example("truck-supports")
     words = {label.text for label in scene(drive, frames=8).labels if label.group == "dimensions"}
     between = [math.dist(one.centre, two.centre) for one, two in zip(drive.joints, drive.joints[1:], strict=False)]
-    assert {f"{1e3 * length:,.0f}".replace(",", "\u202f") for length in between} <= words
-    assert "Δz −340" in words
+    assert {f"{1e3 * length:,.0f} mm".replace(",", "\u202f") for length in between} <= words
+    assert "Δz −340 mm" in words
+    told = scene(drive, frames=8)
+    inches = in_words_of(told, {"length": "in", "force": "lbf"}, ",", names=["centre bearing"])
+    assert "Δz −13,39 in" in {label.text for label in inches.labels}
+    assert any("3,937 × 0,1575 in" in body.text for body in inches.bodies)
+    assert in_words_of(told, {}) is told
 
 
 def test_bodies_take_the_colour_of_the_worst_of_their_checks():

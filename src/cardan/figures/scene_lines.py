@@ -13,7 +13,7 @@ from cardan.drive.bodies.support import floor_frame
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import deg, mm
+from cardan.units import deg, label, mm
 
 from . import palette
 from .scene_parts import SceneArea, SceneGroup, SceneLabel, SceneLine
@@ -136,7 +136,12 @@ def drawn_round(build: Build, size: float) -> Drawn:
                 "yoke at the start; clockwise along the power flow is positive."
             ),
         ),
-        SceneGroup(name="dimensions", title=_("Dimensions"), on=False, text=_("Lengths in mm between joint centres.")),
+        SceneGroup(
+            name="dimensions",
+            title=_("Dimensions"),
+            on=False,
+            text=_("Lengths between joint centres, and how far the last one lies off the first."),
+        ),
     )
     return tuple(paper.lines), tuple(paper.areas), tuple(paper.labels), groups
 
@@ -261,7 +266,7 @@ def _dimensions(paper: _Paper, size: float) -> None:
     for k in range(2, build.count + 1):
         start, stop = _ends(build, k)
         down = -floor_frame(build.axis(k), gravity)[2]
-        _measure(paper, start, stop, off * down, significant(float(np.linalg.norm(stop - start)) / mm, 4))
+        _measure(paper, start, stop, off * down, _millimetres(float(np.linalg.norm(stop - start)), 4))
     first, last = build.centre(0), build.centre(build.count - 1)
     apart = last - first
     for axis, name in ((2, "Δz"), (1, "Δy")):
@@ -270,7 +275,11 @@ def _dimensions(paper: _Paper, size: float) -> None:
             corner[axis] = first[axis]
             side = np.zeros(3)
             side[0] = 1.3 * off * (1.0 if apart[0] >= 0.0 else -1.0)
-            _measure(paper, corner, last, side, f"{name} {significant(float(apart[axis]) / mm, 3)}")
+            _measure(paper, corner, last, side, f"{name} {_millimetres(float(apart[axis]), 3)}")
+
+
+def _millimetres(length: float, digits: int) -> str:
+    return f"{significant(length / mm, digits)} {label('mm')}"
 
 
 def _measure(paper: _Paper, start: Array, stop: Array, off: Array, text: str) -> None:
