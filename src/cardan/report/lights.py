@@ -55,6 +55,8 @@ class Light:
         A rule of thumb that fails no drive.
     cures : tuple of Applicable
         Smallest changes of one key that make it pass; empty before they were looked for.
+    count : int
+        How many verdicts it stands for.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Light:
     levers: tuple[str, ...] = ()
     advice: bool = False
     cures: tuple[Applicable, ...] = ()
+    count: int = 1
 
 
 def lights(on: Subject) -> tuple[Light, ...]:
@@ -138,6 +141,7 @@ def _light(group: Sequence[Verdict]) -> Light:
         path=one.subject,
         levers=one.levers,
         advice=one.advice,
+        count=len(group),
     )
 
 
@@ -184,16 +188,17 @@ def sentence(shown: Sequence[Light]) -> str:
         All of a drive.
     """
     binding = [one for one in shown if not one.advice]
-    failed = sum(one.tone == "failed" for one in binding)
+    failed = sum(one.count for one in binding if one.tone == "failed")
+    count = sum(one.count for one in binding)
     if not binding:
         return _("Nothing could be judged: the drive file gives neither limits nor what they need.")
     if failed:
         return plural(
             "{failed} of {count} limits is not kept.", "{failed} of {count} limits are not kept.", failed
-        ).format(failed=failed, count=len(binding))
+        ).format(failed=failed, count=count)
     worst = fixed(binding[0].used)
     return plural(
         "The one limit that could be judged is kept, {used} of it.",
         "All {count} limits that could be judged are kept, at most {used} of them.",
-        len(binding),
-    ).format(count=len(binding), used=worst)
+        count,
+    ).format(count=count, used=worst)

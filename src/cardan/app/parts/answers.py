@@ -8,7 +8,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from cardan.app.state.jobs import Job, Jobs
+from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.session import Session
 from cardan.app.state.work import Question, asked, result
 from cardan.drive.drive import Drive
@@ -17,6 +17,7 @@ from cardan.io import edit
 from cardan.report.answers import ANSWERS, GROUPS, subject
 from cardan.report.applying import Applicable, settings
 from cardan.report.block import Page
+from cardan.report.preferred import in_choice, names_in
 from cardan.texts import _, speaking
 
 from .blocks import Export, PageView
@@ -49,6 +50,7 @@ class Answers:
         self.sheets: dict[str, Sheet] = {}
         ui.add_head_html('<link rel="stylesheet" href="/cardan/answers.css">')
         jobs.start()
+        jobs.leave(session)  # what an older page of the same window was waiting for
         ui.context.client.on_delete(lambda: jobs.leave(session))
         with ui.element("div").classes("asked"):
             self._tabs = ui.tabs(on_change=lambda event: self.open(str(event.value))).props(
@@ -56,7 +58,7 @@ class Answers:
             )
             with self._tabs:
                 for title, names in GROUPS:
-                    ui.tab(names[0], label=title()).mark(f"tab-{names[0]}")
+                    ui.tab(names[0], label=title()).props(f'data-mark="tab-{names[0]}"')
         self._bodies = ui.element("div").classes("sheets")
         self._groups: dict[str, ui.toggle] = {}
         with self._bodies:
@@ -81,7 +83,7 @@ class Answers:
     def _toggle(self, names: tuple[str, ...]) -> ui.toggle:
         titles = {name: ANSWERS[name].title() for name in names}
         made = ui.toggle(titles, value=names[0], on_change=lambda event: self._inner(names[0], str(event.value)))
-        return made.props("dense no-caps flat size=sm").classes("inner").mark(f"inner-{names[0]}")
+        return made.props("dense no-caps flat size=sm").classes("inner").props(f'data-mark="inner-{names[0]}"')
 
     def _inner(self, group: str, name: str) -> None:
         self._within[group] = name
@@ -144,7 +146,7 @@ class Sheet:
             self._progress = Progress(self.cancel, self.begin)
             if name == "selection":
                 self._joints = ui.select({0: _("all joints")}, value=0, label=_("joint"), on_change=self._chosen)
-                self._joints.props("dense options-dense outlined").classes("choice").mark("choice-joint")
+                self._joints.props("dense options-dense outlined").classes("choice").props('data-mark="choice-joint"')
             self.view = PageView(export, self._pressed)
 
     @property
@@ -240,7 +242,9 @@ class Sheet:
     def _show(self, page: Page) -> None:
         self._progress.hide()
         self.view.element.classes(remove="stale")
-        apply = _("apply")
+        chosen, drive, apply = self.session.choices, self.about, _("apply")
+        if drive is not None:
+            page = in_choice(page, chosen.units, chosen.decimal, names=names_in(drive))
         self.view.show(page, {one.label: apply for one in self._settings if one.values})
 
     def _pressed(self, label: str) -> None:
@@ -303,8 +307,12 @@ class Progress:
         with ui.element("div").classes("progress").props("role=status") as self.body:
             self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
             self._said = ui.label()
-            self._stop = ui.button(_("cancel"), on_click=cancel).props("flat dense no-caps size=sm").mark("cancel")
-            self._again = ui.button(_("reckon it"), on_click=begin).props("flat dense no-caps size=sm").mark("again")
+            self._stop = (
+                ui.button(_("cancel"), on_click=cancel).props("flat dense no-caps size=sm").props('data-mark="cancel"')
+            )
+            self._again = (
+                ui.button(_("reckon it"), on_click=begin).props("flat dense no-caps size=sm").props('data-mark="again"')
+            )
         self.hide()
 
     def show(self, job: Job) -> None:
@@ -360,6 +368,8 @@ def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:
             return page, settings(subject(question.drive))
     except CardanError as error:
         return str(error)
+    except Exception as error:  # whatever it is, the page goes on and says so
+        return own_fault(question.language, f"{type(error).__name__}: {error}")
 
 
 def _told(job: Job) -> str:

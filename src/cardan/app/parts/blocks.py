@@ -9,6 +9,7 @@ from typing import TypeAlias
 from nicegui import ui
 
 from cardan.figures import Figure
+from cardan.figures.render_svg import inline_svg
 from cardan.report.block import Block, Cell, Listing, Page, Picture, Points, Table, Words
 from cardan.texts import _
 
@@ -118,6 +119,22 @@ def block_html(block: Block, buttons: Mapping[str, str] | None = None) -> str:
     return listing_html(block)
 
 
+def drawn_in_space(figure: Figure) -> bool:
+    """Return whether a figure is a drawing, with nothing to measure: it needs no chart."""
+    return any(panel.view is not None for panel in figure.panels)
+
+
+class Drawing:
+    """A figure as it is printed."""
+
+    def __init__(self, figure: Figure) -> None:
+        self.element = ui.html(inline_svg(figure), sanitize=False).classes("drawing")
+
+    def show(self, figure: Figure) -> None:
+        """Show another figure in its place."""
+        self.element.set_content(inline_svg(figure))
+
+
 class Text:
     """Words or a table on the page."""
 
@@ -144,8 +161,10 @@ class Drawn:
                 self.title = ui.label().classes("title")
                 if export is not None:
                     button = ui.button(icon="download", on_click=lambda: export(self.figure))
-                    button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').mark("save-figure")
-            self.chart = Chart(self.figure)
+                    button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').props(
+                        'data-mark="save-figure"'
+                    )
+            self.picture = Drawing(self.figure) if drawn_in_space(self.figure) else Chart(self.figure)
             with ui.element("figcaption"):
                 self.sentence = ui.label()
                 self.source = ui.label().classes("small")
@@ -159,7 +178,7 @@ class Drawn:
         """Show another state of the figure."""
         assert isinstance(block, Picture)
         self.figure = block.figure
-        self.chart.show(self.figure)
+        self.picture.show(self.figure)
         self._tell()
 
     def _tell(self) -> None:
@@ -186,10 +205,12 @@ class PageView:
         self._parts: list[Text | Drawn] = []
         with ui.element("article").classes("answer") as self.element:
             with ui.element("div").classes("heading"):
-                self._answer = ui.label().classes("said").props("role=status").mark("answer")
+                self._answer = ui.label().classes("said").props("role=status").props('data-mark="answer"')
                 if export is not None:
                     self._button = ui.button(icon="download", on_click=self._take)
-                    self._button.props(f'flat dense round size=sm aria-label="{_("save this page")}"').mark("save-page")
+                    self._button.props(f'flat dense round size=sm aria-label="{_("save this page")}"').props(
+                        'data-mark="save-page"'
+                    )
             self._blocks = ui.element("div").classes("blocks")
 
     def show(self, page: Page, buttons: Mapping[str, str] | None = None) -> None:

@@ -25,7 +25,7 @@ function darkened(thing, colours, rgb) {
 
 export default {
   template: `<div class="cardan-chart" tabindex="0" role="img" :aria-label="label" @keydown="key">
-    <div ref="plot" class="plot"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
+    <div ref="plot" class="plot" :style="{ minHeight: spec.layout.height + 'px' }"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
   props: { spec: Object, label: String, dark: Object },
   watch: {
     spec() {

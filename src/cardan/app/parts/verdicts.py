@@ -7,14 +7,15 @@ from html import escape
 
 from nicegui import ui
 
-from cardan.app.state.jobs import Job, Jobs
+from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.session import Session
 from cardan.app.state.work import CURES, VERDICTS, asked, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, synchronous
-from cardan.report.block import SIGNS
+from cardan.report.block import SIGNS, Words
 from cardan.report.lights import Light, sentence
+from cardan.report.preferred import in_choice
 from cardan.texts import _
 
 from .answers import applied
@@ -56,16 +57,16 @@ class Verdicts:
         self._due: ui.timer | None = None
         self._watch: ui.timer | None = None
         with ui.element("div").classes("lights") as self.body:
-            self._problems = ui.html("", sanitize=False).props("role=alert").mark("problems-of-verdicts")
-            self._summed = ui.label().classes("summed").props("role=status").mark("judgement")
+            self._problems = ui.html("", sanitize=False).props("role=alert").props('data-mark="problems-of-verdicts"')
+            self._summed = ui.label().classes("summed").props("role=status").props('data-mark="judgement"')
             with ui.element("div").classes("tools"):
                 even = ui.button(_("make synchronous"), on_click=self._even).props("outline dense no-caps size=sm")
-                even.mark("make-synchronous")
+                even.props('data-mark="make-synchronous"')
                 if compare is not None:
                     button = ui.button(_("compare with …"), on_click=compare)
-                    button.props("outline dense no-caps size=sm").mark("compare")
+                    button.props("outline dense no-caps size=sm").props('data-mark="compare"')
             self._told = ui.label().classes("hint").props("role=status")
-            self._list = ui.html("", sanitize=False).classes("list").mark("verdicts")
+            self._list = ui.html("", sanitize=False).classes("list").props('data-mark="verdicts"')
             self._list.on("click", lambda event: self._pressed(str(event.args)), js_handler=PRESSED)
         self._told.set_visibility(False)
         session.listen("drive", self._follow)
@@ -85,6 +86,10 @@ class Verdicts:
             found = result(question)
         except CardanError as error:
             self._summed.text = str(error)
+            self._show(())
+            return
+        except Exception as error:  # whatever it is, the page goes on and says so
+            self._summed.text = own_fault(question.language, f"{type(error).__name__}: {error}")
             self._show(())
             return
         assert isinstance(found, tuple)
@@ -112,8 +117,13 @@ class Verdicts:
             self._show(job.result)
 
     def _show(self, found: Sequence[Light]) -> None:
+        chosen = self.session.choices
+
+        def spoken(text: str) -> str:
+            return in_choice(Words(text=text), chosen.units, chosen.decimal).text
+
         self.lights = tuple(found)
-        self._list.set_content(lights_html(self.lights, self.opened))
+        self._list.set_content(lights_html(self.lights, self.opened, spoken))
 
     def _judge(self) -> None:
         """Show what is wrong with the file, over the verdicts of when it was sound."""
@@ -182,7 +192,7 @@ def field_of(light: Light) -> str:
     return next(iter((*paths, *light.levers, light.path)), "")
 
 
-def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
+def lights_html(lights: Sequence[Light], opened: set[str], spoken: Callable[[str], str] = str) -> str:
     """Return the list of verdicts, rules of thumb under a heading of their own.
 
     Parameters
@@ -191,16 +201,18 @@ def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
         The verdicts.
     opened : set of str
         Names of those that show more.
+    spoken : function
+        From a number with its usual unit to the same in the unit that the reader likes.
     """
-    parts = [_light(one, one.name in opened) for one in lights if not one.advice]
-    advice = [_light(one, one.name in opened) for one in lights if one.advice]
+    parts = [_light(one, one.name in opened, spoken) for one in lights if not one.advice]
+    advice = [_light(one, one.name in opened, spoken) for one in lights if one.advice]
     if advice:
         parts.append(f"<h3>{escape(_('Advice: rules of thumb, they fail no drive'))}</h3>")
     return "".join([*parts, *advice])
 
 
-def _light(one: Light, opened: bool) -> str:
-    value = f"{escape(one.value.text)} {escape(one.unit)}".strip()
+def _light(one: Light, opened: bool, spoken: Callable[[str], str]) -> str:
+    value = escape(spoken(f"{one.value.text} {one.unit}".strip()))
     full = f' title="{escape(one.value.full)}"' if one.value.full else ""
     summary = (
         f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
@@ -208,15 +220,15 @@ def _light(one: Light, opened: bool) -> str:
         f'<span class="value"{full}>{value}</span></summary>'
     )
     state = " open" if opened else ""
-    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one)}</details>'
+    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one, spoken)}</details>'
 
 
-def _more(one: Light) -> str:
+def _more(one: Light, spoken: Callable[[str], str]) -> str:
     share = min(one.used, 1.0) if one.used == one.used else 1.0
     said = _("{share} % of the limit").format(share=f"{100.0 * one.used:.0f}" if one.used < 1e4 else "∞")
     bar = f'<div class="used" role="img" aria-label="{escape(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
     rows = [
-        (_("limit"), one.limit),
+        (_("limit"), spoken(one.limit)),
         (_("used"), said),
         (_("by"), one.source),
         (_("why"), one.why),

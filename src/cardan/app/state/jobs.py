@@ -243,7 +243,7 @@ class Jobs:
         if job.unwanted:
             job.state = "cancelled"
         elif isinstance(word, Failed):
-            job.fail(_own_fault(job.question.language, word.text) if word.own else word.text)
+            job.fail(own_fault(job.question.language, word.text) if word.own else word.text)
         else:
             with self._change:
                 self._kept[job.key] = word.result
@@ -260,6 +260,7 @@ def _died(language: str, code: int | None) -> str:
         ).format(code=code)
 
 
-def _own_fault(language: str, error: str) -> str:
+def own_fault(language: str, error: str) -> str:
+    """Return in a language that nobody but us is to blame."""
     with speaking(language):
         return _("This answer failed by a mistake in cardan itself: {error}").format(error=error)
