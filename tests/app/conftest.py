@@ -14,6 +14,7 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -66,31 +67,57 @@ class Complaints:
             self.found.append(text)
 
 
-@pytest.fixture
-def page_of(chromium: Any) -> Iterator[Callable[..., Any]]:
-    """Return a function that opens a page.
+Opener = Callable[..., Any]
 
-    ``page_of(url, allow=("part of a message",), script="run before the page", browser=None, **context)``
-    """
-    opened: list[tuple[Any, Complaints]] = []
+
+@contextmanager
+def pages(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
+    """Give a function that opens pages, and what they complain of; close them in the end."""
+    contexts: list[Any] = []
+    complaints: list[Complaints] = []
 
     def open_page(
         url: str, *, allow: tuple[str, ...] = (), script: str = "", browser: Any = None, **options: Any
     ) -> Any:
         context = (browser or chromium).new_context(**{"viewport": {"width": 1280, "height": 720}, **options})
         context.set_default_timeout(30_000)
+        contexts.append(context)
         page = context.new_page()
         if script:
             page.add_init_script(script)
-        opened.append((context, Complaints(page, allow)))
+        complaints.append(Complaints(page, allow))
         page.goto(url)
         return page
 
-    yield open_page
-    for context, _complaints in opened:
+    yield open_page, complaints
+    for context in contexts:
         context.close()
-    found = [text for _context, complaints in opened for text in complaints.found]
+
+
+def refuse_complaints(complaints: list[Complaints]) -> None:
+    """Fail where a page had anything to complain of, and forget it."""
+    found = [text for one in complaints for text in one.found]
+    for one in complaints:
+        one.found.clear()
     assert not found, "the page complained:\n" + "\n".join(found)
+
+
+@pytest.fixture
+def page_of(chromium: Any) -> Iterator[Opener]:
+    """Return a function that opens a page.
+
+    ``page_of(url, allow=("part of a message",), script="run before the page", browser=None, **context)``
+    """
+    with pages(chromium) as (open_page, complaints):
+        yield open_page
+    refuse_complaints(complaints)
+
+
+@pytest.fixture(scope="module")
+def pages_of_file(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
+    """Return the same for pages that all tests of a file share; they ask ``refuse_complaints`` themselves."""
+    with pages(chromium) as opened:
+        yield opened
 
 
 def free_port() -> int:

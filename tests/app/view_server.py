@@ -26,10 +26,10 @@ def scene(*, radius: float = 0.035) -> dict[str, Any]:
 
 @ui.page("/")
 def one(width: int = 760, height: int = 420) -> None:
+    holder = ui.element("div").style(f"width: {width}px; height: {height}px").props("id=holder")
     heard = ui.label("").mark("heard").props("id=heard")
     angle = ui.label("").props("id=angle")
     playing = ui.label("").props("id=playing")
-    holder = ui.element("div").style(f"width: {width}px; height: {height}px").props("id=holder")
 
     def make() -> SceneView:
         with holder:
