@@ -21,6 +21,10 @@ PORT = 8321
 """Port that is tried first; any free one when it is taken and none was asked for."""
 
 
+RECONNECT = 30.0
+"""Seconds that a busy or sleeping browser may be silent without losing its page."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Start:
     """How the app starts.
@@ -101,6 +105,7 @@ def start(how: Start) -> None:
             show=told if how.show else False,
             show_welcome_message=False,
             uvicorn_logging_level="error",
+            reconnect_timeout=RECONNECT,
         )
     finally:
         jobs.close()

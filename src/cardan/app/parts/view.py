@@ -12,6 +12,8 @@ from cardan.app.state.session import Session
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError
 from cardan.figures.scene import Scene, scene
+from cardan.figures.scene_words import in_words_of
+from cardan.report.preferred import names_in
 from cardan.texts import _, speaking
 
 LOADED = ("forces", "couples")
@@ -61,6 +63,7 @@ class View:
         session.listen("drive", self._soon)
         session.listen("selection", lambda: self.scene.select(session.selected or None))
         session.listen("choices", self._theme)
+        session.listen("choices", self._soon)
 
     def _tools(self) -> None:
         with ui.element("div").classes("tools"):
@@ -129,7 +132,9 @@ class View:
             verdicts = cardan.check(drive)
         except CardanError:
             verdicts = ()
-        return scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+        found = scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+        choices = self.session.choices
+        return in_words_of(found, choices.units, choices.decimal, names=names_in(drive))
 
     async def _complete(self) -> None:
         """Add forces and mode shapes, away from the page's own work."""
