@@ -137,6 +137,8 @@ _HOMES = {
     "load": "io.drive_file",
     "load_mechanism": "io.mechanism_file",
     "save": "io.drive_file",
+    "Scene": "figures.scene_parts",
+    "scene": "figures.scene",
     "report": "report.report",
 }
 
@@ -220,6 +222,8 @@ if TYPE_CHECKING:
     from .drive.drives import stack as stack
     from .errors import CardanError as CardanError
     from .errors import InputError as InputError
+    from .figures.scene import scene as scene
+    from .figures.scene_parts import Scene as Scene
     from .io.drive_file import load as load
     from .io.drive_file import save as save
     from .io.examples import example as example

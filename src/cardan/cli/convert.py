@@ -1,9 +1,9 @@
-"""``cardan convert``: the same drive in another form or file."""
+"""``cardan convert``: the same drive in another form or file, or as bodies that turn."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -11,14 +11,22 @@ from cardan.texts import _
 
 from .options import AsJson, DriveFile
 
-SUFFIXES = (".toml", ".json")
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+
+SUFFIXES = (".toml", ".json", ".glb")
+BODIES = ".glb"
 
 
 def convert(
     file: DriveFile,
     out: Annotated[
         Path,
-        typer.Argument(metavar="OUT", help=_("File to write: .toml or .json; - prints TOML."), show_default=False),
+        typer.Argument(
+            metavar="OUT",
+            help=_("File to write: .toml or .json, or .glb for a turning model in space; - prints TOML."),
+            show_default=False,
+        ),
     ],
     form: Annotated[
         Literal["points", "angles", "slopes"] | None,
@@ -47,6 +55,11 @@ def convert(
         check_new(out, force=force, field="OUT")
     drive = read(file)
 
+    if out.suffix.lower() == BODIES:
+        if form is not None:
+            raise refuse("--form", _("bodies have none of these forms; leave this out"))
+        return _bodies(file, drive, out, json=json)
+
     from cardan import io
     from cardan.drive.forms import in_form
 
@@ -62,6 +75,36 @@ def convert(
             ),
             tone="good",
             content=lambda: {"question": "convert", "file": str(file), "out": str(out), "form": moved.form},
+        ),
+        json=json,
+    )
+
+
+def _bodies(file: Path, drive: Drive, out: Path, *, json: bool) -> int:
+    """Write a drive as bodies that turn."""
+    from cardan.figures.render_gltf import render
+    from cardan.figures.scene import scene
+    from cardan.files import write_bytes
+
+    from .answer import Answer
+    from .show import show
+
+    shown = scene(drive)
+    write_bytes(out, render(shown))
+    triangles = sum(len(one.indices) for one in shown.bodies)
+    return show(
+        Answer(
+            sentence=_("{out}: the drive of {file} as {bodies} bodies that turn.").format(
+                out=out, file=file, bodies=len(shown.bodies)
+            ),
+            tone="good",
+            content=lambda: {
+                "question": "convert",
+                "file": str(file),
+                "out": str(out),
+                "bodies": len(shown.bodies),
+                "triangles": triangles,
+            },
         ),
         json=json,
     )
