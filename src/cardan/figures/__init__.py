@@ -50,7 +50,7 @@ _MAKERS = {
 SUFFIXES = (".svg", ".png", ".pdf", ".html")
 """Kinds of picture that `save` writes."""
 
-__all__ = ["SUFFIXES", "Figure", "for_result", "save"]
+__all__ = ["SUFFIXES", "Figure", "drawn", "for_result", "save"]
 
 
 def for_result(result: Any) -> tuple[Figure, ...]:
@@ -101,31 +101,49 @@ def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
     InputError
         The suffix is none of these, or the file cannot be written.
     """
-    from cardan.errors import refuse
     from cardan.files import write_bytes
-    from cardan.texts import _
 
     place = Path(path)
-    suffix = place.suffix.lower()
+    write_bytes(place, drawn(figures, place.suffix.lower(), str(path)))
+    return place
+
+
+def drawn(figures: Figure | Sequence[Figure], suffix: str, name: str = "") -> bytes:
+    """Return the file of a picture of figures.
+
+    Parameters
+    ----------
+    figures : Figure or sequence of Figure
+        What to draw, from the top; in a PDF one a page.
+    suffix : str
+        One of `SUFFIXES`.
+    name : str
+        What messages call the file.
+
+    Raises
+    ------
+    InputError
+        The suffix is none of these.
+    """
+    from cardan.errors import refuse
+    from cardan.texts import _
+
     if suffix not in SUFFIXES:
         known = ", ".join(SUFFIXES)
-        raise refuse("path", _("{path} should end in one of {known}").format(path=place, known=known))
+        raise refuse("path", _("{path} should end in one of {known}").format(path=name or suffix, known=known))
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     if suffix == ".html":
         from .render_plotly import render as page
 
-        write_bytes(place, page(several).encode("utf-8"))
-        return place
+        return page(several).encode("utf-8")
     if suffix == ".svg":
         from .render_svg import document
 
-        write_bytes(place, document(several).encode("utf-8"))
-        return place
+        return document(several).encode("utf-8")
     import io
 
     from .render_matplotlib import render
 
     stream = io.BytesIO()
     render(several, stream, suffix[1:])  # type: ignore[arg-type]
-    write_bytes(place, stream.getvalue())
-    return place
+    return stream.getvalue()

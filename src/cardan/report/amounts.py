@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from .block import Cell, Column
 
 WRITTEN = re.compile(
-    r"(?P<before>[≤≥<>≈±]?)\s*(?P<sign>[+−-]?)(?P<whole>0|[1-9][\d\u202f]*)(?P<part>\.\d+)?(?:·10(?P<power>[⁻⁰¹²³⁴-⁹]+))?"
+    r"(?P<before>[≤≥<>≈±]?)\s*(?P<sign>[+−-]?)(?P<whole>0|[1-9][\d\u202f]*)(?P<part>[.,]\d+)?(?:·10(?P<power>[⁻⁰¹²³⁴-⁹]+))?"
 )
 """A number as people read it."""
 
@@ -68,11 +68,24 @@ def _number(full: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def read(text: str) -> float | None:
+    """Return the number that a text is, with a point or a comma; None where it is none.
+
+    Examples
+    --------
+    >>> read("−1\u202f234,5"), read("2·10⁻⁷"), read("1 … 2")
+    (-1234.5, 2e-07, None)
+    """
+    found = WRITTEN.fullmatch(text)
+    return None if found is None else _read(found)
+
+
 def _read(found: re.Match[str]) -> float:
     sign = found["sign"].replace("−", "-")
     whole = found["whole"].replace("\u202f", "")
     power = (found["power"] or "0").translate(POWERS)
-    return float(f"{sign}{whole}{found['part'] or ''}e{power}")
+    part = (found["part"] or "").replace(",", ".")
+    return float(f"{sign}{whole}{part}e{power}")
 
 
 def _form(found: re.Match[str] | None, sign: str, *, negative: bool) -> str:

@@ -14,7 +14,7 @@ from cardan.figures import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.texts import _
 
-from .amounts import WRITTEN
+from .amounts import read
 from .chart_data import ChartData, Place
 
 DASHES = {"solid": "solid", "dashed": "dash", "dotted": "round_dot", "dashdot": "dash_dot"}
@@ -80,15 +80,8 @@ def _of_curves(panel: Panel) -> bool:
 
 def _says_numbers(axis: Axis) -> bool:
     """Tell whether the texts at the ticks are their numbers."""
-    pairs = [(tick, text, WRITTEN.fullmatch(text)) for tick, text in zip(axis.ticks, axis.texts, strict=False)]
-    return all(found and math.isclose(abs(tick), _value(text), abs_tol=1e-9) for tick, text, found in pairs)
-
-
-def _value(text: str) -> float:
-    return abs(float(text.replace("\u202f", "").replace("−", "-").replace("·10", "e").translate(RAISED)))
-
-
-RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    told = ((tick, read(text)) for tick, text in zip(axis.ticks, axis.texts, strict=False))
+    return all(value is not None and math.isclose(tick, value, abs_tol=1e-9) for tick, value in told)
 
 
 def _of_bars(panel: Panel) -> bool:
@@ -326,7 +319,7 @@ def _digits(axis: Axis) -> str:
     """Return the number format of the texts at the ticks."""
     if any("·10" in text for text in axis.texts):
         return "0E+00"
-    parts = max((len(text.partition(".")[2]) for text in axis.texts), default=0)
+    parts = max((len(text.replace(",", ".").partition(".")[2]) for text in axis.texts), default=0)
     return "#,##0" + ("." + "0" * parts if parts else "")
 
 

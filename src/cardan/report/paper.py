@@ -73,6 +73,7 @@ class Paper:
         self._span = len(sums) if sums[-1] <= MOST else least
         self._letters = sums[self._span - 1]
         self.row = 0
+        self._title = ""
         for column, width in enumerate(self._widths):
             sheet.set_column(column, column, width)
         sheet.hide_gridlines(2)
@@ -102,6 +103,7 @@ class Paper:
 
     def head(self, title: str, answer: str) -> None:
         """Write what stands still at the top: the title and the answer."""
+        self._title = title
         self.line(title, bold=True, font_size=16, color="accent")
         if answer:
             self.line(answer, font_size=12, color="ink")
@@ -157,7 +159,8 @@ class Paper:
         self.line(f"{remark.sign}  {remark.text}", tone=remark.tone, bold=True)
 
     def _heading(self, text: str) -> None:
-        if text:
+        """Write a heading, unless it is that of the sheet."""
+        if text and text != self._title:
             put(self._sheet, self.row, 0, text, self._looks(bold=True, font_size=12, color="ink"))
             self._next()
 
