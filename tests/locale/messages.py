@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import json
 from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ from babel.messages.extract import extract_from_dir
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
+from cardan.calc import CALCULATIONS
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
@@ -30,11 +33,15 @@ WORDS_OF = {"_": 1, "mark": 1, "plural": 2}
 OTHERS = tuple(code for code in LANGUAGES if code != "en")
 """Languages that need a catalogue."""
 
+LONG_AGO = datetime(2000, 1, 1, tzinfo=UTC)
+"""What a compiled catalogue says of its age, so that the same sentences make the same file."""
+
 Texts = str | tuple[str, ...]
 
 
+@cache
 def extracted() -> Catalog:
-    """Return every sentence of the sources: of code and templates, of the catalogue, on keys; and the units."""
+    """Return every sentence: of code and templates, of the catalogue, on keys; sources; and the units."""
     found = _empty()
     for path in sorted(SOURCE.rglob("*.py")):
         for text in sentences(path.read_text("utf-8")):
@@ -74,6 +81,8 @@ def _declared() -> Iterator[tuple[str, str]]:
         yield name, (cls.__doc__ or "").strip().splitlines()[0]
         for one in fields_of(cls).values():
             yield name, one.key.doc
+    for one in CALCULATIONS.values():
+        yield "calc", one.source
     for table, rows in catalogue().tables.items():
         for row in rows.values():
             words = [getattr(row, name, "") for name in SENTENCES]
@@ -167,7 +176,7 @@ def compiled(written_catalogue: bytes, code: str) -> bytes:
     for message in list(catalogue):
         if message.id and not all(forms(message)):
             catalogue.delete(message.id)
-    catalogue.mime_headers = [("Content-Type", "text/plain; charset=utf-8"), ("Plural-Forms", catalogue.plural_forms)]
+    catalogue.creation_date = catalogue.revision_date = LONG_AGO
     write_mo(stream, catalogue)
     return stream.getvalue()
 

@@ -79,7 +79,7 @@ def _keys(found: CriticalSpeeds) -> Iterator[list[Cell]]:
         yield [
             words(name),
             number(significant(actual / rpm), actual / rpm),
-            words("rpm"),
+            words(_("rpm")),
             words("–"),
             words("–"),
             words(""),
@@ -92,7 +92,7 @@ def _keys(found: CriticalSpeeds) -> Iterator[list[Cell]]:
     yield [
         words(name),
         number(significant(actual / rpm), actual / rpm),
-        words("rpm"),
+        words(_("rpm")),
         number(significant(limit / rpm), limit / rpm),
         number(fixed(use, 2), use),
         words(verdict, tone),

@@ -60,7 +60,7 @@ def _keys(found: Life) -> Iterator[list[Cell]]:
         return
     name = _("life of joint {number}, the first to fail").format(number=found.governing)
     life_of, asked = found.drive / HOUR, found.demanded
-    row = [words(name), number(significant(life_of), life_of), words("h")]
+    row = [words(name), number(significant(life_of), life_of), words(_("h"))]
     if asked is None:
         yield [*row, words("–"), words("–"), words("")]
         return

@@ -58,7 +58,7 @@ def _keys(found: Strength) -> Iterator[list[Cell]]:
     yield [
         words(_("torque rating of the whole drive, ended by {title}").format(title=first.title)),
         number(significant(found.rated_torque), found.rated_torque),
-        words("N·m"),
+        words(_("N·m")),
         number(f"≥ {significant(found.torque)}", found.torque),
         number(fixed(used), used),
         words(said, tone),

@@ -259,7 +259,7 @@ def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> li
     return [
         words(name),
         number(fixed(value / mm, 1), value / mm),
-        words("mm"),
+        words(_("mm")),
         words("–") if limit is None else number(f"{limit / mm:g}"),
         words("–") if use is None else number(fixed(use, 2), use),
         words(verdict, tone),
