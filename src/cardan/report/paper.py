@@ -33,7 +33,7 @@ LETTER, MARGIN, LINE = 7, 5, 20
 DENSE = 1.12
 """Letters in the width of a digit, at the least."""
 
-PAPER = (10.69 * 96.0, 6.6 * 96.0)
+PAPER = (10.69 * 96.0, 6.4 * 96.0)
 """Pixels of a printed page within its margins, in natural size."""
 
 INCH, DPI = 100.0, 150.0
