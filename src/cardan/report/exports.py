@@ -142,7 +142,7 @@ def _bytes(thing: Thing, kind: str, title: str) -> bytes:
         return _csv(thing).encode("utf-8-sig")
     if isinstance(thing, Figure) and f".{kind}" in SUFFIXES:
         return drawn(thing, f".{kind}")
-    form = form_of(Path(f"{_('report')}.{kind}"))
+    form = form_of(Path(f"report.{kind}"))
     if isinstance(thing, Content):
         return form.written(thing)
     return form.excerpt(Excerpt(title=title, page=_page(thing)))

@@ -107,7 +107,8 @@ class Sheets:
             native = any(split(one.figure)[0] for one in page.blocks if isinstance(one, Picture))
             data = None
             if native:
-                data = ChartData(self.new(page.title, ending=f" {_('data')}", colour="#9aa3b2"), self.looks)
+                ending = " " + _("data")
+                data = ChartData(self.new(page.title, ending=ending, colour="#9aa3b2"), self.looks)
             tables = [one for one in page.blocks if isinstance(one, Table)]
             paper = Paper(self._book, sheet, self.looks, tables, data)
             paper.head(page.title, page.answer)
