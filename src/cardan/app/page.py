@@ -15,6 +15,7 @@ from cardan.io import example, example_names, example_text
 from cardan.texts import _
 
 from .parts.answers import Answers
+from .parts.download import Exports
 from .parts.editor import Editor
 from .parts.header import Header
 from .parts.keys import Keys
@@ -136,7 +137,7 @@ def _tell_browser(session: Session) -> None:
 
 
 def _parts(session: Session, jobs: Jobs) -> None:
-    Header(session, jobs)
+    head = Header(session, jobs)
     Keys(session)
     if session.empty:
         Start(session)
@@ -147,6 +148,6 @@ def _parts(session: Session, jobs: Jobs) -> None:
         with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
             View(session)
         with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
-            Answers(session, jobs)
+            Answers(session, jobs, export=Exports(session, jobs))
         with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
-            Verdicts(session, jobs)
+            Verdicts(session, jobs, compare=head.variants.compare)

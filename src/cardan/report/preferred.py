@@ -6,6 +6,7 @@ their axes, sentences where a number stands before its unit. Files as they stand
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar, cast
@@ -20,6 +21,9 @@ from cardan.units import spoken
 from .amounts import amount
 from .block import Block, Cell, Column, Listing, Page, Picture, Points, Table, Words, verdict_columns
 from .content import Content
+
+COMMA = re.compile(r"(\d),(\d)")
+"""A decimal comma."""
 
 Shown = TypeVar("Shown", Page, Figure, Content, Table, Words)
 
@@ -72,6 +76,25 @@ def _chosen(shown: Page | Figure | Content | Table | Words, how: Conversion) -> 
     if isinstance(shown, Words):
         return _words(shown, how)
     return _content(shown, how)
+
+
+def with_points(page: Page) -> Page:
+    """Return a page whose numbers in tables have a point again, for files that other programs read.
+
+    Examples
+    --------
+    >>> table = Table(columns=[], rows=[[Cell(text="≤ 1,5")]])
+    >>> with_points(Page(name="x", title="", answer="", blocks=[table])).blocks[0].rows[0][0].text
+    '≤ 1.5'
+    """
+    return replace(page, blocks=[_pointed(one) if isinstance(one, Table) else one for one in page.blocks])
+
+
+def _pointed(table: Table) -> Table:
+    def cell(one: Cell) -> Cell:
+        return one if any(letter.isalpha() for letter in one.text) else replace(one, text=COMMA.sub(r"\1.\2", one.text))
+
+    return replace(table, rows=[[cell(one) for one in row] for row in table.rows])
 
 
 def names_in(drive: Drive) -> tuple[str, ...]:

@@ -2,12 +2,136 @@
 
 from __future__ import annotations
 
+from nicegui import ui
+
+from cardan.app.state import papers
 from cardan.app.state.jobs import Jobs
 from cardan.app.state.session import Session
+from cardan.figures import Figure
+from cardan.io import dumps
+from cardan.report.block import Page
+from cardan.report.exports import Exported, kinds
+from cardan.texts import _
+
+from .making import Making
+
+
+def _forms() -> dict[papers.Form, str]:
+    """Return the forms of a report with what they are called."""
+    return {
+        "html": _("Report as a web page (HTML)"),
+        "interactive": _("The same with figures to turn and measure"),
+        "pdf": _("Report to print (PDF)"),
+        "xlsx": _("Report as a workbook (XLSX)"),
+        "json": _("Report as data (JSON)"),
+    }
+
+
+def _kinds() -> dict[str, str]:
+    """Return the kinds of file of a part with what they are called."""
+    return {
+        "png": _("picture (PNG)"),
+        "svg": _("drawing (SVG)"),
+        "pdf": _("to print (PDF)"),
+        "html": _("web page (HTML)"),
+        "xlsx": _("workbook (XLSX)"),
+        "csv": _("table (CSV)"),
+        "json": _("data (JSON)"),
+    }
 
 
 class ReportMenu:
-    """The menu of reports and exports."""
+    """The menu of reports and exports.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive is reported.
+    jobs : Jobs
+        Where reports are made.
+    """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
+        self._jobs = jobs
+        with ui.dropdown_button(_("Report"), auto_close=True).props('flat dense no-caps data-mark="report-menu"'):
+            for form, title in _forms().items():
+                ui.item(title, on_click=lambda form=form: self.report(form)).props(f'data-mark="report-{form}"')
+            ui.separator()
+            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="drive-toml"')
+            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="drive-json"')
+
+    def report(self, form: papers.Form) -> None:
+        """Make the report of the drive in a form and give it to the browser."""
+        with self.session.speaking():
+            question = papers.of_report(self.session, form)
+            if question is None:
+                _no_drive()
+                return
+            if not self.session.document.valid:
+                ui.notify(_("The report tells of the last drive without mistakes."), type="warning", position="top")
+            Making(self.session, self._jobs, question, _forms()[form], given)
+
+    def toml(self) -> None:
+        """Give the drive file to the browser as it stands."""
+        ui.download.content(self.session.document.text, f"{self._name()}.toml", "application/toml")
+
+    def json(self) -> None:
+        """Give the drive to the browser as JSON."""
+        with self.session.speaking():
+            if self.session.drive is None:
+                _no_drive()
+                return
+            text = dumps(self.session.drive, form="json")
+            ui.download.content(text, f"{self._name()}.json", "application/json")
+
+    def _name(self) -> str:
+        drive = self.session.drive
+        return self.session.name.removesuffix(".toml") or papers.safe(drive.name if drive else "")
+
+
+class Exports:
+    """Takes figures and pages away: asks for the kind of file, makes it, gives it to the browser.
+
+    Parameters
+    ----------
+    session : Session
+        About whose drive they are.
+    jobs : Jobs
+        Where they are made.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs) -> None:
+        self.session = session
+        self._jobs = jobs
+
+    def __call__(self, thing: Figure | Page) -> None:
+        """Ask in which kind of file to export a figure or a page."""
+        with self.session.speaking(), ui.dialog() as dialog:
+            with ui.card().classes("dialog exports").props('role=dialog data-mark="export"'):
+                title = _("Save the figure as") if isinstance(thing, Figure) else _("Save the page as")
+                ui.label(title).classes("head")
+                ui.label(thing.title).classes("hint")
+                known = _kinds()
+                for kind in kinds(thing):
+                    button = ui.button(known[kind], on_click=lambda kind=kind: self._chosen(dialog, thing, kind))
+                    button.props(f'flat no-caps align=left data-mark="export-{kind}"')
+                ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+            dialog.on("hide", dialog.delete)
+        dialog.open()
+
+    def _chosen(self, dialog: ui.dialog, thing: Figure | Page, kind: str) -> None:
+        dialog.close()
+        with self.session.speaking():
+            question = papers.asked_for(self.session, papers.PART, thing=thing, kind=kind)
+            if question is not None:
+                Making(self.session, self._jobs, question, _kinds()[kind], given)
+
+
+def given(made: Exported) -> None:
+    """Give a file to the browser."""
+    ui.download.content(made.content, made.name, made.media_type)
+
+
+def _no_drive() -> None:
+    ui.notify(_("There is no drive without mistakes yet."), type="negative", position="top")

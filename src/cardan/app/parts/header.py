@@ -39,7 +39,7 @@ class Header:
             if not session.empty:
                 self.undo = _button("undo", _("Undo (ctrl Z)"), session.undo)
                 self.redo = _button("redo", _("Redo (ctrl shift Z)"), session.redo)
-                VariantsMenu(session)
+                self.variants = VariantsMenu(session, jobs)
                 ReportMenu(session, jobs)
             self._files()
             SettingsMenu(session)

@@ -13,6 +13,7 @@ from cardan.texts import speaking
 from .choices import Choices
 from .document import Document, changed, read, sent
 from .history import History
+from .variants import Variants
 from .workspace import Workspace
 
 Change: TypeAlias = Literal["text", "drive", "file", "selection", "choices", "variants"]
@@ -46,6 +47,8 @@ class Session:
         What the user should be told first; empty for nothing.
     dark : bool
         Whether the system of the user is dark; asked of the browser.
+    variants : Variants
+        The variants kept, also while another file is opened.
     rebuild : function
         Builds the parts of the page anew: another file, another language.
     """
@@ -60,6 +63,7 @@ class Session:
         self.notice = ""
         self.dark = False
         self.history = History()
+        self.variants = Variants()
         self._saved = ""
         self._gesture = ""
         self.rebuild: Listener = _nothing
@@ -182,6 +186,11 @@ class Session:
         self.name = self.workspace.write(name or self.name, self.document.text)
         self._saved = self.document.text
         self.tell("file")
+
+    def keep(self, variants: Variants) -> None:
+        """Take other variants to be kept."""
+        self.variants = variants
+        self.tell("variants")
 
     def select(self, path: str) -> None:
         """Look at a part of the drive."""

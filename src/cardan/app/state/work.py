@@ -14,12 +14,14 @@ from cardan.files import Enclosed
 from cardan.io.drive_file import known_to
 from cardan.report.answers import answered, subject
 from cardan.report.block import Page
+from cardan.report.exports import Exported
 from cardan.report.lights import Light, lights, with_cures
 from cardan.texts import speaking
 
+from . import papers
 from .session import Session
 
-Result: TypeAlias = Page | tuple[Light, ...]
+Result: TypeAlias = Page | tuple[Light, ...] | Exported
 
 Progress: TypeAlias = Callable[[float], object]
 
@@ -34,7 +36,7 @@ class Question:
     Parameters
     ----------
     name : str
-        A question of `cardan.report.answers.ANSWERS`, `VERDICTS` or `CURES`.
+        A question of `cardan.report.answers.ANSWERS`, `VERDICTS`, `CURES` or one of `papers`.
     drive : Drive
         About which drive.
     folder : Path
@@ -105,6 +107,8 @@ def result(question: Question, progress: Progress | None = None) -> Result:
     """
     with speaking(question.language):
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
+        if question.name in (papers.REPORT, papers.PART, papers.COMPARE):
+            return papers.made(question, known, progress)
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
             return lights(on)

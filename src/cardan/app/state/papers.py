@@ -1,0 +1,130 @@
+"""Reports and exports as answers to questions: made in a process of their own, as bytes with a name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from cardan.drive.drive import Drive
+from cardan.errors import refuse
+from cardan.figures import Figure
+from cardan.io import dumps
+from cardan.report.block import Page
+from cardan.report.compare import Variant, compared
+from cardan.report.content import content
+from cardan.report.exports import Exported, exported
+from cardan.report.preferred import in_choice, names_in, with_points
+from cardan.report.renderer import renderer_for
+from cardan.texts import _
+
+if TYPE_CHECKING:  # who asks a question and who answers it know each other
+    from cardan.catalogue import Catalogue
+
+    from .session import Session
+    from .work import Progress, Question
+
+Form: TypeAlias = Literal["html", "interactive", "pdf", "xlsx", "json"]
+
+REPORT, PART, COMPARE = "report", "part", "compare"
+"""Questions answered here: a whole report, a figure or page as a file, variants side by side."""
+
+NUMBERS = ("xlsx", "csv", "json")
+"""Kinds of file that hold numbers with a point, whatever sign the reader sees."""
+
+
+def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
+    """Return the question for a paper about the drive that a user works on; None while there is none.
+
+    Parameters
+    ----------
+    session : Session
+        What the user works on: units and decimal sign are those of its choices.
+    name : str
+        One of `REPORT`, `PART` and `COMPARE`.
+    **choices
+        Of a report its ``form``; of a part the ``thing`` and its ``kind``; of a comparison the ``variants``, names and
+        drives.
+    """
+    from .work import asked
+
+    units = tuple(sorted(session.choices.units.items()))
+    return asked(session, name, units=units, decimal=session.choices.decimal, **choices)
+
+
+def of_report(session: Session, form: Form) -> Question | None:
+    """Return the question for a report in a form."""
+    drive = session.drive
+    if drive is None:
+        return None
+    source = session.document.text if session.document.valid else dumps(drive)
+    return asked_for(session, REPORT, form=form, source=source)
+
+
+def made(question: Question, known: Catalogue | None, progress: Progress | None = None) -> Exported | Page:
+    """Return the paper that a question asks for, in the language spoken.
+
+    Parameters
+    ----------
+    question : Question
+        Of `asked_for`.
+    known : Catalogue or None
+        Norms, types and sizes that the drive is judged by.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+
+    Raises
+    ------
+    InputError
+        There is no such paper.
+    MissingExtraError
+        What writes it is not installed.
+    """
+    how = dict(question.choices)
+    if question.name == REPORT:
+        return _report(question.drive, how, known, progress)
+    if question.name == PART:
+        return _part(question.drive, how)
+    if question.name == COMPARE:
+        variants = [Variant(name=name, drive=drive, known=known) for name, drive in how["variants"]]
+        page = compared(variants, progress)
+        names = [name for _name, drive in how["variants"] for name in names_in(drive)]
+        return in_choice(page, dict(how["units"]), how["decimal"], names=(*names, *(one.name for one in variants)))
+    raise refuse("question", _("{name} is no question").format(name=question.name))
+
+
+def _report(drive: Drive, how: dict[str, Any], known: Catalogue | None, progress: Progress | None) -> Exported:
+    form = how["form"]
+    suffix = "html" if form == "interactive" else form
+    write = None if form == "json" else renderer_for(Path(f"{_('report')}.{suffix}"), interactive=form == "interactive")
+    said = content(drive, source_text=how["source"], known=known, progress=_most(progress))
+    said = in_choice(said, dict(how["units"]), "." if suffix in NUMBERS else how["decimal"], names=names_in(drive))
+    if write is None or form != "interactive":
+        return exported(said, suffix, title="")
+    return Exported(content=write(said), media_type="text/html; charset=utf-8", name=f"{safe(said.title)}.html")
+
+
+def _part(drive: Drive, how: dict[str, Any]) -> Exported:
+    thing: Page | Figure = how["thing"]
+    kind: str = how["kind"]
+    if isinstance(thing, Page) and kind in NUMBERS:
+        thing = with_points(thing)
+    return exported(thing, kind, title=drive.name)
+
+
+def _most(progress: Progress | None) -> Callable[[float], object] | None:
+    """Return what is told of the work before it is written down."""
+    return None if progress is None else lambda share: progress(0.9 * share)
+
+
+def safe(name: str, otherwise: str = "drive") -> str:
+    """Return a name that every file system takes.
+
+    Examples
+    --------
+    >>> safe("Truck: 4 joints / rear"), safe("../..")
+    ('Truck-4-joints-rear', 'drive')
+    """
+    import re
+
+    return re.sub(r"[\W_]+", "-", name).strip("-")[:60].strip("-") or otherwise
