@@ -23,7 +23,7 @@ from cardan.texts import _
 from .build import Build, Track, length_text
 from .crossed import double_joint, hooke, offset_cross, offset_shaft
 from .even import MAKERS
-from .shaft import disc, flange, ring, shaft_pieces, washer
+from .shaft import disc, flange, ring, shaft_pieces, shaft_stretches, washer
 from .sizes import bearing_radius, sizes
 from .support import bearing, bracket, floor_frame, rubber
 
@@ -174,7 +174,9 @@ def _shaft(build: Build, k: int) -> None:
     ]
     body = length if between else body_length(shaft, known)
     path, role = f"shafts[{k - 1}]", f"shaft {k}"
-    for piece in shaft_pieces(shaft, start, stop, body, radius, necks):
+    stretches = shaft_stretches(shaft, start, stop, body, radius, necks)
+    build.profiles[k] = stretches[0].outer, stretches[-1].outer
+    for piece in shaft_pieces(shaft, start, stop, radius, stretches):
         first = k > 1 and piece.first
         track = build.starts[k] if first or k > build.count else build.ends[k]
         shift = 0.0 if first or k in (1, build.count + 1) else -length

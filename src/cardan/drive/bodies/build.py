@@ -91,6 +91,8 @@ class Build:
     solids : list of Solid
     starts, ends, free, stations : dict of int
         Tracks of the two ends of each shaft, of its free end, and of the stations by their index.
+    profiles : dict of (float, float) [m]
+        Radius of each shaft at its start and at its end.
     """
 
     drive: Drive
@@ -104,6 +106,7 @@ class Build:
     ends: dict[int, int] = field(default_factory=dict)
     free: dict[int, int] = field(default_factory=dict)
     stations: dict[int, int] = field(default_factory=dict)
+    profiles: dict[int, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
@@ -189,8 +192,12 @@ class Build:
         )
 
     def body_radius(self, k: int) -> float:
-        """Return the radius of shaft k, from 1, where a yoke ends [m]."""
+        """Return the radius of shaft k, from 1, where it is thickest [m]."""
         return self.sizes.bodies[k - 1]
+
+    def end_radius(self, k: int, *, driving: bool) -> float:
+        """Return the radius of shaft k, from 1, where the hub of its driving or driven yoke ends [m]."""
+        return self.profiles[k][1 if driving else 0]
 
 
 def name_of(joint: Joint, i: int) -> str:
@@ -236,7 +243,7 @@ def forks(
     track = build.ends[k] if driving else build.starts[k]
     reach = build.reach(i, driving=driving) - away
     cavity = min(size.cavity, 0.66 * reach)
-    body = build.body_radius(k)
+    body = build.end_radius(k, driving=driving)
     made = fork(size.radius, size.ear, size.lug, size.cap if bore else 0.0, cavity, reach, body, tip)
     turn = BACK if driving else None
     shift = np.asarray([-away if driving else away, 0.0, 0.0])

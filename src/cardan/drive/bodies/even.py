@@ -79,7 +79,7 @@ def balls(build: Build, i: int) -> None:
 def _bell(groove: float, bead: float, size: JointSize, build: Build, k: int, i: int) -> Surface:
     inner, outer = 1.12 * groove, max(1.12 * groove + 0.62 * bead, 1.36 * groove)
     reach = max(build.reach(i, driving=k == i + 1), 1.5 * groove)
-    body = min(build.body_radius(k), 0.9 * outer)
+    body = min(build.end_radius(k, driving=k == i + 1), 0.9 * outer)
     turn = np.linspace(0.0, 0.46 * np.pi, 7)
     cup = [(inner * float(np.cos(t)), inner * float(np.sin(t))) for t in turn]
     cup[0] = (inner, 0.0)
@@ -93,12 +93,13 @@ def _bell(groove: float, bead: float, size: JointSize, build: Build, k: int, i: 
 def _inner_race(groove: float, bead: float, build: Build, k: int, i: int) -> Surface:
     inner = groove - 0.3 * bead
     reach = build.reach(i, driving=k == i + 1)
-    body = min(build.body_radius(k), 0.55 * groove)
+    end = build.end_radius(k, driving=k == i + 1)
+    body = min(end, 0.55 * groove)
     turn = np.linspace(0.72 * np.pi, 0.28 * np.pi, 9)
     race = [(inner * float(np.cos(t)), inner * float(np.sin(t))) for t in turn]
     return revolved(
         [(race[0][0], 0.0), *race, (race[-1][0] + 0.02 * groove, body), (reach - 0.1 * groove, body),
-         (reach, build.body_radius(k)), (reach, 0.0)],
+         (reach, end), (reach, 0.0)],
         28,
     )  # fmt: skip
 
@@ -200,7 +201,7 @@ def _tulip(track: float, build: Build, i: int, bend: float) -> Surface:
     floor = max(0.55 * track + 1.1 * track * np.tan(bend), 0.7 * track)
     shell = placed(plate(outer[:, None] * way, mouth, floor, hole[:, None] * way, 0.06 * track), ACROSS)
     lid = placed(plate(outer[:, None] * way, floor - 0.1 * track, floor + 0.3 * track, bevel=0.08 * track), ACROSS)
-    reach, body = max(build.reach(i, driving=True), floor + 0.5 * track), build.body_radius(i + 1)
+    reach, body = max(build.reach(i, driving=True), floor + 0.5 * track), build.end_radius(i + 1, driving=True)
     low = floor + 0.2 * track
     hub = revolved([(low, 0.0), (low, 0.8 * track), (low + 0.2 * track, body), (reach, body), (reach, 0.0)], 28)
     return joined(shell, lid, hub)
@@ -239,7 +240,7 @@ def half_cardan(build: Build, i: int) -> None:
 
         flat = toothed(0.9 * head, head, min(corners, 48))
     block = placed(plate(flat, -0.42 * head, 0.42 * head, bevel=0.08 * head), ACROSS)
-    body = build.body_radius(one)
+    body = build.end_radius(one, driving=True)
     stem = 0.55 * head
     neck = revolved(
         [(0.0, 0.0), (0.0, stem), (0.75 * build.reach(i, driving=True), stem), (build.reach(i, driving=True), body),
@@ -250,7 +251,7 @@ def half_cardan(build: Build, i: int) -> None:
     hole = 1.04 * flat
     outline = 1.34 * head * hole / np.linalg.norm(hole, axis=-1, keepdims=True)
     bell = placed(plate(outline, -0.5 * head, 0.75 * head, hole), ACROSS)
-    body, reach = build.body_radius(two), build.reach(i, driving=False)
+    body, reach = build.end_radius(two, driving=False), build.reach(i, driving=False)
     floor = 0.7 * head
     hub = revolved(
         [(floor, 0.0), (floor, 1.34 * head), (floor + 0.3 * head, 1.3 * head), (floor + 0.5 * head, body),
@@ -267,7 +268,7 @@ def elastic(build: Build, i: int) -> None:
     count = 3 if joint.pairs is None else joint.pairs
     far, thick = 0.95 * size.radius, 0.34 * size.radius
     for (k, track, turn), driving in zip(_sides(build, i), (True, False), strict=True):
-        reach, body = build.reach(i, driving=driving), build.body_radius(k)
+        reach, body = build.reach(i, driving=driving), build.end_radius(k, driving=driving)
         low = 0.62 * thick
         hub = revolved(
             [(low, 0.0), (low, 0.4 * far), (low + 0.5 * thick, 0.42 * far), (low + 0.8 * thick, 0.36 * far),
@@ -314,7 +315,7 @@ def pins(build: Build, i: int) -> None:
         lean = np.asarray([-np.cos(slant), np.sin(slant), 0.0])
         frame = np.stack((lean, np.asarray([-np.sin(slant), -np.cos(slant), 0.0]), np.asarray([0.0, 0.0, 1.0])))
         one = placed(pin, frame, (start, 0.0, 0.0))
-        reach, body = max(build.reach(i, driving=driving), 1.12 * start), build.body_radius(k)
+        reach, body = max(build.reach(i, driving=driving), 1.12 * start), build.end_radius(k, driving=driving)
         hub = revolved(
             [(0.72 * start, 0.0), (0.72 * start, 0.4 * start), (start, 0.55 * start), (1.06 * start, 0.55 * start),
              (reach, body), (reach, 0.0)], 24,
@@ -339,7 +340,7 @@ def clemens(build: Build, i: int) -> None:
             if profile is not None
             else (1.0 * size.radius, 0.3 * size.radius, 1.2 * size.radius)
         )
-        reach, body = max(build.reach(i, driving=driving), 1.15 * axial), build.body_radius(k)
+        reach, body = max(build.reach(i, driving=driving), 1.15 * axial), build.end_radius(k, driving=driving)
         wide = max(1.25 * radial, 0.3 * arm)
         hub = revolved(
             [(0.9 * axial, 0.0), (0.9 * axial, 0.8 * wide), (0.94 * axial, wide), (1.08 * axial, wide), (reach, body),

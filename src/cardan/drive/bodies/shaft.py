@@ -67,10 +67,10 @@ class Piece:
     first: bool
 
 
-def shaft_pieces(
+def shaft_stretches(
     shaft: Shaft, low: float, high: float, length: float | None, radius: float, necks: Sequence[tuple[float, float]]
-) -> Iterator[Piece]:
-    """Yield the bodies of a shaft between its yokes.
+) -> list[Stretch]:
+    """Return the stretches of a shaft between its yokes: those of its file, else one with a neck at each support.
 
     Parameters
     ----------
@@ -86,8 +86,23 @@ def shaft_pieces(
         Places of supports and the radius there.
     """
     stretches = _stretches(shaft, low, high, length, radius)
-    if not shaft.segments:
-        stretches = _necked(stretches, necks, radius)
+    return stretches if shaft.segments else _necked(stretches, necks, radius)
+
+
+def shaft_pieces(shaft: Shaft, low: float, high: float, radius: float, stretches: Sequence[Stretch]) -> Iterator[Piece]:
+    """Yield the bodies of a shaft between its yokes.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    low, high : float [m]
+        Where it begins and ends.
+    radius : float [m]
+        Where it is thickest.
+    stretches : sequence of Stretch
+        What it looks like between.
+    """
     slip = None if shaft.spline is None or high - low < 0.4 * radius else slip_of(shaft.spline, low, high, radius)
     if slip is None:
         yield from (Piece(part="tube", surface=_bar(one, welded=_hollow(one)), first=True) for one in stretches)
@@ -179,7 +194,7 @@ def _necked(stretches: list[Stretch], necks: Sequence[tuple[float, float]], radi
     return found
 
 
-def _radius_at(stretches: list[Stretch], place: float) -> float:
+def _radius_at(stretches: Sequence[Stretch], place: float) -> float:
     return next((one.outer for one in stretches if one.start <= place <= one.stop), stretches[-1].outer)
 
 
@@ -230,7 +245,7 @@ def _sleeve(slip: Slip, body: float, low: float, high: float) -> Surface:
     return placed(whole, np.diag([sense, 1.0, sense]), (shut, 0.0, 0.0))
 
 
-def _neck(slip: Slip, stretches: list[Stretch], low: float, high: float) -> Surface:
+def _neck(slip: Slip, stretches: Sequence[Stretch], low: float, high: float) -> Surface:
     """Return what joins the toothed shaft to the tube behind it: a plug that narrows toward the teeth."""
     sense = 1.0 if slip.sleeve_first else -1.0
     body = _radius_at(stretches, slip.out + sense * 1e-6)
@@ -274,7 +289,7 @@ def disc(radius: float, thickness: float, bore: float, holes: int = 0) -> Surfac
     loop = [*side, *right[::-1], side[0]]
     made = revolved(loop, 32)
     if holes:
-        made = joined(made, bolt_ring(holes, 0.89 * radius, 0.05 * radius, -1.12 * half, 1.12 * half))
+        made = joined(made, bolt_ring(holes, 0.89 * radius, 0.05 * radius, -1.3 * half, 1.3 * half))
     return made
 
 

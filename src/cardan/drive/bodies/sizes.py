@@ -18,6 +18,9 @@ STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
 ROOM = 0.46
 """Share of a shaft between two joints that one yoke takes at most."""
 
+SHOWN = 4.0
+"""How much of an end shaft is drawn behind its yoke, in radii of the joint, where nothing stands farther out."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class JointSize:
@@ -105,7 +108,6 @@ def sizes(drive: Drive, place: Geometry) -> Sizes:
     given, else their lengths.
     """
     lengths = [float(one) for one in place.length]
-    between = lengths[1:-1]
     usual = _usual(drive, lengths)
     bends = [float(bend) for bend in place.bend]
     joints = tuple(_joint(drive, i, usual, bends[i]) for i in range(len(drive.joints)))
@@ -118,9 +120,8 @@ def sizes(drive: Drive, place: Geometry) -> Sizes:
         alone = 0.5 * max(bores) if bores and not inner else (0.66 if inner else 0.5) * min(beside)
         bodies.append(alone if radius is None else radius)
         solid.append(radius is not None)
-    far = 1.5 * min(lengths) if not between else max(0.6 * max(between), min(between))
     ends = tuple(
-        _end(drive, number, length, size, far)
+        _end(drive, number, length, size)
         for number, length, size in (
             (1, lengths[0], joints[0]),
             (len(drive.shafts), lengths[-1], joints[-1]),
@@ -184,12 +185,12 @@ def _joint(drive: Drive, i: int, usual: float, bend: float) -> JointSize:
     return JointSize(radius=radius, ear=ear, journal=journal, cap=cap, lug=lug, cavity=cavity, given=span is not None)
 
 
-def _end(drive: Drive, number: int, length: float, size: JointSize, far: float) -> float:
-    """Return how far an end shaft is drawn [m]: all that stands on it, and a piece more."""
-    reach = min(max(length, size.reach + 0.8 * size.radius), max(far, size.reach + 0.8 * size.radius))
+def _end(drive: Drive, number: int, length: float, size: JointSize) -> float:
+    """Return how far an end shaft is drawn [m]: a piece of it, and all that stands on it."""
+    shown = size.reach + SHOWN * size.radius
     held = [abs(one.position) for one in drive.supports if one.shaft == number]
     held += [abs(one.position) for one in drive.stations if one.shaft == number and one.position is not None]
-    return max([reach, *(place + 0.9 * size.radius for place in held)])
+    return max([min(length, shown), size.reach + size.radius, *(place + 0.9 * size.radius for place in held)])
 
 
 def bearing_radius(support: Support, body: float, *, solid: bool) -> float:
