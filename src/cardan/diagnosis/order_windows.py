@@ -1,0 +1,153 @@
+"""A channel at even angles of its shaft, cut into windows of whole turns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.errors import Problem, refuse
+from cardan.maths.arrays import Array
+from cardan.maths.resampling import read_slowly
+from cardan.texts import _
+
+from .signal import Channel
+from .turning import LEAST_TURNS, Rotation
+
+HIGHEST = 10.0
+"""Order up to which spectra reach."""
+
+TURNS = 16
+"""Turns in a window."""
+
+OVERLAP = 0.75
+"""Share of a window that the next one shares with it."""
+
+POINTS_AN_ORDER = 4
+"""Points in the period of the highest order, which `read_slowly` asks for."""
+
+WINDOWS = {"hann": (0.5, 0.5), "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368)}
+"""Window -> weights of its cosines. A flat top reads amplitudes between two lines to 0.1 %, but is twice as wide."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Turned:
+    """A channel at even angles of the shaft.
+
+    Attributes
+    ----------
+    values : array (n,)
+        In the unit of the channel.
+    angle : array (n,) [rad]
+        Of the shaft.
+    time : array (n,) [s]
+        When it stood there.
+    per_turn : int
+        Points in a turn.
+    """
+
+    values: Array
+    angle: Array
+    time: Array
+    per_turn: int
+
+
+def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) -> Turned:
+    """Return a channel at even angles of the shaft, filtered so that nothing folds onto the orders asked for.
+
+    Parameters
+    ----------
+    channel : Channel
+        At even steps of time.
+    rotation : Rotation
+        Of the shaft, over at least a part of the channel.
+    highest : float
+        Order up to which it is to be right.
+
+    Returns
+    -------
+    Turned
+        Within 10⁻⁴ of the amplitude for orders up to the highest one, where the channel itself holds them.
+
+    Raises
+    ------
+    InputError
+        Channel and rotation share fewer than three turns.
+
+    Notes
+    -----
+    Four points in the period of the highest order; each is read by a windowed sinc from the channel halved in rate as
+    often as its own distance to the next one in time allows: see `cardan.maths.resampling`.
+    """
+    begin = max(float(rotation.time[0]), channel.start)
+    end = min(float(rotation.time[-1]), channel.start + channel.duration)
+    per_turn = 4 * math.ceil(POINTS_AN_ORDER * highest / 4)
+    step = 2.0 * math.pi / per_turn
+    ends = rotation.angle_at(np.asarray([begin, end])) / step
+    place = np.arange(math.ceil(ends[0] - 1e-9), math.floor(ends[1] + 1e-9) + 1) if end > begin else np.zeros(0)
+    if place.size < LEAST_TURNS * per_turn:
+        text = _("shares {given:.3g} turns with the turning of the shaft; at least {wanted:g} are needed")
+        raise refuse(channel.name, text.format(given=place.size / per_turn, wanted=LEAST_TURNS), "out_of_range")
+    angle = step * place
+    time = rotation.time_at(angle)
+    distance = np.gradient(time) * channel.rate
+    values = read_slowly(channel.values, (time - channel.start) * channel.rate, distance)
+    return Turned(values=values, angle=angle, time=time, per_turn=per_turn)
+
+
+def refused(highest: float, turns: int, window: str) -> list[Problem]:
+    """Return what is wrong with the options of a spectrum."""
+    found = []
+    if not 0.0 < highest <= 1000.0:
+        text = _("{value:.6g} given; an order above 0 and up to 1000 is needed")
+        found.append(Problem("highest", text.format(value=highest), "out_of_range"))
+    if turns < 2:
+        found.append(Problem("turns", _("{value} given; at least 2 are needed").format(value=turns), "out_of_range"))
+    if window not in WINDOWS:
+        text = _("{value} is none of {choices}").format(value=repr(window), choices=", ".join(WINDOWS))
+        found.append(Problem("window", text, "out_of_range"))
+    return found
+
+
+def window_shape(count: int, window: str) -> Array:
+    """Return a window that repeats with its length."""
+    place = 2.0 * np.pi * np.arange(count) / count
+    weights = WINDOWS[window]
+    return np.asarray(sum((-1) ** k * w * np.cos(k * place) for k, w in enumerate(weights)))
+
+
+def line_width(window: str) -> float:
+    """Return how many lines a single order fills: the noise bandwidth of a window."""
+    shape = window_shape(1024, window)
+    return float(1024 * np.sum(shape**2) / np.sum(shape) ** 2)
+
+
+def starts(read: Turned, used: int) -> Array:
+    """Return where windows begin: evenly spread from the first point to the last whole window."""
+    length = used * read.per_turn
+    room = read.values.size - length
+    count = 1 + math.ceil(room / ((1.0 - OVERLAP) * length))
+    return np.unique(np.linspace(0, room, count).round().astype(int))
+
+
+def cut(read: Turned, turns: int) -> tuple[int, Array, Array, Array]:
+    """Return the turns in a window, the windows (w, n), their middle times [s] and mean speeds [rad/s]."""
+    used = min(turns, read.values.size // read.per_turn)
+    length = used * read.per_turn
+    begins = starts(read, used)
+    rows = read.values[begins[:, None] + np.arange(length)]
+    last = np.minimum(begins + length, read.time.size - 1)
+    speed = (read.angle[last] - read.angle[begins]) / (read.time[last] - read.time[begins])
+    return used, rows, read.time[begins + length // 2], speed
+
+
+def lines_of(read: Turned, turns: int, window: str) -> tuple[Array, Array, Array, int]:
+    """Return the lines of all windows (w, k) with phases against angle 0, middle times, speeds, turns in a window."""
+    used, rows, time, speed = cut(read, turns)
+    shape = window_shape(rows.shape[1], window)
+    lines = np.fft.rfft(rows * shape, axis=1) * (2.0 / np.sum(shape))
+    lines[:, 0] *= 0.5
+    order = np.arange(lines.shape[1]) / used
+    begin = read.angle[starts(read, used)]
+    return lines * np.exp(-1j * np.outer(begin, order)), time, speed, used

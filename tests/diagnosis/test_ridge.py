@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+
+from cardan import InputError
+from cardan.diagnosis.ridge import ridge
+from cardan.diagnosis.signal import Channel, Signal
+from cardan.diagnosis.turning import rotation
+from tests.builders.recordings import recorded
+
+INSIDE = np.linspace(1.0, 5.0, 41)
+TRUE = 2 * np.pi * (15.0 + 2.0 * INSIDE)
+
+
+def found(orders, *, noise=0.5, seed=0, **given):
+    signal = recorded(orders, first=15.0, gain=2.0, rate=2000.0, noise=noise, seed=seed, tacho=False)
+    return rotation(signal, **given)
+
+
+@pytest.mark.parametrize("orders", [{1: (1.0, 0.3), 2: (0.4, 0.0)}, {2: (1.0, 0.3), 1: (0.4, 0.0)}])
+def test_the_speed_is_found_without_a_tacho(orders):
+    one = found(orders, speed_range=(80.0, 180.0))
+    # A line of the spectrogram is 0.5 Hz wide and read to a tenth.
+    assert one.speed_at(INSIDE) == pytest.approx(TRUE, rel=0.01)
+    assert one.confidence > 0.6
+    assert not one.phased
+    assert "no tacho" in one.cautions[0]
+
+
+def test_a_lone_line_may_be_another_order_and_the_answer_says_so():
+    alone = found({2: (1.0, 0.0)})
+    assert alone.confidence < 0.7
+    factors = dict(alone.alternatives)
+    assert 0.5 in factors
+    assert sum(factors.values()) == pytest.approx(1 - factors_of(alone), abs=1e-9)
+    assert "may be another order" in alone.cautions[1]
+    told = found({2: (1.0, 0.0)}, order=2.0)
+    assert told.speed_at(INSIDE) == pytest.approx(TRUE, rel=0.01)
+    assert told.alternatives == ()
+
+
+def factors_of(one):
+    """Return the share of belief in the answer itself."""
+    return 1.0 - sum(share for _factor, share in one.alternatives)
+
+
+def test_halves_of_the_line_tell_that_it_is_the_second_order():
+    assert found({2: (1.0, 0.3), 1: (0.4, 0.0), 3: (0.3, 0.0)}, noise=0.2).order == 2.0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_is_not_believed(seed):
+    assert found({}, noise=1.0, seed=seed).confidence < 0.15
+
+
+def test_several_channels_help():
+    rng = np.random.default_rng(3)
+    time = np.arange(12000) / 2000
+    angle = 2 * np.pi * (15 * time + time**2)
+    rows = [0.3 * np.cos(angle + k) + rng.normal(size=time.size) for k in range(4)]
+    channels = [Channel(name=f"{k}", values=row, rate=2000.0) for k, row in enumerate(rows)]
+    one, four = (ridge(some, speed_range=(80.0, 180.0)) for some in (channels[:1], channels))
+    assert four.confidence > one.confidence
+    assert four.speed_at(INSIDE) == pytest.approx(TRUE, rel=0.02)
+
+
+def test_nothing_to_look_at_is_refused():
+    with pytest.raises(InputError, match="neither a tacho nor a channel"):
+        rotation(Signal(channels=(Channel(name="dead", values=np.zeros(100), rate=100.0),)))
+    with pytest.raises(InputError, match="too little to find a speed"):
+        rotation(Signal(channels=(Channel(name="short", values=np.arange(10.0), rate=100.0),)))
