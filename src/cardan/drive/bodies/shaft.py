@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -105,10 +106,11 @@ def shaft_pieces(shaft: Shaft, low: float, high: float, radius: float, stretches
     """
     slip = None if shaft.spline is None or high - low < 0.4 * radius else slip_of(shaft.spline, low, high, radius)
     if slip is None:
-        yield from (Piece(part="tube", surface=_bar(one, welded=_hollow(one)), first=True) for one in stretches)
+        for one in (*stretches, *_plugs(stretches)):
+            yield Piece(part="tube", surface=_bar(one, welded=_hollow(one)), first=True)
         return
     one, other = (slip.back, slip.out) if slip.sleeve_first else (slip.out, slip.back)
-    for stretch in stretches:
+    for stretch in (*stretches, *_plugs(stretches)):
         before = replace(stretch, stop=min(stretch.stop, one))
         behind = replace(stretch, start=max(stretch.start, other))
         for part, first in ((before, True), (behind, False)):
@@ -192,6 +194,15 @@ def _necked(stretches: list[Stretch], necks: Sequence[tuple[float, float]], radi
             made += [replace(one, stop=start), Stretch(start=start, stop=stop, outer=thin), replace(one, start=stop)]
         found = [one for one in made if one.stop - one.start > 1e-6]
     return found
+
+
+def _plugs(stretches: Sequence[Stretch]) -> Iterator[Stretch]:
+    """Yield what closes a tube where a thinner stretch is welded into it."""
+    for one, other in pairwise(stretches):
+        for tube, thin, end, sense in ((one, other, one.stop, -1.0), (other, one, other.start, 1.0)):
+            if tube.inner > thin.outer:
+                ends = sorted((end, end + sense * min(0.2 * tube.inner, tube.stop - tube.start)))
+                yield Stretch(start=ends[0], stop=ends[1], outer=tube.inner)
 
 
 def _radius_at(stretches: Sequence[Stretch], place: float) -> float:
