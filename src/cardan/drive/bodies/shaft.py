@@ -109,10 +109,10 @@ def shaft_pieces(shaft: Shaft, low: float, high: float, radius: float, stretches
         for one in (*stretches, *_plugs(stretches)):
             yield Piece(part="tube", surface=_bar(one, welded=_hollow(one)), first=True)
         return
-    one, other = (slip.back, slip.out) if slip.sleeve_first else (slip.out, slip.back)
+    end, begin = (slip.back, slip.out) if slip.sleeve_first else (slip.out, slip.back)
     for stretch in (*stretches, *_plugs(stretches)):
-        before = replace(stretch, stop=min(stretch.stop, one))
-        behind = replace(stretch, start=max(stretch.start, other))
+        before = replace(stretch, stop=min(stretch.stop, end))
+        behind = replace(stretch, start=max(stretch.start, begin))
         for part, first in ((before, True), (behind, False)):
             if part.stop - part.start > 1e-3 * radius:
                 yield Piece(part="tube", surface=_bar(part, welded=_hollow(part)), first=first)
