@@ -19,6 +19,12 @@ MOST_LETTERS = 32_767
 NAME_LETTERS = 31
 """Letters of a sheet's name."""
 
+UNREADABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
+"""Marks of control and halves of letters: no such file may hold them."""
+
+LONGEST_TITLE = 250
+"""Letters of a title among the properties."""
+
 QUIET = {
     "in_memory": True,
     "strings_to_formulas": False,
@@ -53,7 +59,9 @@ def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) 
         raise MissingExtraError(_("a workbook needs XlsxWriter: pip install 'cardan[xlsx]'")) from None
     day = made or datetime.date(2000, 1, 1)
     book = Workbook(stream, QUIET)
-    book.set_properties({"title": words(title), "created": datetime.datetime(day.year, day.month, day.day)})
+    book.set_properties(
+        {"title": words(title)[:LONGEST_TITLE], "created": datetime.datetime(day.year, day.month, day.day)}
+    )
     return book
 
 
@@ -85,14 +93,14 @@ def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> N
 
 
 def words(text: str) -> str:
-    """Return a text as a cell can hold it: cut to its length, without halves of letters.
+    """Return a text as a cell can hold it: cut to its length, without marks of control and halves of letters.
 
     Examples
     --------
-    >>> words("=1+1"), len(words("a" * 40_000))
-    ('=1+1', 32767)
+    >>> words("=1+1"), words("a\\x0bb"), len(words("a" * 40_000))
+    ('=1+1', 'a\ufffdb', 32767)
     """
-    whole = text.encode("utf-8", "replace").decode("utf-8")
+    whole = UNREADABLE.sub("\ufffd", text)
     if len(whole) <= MOST_LETTERS:
         return whole
     return whole[: MOST_LETTERS - 1] + "…"

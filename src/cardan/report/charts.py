@@ -12,6 +12,7 @@ import numpy as np
 
 from cardan.figures import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
+from cardan.io.book import words
 from cardan.texts import _
 
 from .amounts import read
@@ -245,6 +246,7 @@ def plain(text: str) -> str:
     >>> plain("=A1"), plain("Sheet!A1"), plain("runs")
     ('\u200b=A1', 'Sheet！A1', 'runs')
     """
+    text = words(text)
     text = text.replace("!", "！") if re.match(r"^=?[^!]+!\$?[A-Z]+\$?\d+", text) else text
     return f"\u200b{text}" if text.startswith("=") else text
 

@@ -218,7 +218,7 @@ class Paper:
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": one.height})
-                told = {"description": f"{figure.title}. {figure.sentence}", "object_position": 2}
+                told = {"description": words(f"{figure.title}. {figure.sentence}"), "object_position": 2}
                 self._sheet.insert_chart(self.row, 0, one.chart, {"x_offset": left, "y_offset": 4, **told})
                 left += one.width
             self._down(max(one.height for one in drawn))
@@ -242,7 +242,7 @@ class Paper:
             "y_scale": inch / 96.0,
             "y_offset": 4,
             "object_position": 2,
-            "description": f"{figure.title}. {figure.sentence}",
+            "description": words(f"{figure.title}. {figure.sentence}"),
         }
         self._sheet.insert_image(self.row, 0, f"{figure.name}.png", options)
         self._down(inch * page.height)

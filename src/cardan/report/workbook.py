@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from cardan.io.book import MOST_LETTERS, opened, put, sheet_name
+from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, words
 from cardan.texts import _
 
 from .block import Listing, Page, Picture, Table
@@ -158,4 +158,4 @@ def _listed(sheet: Any, listing: Listing, looks: Looks) -> None:
 
 def _printed(text: str) -> str:
     """Return words for the head or the foot of a printed page, where & begins a command."""
-    return text[:HEADER].replace("&", "&&")
+    return words(text)[:HEADER].replace("&", "&&")
