@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from cardan import Drive, InputError, equivalent_joint, load, save
 from cardan.io import dumps, edit, example, example_names, example_text, loads, starter
 from cardan.io.examples import example_file
 from cardan.io.writer import written
+from cardan.texts import LANGUAGES, speaking
 from cardan.units import DIMENSIONS
 
 angles = st.floats(0.0, 1.5, allow_subnormal=False)
@@ -99,6 +101,21 @@ def test_edit_refuses_what_makes_no_drive() -> None:
 def test_starter_shows_every_form() -> None:
     assert loads(starter()).form == "points"
     assert all(word in starter() for word in ("bend_deg", "side_slope_deg", "[[movements]]", "[[poses]]"))
+
+
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_starter_is_the_same_drive_in_every_language(code: str) -> None:
+    def nameless(text: str) -> Drive:
+        drive = loads(text)
+        return replace(drive, name="", joints=tuple(replace(one, name="") for one in drive.joints))
+
+    def keys(text: str) -> list[str]:
+        return [line.partition(" = ")[0] for line in text.splitlines() if " = " in line]
+
+    with speaking(code):
+        text = starter()
+    assert nameless(text) == nameless(starter())
+    assert keys(text) == keys(starter())
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"name = 1", b""])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-STARTER = """\
+from cardan.texts import _, mark
+
+STARTER = mark("""\
 # A drive file of cardan. Every key carries its unit; any usual one will do (_mm, _m, _in; _deg, _rad; _rpm, _rad_s).
 # Lengths along x run with the power flow, y to the left, z up. Shaft 1 is the input shaft, joints are numbered along
 # the power flow; shaft k lies between joint k-1 and joint k.
@@ -71,11 +73,11 @@ speed_rpm = 3000
 # name = "full load"
 # share_percent = 30
 # set = { "joints[1].centre_mm" = [1200, 0, -110], "output.point_mm" = [1900, 40, -210] }
-"""
+""")
 
 
 def starter() -> str:
-    """Return a commented drive file to start from; it loads as it is.
+    """Return a drive file to start from, with comments in the language spoken here; it loads as it is.
 
     Examples
     --------
@@ -83,4 +85,4 @@ def starter() -> str:
     >>> loads(starter()).name
     'my drive'
     """
-    return STARTER
+    return _(STARTER)
