@@ -11,6 +11,7 @@ import pytest
 from cardan import io as files
 from cardan.analysis.equivalence import equivalent_joint
 from cardan.calc import CALCULATIONS, calc
+from cardan.report import renderer
 from tests.cli.conftest import EXAMPLES
 
 TRUCK = EXAMPLES / "truck-printed-angles.toml"
@@ -30,6 +31,18 @@ def test_a_report_goes_where_it_is_told(cardan, tmp_path):
     done = cardan("report", TRUCK, "-o", "out/truck.html", "--speed-rpm", 1234, "--json")
     assert done.content["report"] == "out/truck.html"
     assert "1\u202f234" in (tmp_path / "out/truck.html").read_text()
+
+
+def test_a_report_for_paper_is_written_or_says_what_it_needs(cardan, tmp_path, monkeypatch):
+    done = cardan("report", EXAMPLES / "single-20deg.toml", "-o", "one.pdf")
+    assert done.code == 0
+    assert "Open one.pdf, or print it." in done.out
+    assert (tmp_path / "one.pdf").read_bytes().startswith(b"%PDF")
+    monkeypatch.setattr(renderer, "find_spec", lambda name: None)
+    refused = cardan("report", TRUCK, "-o", "two.pdf")
+    assert refused.code == 2
+    assert refused.err.strip() == "error: two.pdf needs typst: pip install 'cardan[pdf]'"
+    assert not (tmp_path / "two.pdf").exists()
 
 
 def test_a_first_file_loads_and_can_be_asked(cardan, tmp_path):

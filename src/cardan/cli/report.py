@@ -20,7 +20,7 @@ def report(
             "--out",
             "-o",
             metavar="PATH",
-            help=_("File to write, as HTML or PDF by its ending; FILE's name with .html by default."),
+            help=_("File to write: .html, .pdf or a workbook, .xlsx; FILE's name with .html by default."),
             show_default=False,
         ),
     ] = None,
@@ -31,7 +31,7 @@ def report(
         ),
     ] = False,
     open_: Annotated[
-        bool, typer.Option("--open", help=_("Open the report in the browser."), show_default=False)
+        bool, typer.Option("--open", help=_("Open the report when it is written."), show_default=False)
     ] = False,
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
@@ -66,12 +66,12 @@ def report(
     from .show import show
 
     opened = open_ and _opened(place)
-    browsed = place.suffix.lower() != ".pdf"
-    hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path} and read on, or print it.")
+    browsed = place.suffix.lower() in (".html", ".htm")
+    hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path}, or print it.")
     if opened:
-        hint = _("It is open in the browser: {path}.")
+        hint = _("It is open: {path}.")
     if open_ and not opened:
-        hint = _("No browser answered; open {path} yourself.")
+        hint = _("No program answered; open {path} yourself.")
     return show(
         Answer(
             sentence=sentence(drive, file, each_shaft(drive)),

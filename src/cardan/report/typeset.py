@@ -29,6 +29,7 @@ STANDARD: Final = "ua-1"
 
 
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
+"""Marks of control, halves of characters and what is none."""
 
 
 def written(content: Content) -> bytes:
@@ -108,8 +109,6 @@ def _words() -> dict[str, str]:
         "kicker": _("Drive report"),
         "summary": _("Summary"),
         "contents": _("Contents"),
-        "figure": _("Figure"),
-        "table": _("Table"),
     }
 
 
