@@ -149,11 +149,11 @@ def middle_of(page: Any, name: str) -> tuple[float, float]:
     found = page.evaluate(
         """name => {
           const view = cardanView, camera = view.viewer.camera, box = view.page.canvas.getBoundingClientRect();
-          for (const {members, spans, solid} of view.bodies.batches.values()) {
+          for (const {members, full, solid} of view.bodies.batches.values()) {
             const k = members.findIndex((b) => b.name === name);
             if (k < 0) continue;
-            const at = solid.geometry.attributes.position, sum = solid.position.clone().set(0, 0, 0);
-            const {vertex, vertices} = spans[k];
+            const at = full.attributes.position, sum = solid.position.clone().set(0, 0, 0);
+            const {vertex, vertices} = full.userData.spans[k];
             for (let v = vertex; v < vertex + vertices; v++) sum.add(solid.position.clone().fromBufferAttribute(at, v));
             const p = solid.localToWorld(sum.divideScalar(vertices)).project(camera);
             return [box.left + (p.x + 1) / 2 * box.width, box.top + (1 - p.y) / 2 * box.height];

@@ -1,6 +1,7 @@
 // The solid parts: one mesh for all bodies of a track and a material, so that a drive needs few calls to draw.
 
 import { THREE } from "nicegui-scene";
+import { coarser } from "./coarse.js";
 import { floats, lit, whole } from "./mesh.js";
 import { materials, tone } from "./studio.js";
 
@@ -15,7 +16,7 @@ export class Bodies {
       ghost: materials(shared, { metal: false, ghost: true }),
     };
     this.edge = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.28 });
-    this.mark = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.38, depthWrite: false });
+    this.mark = [0, 0, 0];
     this.meshes = new Map(); // by name of the mesh, for as long as a scene uses it
     this.batches = new Map();
     this.by = "shaft";
@@ -39,7 +40,6 @@ export class Bodies {
     this.meshes = kept;
     this.fill(scene.bodies);
     this.colourBy(this.by);
-    this.select(this.selected);
   }
 
   // Make the meshes whose bodies have changed, and leave the others on the graphics card.
@@ -51,8 +51,7 @@ export class Bodies {
       wanted.get(key).push(body);
     }
     for (const [key, batch] of this.batches) {
-      const same = wanted.get(key)?.map((b) => `${b.name} ${b.mesh}`).join("\n") === batch.content;
-      if (!same) {
+      if (!wanted.has(key) || content(wanted.get(key)) !== batch.content) {
         this.drop(batch);
         this.batches.delete(key);
       }
@@ -68,56 +67,59 @@ export class Bodies {
 
   batch(members) {
     const parts = members.map((b) => this.meshes.get(b.mesh));
-    const sum = (pick) => parts.reduce((total, part) => total + part[pick].length, 0);
-    const positions = new Float32Array(sum("positions"));
-    const normals = new Float32Array(sum("positions"));
-    const indices = new Uint32Array(sum("indices"));
-    const edges = new Float32Array(sum("edges"));
-    const spans = []; // of each body: first and count of its vertices and of its indices
-    let [p, i, e] = [0, 0, 0];
-    for (const part of parts) {
-      positions.set(part.positions, p);
-      normals.set(part.normals, p);
-      edges.set(part.edges, e);
-      for (let k = 0; k < part.indices.length; k++) indices[i + k] = part.indices[k] + p / 3;
-      spans.push({ vertex: p / 3, vertices: part.positions.length / 3, index: i, indices: part.indices.length });
-      p += part.positions.length;
-      i += part.indices.length;
-      e += part.edges.length;
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-    geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
-    geometry.setAttribute("tone", new THREE.BufferAttribute(new Float32Array(positions.length), 3));
-    geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+    const full = joined(parts);
     const lines = new THREE.BufferGeometry();
-    lines.setAttribute("position", new THREE.BufferAttribute(edges, 3));
-    const solid = new THREE.Mesh(geometry);
-    const seams = new THREE.LineSegments(lines, this.edge);
-    seams.visible = edges.length > 0;
-    return { content: members.map((b) => `${b.name} ${b.mesh}`).join("\n"), members, spans, solid, edges: seams };
+    lines.setAttribute("position", new THREE.BufferAttribute(concatenated(parts, "edges"), 3));
+    const solid = new THREE.Mesh(full);
+    const edges = new THREE.LineSegments(lines, this.edge);
+    return { content: content(members), members, full, coarse: null, solid, edges };
   }
 
-  drop({ solid, edges }) {
-    for (const one of [solid, edges]) {
-      one.removeFromParent();
-      one.geometry.dispose();
-    }
+  drop({ solid, edges, full, coarse }) {
+    for (const one of [solid, edges]) one.removeFromParent();
+    for (const geometry of [full, coarse, edges.geometry]) geometry?.dispose();
   }
 
-  // Give every mesh the material for this quality and mode; edges take longer than they are worth while it is fast.
+  // Make a second form of every mesh with fewer triangles, a little at a time; `done` is called when there is one of all.
+  thin(error, done) {
+    clearTimeout(this.thinning);
+    this.error = error;
+    const step = () => {
+      const begun = performance.now();
+      for (const mesh of this.meshes.values()) {
+        if (mesh.error === error) continue;
+        if (performance.now() - begun > 12) {
+          this.thinning = setTimeout(step, 30);
+          return;
+        }
+        Object.assign(mesh, { error, thin: coarser(mesh, error) });
+      }
+      for (const batch of this.batches.values()) {
+        batch.coarse ??= joined(batch.members.map((b) => this.meshes.get(b.mesh).thin));
+      }
+      this.colourBy(this.by);
+      this.dress();
+      done();
+    };
+    this.thinning = setTimeout(step, 200);
+  }
+
+  // Give every mesh the form and material for this quality and mode; edges take longer than they are worth in motion.
   dress() {
-    for (const { solid, members, edges } of this.batches.values()) {
+    for (const { solid, members, edges, full, coarse } of this.batches.values()) {
       const kind = this.materials[this.ghost ? "ghost" : members[0].metal];
       solid.material = this.fine ? kind.fine : kind.fast;
+      solid.geometry = this.thinned && coarse ? coarse : full;
       solid.renderOrder = this.ghost ? 2 : 0;
       edges.visible = this.fine && !this.ghost && edges.geometry.attributes.position.count > 0;
     }
   }
 
-  quality(fine) {
-    if (this.fine === fine) return;
-    this.fine = fine;
+  // `pixel`: the size of a pixel on the drive; thinner forms are used where they differ by one and a half at most.
+  quality(fine, pixel) {
+    const thinned = !fine && 1.5 * pixel > (this.error ?? Infinity);
+    if (this.fine === fine && this.thinned === thinned) return;
+    Object.assign(this, { fine, thinned });
     this.dress();
   }
 
@@ -126,68 +128,56 @@ export class Bodies {
     this.dress();
   }
 
-  theme({ edge }, dark) {
+  theme({ edge, mark }, dark) {
     this.edge.color.set(edge);
     this.edge.opacity = dark ? 0.5 : 0.28;
-    this.mark.color.set(dark ? "#7cc0ff" : "#0a6cff");
+    this.mark = tone(mark);
+    this.colourBy(this.by);
   }
 
+  // Colour the bodies by shaft or by utilisation; those of the path that is selected stand out.
   colourBy(by) {
     this.by = by;
-    for (const { members, spans, solid } of this.batches.values()) {
-      const { tone: tones } = solid.geometry.attributes;
-      members.forEach((body, k) => {
-        const colour = by === "utilisation" ? (body.utilisation === null ? UNKNOWN : body.utilisation_colour) : body.colour;
-        const rgb = tone(colour);
-        const { vertex, vertices } = spans[k];
-        for (let v = 3 * vertex; v < 3 * (vertex + vertices); v++) tones.array[v] = rgb[v % 3];
-      });
-      tones.needsUpdate = true;
+    for (const { members, full, coarse } of this.batches.values()) {
+      for (const geometry of [full, coarse]) {
+        if (!geometry) continue;
+        const { tone: tones } = geometry.attributes;
+        members.forEach((body, k) => {
+          let rgb = tone(by === "utilisation" ? (body.utilisation === null ? UNKNOWN : body.utilisation_colour) : body.colour);
+          if (this.selected && body.path === this.selected) rgb = rgb.map((value, c) => 0.3 * value + 0.7 * this.mark[c]);
+          const { vertex, vertices } = geometry.userData.spans[k];
+          for (let v = 3 * vertex; v < 3 * (vertex + vertices); v++) tones.array[v] = rgb[v % 3];
+        });
+        tones.needsUpdate = true;
+      }
     }
   }
 
-  // Return the body a ray meets first, with the place.
-  pick(ray) {
-    let best = null;
-    for (const { members, spans, solid } of this.batches.values()) {
-      const [hit] = ray.intersectObject(solid, false);
-      if (!hit || (best && best.distance < hit.distance)) continue;
-      const k = spans.findIndex(({ index, indices }) => 3 * hit.faceIndex >= index && 3 * hit.faceIndex < index + indices);
-      best = { body: members[k], distance: hit.distance, point: hit.point };
-    }
-    return best;
-  }
-
-  // Mark all bodies that belong to a key path.
   select(path) {
     this.selected = path;
-    for (const one of this.marks ?? []) {
-      one.removeFromParent();
-      one.geometry.dispose();
+    this.colourBy(this.by);
+  }
+
+  // Return the body a ray meets first, with its distance.
+  pick(ray) {
+    let best = null;
+    for (const { members, solid } of this.batches.values()) {
+      const [hit] = ray.intersectObject(solid, false);
+      if (!hit || (best && best.distance < hit.distance)) continue;
+      const { spans } = solid.geometry.userData;
+      const k = spans.findIndex(({ index, indices }) => 3 * hit.faceIndex >= index && 3 * hit.faceIndex < index + indices);
+      best = { body: members[k], distance: hit.distance };
     }
-    this.marks = [];
-    if (!path) return;
-    for (const { members, spans, solid } of this.batches.values()) {
-      members.forEach((body, k) => {
-        if (body.path !== path) return;
-        const part = new THREE.BufferGeometry();
-        part.setAttribute("position", new THREE.BufferAttribute(solid.geometry.attributes.position.array, 3));
-        part.setIndex(new THREE.BufferAttribute(solid.geometry.index.array.slice(spans[k].index, spans[k].index + spans[k].indices), 1));
-        const mark = new THREE.Mesh(part, this.mark);
-        mark.renderOrder = 1;
-        solid.parent.add(mark);
-        this.marks.push(mark);
-      });
-    }
+    return best;
   }
 
   // Corners of all bodies where they are now, for the camera.
   corners() {
     const points = [];
     this.tracks.root.updateMatrixWorld(true);
-    for (const { solid } of this.batches.values()) {
-      solid.geometry.boundingBox ?? solid.geometry.computeBoundingBox();
-      const { min, max } = solid.geometry.boundingBox;
+    for (const { solid, full } of this.batches.values()) {
+      full.boundingBox ?? full.computeBoundingBox();
+      const { min, max } = full.boundingBox;
       for (let k = 0; k < 8; k++) {
         const corner = new THREE.Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z);
         points.push(corner.applyMatrix4(solid.matrixWorld));
@@ -197,13 +187,42 @@ export class Bodies {
   }
 
   dispose() {
-    this.select(null);
+    clearTimeout(this.thinning);
     for (const batch of this.batches.values()) this.drop(batch);
     for (const { fast, fine } of Object.values(this.materials)) {
       fast.dispose();
       fine.dispose();
     }
     this.edge.dispose();
-    this.mark.dispose();
   }
+}
+
+const content = (members) => members.map((b) => `${b.name} ${b.mesh}`).join("\n");
+
+function concatenated(parts, name) {
+  const all = new Float32Array(parts.reduce((total, part) => total + part[name].length, 0));
+  parts.reduce((start, part) => (all.set(part[name], start), start + part[name].length), 0);
+  return all;
+}
+
+// Several meshes as one geometry, which remembers where each begins.
+function joined(parts) {
+  const positions = concatenated(parts, "positions");
+  const indices = new Uint32Array(parts.reduce((total, part) => total + part.indices.length, 0));
+  const spans = []; // of each body: first and count of its vertices and of its indices
+  let [vertex, index] = [0, 0];
+  for (const part of parts) {
+    for (let k = 0; k < part.indices.length; k++) indices[index + k] = part.indices[k] + vertex;
+    const span = { vertex, vertices: part.positions.length / 3, index, indices: part.indices.length };
+    spans.push(span);
+    vertex += span.vertices;
+    index += span.indices;
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(concatenated(parts, "normals"), 3));
+  geometry.setAttribute("tone", new THREE.BufferAttribute(new Float32Array(positions.length), 3));
+  geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+  geometry.userData.spans = spans;
+  return geometry;
 }

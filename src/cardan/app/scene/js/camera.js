@@ -57,6 +57,12 @@ export class Viewer {
     deep.updateProjectionMatrix();
   }
 
+  // The size of a pixel at the point looked at.
+  get pixel() {
+    const reach = this.camera.position.distanceTo(this.controls.target);
+    return (2 * reach * Math.tan(ANGLE / 2)) / this.height / this.camera.zoom;
+  }
+
   // "perspective", "orthographic", or null for what suits the view.
   projection(kind) {
     this.asked = kind;

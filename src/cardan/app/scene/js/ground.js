@@ -6,13 +6,14 @@ import { plain } from "./studio.js";
 
 const CELLS = 96; // of the shade, each way, as it is measured
 const BLUR = 3;
+const DEPTH = 0.6; // of the shade where no light comes at all
 const [ACROSS, DEEP] = [36, 24]; // cells of the floor: its colours are kept in their corners, which draws faster than a picture
 
 export class Ground {
   constructor() {
     this.root = new THREE.Group();
     const geometry = new THREE.PlaneGeometry(1, 1, ACROSS, DEEP);
-    geometry.setIndex(oval(geometry));
+    this.cells = geometry.index.array;
     geometry.setAttribute("tone", new THREE.BufferAttribute(new Uint8Array(4 * (ACROSS + 1) * (DEEP + 1)), 4, true));
     const material = new THREE.ShaderMaterial({
       vertexShader: `attribute vec4 tone; varying vec3 vTone;
@@ -94,21 +95,23 @@ export class Ground {
     this.paint();
   }
 
-  // Colour the corners of the floor: shade in the middle, the background at the rim.
+  // Colour the corners of the floor, and draw no more of it than what is shaded: the rest is the background.
   paint() {
-    const [back, ground, dark] = ["back", "ground", "shade"].map((name) => plain(this.colours[name]));
-    const { uv, tone } = this.plane.geometry.attributes;
+    const [back, dark] = ["back", "shade"].map((name) => plain(this.colours[name]));
+    const { geometry } = this.plane;
+    const { uv, tone } = geometry.attributes;
     const cell = (share) => Math.min(Math.floor(share * CELLS), CELLS - 1);
-    for (let k = 0; k < uv.count; k++) {
-      const [x, y] = [uv.getX(k), uv.getY(k)];
-      const rim = Math.max(0, Math.min(1, 1.8 * (1 - (2 * x - 1) ** 2 - (2 * y - 1) ** 2)));
-      const shade = (0.6 * this.shade[cell(y) * CELLS + cell(x)]) / 255;
-      for (let c = 0; c < 3; c++) {
-        const floor = ground[c] + shade * (dark[c] - ground[c]);
-        tone.array[4 * k + c] = 255 * (back[c] + rim * (floor - back[c]));
-      }
-    }
+    const shades = Array.from({ length: uv.count }, (_, k) => this.shade[cell(uv.getY(k)) * CELLS + cell(uv.getX(k))] / 255);
+    shades.forEach((shade, k) => {
+      for (let c = 0; c < 3; c++) tone.array[4 * k + c] = Math.round(255 * (back[c] + DEPTH * shade * (dark[c] - back[c])));
+    });
     tone.needsUpdate = true;
+    const kept = [];
+    for (let k = 0; k < this.cells.length; k += 3) {
+      const corners = this.cells.slice(k, k + 3);
+      if (corners.some((corner) => shades[corner] > 0.01)) kept.push(...corners);
+    }
+    geometry.setIndex(kept);
   }
 
   dispose() {
@@ -116,17 +119,6 @@ export class Ground {
     this.plane.geometry.dispose();
     this.plane.material.dispose();
   }
-}
-
-// The triangles of the floor that reach into the oval in which it can be seen.
-function oval({ index, attributes: { uv } }) {
-  const inside = (k) => (2 * uv.getX(k) - 1) ** 2 + (2 * uv.getY(k) - 1) ** 2 < 1;
-  const kept = [];
-  for (let k = 0; k < index.count; k += 3) {
-    const corners = [0, 1, 2].map((c) => index.getX(k + c));
-    if (corners.some(inside)) kept.push(...corners);
-  }
-  return kept;
 }
 
 // The mean over neighbours `step` apart.

@@ -19,6 +19,7 @@ import { Quality, software } from "./quality.js";
 import { THEMES, uniforms } from "./studio.js";
 
 const REST = 160; // ms without motion until the picture is drawn at its best
+const THIN = 600; // without a graphics card, moving bodies keep to their form within this part of the whole
 const HEARD = 100; // ms between two angles told to the server
 const mounted = [];
 
@@ -39,7 +40,7 @@ export function open(root, texts, emit) {
 
 class View {
   constructor(page, context, slow, emit) {
-    Object.assign(this, { page, emit, playing: false, rate: 6, angle: 0, groupsOn: null, scene: null, selected: null });
+    Object.assign(this, { page, slow, emit, playing: false, rate: 6, angle: 0, groupsOn: null, scene: null, selected: null });
     this.renderer = new THREE.WebGLRenderer({ canvas: page.canvas, context });
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.info.autoReset = true;
@@ -115,6 +116,7 @@ class View {
     this.switch();
     this.floor();
     if (first) this.look(this.viewer.view, false);
+    if (this.slow) this.bodies.thin(scene.size / THIN, () => this.draw());
     this.draw();
     return true;
   }
@@ -282,7 +284,7 @@ class View {
       this.renderer.setSize(this.width, this.height, false);
       this.drawnAt = size;
     }
-    for (const part of [this.bodies, this.arrows, this.modes.curves]) part.quality(fine);
+    for (const part of [this.bodies, this.arrows, this.modes.curves]) part.quality(fine, this.viewer.pixel);
     this.motion.pose(this.tracks.groups, this.angle);
     this.modes.pose(this.tracks.groups);
     this.arrows.pose(this.angle);

@@ -89,7 +89,7 @@ function sharp(positions, indices, number, unit) {
   return new Float32Array(points);
 }
 
-// Return positions, normals, indices and edges of one mesh.
+// Return positions, normals, indices and edges of one mesh, and which vertices lie on one another.
 export function lit({ positions, indices, smooth }) {
   const { number, count } = welded(positions);
   const { area, unit } = faces(positions, indices);
@@ -97,6 +97,7 @@ export function lit({ positions, indices, smooth }) {
   const least = smooth ? SMOOTH : FLAT;
   const place = [];
   const normal = [];
+  const points = []; // the welded point of each vertex
   const index = new Uint32Array(indices.length);
   for (let p = 0; p < count; p++) {
     const made = []; // vertices of this point: [x, y, z, number]
@@ -119,6 +120,7 @@ export function lit({ positions, indices, smooth }) {
         const at = 3 * indices[corner[m]];
         place.push(positions[at], positions[at + 1], positions[at + 2]);
         normal.push(x, y, z);
+        points.push(p);
       }
       index[corner[m]] = one[3];
     }
@@ -127,6 +129,7 @@ export function lit({ positions, indices, smooth }) {
     positions: new Float32Array(place),
     normals: new Float32Array(normal),
     indices: index,
+    points: Uint32Array.from(points),
     edges: sharp(positions, indices, number, unit),
   };
 }
