@@ -164,6 +164,8 @@ def test_what_cannot_be_shown_names_the_key_that_would_allow_it():
     assert missing["forces"].startswith("duty.torque: missing")
     assert missing["whirl"].startswith("shafts[1].outer")
     assert missing["torsion"].startswith("stations")
+    assert missing["modes"].startswith(missing["whirl"])
+    assert missing["couples"] == missing["forces"]
     held = scene(example("pto-drive"), with_forces=True, frames=8)
     assert held.missing["forces"].startswith("supports: missing")
     assert {one.group for one in held.arrows} == {"couples"}
@@ -222,6 +224,7 @@ def test_poses_and_movements_move_the_drive_and_leave_its_parts_as_long_as_they_
         one, two = (next(body for body in shown.bodies if body.part == part) for shown in (drawn, laden))
         np.testing.assert_allclose(one.positions, two.positions, atol=1e-12)
     assert "forces" in scene(drive, time=0.125, with_forces=True, frames=8).missing
+    assert {one.group for one in scene(drive, pose=0, with_forces=True, frames=8).arrows} == {"forces", "couples"}
     with pytest.raises(InputError, match="there is no pose 4"):
         scene(drive, pose=4)
 

@@ -88,12 +88,12 @@ def scene(
     if with_forces:
         from .scene_loads import loads
 
-        arrows, more, told = loads(whole, build, size)
+        arrows, more, told = loads(build.drive, build, size)
         groups, missing = (*groups, *more), {**missing, **told}
     if with_modes:
         from .scene_modes import shapes
 
-        modes, told = shapes(whole, build, size)
+        modes, told = shapes(build.drive, build, size)
         missing = {**missing, **told}
     uses = used(verdicts)
     return Scene(

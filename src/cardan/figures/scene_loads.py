@@ -44,12 +44,12 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
         Of the whole.
     """
     if not np.allclose(build.place.points, geometry(drive).points, rtol=0.0, atol=1e-9 * size):
-        return (), (), {"forces": _("forces are shown for the drive as drawn")}
+        return (), (), _both(_("Forces are shown for the drive as drawn and in its poses, not while it moves."))
     angle = np.arange(build.frames) * (2.0 * np.pi / build.frames)
     try:
         found = forces(drive, angle=angle)
     except InputError as error:
-        return (), (), {"forces": sentence(error)}
+        return (), (), _both(sentence(error))
     missing: dict[str, str] = {}
     arrows: list[SceneArrow] = []
     groups: list[SceneGroup] = []
@@ -84,6 +84,10 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
         arrows += whole
         groups.append(SceneGroup(name="couples", title=_("Couples"), on=False, text=text))
     return tuple(arrows), tuple(groups), missing
+
+
+def _both(text: str) -> dict[str, str]:
+    return {"forces": text, "couples": text}
 
 
 def sentence(error: InputError) -> str:

@@ -60,6 +60,8 @@ def shapes(drive: Drive, build: Build, size: float) -> tuple[tuple[SceneMode, ..
         modes += _torsions(torsion_modes(drive), build)
     except InputError as error:
         missing["torsion"] = sentence(error)
+    if not modes:
+        missing["modes"] = "; ".join(dict.fromkeys(missing.values()))
     return tuple(modes), missing
 
 
