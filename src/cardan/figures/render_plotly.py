@@ -88,7 +88,13 @@ def described(figure: Figure) -> Spec:
             "legend": {"orientation": "h", "x": 0.0, "xanchor": "left", "y": 1.0, "yanchor": "top"},
             "shapes": [],
             "annotations": [],
-            "meta": {"turning": []},  # tails of the axes, as in "xaxis2", along which the input angle runs
+            # Tails of the axes, as in "xaxis2", along which the input angle runs; whether circles must stay round, and
+            # at which width they do.
+            "meta": {
+                "turning": [],
+                "equal": any(panel.equal for panel in figure.panels),
+                "width": page.width * INCH,
+            },
         },
     }
     shown: set[str] = set()

@@ -142,7 +142,7 @@ class Sheet:
         self._settings: tuple[Applicable, ...] = ()
         self._due: ui.timer | None = None
         self._watch: ui.timer | None = None
-        with ui.element("div").classes("sheet") as self.body:
+        with ui.element("div").classes("sheet").props(f'data-mark="sheet-{name}"') as self.body:
             self._progress = Progress(self.cancel, self.begin)
             if name == "selection":
                 self._joints = ui.select({0: _("all joints")}, value=0, label=_("joint"), on_change=self._chosen)

@@ -211,6 +211,7 @@ class PageView:
                     self._button.props(f'flat dense round size=sm aria-label="{_("save this page")}"').props(
                         'data-mark="save-page"'
                     )
+                    self._button.set_visibility(False)
             self._blocks = ui.element("div").classes("blocks")
 
     def show(self, page: Page, buttons: Mapping[str, str] | None = None) -> None:
@@ -224,6 +225,8 @@ class PageView:
             Name -> what a button beside it says, in the first table that has such names.
         """
         self.page = page
+        if self._export is not None:
+            self._button.set_visibility(True)
         self._answer.text = page.answer
         given = _placed(page.blocks, buttons or {})
         same = 0

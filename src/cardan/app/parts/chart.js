@@ -25,7 +25,7 @@ function darkened(thing, colours, rgb) {
 
 export default {
   template: `<div class="cardan-chart" tabindex="0" role="img" :aria-label="label" @keydown="key">
-    <div ref="plot" class="plot" :style="{ minHeight: spec.layout.height + 'px' }"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
+    <div ref="plot" class="plot" :style="{ minHeight: spec.layout.meta.equal ? 0 : spec.layout.height + 'px' }"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
   props: { spec: Object, label: String, dark: Object },
   watch: {
     spec() {
@@ -95,7 +95,7 @@ export default {
         layout = darkened(layout, this.dark, this.rgb);
       }
       const turns = layout.meta.turning;
-      const size = { width: this.$el.clientWidth || 600 };
+      const size = this.size();
       const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, ...size };
       const plot = this.$refs.plot;
       await this.Plotly.react(plot, data, { ...layout, ...looks, dragmode: turns.length ? false : "zoom" }, CONFIG);
@@ -105,6 +105,14 @@ export default {
       }
       plot.style.touchAction = turns.length ? "pan-y" : "";
       this.measure();
+    },
+    // Return the size to draw at: as wide as there is room; where circles are to stay round as high as that asks for.
+    size() {
+      const { height, meta } = this.spec.layout;
+      const room = this.$el.clientWidth || 600;
+      if (!meta.equal) return { width: room, height };
+      const share = Math.min(1, room / meta.width);
+      return { width: share * meta.width, height: share * height };
     },
     // Note where the panels stand, so that the cursor needs no look at the page while it moves.
     measure() {

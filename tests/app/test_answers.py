@@ -1,0 +1,142 @@
+"""Answers and verdicts in a browser: tabs, charts in step with the view, long work, what is applied, what is wrong."""
+
+import re
+import sys
+
+import pytest
+
+pytest.importorskip("nicegui", reason="NiceGUI is not installed")
+
+SHEET = ".sheet:visible"
+
+
+@pytest.fixture(scope="module")
+def address(serve, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("drives")
+    return serve(sys.executable, "-m", "tests.app.answers_server", "{port}", str(folder)).url
+
+
+@pytest.fixture
+def page(page_of, address):
+    """Return the page of the truck's power unit, its first chart drawn."""
+    shown = page_of(address)
+    shown.wait_for_selector(".cardan-chart .main-svg")
+    return shown
+
+
+def mark(name):
+    return f"[data-mark='{name}']"
+
+
+def said(page):
+    return page.locator(SHEET).locator(mark("answer"))
+
+
+def test_the_motion_follows_an_edit_in_place_and_its_cursor_the_drive(page):
+    chart = page.locator(".cardan-chart").first
+    chart.evaluate("one => { one.kept = true }")
+    before = said(page).inner_text()
+    page.click("#turn")
+    page.wait_for_function("before => document.querySelector('.said').textContent !== before", arg=before)
+    assert chart.evaluate("one => one.kept")
+    lines = page.locator(".cardan-chart").first.locator(".cursors > div")
+    assert lines.count() == 3
+    place = "one => new DOMMatrix(getComputedStyle(one).transform).m41"
+    page.evaluate("dispatchEvent(new CustomEvent('cardan-angle', {detail: {angle: Math.PI}}))")
+    half = lines.first.evaluate(place)
+    page.evaluate("dispatchEvent(new CustomEvent('cardan-angle', {detail: {angle: 2.5 * Math.PI}}))")
+    quarter = lines.first.evaluate(place)
+    page.evaluate("dispatchEvent(new CustomEvent('cardan-angle', {detail: {angle: 0}}))")
+    start = lines.first.evaluate(place)
+    assert start < quarter < half
+    assert (half - start) == pytest.approx(2 * (quarter - start), abs=0.5)  # half a pixel
+    # Pressing there asks the view to go there.
+    page.evaluate("addEventListener('cardan-go-to', event => { window.went = event.detail.angle })")
+    box = chart.bounding_box()
+    page.mouse.move(box["x"] + quarter, box["y"] + 110)
+    page.mouse.down()
+    page.mouse.up()
+    assert page.evaluate("went") == pytest.approx(1.5708, abs=0.03)  # a pixel or two of 570 for 2 pi
+    chart.focus()
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("went") == pytest.approx(5 / 57.29578, abs=1e-6)
+
+
+def test_a_setting_is_applied_with_one_touch(page):
+    page.click(mark("tab-phases"))
+    sheet = page.locator(SHEET)
+    sheet.locator("button[data-do='A']").wait_for()
+    assert "can make the drive exactly synchronous" in said(page).inner_text()
+    sheet.locator("button[data-do='A']").click()
+    page.wait_for_function("() => document.body.innerText.includes('The yokes stand right')")
+    sheet.locator("button[data-do='A']").wait_for(state="detached")
+    page.click(mark("tab-motion"))
+    page.wait_for_function("() => document.body.innerText.includes('as evenly as the input')")
+    page.click("#undo")
+    page.click(mark("make-synchronous"))
+    page.wait_for_function("() => document.body.innerText.includes('as evenly as the input')")
+    page.click(mark("make-synchronous"))
+    page.wait_for_function("() => document.body.innerText.includes('The yokes stand right')")
+
+
+def test_a_long_answer_shows_how_far_it_is_can_be_stopped_and_begun_again(page):
+    page.click(mark("tab-torsion"))
+    page.locator(mark("inner-torsion")).get_by_text("Stability map").click()
+    stop = page.locator(SHEET).locator(mark("cancel"))
+    stop.wait_for()
+    stop.click()
+    page.locator(SHEET).locator(mark("again")).wait_for()
+    page.locator(mark("inner-torsion")).get_by_text("Modes and running").click()
+    page.wait_for_function("() => document.body.innerText.includes('The slowest mode swings at')")
+    assert page.locator(SHEET).locator(mark("cancel")).is_hidden()
+
+
+def test_every_tab_answers_and_figures_are_taken_along_in_the_reader_s_units(page):
+    for name in ("forces", "losses", "accuracy", "life", "strength", "mobility", "selection"):
+        page.click(mark(f"tab-{name}"))
+        answer = page.locator(mark(f"sheet-{name}")).locator(mark("answer"))
+        answer.filter(has_text="needs more in the drive file").wait_for()
+        assert answer.is_visible()
+    page.click(mark("tab-motion"))
+    page.locator(SHEET).locator(mark("save-figure")).first.click()
+    page.wait_for_function("() => document.querySelector('#taken').textContent === 'motion'")
+    page.click(mark("compare"))
+    page.wait_for_function("() => document.querySelector('#taken').textContent === 'compare'")
+    page.click("#inch")
+    page.wait_for_function("() => document.querySelector('.said').textContent.includes('20,049°')")
+
+
+def test_a_failed_verdict_leads_to_its_field_and_its_cure_cures_it_and_a_broken_file_is_told(page):
+    failed = page.locator(".lights details.failed").first
+    title = failed.locator("summary span").nth(1).inner_text().splitlines()[0]
+    failed.locator("summary").click()
+    failed.locator("button.apply").first.wait_for()
+    page.wait_for_function("() => document.querySelector('#selected').textContent")
+    assert re.fullmatch(r"[a-z]+(\[\d+\])?(\.[a-z_]+)*.*", page.locator("#selected").inner_text())
+    failed.locator("button.apply").first.click()
+    page.wait_for_function(
+        "title => ![...document.querySelectorAll('.lights details.failed')].some(e => e.innerText.includes(title))",
+        arg=title,
+    )
+    # A broken file keeps what was sound and says what is wrong.
+    before = said(page).inner_text()
+    page.click("#break")
+    page.wait_for_selector(".lights .list.stale")
+    assert "foo" in page.locator(mark("problems-of-verdicts")).inner_text()
+    assert said(page).inner_text() == before
+    page.click("#undo")
+    page.wait_for_selector(".lights .list:not(.stale)")
+    assert page.locator(mark("problems-of-verdicts")).inner_text() == ""
+
+
+def test_two_users_and_a_dark_page_in_russian(page, page_of, address):
+    other = page_of(f"{address}?language=ru&theme=dark&example=three-joints-unequal")
+    other.wait_for_selector(".cardan-chart .main-svg")
+    assert "Движение" in other.locator(mark("tab-motion")).inner_text()
+    line = "one => getComputedStyle(one).stroke"
+    drawn = [one.locator(".scatterlayer path.js-line").nth(1) for one in (other, page)]
+    assert [one.evaluate(line) for one in drawn] == ["rgb(79, 168, 224)", "rgb(0, 114, 178)"]
+    here = said(page).inner_text()
+    other.click("#turn")
+    other.wait_for_timeout(300)
+    assert said(page).inner_text() == here
