@@ -23,10 +23,10 @@ DASHES = {"solid": "solid", "dashed": "dash", "dotted": "round_dot", "dashdot": 
 OUTLINE = 8
 """Shapes with at most so many corners are marks that a chart draws as lines."""
 
-INCH = 115.0
+INCH = 104.0
 """Pixels of a chart for an inch of print."""
 
-AROUND = 96.0
+AROUND = 84.0
 """Pixels above and below the frame of a chart: its title, axis and legend."""
 
 LABELS: dict[tuple[str, str], str] = {("centre", "top"): "below", ("left", ""): "right", ("right", ""): "left"}

@@ -33,7 +33,7 @@ LETTER, MARGIN, LINE = 7, 5, 20
 DENSE = 1.12
 """Letters in the width of a digit, at the least."""
 
-PAPER = (10.69 * 96.0, 6.4 * 96.0)
+PAPER = (10.69 * 96.0, 6.6 * 96.0)
 """Pixels of a printed page within its margins, in natural size."""
 
 INCH, DPI = 100.0, 150.0
@@ -213,8 +213,9 @@ class Paper:
         first = drawings[0][0].height if drawings else INCH * laid_out(figure, words=False).height
         self._keep(first + 6 * LINE)
         self._heading(figure.title)
-        for drawn in drawings:
-            self._keep(max(one.height for one in drawn) + 3 * LINE)
+        for k, drawn in enumerate(drawings):
+            if k:
+                self._keep(max(one.height for one in drawn) + 3 * LINE)
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": one.height})
@@ -223,17 +224,18 @@ class Paper:
                 left += one.width
             self._down(max(one.height for one in drawn))
         if others is not None:
-            self.image(others)
+            self.image(others, keep=bool(drawings))
         self.line(figure.sentence)
         self.line(figure.source, font_size=9, color="muted")
 
-    def image(self, figure: Figure) -> None:
-        """Insert a picture of a figure, without its words, where it is not cut in print."""
+    def image(self, figure: Figure, *, keep: bool = True) -> None:
+        """Insert a picture of a figure, without its words; ``keep`` it from being cut in print."""
         from cardan.figures.render_matplotlib import render
 
         page = laid_out(figure, words=False)
         inch = min(INCH, (self._page - 8 * LINE) / page.height)
-        self._keep(inch * page.height + LINE)
+        if keep:
+            self._keep(inch * page.height + LINE)
         stream = io.BytesIO()
         render(figure, stream, "png", dpi=DPI, words=False)
         options = {
