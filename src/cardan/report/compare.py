@@ -117,8 +117,8 @@ def compared(variants: Sequence[Variant], progress: Progress | None = None) -> P
     if len(seen) < len(variants):
         left = ", ".join(one.name for one in variants[len(seen) :])
         blocks.append(Words(text=_("Stopped by the reader; left out: {names}.").format(names=left), tone="warning"))
-    blocks += [Picture(figure=variants_figure([motion(one.drive) for one in seen], [one.name for one in seen]))]
-    blocks.append(_figures(seen, rows))
+    figure = variants_figure([motion(one.drive) for one in seen], [one.name for one in seen])
+    blocks += [_figures(seen, rows), Picture(figure=figure)]
     if any(one.verdicts for one in seen):
         blocks.append(_verdicts(seen))
     blocks.append(differences_table([one.name for one in seen], [one.drive for one in seen]))

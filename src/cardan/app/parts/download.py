@@ -13,6 +13,7 @@ from cardan.report.block import Page
 from cardan.report.exports import Exported, kinds
 from cardan.texts import _
 
+from .dialogs import asking
 from .making import Making
 
 
@@ -107,18 +108,15 @@ class Exports:
 
     def __call__(self, thing: Figure | Page) -> None:
         """Ask in which kind of file to export a figure or a page."""
-        with self.session.speaking(), ui.dialog() as dialog:
-            with ui.card().classes("dialog exports").props('role=dialog data-mark="export"'):
-                title = _("Save the figure as") if isinstance(thing, Figure) else _("Save the page as")
-                ui.label(title).classes("head")
-                ui.label(thing.title).classes("hint")
-                known = _kinds()
-                for kind in kinds(thing):
-                    button = ui.button(known[kind], on_click=lambda kind=kind: self._chosen(dialog, thing, kind))
-                    button.props(f'flat no-caps align=left data-mark="export-{kind}"')
-                ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
-            dialog.on("hide", dialog.delete)
-        dialog.open()
+        with self.session.speaking(), asking("export", names="dialog exports") as dialog:
+            title = _("Save the figure as") if isinstance(thing, Figure) else _("Save the page as")
+            ui.label(title).classes("head")
+            ui.label(thing.title).classes("hint")
+            known = _kinds()
+            for kind in kinds(thing):
+                button = ui.button(known[kind], on_click=lambda kind=kind: self._chosen(dialog, thing, kind))
+                button.props(f'flat no-caps align=left data-mark="export-{kind}"')
+            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
     def _chosen(self, dialog: ui.dialog, thing: Figure | Page, kind: str) -> None:
         dialog.close()

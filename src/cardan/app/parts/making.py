@@ -12,6 +12,8 @@ from cardan.app.state.session import Session
 from cardan.app.state.work import Question
 from cardan.texts import _
 
+from .dialogs import asking
+
 LOOK = 0.2
 """Seconds between two looks."""
 
@@ -40,7 +42,8 @@ class Making:
         self._jobs = jobs
         self._done = done
         self.job = jobs.ask(question, session)
-        with ui.dialog() as self.dialog, ui.card().classes("dialog making").props('role=dialog data-mark="making"'):
+        self._client = ui.context.client
+        with asking("making", names="dialog making") as self.dialog:
             ui.label(title).classes("head")
             self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
             self._said = ui.label(_("It is being made …")).props("role=status")
@@ -49,7 +52,6 @@ class Making:
                 self._stop.props('data-mark="making-cancel"')
             self._timer = ui.timer(LOOK, self._look)
         self.dialog.on("hide", self._gone)
-        self.dialog.open()
         self._look()
 
     def _look(self) -> None:
@@ -65,7 +67,8 @@ class Making:
             self._timer.cancel()
             if job.state == "done":
                 self.dialog.close()
-                self._done(job.result)
+                with self._client.content:
+                    self._done(job.result)
             elif job.state == "failed":
                 self._bar.set_visibility(False)
                 self._said.text = job.message
@@ -86,4 +89,3 @@ class Making:
         self._timer.cancel()
         if not self.job.finished:
             self._jobs.cancel(self.job)
-        self.dialog.delete()

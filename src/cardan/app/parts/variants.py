@@ -16,6 +16,7 @@ from cardan.report.block import Page
 from cardan.texts import _
 
 from .blocks import PageView
+from .dialogs import asking
 from .download import Exports
 from .making import Making
 
@@ -134,7 +135,7 @@ class VariantsMenu:
         ui.download.content(text, f"{papers.safe(name, 'variant')}.toml", "application/toml")
 
     def _delete(self, name: str) -> None:
-        with ui.dialog() as dialog, ui.card().classes("dialog").props("role=alertdialog"):
+        with asking("variant-delete", role="alertdialog") as dialog:
             ui.label(_("Delete the variant {name}?").format(name=name))
             with ui.row().classes("ends"):
                 ui.button(_("Stay"), on_click=dialog.close).props("flat no-caps")
@@ -144,13 +145,11 @@ class VariantsMenu:
                     self.session.keep(self.session.variants.without(name))
 
                 ui.button(_("Delete"), on_click=gone).props('no-caps color=negative data-mark="variant-gone"')
-        dialog.on("hide", dialog.delete)
-        dialog.open()
 
     def _keep_file(self) -> None:
         """Offer the files of the folder to be kept as variants."""
         session = self.session
-        with ui.dialog() as dialog, ui.card().classes("dialog").props("role=dialog"):
+        with asking("variant-files") as dialog:
             ui.label(_("Files of the folder, the newest first")).classes("head")
             names = session.workspace.names()
             if not names:
@@ -164,8 +163,6 @@ class VariantsMenu:
 
                     ui.button(name, on_click=taken).props('flat no-caps align=left data-mark="variant-file"')
             ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
-        dialog.on("hide", dialog.delete)
-        dialog.open()
 
     def _take(self, name: str) -> None:
         session = self.session
@@ -181,7 +178,7 @@ class VariantsMenu:
 
     def _ask(self, title: str, proposed: str, act: str, named: Callable[[str], object]) -> None:
         """Ask for a name."""
-        with ui.dialog() as dialog, ui.card().classes("dialog").props("role=dialog"):
+        with asking("variant-naming") as dialog:
             ui.label(title).classes("head")
             name = ui.input(_("name"), value=proposed).props(
                 f'autofocus outlined dense maxlength={LONGEST} data-mark="variant-name"'
@@ -200,11 +197,9 @@ class VariantsMenu:
             with ui.row().classes("ends"):
                 ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
                 ui.button(act, on_click=done).props('no-caps data-mark="variant-named"')
-        dialog.on("hide", dialog.delete)
-        dialog.open()
 
     def _explain(self) -> None:
-        with ui.dialog() as dialog, ui.card().classes("dialog").props('role=dialog data-mark="compare-explained"'):
+        with asking("compare-explained") as dialog:
             ui.label(_("Nothing to compare with yet")).classes("head")
             ui.label(_("Keep the drive as a variant, change it, then compare: both stand side by side."))
             with ui.row().classes("ends"):
@@ -216,22 +211,17 @@ class VariantsMenu:
                         self.keep()
 
                 ui.button(_("Keep this as a variant …"), on_click=kept).props("no-caps")
-        dialog.on("hide", dialog.delete)
-        dialog.open()
 
     def _show(self, page: Page) -> None:
         """Show the variants side by side, over the whole window."""
-        look = 'role=dialog data-mark="comparison"'
-        with ui.dialog().props("maximized") as dialog, ui.card().classes("comparison").props(look):
+        with asking("comparison", names="comparison", whole=True) as dialog:
             with ui.element("div").classes("bar"):
                 ui.label(page.title).classes("title").props("role=heading aria-level=2")
                 close = ui.button(icon="close", on_click=dialog.close)
                 close.props(f'flat round dense autofocus aria-label="{_("Close")}" data-mark="comparison-close"')
             with ui.element("div").classes("body"):
                 view = PageView(Exports(self.session, self._jobs))
-        dialog.on("hide", dialog.delete)
-        dialog.open()
-        view.show(page)
+            view.show(page)
 
 
 def _refused(text: str) -> None:
