@@ -280,7 +280,7 @@ def _station(build: Build, number: int) -> None:
     else:
         return
     radius = (8.0 * one.inertia / (STEEL * np.pi)) ** 0.2 if one.inertia > 0.0 else 1.4 * shaft_radius
-    radius = min(max(radius, 1.7 * shaft_radius), most)
+    radius = max(min(radius, most), 1.7 * shaft_radius)
     thick = min(0.3 * radius, 0.9 * build.sizes.usual)
     name = one.name or _("station {number}").format(number=number + 1)
     text = (

@@ -261,7 +261,7 @@ def _neck(slip: Slip, stretches: Sequence[Stretch], low: float, high: float) -> 
     sense = 1.0 if slip.sleeve_first else -1.0
     body = _radius_at(stretches, slip.out + sense * 1e-6)
     room = abs((high if slip.sleeve_first else low) - slip.out)
-    long, thin = min(0.9 * body, 0.9 * room), min(0.97 * slip.root, body)
+    long, thin = max(min(0.9 * body, 0.9 * room), 0.02 * body), min(0.97 * slip.root, body)
     side = [
         (-0.35 * long, thin),
         (0.0, max(0.8 * body, thin)),
