@@ -84,6 +84,7 @@ class Sheets:
         sheet.set_landscape()
         sheet.set_paper(9)
         sheet.fit_to_pages(1, 0)
+        sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})  # numbers of shafts, lines of a file
         sheet.set_margins(left=0.5, right=0.5, top=0.75, bottom=0.75)
         sheet.set_header(f"&L {_printed(self._title)}&R {_printed(title)}")
         sheet.set_footer(f"&L {_printed(self._foot)}&R&P / &N")
