@@ -104,7 +104,7 @@ def _copied(name: str, text: str, place: Path) -> Answer:
 
 
 def about(text: str) -> str:
-    """Return what the comment at the head of a drive file says.
+    """Return what the comment at the head of a drive file says; of a shipped one in the language spoken here.
 
     Examples
     --------
@@ -116,4 +116,4 @@ def about(text: str) -> str:
         if not line.startswith("#"):
             break
         lines.append(line.lstrip("# ").strip())
-    return " ".join(line for line in lines if line)
+    return _(" ".join(line for line in lines if line))

@@ -198,4 +198,4 @@ def kinds_answer() -> Answer:
 
 def sentence_of(kind: type[Joint]) -> str:
     """Return the one sentence that says what a kind is."""
-    return (kind.__doc__ or "").strip().splitlines()[0]
+    return _((kind.__doc__ or "").strip().splitlines()[0])
