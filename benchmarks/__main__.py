@@ -21,6 +21,7 @@ NAMES = (
     "speed_sweep",
     "floquet_map",
     "start_up",
+    "app_latency",
 )
 
 

@@ -16,6 +16,9 @@ from cardan.units import label
 
 AXES = ("x", "y", "z")
 
+TYPED = "(value) => emit(value?.target ? value.target.value : value)"
+"""Sends what was typed with the event itself, so that no other message has to come before it."""
+
 
 class Triple:
     """Three numbers beside each other, of a point or a direction.
@@ -37,9 +40,8 @@ class Triple:
                 ui.input(prefix=axis, value=part).props(f'dense outlined aria-label="{told} {axis}"')
                 for axis, part in zip(AXES, self._parts(value), strict=True)
             ]
-        for one in self._inputs:
-            one.on("change", self._changed)
-            one.on("keydown.enter", self._changed)
+        for place, one in enumerate(self._inputs):
+            one.on("change", lambda event, place=place: self._changed(place, str(event.args)), js_handler=TYPED)
 
     @property
     def value(self) -> str:
@@ -53,9 +55,11 @@ class Triple:
             if one.value != part:
                 one.value = part
 
-    def _changed(self) -> None:
-        if self.value:
-            self._typed(self.value)
+    def _changed(self, place: int, part: str) -> None:
+        parts = ["".join(str(one.value or "").split()) for one in self._inputs]
+        parts[place] = "".join(part.split())
+        if all(parts):
+            self._typed(" ".join(parts))
 
     @staticmethod
     def _parts(text: str) -> list[str]:
@@ -137,8 +141,7 @@ class KeyField:
             widget = ui.input(value=shown(entry), autocomplete=list(entry.offered) or None).props(told)
         if not entry.given and isinstance(entry.default, int | float | str) and entry.default != "":
             widget.props(f'placeholder="{entry.default}"')
-        widget.on("change", lambda: self._typed(widget.value))
-        widget.on("keydown.enter", lambda: self._typed(widget.value))
+        widget.on("change", lambda event: self._typed(event.args), js_handler=TYPED)
         return widget
 
     def _unit(self) -> None:
