@@ -101,7 +101,8 @@ def body(mesh: Mesh, part: str, number: int, track: int, colour: str, utilisatio
         "part": part,
         "number": number,
         "path": path,
-        "text": f"{part.capitalize()} {number}",
+        "text": f"{part.capitalize()} {number}"
+        + ("" if utilisation is None else f"; {100 * utilisation:.0f} % of the limit"),
         "track": track,
         "positions": mesh[0],
         "indices": mesh[1],
@@ -118,14 +119,14 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
     points = (ENDS[0], *CENTRES, ENDS[1])
     tracks: list[dict[str, Any]] = [{"origin": [0.0, 0.0, 0.0], "turn": [0.0, 0.0, 0.0, 1.0] * frames}]
     bodies: list[Any] = []
-    axes: list[Quaternion] = []
+    axes: list[Vector] = []
     for k in range(5):
         start, end = points[k], points[k + 1]
         span = [b - a for a, b in zip(start, end, strict=True)]
         length = hypot(*span)
-        axes.append(from_x((span[0] / length, span[1] / length, span[2] / length)))
+        axes.append((span[0] / length, span[1] / length, span[2] / length))
         spin = partial(about, (1.0, 0.0, 0.0))
-        turns = [times(axes[k], spin(tau * n / frames + k * pi / 2)) for n in range(frames)]
+        turns = [times(from_x(axes[k]), spin(tau * n / frames + k * pi / 2)) for n in range(frames)]
         tracks.append({"origin": list(start), "turn": [number for turn in turns for number in turn]})
         first, last = (0.0 if k == 0 else 0.09), (length if k == 4 else length - 0.09)
         tube = rod(0, first, last, radius)
@@ -174,7 +175,7 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
         "arrows": [
             {
                 "group": "forces",
-                "text": "870 N",
+                "text": "joint 2: 870 N",
                 "colour": "#d55e00",
                 "curl": False,
                 "from": flat(still),
@@ -182,7 +183,7 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
             },
             {
                 "group": "couples",
-                "text": "95 N·m",
+                "text": "joint 3: 95 N·m",
                 "colour": "#0072b2",
                 "curl": True,
                 "from": list(CENTRES[2]),
@@ -203,9 +204,7 @@ def scene(*, radius: float = 0.035, frames: int = FRAMES) -> dict[str, Any]:
                 "text": "first torsional mode",
                 "kind": "torsion",
                 "frames": 24,
-                "turns": {
-                    "2": flat(times(axes[1], about((1.0, 0.0, 0.0), 0.5 * sin(tau * n / 24))) for n in range(24))
-                },
+                "turns": {"2": flat(about(axes[1], 0.5 * sin(tau * n / 24)) for n in range(24))},
                 "curves": [],
             },
         ],

@@ -92,8 +92,8 @@ def test_it_draws(page):
     assert 0.01 < drawn < 0.6  # parts on a quiet background
     shafts = np.array([[int(c[k : k + 2], 16) for k in (1, 3, 5)] for c in ("#0072b2", "#d55e00", "#009e73")])
     colour = seen / np.maximum(np.linalg.norm(seen, axis=1, keepdims=True), 1)
-    for shaft in shafts:  # the colour of each shaft is there, lighter or darker
-        assert np.max(colour @ (shaft / np.linalg.norm(shaft))) > 0.97
+    for shaft in shafts:  # the colour of each shaft is there, lighter or darker; grey has 0.81 at most with any of them
+        assert np.max(colour @ (shaft / np.linalg.norm(shaft))) > 0.94
     assert page.get_by_text("joint 3", exact=True).is_visible()
     assert page.locator("canvas").get_attribute("aria-label").startswith("Three-dimensional view")
 
@@ -167,7 +167,7 @@ def middle_of(page: Any, name: str) -> tuple[float, float]:
 def test_a_touched_body_gives_its_path_and_its_text(page):
     page.mouse.move(*middle_of(page, "tube 3"))
     page.locator(".cardan-tip").wait_for()
-    assert page.locator(".cardan-tip").inner_text() == "Tube 3\nutilisation 40 %"
+    assert page.locator(".cardan-tip").inner_text() == "Tube 3; 40 % of the limit"
     page.mouse.click(*middle_of(page, "tube 3"))
     page.wait_for_function("document.getElementById('heard').innerText === 'shafts[3]'")
     page.mouse.click(*middle_of(page, "support 1"))
@@ -183,7 +183,7 @@ def test_groups_are_hidden_and_shown(page):
     page.wait_for_function("cardanView.groupsOn?.size === 2")
     page.wait_for_timeout(200)
     assert not joint.is_visible()
-    assert page.get_by_text("870 N", exact=True).is_visible()
+    assert page.get_by_text("870 N", exact=True).is_visible()  # of "joint 2: 870 N"
     assert changed(before, pixels(page)) > 0.001
 
 
@@ -327,3 +327,67 @@ def test_packing_sends_a_mesh_once():
     other, more = packed(scene(radius=0.05), names)
     assert set(other["meshes"]) == more - names
     assert not any("positions" in body for body in message["bodies"])
+
+
+def volume(positions: np.ndarray, indices: np.ndarray) -> float:
+    """Return what a closed surface holds, by the tetrahedra from the origin."""
+    a, b, c = (positions[indices[:, k]] for k in range(3))
+    return float(np.sum(a * np.cross(b, c)) / 6)
+
+
+def test_thinned_bodies_are_closed_and_of_the_same_shape(page):
+    """Without a graphics card bodies move with fewer triangles: the same surface within a 600th of the whole."""
+    page.wait_for_function("[...cardanView.bodies.meshes.values()].every((mesh) => mesh.thin)")
+    found = page.evaluate(
+        """() => [...cardanView.bodies.meshes.values()].map((mesh) => [mesh, mesh.thin].map(
+          ({positions, indices}) => [[...positions], [...indices]]))"""
+    )
+    error = scene()["size"] / 600
+    fewer = 0
+    for pair in found:
+        (points, corners), (kept, left) = (
+            (np.array(place).reshape(-1, 3), np.array(index).reshape(-1, 3)) for place, index in pair
+        )
+        fewer += len(corners) - len(left)
+        assert {tuple(p) for p in kept.tolist()} <= {tuple(p) for p in points.tolist()}  # no corner is made up
+        places = {tuple(p): k for k, p in enumerate(kept.tolist())}
+        ends = [[places[tuple(kept[k].tolist())] for k in triangle] for triangle in left.tolist()]
+        sides = [(t[k], t[(k + 1) % 3]) for t in ends for k in range(3)]
+        assert sorted(sides) == sorted((b, a) for a, b in sides)  # every side of a triangle is that of a neighbour
+        area = float(
+            np.sum(
+                np.linalg.norm(
+                    np.cross(
+                        points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]]
+                    ),
+                    axis=1,
+                )
+            )
+            / 2
+        )
+        assert abs(volume(kept, left) - volume(points, corners)) <= area * error
+    assert fewer > 0
+
+
+def test_selecting_a_key_marks_the_parts_it_belongs_to(page):
+    def marked(path: str) -> int:
+        page.evaluate("path => cardanView.select(path)", path)
+        return page.evaluate("cardanView.bodies.outline.shown.length")
+
+    joint = sum(body["path"] == "joints[1]" for body in scene()["bodies"])
+    assert marked("joints[1]") == joint
+    assert marked("joints[1].centre_mm[2]") == joint
+    assert marked("joints[12]") == 0
+
+
+def test_an_arrow_tells_its_text(page):
+    page.evaluate("cardanView.groups(['forces'])")
+    page.wait_for_function("cardanView.resting")
+    box = page.locator("canvas").bounding_box()
+    at = page.evaluate(
+        """() => { const [, place] = cardanView.arrows.texts(cardanView.angle)[0];
+          const from = place.clone().fromArray(cardanView.scene.arrows[0].from);
+          const p = from.lerp(place, 0.8).project(cardanView.viewer.camera); return [(p.x + 1) / 2, (1 - p.y) / 2]; }"""
+    )
+    page.mouse.move(box["x"] + at[0] * box["width"], box["y"] + at[1] * box["height"])
+    page.get_by_text("joint 2: 870 N", exact=True).wait_for()

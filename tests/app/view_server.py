@@ -21,7 +21,7 @@ def scene(*, radius: float = 0.035) -> dict[str, Any]:
     from cardan import example
     from cardan.figures.scene import scene as drawn
 
-    return drawn(example(sys.argv[2])).described()
+    return drawn(example(sys.argv[2]), with_forces=True, with_modes=True).described()
 
 
 @ui.page("/")

@@ -59,7 +59,6 @@ class SceneView(Element, component="cardan_scene.js", esm={"cardan-scene": "js"}
             ),
             "no_webgl": _("This browser cannot draw in three dimensions (WebGL is not available)."),
             "lost": _("The graphics card has been taken away for a moment; the view will come back."),
-            "utilisation": _("utilisation {share} %"),
         }
         self.playing = True
         self.drawn: bool | None = None

@@ -96,6 +96,20 @@ export class Arrows {
     return found;
   }
 
+  // The arrow a ray meets first.
+  pick(ray) {
+    let best = null;
+    for (const { group, members, rods, rings, heads } of this.groups.values()) {
+      for (const mesh of group.visible ? [rods, rings, heads] : []) {
+        mesh.boundingSphere = null; // arrows move
+        const [hit] = mesh.visible ? ray.intersectObject(mesh, false) : [];
+        if (!hit || (best && best.distance < hit.distance)) continue;
+        best = { text: members[hit.instanceId + (mesh === rings ? rods.count : 0)].text, distance: hit.distance };
+      }
+    }
+    return best;
+  }
+
   clear() {
     for (const { group, rods, rings, heads } of this.groups.values()) {
       group.removeFromParent();

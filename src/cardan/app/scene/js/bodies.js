@@ -3,7 +3,8 @@
 import { THREE } from "nicegui-scene";
 import { coarser } from "./coarse.js";
 import { floats, lit, whole } from "./mesh.js";
-import { materials, tone } from "./studio.js";
+import { Outline } from "./outline.js";
+import { materials, plain, tone } from "./studio.js";
 
 const UNKNOWN = "#9aa3ad"; // a body without a utilisation, where colours show utilisation
 
@@ -16,13 +17,14 @@ export class Bodies {
       ghost: materials(shared, { metal: false, ghost: true }),
     };
     this.edge = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.28 });
-    this.mark = [0, 0, 0];
+    this.outline = new Outline();
     this.meshes = new Map(); // by name of the mesh, for as long as a scene uses it
     this.batches = new Map();
     this.by = "shaft";
     this.fine = false;
     this.ghost = false;
     this.selected = null;
+    this.shown = [];
   }
 
   // Which meshes of a scene are neither sent with it nor known from before.
@@ -38,8 +40,10 @@ export class Bodies {
       kept.set(mesh, this.meshes.get(mesh) ?? lit({ positions: floats(sent.positions), indices: whole(sent.indices), smooth }));
     }
     this.meshes = kept;
+    this.shown = scene.bodies;
     this.fill(scene.bodies);
     this.colourBy(this.by);
+    this.select(this.selected);
   }
 
   // Make the meshes whose bodies have changed, and leave the others on the graphics card.
@@ -106,6 +110,7 @@ export class Bodies {
 
   // Give every mesh the form and material for this quality and mode; edges take longer than they are worth in motion.
   dress() {
+    this.outline.material.visible = !this.ghost;
     for (const { solid, members, edges, full, coarse } of this.batches.values()) {
       const kind = this.materials[this.ghost ? "ghost" : members[0].metal];
       solid.material = this.fine ? kind.fine : kind.fast;
@@ -131,11 +136,10 @@ export class Bodies {
   theme({ edge, mark }, dark) {
     this.edge.color.set(edge);
     this.edge.opacity = dark ? 0.5 : 0.28;
-    this.mark = tone(mark);
-    this.colourBy(this.by);
+    this.outline.material.uniforms.colour.value.set(...plain(mark));
   }
 
-  // Colour the bodies by shaft or by utilisation; those of the path that is selected stand out.
+  // Colour the bodies by shaft or by utilisation.
   colourBy(by) {
     this.by = by;
     for (const { members, full, coarse } of this.batches.values()) {
@@ -143,8 +147,7 @@ export class Bodies {
         if (!geometry) continue;
         const { tone: tones } = geometry.attributes;
         members.forEach((body, k) => {
-          let rgb = tone(by === "utilisation" ? (body.utilisation === null ? UNKNOWN : body.utilisation_colour) : body.colour);
-          if (this.selected && body.path === this.selected) rgb = rgb.map((value, c) => 0.3 * value + 0.7 * this.mark[c]);
+          const rgb = tone(by === "utilisation" ? (body.utilisation === null ? UNKNOWN : body.utilisation_colour) : body.colour);
           const { vertex, vertices } = geometry.userData.spans[k];
           for (let v = 3 * vertex; v < 3 * (vertex + vertices); v++) tones.array[v] = rgb[v % 3];
         });
@@ -153,9 +156,12 @@ export class Bodies {
     }
   }
 
+  // Draw a line round all bodies that a key path speaks of, or that hold the key it names.
   select(path) {
     this.selected = path;
-    this.colourBy(this.by);
+    const within = (one, other) => one === other || one.startsWith(`${other}.`) || one.startsWith(`${other}[`);
+    const chosen = this.shown.filter((body) => path && (within(body.path, path) || within(path, body.path)));
+    this.outline.show(chosen.map(({ mesh, track }) => ({ mesh: this.meshes.get(mesh), group: this.tracks.groups[track] })));
   }
 
   // Return the body a ray meets first, with its distance.
@@ -194,6 +200,7 @@ export class Bodies {
       fine.dispose();
     }
     this.edge.dispose();
+    this.outline.dispose();
   }
 }
 

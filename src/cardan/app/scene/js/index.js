@@ -209,11 +209,10 @@ class View {
     this.emit("touched", body.path);
   }
 
-  // What a ray meets first: a body, or a plane that is switched on.
+  // What a ray meets first: a body, or an arrow or a plane that is switched on.
   found(ray) {
-    const body = this.bodies.pick(ray);
-    const area = this.areas.pick(ray);
-    return body && !(area && area.distance < body.distance) ? body : (area ?? body);
+    const hits = [this.bodies, this.arrows, this.areas].map((part) => part.pick(ray)).filter(Boolean);
+    return hits.sort((a, b) => a.distance - b.distance)[0] ?? null;
   }
 
   tip(found, event) {
@@ -242,8 +241,7 @@ class View {
     this.sized = true;
     this.drawnAt = null;
     this.viewer.resize(width, height);
-    this.lines.screen.value.set(width, height);
-    this.ground.lines.screen.value.set(width, height);
+    for (const { screen } of [this.lines, this.ground.lines, this.bodies.outline]) screen.value.set(width, height);
     if (fit) this.look(this.viewer.view, false);
     this.render(performance.now(), this.quality.resting);
   }

@@ -54,7 +54,7 @@ export class Labels {
   follow(texts) {
     const kept = new Map(this.moving.map((label) => [label.arrow, label]));
     this.moving = texts.map(([arrow, place]) => {
-      const label = kept.get(arrow) ?? { ...this.make(arrow.text, "arrow"), arrow, on: true };
+      const label = kept.get(arrow) ?? { ...this.make(brief(arrow.text), "arrow"), arrow, on: true };
       kept.delete(arrow);
       label.place = place;
       return label;
@@ -101,6 +101,9 @@ export class Labels {
     context.restore();
   }
 }
+
+// Of "place: value" the value; the tip at the pointer has the whole text.
+const brief = (text) => text.slice(text.lastIndexOf(": ") + 1).trim();
 
 // The first place round a point where a text of this size covers no other; null where there is none.
 function free(taken, x, y, { width, height }, right, bottom) {

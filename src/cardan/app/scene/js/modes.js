@@ -1,8 +1,10 @@
 // Mode shapes: bent centre lines that whirl, and shafts that twist to and fro.
 
+import { THREE } from "nicegui-scene";
 import { floats } from "./mesh.js";
 import { slerp } from "./motion.js";
 
+const EXTRA = new THREE.Quaternion();
 const PERIOD = 1800; // ms of one swing, slow enough to follow with the eye
 
 export class Modes {
@@ -29,9 +31,9 @@ export class Modes {
     else this.curves.clear();
   }
 
-  // Whether solid bodies stand back behind a bent line.
+  // Whether solid bodies stand back behind bent lines.
   get whirls() {
-    return (this.chosen?.curves.length ?? 0) > 0;
+    return this.chosen?.kind === "whirl";
   }
 
   advance(passed) {
@@ -44,7 +46,7 @@ export class Modes {
     const before = Math.floor(place) % this.chosen.frames;
     const after = (before + 1) % this.chosen.frames;
     const share = place - Math.floor(place);
-    for (const [track, turn] of this.turns) slerp(tracks[track].quaternion, turn, before, after, share);
+    for (const [track, turn] of this.turns) tracks[track].quaternion.premultiply(slerp(EXTRA, turn, before, after, share));
     this.curves.pose(before, after, share);
   }
 }

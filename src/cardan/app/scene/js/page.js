@@ -49,15 +49,13 @@ export function furnished(root, texts) {
       canvas.style.visibility = text ? "hidden" : "visible";
     },
 
-    // The text of what lies under the pointer, with the utilisation of a body.
+    // The text of what lies under the pointer.
     tip(found, event) {
       canvas.classList.toggle("over", Boolean(found?.body));
       const text = found?.body?.text ?? found?.text;
       tip.hidden = !text;
       if (!text) return;
-      const used = found.body?.utilisation;
-      const share = (value) => (100 * value).toLocaleString(document.documentElement.lang || undefined, { maximumSignificantDigits: 3 });
-      tip.textContent = used == null ? text : `${text}\n${texts.utilisation.replace("{share}", share(used))}`;
+      tip.textContent = text;
       const { left, top, width } = root.getBoundingClientRect();
       const x = Math.min(event.clientX - left + 14, Math.max(width - tip.offsetWidth - 4, 0));
       const y = Math.max(event.clientY - top - tip.offsetHeight - 10, 4);

@@ -6,8 +6,8 @@
 import { THREE } from "nicegui-scene";
 
 export const THEMES = {
-  light: { back: "#f3f5f8", grid: "#c3cad3", shade: "#8b95a1", edge: "#10161d", mark: "#ffb000", sky: 1.0 },
-  dark: { back: "#13171c", grid: "#323b46", shade: "#05070a", edge: "#000000", mark: "#ffc233", sky: 0.82 },
+  light: { back: "#f3f5f8", grid: "#c3cad3", shade: "#8b95a1", edge: "#10161d", mark: "#0b1118", sky: 1.0 },
+  dark: { back: "#13171c", grid: "#323b46", shade: "#05070a", edge: "#000000", mark: "#ffffff", sky: 0.82 },
 };
 
 // Shared by all materials of one view: the theme changes in one place.
