@@ -58,7 +58,7 @@ $(VENV)/.run: $(VENV)/.made pyproject.toml constraints.txt
 	@touch $@
 
 $(VENV)/.app: $(VENV)/.made pyproject.toml constraints.txt
-	$(PIP) --editable '.[app,pdf,xlsx]'
+	$(PIP) --editable '.[app,pdf,signals,xlsx]'
 	@touch $@ $(VENV)/.run
 
 $(VENV)/.test: $(VENV)/.made pyproject.toml constraints.txt

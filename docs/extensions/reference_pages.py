@@ -239,6 +239,7 @@ GROUPS = {
     "Questions": ("analysis", "maths"),
     "Verdicts": ("checks",),
     "Choices": ("synthesis",),
+    "Diagnosis": ("diagnosis",),
     "Results on paper": ("figures", "report", "calc"),
     "Errors": ("errors",),
 }

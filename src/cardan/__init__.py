@@ -96,6 +96,16 @@ _HOMES = {
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
     "check": "checks.checks",
+    "Channel": "diagnosis.signal",
+    "Signal": "diagnosis.signal",
+    "Rotation": "diagnosis.turning",
+    "rotation": "diagnosis.turning",
+    "OrderMap": "diagnosis.orders",
+    "OrderSpectrum": "diagnosis.orders",
+    "order_map": "diagnosis.orders",
+    "order_spectrum": "diagnosis.orders",
+    "TrackedOrders": "diagnosis.order_tracks",
+    "tracked_orders": "diagnosis.order_tracks",
     "Cure": "synthesis.change",
     "cured": "synthesis.change",
     "cures": "synthesis.cure",
@@ -139,6 +149,7 @@ _HOMES = {
     "save": "io.drive_file",
     "Scene": "figures.scene_parts",
     "scene": "figures.scene",
+    "signal": "io.signals",
     "report": "report.report",
 }
 
@@ -216,6 +227,16 @@ if TYPE_CHECKING:
     from .checks.checks import CHECKS as CHECKS
     from .checks.checks import check as check
     from .checks.verdict import Verdict as Verdict
+    from .diagnosis.order_tracks import TrackedOrders as TrackedOrders
+    from .diagnosis.order_tracks import tracked_orders as tracked_orders
+    from .diagnosis.orders import OrderMap as OrderMap
+    from .diagnosis.orders import OrderSpectrum as OrderSpectrum
+    from .diagnosis.orders import order_map as order_map
+    from .diagnosis.orders import order_spectrum as order_spectrum
+    from .diagnosis.signal import Channel as Channel
+    from .diagnosis.signal import Signal as Signal
+    from .diagnosis.turning import Rotation as Rotation
+    from .diagnosis.turning import rotation as rotation
     from .drive.accuracy import Tolerance as Tolerance
     from .drive.drive import Drive as Drive
     from .drive.drives import Drives as Drives
@@ -229,6 +250,7 @@ if TYPE_CHECKING:
     from .io.examples import example as example
     from .io.examples import example_mechanism as example_mechanism
     from .io.mechanism_file import load_mechanism as load_mechanism
+    from .io.signals import signal as signal
     from .maths.compiled.method import Compiled as Compiled
     from .maths.compiled.method import Plain as Plain
     from .maths.periodic import HarmonicBalance as HarmonicBalance

@@ -72,10 +72,14 @@ def tracked_orders(
 
     Parameters
     ----------
-    channel, rotation, turns
-        As in `order_spectrum`.
+    channel : Channel
+        What shakes.
+    rotation : Rotation
+        How the shaft turned.
     orders : sequence of float
         Those to follow, whole or not.
+    turns : int
+        In a window; four windows in the length of one.
 
     Returns
     -------

@@ -208,8 +208,16 @@ def order_map(
 
     Parameters
     ----------
-    channel, rotation, highest, turns, window
-        As in `order_spectrum`; a line of the map for each window, four in the length of one.
+    channel : Channel
+        What shakes.
+    rotation : Rotation
+        How the shaft turned.
+    highest : float
+        Highest order.
+    turns : int
+        In a window; a line of the map for each, four in the length of one.
+    window : str
+        As in `order_spectrum`.
 
     Returns
     -------

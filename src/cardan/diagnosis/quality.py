@@ -47,7 +47,7 @@ class Sound:
     cautions: tuple[str, ...]
 
 
-def sound(name: str, values: Array, *, swings: bool = True) -> Sound | None:
+def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False) -> Sound | None:
     """Return the values of a channel with its gaps filled and what is doubtful in them, None where it holds nothing.
 
     Parameters
@@ -58,6 +58,8 @@ def sound(name: str, values: Array, *, swings: bool = True) -> Sound | None:
         As read; nan where there is none.
     swings : bool
         Whether it is a vibration, which has no flat tops; pulses, speeds and angles may.
+    steady : bool
+        Whether it may stay at a value other than 0, as a speed does.
 
     Returns
     -------
@@ -90,7 +92,7 @@ def sound(name: str, values: Array, *, swings: bool = True) -> Sound | None:
         text = _("{name}: {count} of its values are missing or no numbers ({share:.2g} %); they were bridged.")
         told.append(text.format(name=name, count=int(np.sum(missing)), share=100.0 * share))
         trust *= max(0.1, 1.0 - 4.0 * share)
-    if np.ptp(values) == 0.0:
+    if np.ptp(values) == 0.0 and not (steady and values[0] != 0.0):
         told.append(_("{name}: constant; the sensor may be dead or not connected.").format(name=name))
         return Sound(values=values, trust=0.0, cautions=tuple(told))
     wrapped = _wrapped(values)

@@ -162,13 +162,13 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
 
 
 def save(thing: Any, path: str | Path) -> None:
-    """Write a drive, a mechanism or a result to a file; the suffix says how.
+    """Write a drive, a mechanism, a recording or a result to a file; the suffix says how.
 
     Parameters
     ----------
-    thing : Drive, Mechanism or result
+    thing : Drive, Mechanism, Signal or result
         A drive or a mechanism is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where
-        there are none yet; a result in one of the formats of `cardan.io.formats`.
+        there are none yet; a recording as ``.csv`` or ``.wav``; a result in one of the formats of `cardan.io.formats`.
     path : str or Path
         Replaced as a whole or not at all.
 
@@ -187,6 +187,13 @@ def save(thing: Any, path: str | Path) -> None:
     """
     where = Path(path)
     if not isinstance(thing, Drive | Mechanism):
+        from cardan.diagnosis.signal import Signal
+
+        if isinstance(thing, Signal):
+            from .signals import write as write_signal
+
+            write_signal(thing, where)
+            return
         from .formats import write
 
         write(thing, where)

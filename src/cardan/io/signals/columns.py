@@ -1,0 +1,219 @@
+"""What a channel measures, from its title: ``acceleration_front_z_m_s2``, ``speed_rpm``, ``tacho``."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from cardan.diagnosis.signal import DIRECTIONS, QUANTITIES
+from cardan.errors import refuse
+from cardan.texts import _
+from cardan.units import DIMENSIONS, inch, nearest
+
+EXTRA = {
+    "acceleration": {"g": 9.80665},
+    "velocity": {"in_s": inch, "um_s": 1e-6},
+    "displacement": {"um": 1e-6, "mil": 1e-3 * inch},
+    "pulses": {"V": 1.0, "mV": 1e-3},
+    "other": {"V": 1.0, "mV": 1e-3},
+}
+"""Units of sensors that no drive file has."""
+
+UNITS = {
+    quantity: {**(DIMENSIONS[dimension] if dimension else {}), **EXTRA.get(quantity, {})}
+    for quantity, dimension in QUANTITIES.items()
+}
+"""Quantity -> unit -> factor to SI."""
+
+SI = {
+    "acceleration": "m_s2",
+    "velocity": "m_s",
+    "displacement": "m",
+    "angle": "rad",
+    "angular_speed": "rad_s",
+    "torque": "Nm",
+    "pulses": "",
+    "other": "",
+}
+"""Quantity -> unit in which it is kept."""
+
+WORDS = {
+    "acceleration": ("acceleration",),
+    "acc": ("acceleration",),
+    "accel": ("acceleration",),
+    "velocity": ("velocity",),
+    "vel": ("velocity",),
+    "displacement": ("displacement",),
+    "disp": ("displacement",),
+    "proximity": ("displacement",),
+    "angle": ("angle",),
+    "speed": ("angular_speed", "velocity"),
+    "rpm": ("angular_speed",),
+    "torque": ("torque",),
+    "pulses": ("pulses",),
+    "pulse": ("pulses",),
+    "tacho": ("pulses",),
+    "tachometer": ("pulses",),
+    "keyphasor": ("pulses",),
+    "phasor": ("pulses",),
+    "trigger": ("pulses",),
+    "other": ("other",),
+}
+"""Word of a title -> what it may mean."""
+
+PLACE = re.compile(r"(?:supports|shafts|joints)\[\d+\]")
+
+PRINTED = {
+    "ms-2": "m_s2",
+    "m_s_s": "m_s2",
+    "mm_s_s": "mm_s2",
+    "gn": "g",
+    "g's": "g",
+    "1_min": "rpm",
+    "min-1": "rpm",
+    "u_min": "rpm",
+    "r_min": "rpm",
+    "°": "deg",
+    "degree": "deg",
+    "degrees": "deg",
+    "°_s": "deg_s",
+    "ips": "in_s",
+    "inch": "in",
+    "mils": "mil",
+    "micron": "um",
+    "volt": "V",
+    "volts": "V",
+    "radian": "rad",
+    "radians": "rad",
+}
+"""Units as other programs write them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meaning:
+    """What a title says.
+
+    Attributes
+    ----------
+    name : str
+        What is left of the title without quantity and unit.
+    quantity : str
+        One of `cardan.diagnosis.signal.QUANTITIES`, or ``time``.
+    factor : float
+        To SI.
+    unit : str
+        As written.
+    place, direction : str
+        As in `cardan.diagnosis.signal.Channel`.
+    """
+
+    name: str
+    quantity: str
+    factor: float
+    unit: str
+    place: str = ""
+    direction: str = ""
+
+
+def suffix_of(printed: str) -> str:
+    """Return the suffix of a unit as another program writes it, "" where it is not known.
+
+    Examples
+    --------
+    >>> suffix_of("m/s²"), suffix_of("N·m"), suffix_of("[RPM]"), suffix_of("furlong")
+    ('m_s2', 'Nm', 'rpm', '')
+    """
+    plain = printed.strip().strip("[]()").strip()
+    plain = plain.replace("²", "2").replace("^", "").replace("**", "").replace("µ", "u").replace("μ", "u")
+    plain = re.sub(r"[·*\s]", "", plain.replace("/", "_").replace("⁻¹", "-1").replace("⁻2", "-2"))
+    known = {unit: unit for units in UNITS.values() for unit in units}
+    lower = {unit.lower(): unit for unit in known} | PRINTED
+    return known.get(plain) or lower.get(plain.lower(), "")
+
+
+def meaning(title: str) -> Meaning:
+    """Return what the channel of a title measures, by its words and its unit.
+
+    Parameters
+    ----------
+    title : str
+        Words with lines between them: a quantity, a name, a place ``supports[1]``, a direction; the unit at its end.
+
+    Returns
+    -------
+    Meaning
+
+    Raises
+    ------
+    InputError
+        The quantity has no unit, or one of another dimension.
+
+    Examples
+    --------
+    >>> found = meaning("acceleration_supports[1]_z_mm_s2")
+    >>> found.quantity, found.unit, found.place, found.direction
+    ('acceleration', 'mm_s2', 'supports[1]', 'z')
+    >>> meaning("speed_rpm").quantity, meaning("tacho").quantity, meaning("front_g").name
+    ('angular_speed', 'pulses', 'front')
+    """
+    words = [one for one in title.strip().split("_") if one]
+    lower = [one.lower() for one in words]
+    if words and (lower[0] == "time" or (lower[0] == "t" and "_".join(words[1:]) in DIMENSIONS["time"])):
+        return _time(title, words[1:])
+    hinted = next((k for k, one in enumerate(lower) if one in WORDS), None)
+    may = WORDS[lower[hinted]] if hinted is not None else tuple(QUANTITIES)
+    if hinted is not None and lower[hinted : hinted + 1] == ["speed"] and "angular" in lower[:hinted]:
+        may = ("angular_speed",)
+    for k in range(len(words)):
+        unit = "_".join(words[k:])
+        fits = [one for one in may if unit in UNITS[one]]
+        # A word alone, as rpm or g, is a unit where nothing else says what is measured.
+        if fits and (hinted is None or hinted < k or lower[hinted] == unit):
+            quantity = fits[0] if len(fits) == 1 or hinted is not None else _likeliest(fits)
+            own = hinted if hinted is not None and hinted < k else None
+            return _named(title, words[:k], own, quantity, UNITS[quantity][unit], unit)
+    if hinted is None:
+        return _named(title, words, None, "other", 1.0, "")
+    if may[0] in ("pulses", "other"):
+        return _named(title, words, hinted, may[0], 1.0, "")
+    choices = _(" or ").join(f"{words[hinted]}_{unit}" for unit in UNITS[may[0]])
+    text = _("needs a unit of {quantity} at its end: write {choices}")
+    raise refuse(title, text.format(quantity=may[0].replace("_", " "), choices=choices), "inconsistent")
+
+
+def _likeliest(fits: list[str]) -> str:
+    return next((one for one in ("acceleration", "displacement", "angular_speed", "torque") if one in fits), fits[0])
+
+
+def _named(title: str, words: list[str], own: int | None, quantity: str, factor: float, unit: str) -> Meaning:
+    rest = [one for k, one in enumerate(words) if k != own and one.lower() not in ("angular",)]
+    place = next((one for one in rest if PLACE.fullmatch(one)), "")
+    direction = next((one.lower() for one in rest if one.lower() in DIRECTIONS[:-1]), "")
+    left = [one for one in rest if one != place and one.lower() != direction]
+    name = "_".join(left) or "_".join(one for one in (place, direction) if one) or "_".join(words) or title
+    return Meaning(name=name, quantity=quantity, factor=factor, unit=unit, place=place, direction=direction)
+
+
+def _time(title: str, words: list[str]) -> Meaning:
+    unit = "_".join(words)
+    known = DIMENSIONS["time"]
+    if unit not in known:
+        near = nearest(unit, known)
+        text = _("needs a unit of time at its end: write {choices}")
+        choices = f"time_{near}" if near else _(" or ").join(f"time_{one}" for one in known)
+        raise refuse(title, text.format(choices=choices), "inconsistent")
+    return Meaning(name="time", quantity="time", factor=known[unit], unit=unit)
+
+
+def title_of(name: str, quantity: str, place: str, direction: str) -> str:
+    """Return the title under which a channel is written, with its SI unit.
+
+    Examples
+    --------
+    >>> title_of("front", "acceleration", "supports[1]", "z"), title_of("tacho", "pulses", "", "")
+    ('acceleration_front_supports[1]_z_m_s2', 'tacho')
+    """
+    words = [one for one in (place, direction) if one]
+    given = "" if name == "_".join(words) or name in (quantity, "") else name
+    lead = "" if quantity == "pulses" and WORDS.get(given.lower()) == ("pulses",) else quantity
+    return "_".join(one for one in (lead, given, *words, SI[quantity]) if one)

@@ -1,0 +1,184 @@
+"""Recordings as CSV: a column of times and one for each channel, with the unit in its title."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from cardan.diagnosis.quality import evened
+from cardan.diagnosis.signal import Signal
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .columns import meaning, title_of
+from .raw import Asked, Column, Raw, content
+
+suffix = ".csv"
+
+MAX_BYTES = 200_000_000
+"""Larger files are refused; no more of them is read."""
+
+CHUNK = 50_000
+"""Lines read at once."""
+
+TOLD = 5
+"""Lines of which it is told what is wrong with them."""
+
+
+def read(path: Path, asked: Asked) -> Raw:
+    """Return the channels of a CSV file.
+
+    Raises
+    ------
+    InputError
+        It is no such file, has no times and no rate is given, or the times do not rise.
+    """
+    name = path.name
+    try:
+        text = content(path, name, MAX_BYTES).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise refuse(name, _("is not UTF-8 text")) from None
+    lines = [one for one in text.splitlines() if one.strip() and not one.lstrip().startswith("#")]
+    if not lines:
+        raise refuse(name, _("is empty"), "empty")
+    mark = ";" if ";" in lines[0] else "\t" if "\t" in lines[0] else ","
+    titles = [one.strip() for one in next(csv.reader([lines[0]], delimiter=mark))]
+    if all(_is_number(one) for one in titles):
+        if not isinstance(asked.titles, Sequence) or len(asked.titles) != len(titles):
+            text = _("begins with numbers: the first line is to hold titles, as time_s and acceleration_m_s2")
+            raise refuse(name, text, "missing")
+        titles, body = list(asked.titles), lines
+    else:
+        body = lines[1:]
+    table, cautions = _table(name, body, mark, len(titles), asked)
+    return _timed(name, titles, table, cautions, asked)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _table(name: str, lines: list[str], mark: str, wide: int, asked: Asked) -> tuple[Array, list[str]]:
+    """Return the numbers of all lines (n, c), nan for what is none."""
+    parts: list[Array] = []
+    cautions: list[str] = []
+    broken: list[int] = []
+    for first in range(0, len(lines), CHUNK):
+        some = lines[first : first + CHUNK]
+        if mark != ",":
+            some = [one.replace(",", ".") for one in some]
+        try:
+            part = np.loadtxt(some, delimiter=mark, ndmin=2)
+            if part.shape[1] != wide:
+                raise ValueError
+        except ValueError:
+            part, bad = _by_cells(some, mark, wide)
+            broken += [first + k for k in bad]
+        parts.append(part)
+        if asked.progress is not None and asked.progress(min(1.0, (first + CHUNK) / len(lines))) == "stop":
+            cautions.append(_("Reading was stopped: this is the first part of {name}.").format(name=name))
+            break
+    if broken == [len(lines) - 1]:
+        cautions.append(_("The last line of {name} is cut off; it was left out.").format(name=name))
+    elif broken:
+        text = _("line {line} has not {count} cells as the titles")
+        told = [Problem(name, text.format(line=k + 2, count=wide), "inconsistent") for k in broken[:TOLD]]
+        if len(broken) > TOLD:
+            told.append(Problem(name, _("and {count} lines more").format(count=len(broken) - TOLD), "inconsistent"))
+        check(told)
+    return np.concatenate(parts) if parts else np.zeros((0, wide)), cautions
+
+
+def _by_cells(lines: list[str], mark: str, wide: int) -> tuple[Array, list[int]]:
+    """Return the numbers of lines of which some hold none, and the places of lines with too few or too many cells."""
+    rows, bad = [], []
+    for k, cells in enumerate(csv.reader(lines, delimiter=mark)):
+        if len(cells) != wide:
+            bad.append(k)
+            continue
+        rows.append([float(cell) if _is_number(cell) else np.nan for cell in cells])
+    return np.asarray(rows, dtype=float).reshape(len(rows), wide), bad
+
+
+def _timed(name: str, titles: list[str], table: Array, cautions: list[str], asked: Asked) -> Raw:
+    """Return the columns with their rate, from the times or as asked."""
+    table = np.where(np.isfinite(table), table, np.nan)
+    at = next((k for k, one in enumerate(titles) if _is_time(one)), None)
+    others = [k for k in range(len(titles)) if k != at]
+    if not others:
+        raise refuse(name, _("has no channel beside the times"), "empty")
+    if table.shape[0] < 2:
+        text = _("has {given} rows; at least {wanted} are needed")
+        raise refuse(name, text.format(given=table.shape[0], wanted=2), "empty")
+    rows = table[:, others].T
+    if at is None:
+        if asked.rate is None:
+            raise refuse(name, _("has no column of times (time_s): give the rate of its values"), "missing")
+        rate, start, trust = asked.rate, 0.0, 1.0
+    else:
+        times = table[:, at] * meaning(titles[at]).factor
+        known = np.isfinite(times)
+        if not np.all(known):
+            text = _("{count} lines of {name} have no time; they were left out.")
+            cautions.append(text.format(count=int(np.sum(~known)), name=name))
+            times, rows = times[known], rows[:, known]
+        if times.size < 2:
+            raise refuse(name, _("has no times"), "empty")
+        back = np.flatnonzero(np.diff(times) <= 0.0)
+        if back.size:
+            text = _("the times do not rise in {count} places, first at row {row}")
+            raise refuse(name, text.format(count=back.size, row=int(back[0]) + 2), "inconsistent")
+        rate, start, rows, told, trust = evened(times, rows)
+        cautions += [f"{name}: {one}" for one in told]
+        if asked.rate is not None and abs(asked.rate / rate - 1.0) > 0.01:
+            text = _("{name}: its times make {found:.6g} values a second, not {given:.6g}; the times were kept.")
+            cautions.append(text.format(name=name, found=rate, given=asked.rate))
+            trust *= 0.5
+    columns = [
+        Column(title=titles[k], values=row, rate=rate, start=start, trust=trust)
+        for k, row in zip(others, rows, strict=True)
+    ]
+    return Raw(columns=columns, cautions=tuple(cautions))
+
+
+def _is_time(title: str) -> bool:
+    try:
+        return meaning(title).quantity == "time"
+    except InputError:
+        return title.lower().startswith("time")
+
+
+def content_of(signal: Signal) -> bytes:
+    """Return a recording as the bytes of a CSV file, in SI.
+
+    Raises
+    ------
+    InputError
+        Its channels have different rates, starts or lengths.
+    """
+    first = signal.channels[0]
+    check(unlike(signal))
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["time_s", *(title_of(c.name, c.quantity, c.place, c.direction) for c in signal.channels)])
+    rows = np.stack([first.time, *(one.values for one in signal.channels)], axis=1)
+    np.savetxt(stream, rows, fmt=["%.12g"] + ["%.10g"] * len(signal.channels), delimiter=",")
+    return stream.getvalue().encode("utf-8")
+
+
+def unlike(signal: Signal) -> Iterator[Problem]:
+    """Yield the channels of a recording that have other times than the first one."""
+    first = signal.channels[0]
+    for k, one in enumerate(signal.channels):
+        if (one.rate, one.start, one.values.size) != (first.rate, first.start, first.values.size):
+            text = _("{name} has not the times of {first}; they do not fit into one table")
+            yield Problem(f"channels[{k}]", text.format(name=one.name, first=first.name), "inconsistent")

@@ -1,0 +1,69 @@
+"""Recordings as TDMS: groups of channels with their units and steps of time as properties."""
+
+from __future__ import annotations
+
+import io
+import logging
+from pathlib import Path
+
+import numpy as np
+
+from cardan.errors import MissingExtraError, refuse
+from cardan.texts import _
+
+from .raw import Asked, Column, Raw, content
+
+suffix = ".tdms"
+
+MAX_BYTES = 400_000_000
+"""Larger files are refused."""
+
+
+def read(path: Path, asked: Asked) -> Raw:
+    """Return the channels of a TDMS file, of all its groups.
+
+    Raises
+    ------
+    InputError
+        It is no such file, or holds no numbers.
+    MissingExtraError
+        What reads such files is not installed.
+    """
+    try:
+        from nptdms import TdmsFile
+        from nptdms.log import log_manager
+    except ImportError:
+        text = _("TDMS files need the extra `signals`: pip install 'cardan[signals]'")
+        raise MissingExtraError(text) from None
+    name = path.name
+    log_manager.set_level(logging.ERROR)  # what it warns of is asked for below
+    try:
+        file = TdmsFile.read(io.BytesIO(content(path, name, MAX_BYTES)))
+        cut = bool(file.file_status.incomplete_final_segment)
+        groups = file.groups()
+        rows = [(group, channel, channel[:]) for group in groups for channel in group.channels()]
+    except (ValueError, KeyError, EOFError, IndexError, TypeError, OverflowError, MemoryError, AttributeError) as error:
+        raise refuse(name, _("is no TDMS file that can be read: {why}").format(why=error)) from None
+    cautions = [_("{name} is cut off: it holds less than it says.").format(name=name)] if cut else []
+    columns = []
+    for group, channel, values in rows:
+        numbers = np.asarray(values)
+        title = str(channel.name).strip()
+        if numbers.size == 0 or not np.issubdtype(numbers.dtype, np.number):
+            text = _("{channel} of {name} holds no numbers; it was left out.")
+            cautions.append(text.format(channel=title, name=name))
+            continue
+        known = {str(key).lower(): value for key, value in channel.properties.items()}
+        step = float(known.get("wf_increment") or 0.0)
+        columns.append(
+            Column(
+                title=title if len(groups) == 1 else f"{group.name}_{title}",
+                values=numbers.astype(float),
+                rate=1.0 / step if step > 0.0 else None,
+                start=float(known.get("wf_start_offset") or 0.0),
+                unit=str(known.get("unit_string") or known.get("unit") or "").strip(),
+            )
+        )
+    if not columns:
+        raise refuse(name, _("holds no channel of numbers"), "empty")
+    return Raw(columns=columns, cautions=tuple(cautions))

@@ -1,0 +1,95 @@
+"""Recordings as universal files: data sets 58 of functions over time."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cardan.diagnosis.quality import evened
+from cardan.errors import MissingExtraError, refuse
+from cardan.texts import _
+
+from .raw import Asked, Column, Raw, content
+
+suffix = ".uff"
+
+MAX_BYTES = 400_000_000
+"""Larger files are refused."""
+
+TIME_RESPONSES = (0, 1)
+"""Types of functions that run over time: general ones and time responses."""
+
+QUANTITY_OF = {8: "displacement", 11: "velocity", 12: "acceleration"}
+"""Type of the ordinate -> quantity."""
+
+DIRECTION_OF = {1: "x", 2: "y", 3: "z", 4: "torsion", 5: "torsion", 6: "torsion"}
+"""Direction of the response -> direction; negative ones turn the sign."""
+
+
+def read(path: Path, asked: Asked) -> Raw:
+    """Return the channels of a universal file.
+
+    Raises
+    ------
+    InputError
+        It is no such file, is cut off, or holds no function over time.
+    MissingExtraError
+        What reads such files is not installed.
+    """
+    try:
+        import pyuff
+    except ImportError:
+        text = _("universal files need the extra `signals`: pip install 'cardan[signals]'")
+        raise MissingExtraError(text) from None
+    name = path.name
+    content(path, name, MAX_BYTES)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            file = pyuff.UFF(str(path))
+            kinds = [int(one) for one in file.get_set_types()]
+            wanted = [k for k, kind in enumerate(kinds) if kind == 58]
+            found = file.read_sets(wanted) if wanted else []
+        except Exception as error:  # the library names no errors of its own
+            raise refuse(name, _("is no universal file that can be read: {why}").format(why=error)) from None
+    sets = found if isinstance(found, list) else [found]
+    over_time = [one for one in sets if int(one.get("func_type") or 0) in TIME_RESPONSES and np.size(one["data"])]
+    if not over_time:
+        if sets:
+            raise refuse(name, _("holds no function over time, but spectra or such"), "missing")
+        raise refuse(name, _("holds no whole data set 58; it may be cut off"), "empty")
+    cautions: list[str] = []
+    return Raw(columns=[_column(one, k, cautions) for k, one in enumerate(over_time)], cautions=tuple(cautions))
+
+
+def _column(one: dict[str, Any], k: int, cautions: list[str]) -> Column:
+    """Return the column of a data set."""
+    title = str(one.get("id1") or "").strip()
+    node, way = int(one.get("rsp_node") or 0), int(one.get("rsp_dir") or 0)
+    if title in ("", "NONE"):
+        title = _("channel {number}").format(number=node or k + 1)
+    values = np.real(np.asarray(one["data"])).astype(float) * (-1.0 if way < 0 else 1.0)
+    step = float(one.get("abscissa_inc") or 0.0)
+    start = float(one.get("abscissa_min") or 0.0)
+    rate, trust = (1.0 / step if step > 0.0 else None), 1.0
+    if int(one.get("abscissa_spacing") or 0) == 0 and np.size(one.get("x", ())) == values.size > 1:
+        times = np.asarray(one["x"], dtype=float)
+        if np.any(np.diff(times) <= 0.0):
+            raise refuse(title, _("the times do not rise"), "inconsistent")
+        rate, start, rows, told, trust = evened(times, values[None])
+        values = rows[0]
+        cautions += [f"{title}: {text}" for text in told]
+    unit = str(one.get("ordinate_axis_units_lab") or "").strip()
+    return Column(
+        title=title,
+        values=values,
+        rate=rate,
+        start=start,
+        quantity=QUANTITY_OF.get(int(one.get("ordinate_spec_data_type") or 0), ""),
+        unit="" if unit == "NONE" else unit,
+        direction=DIRECTION_OF.get(abs(way), ""),
+        trust=trust,
+    )
