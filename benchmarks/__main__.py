@@ -22,6 +22,7 @@ NAMES = (
     "floquet_map",
     "start_up",
     "app_latency",
+    "app_frames",
 )
 
 

@@ -9,8 +9,11 @@ import pytest
 from benchmarks.__main__ import NAMES, main
 from benchmarks.harness import Figure, fastest
 
+APART = {"start_up", "app_frames"}
+"""They start whole programs; tests of the command line and of the app do that."""
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name != "start_up"])
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in APART])
 def test_quick_look(name, capsys):
     assert main([name, "--quick"]) == 0
     lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
