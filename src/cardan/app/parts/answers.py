@@ -304,7 +304,8 @@ class Progress:
     """
 
     def __init__(self, cancel: Callable[[], object], begin: Callable[[], object]) -> None:
-        with ui.element("div").classes("progress").props("role=status") as self.body:
+        self.body = ui.element("div").classes("progress").props("role=group")
+        with self.body, ui.element("div").classes("box"):
             self._bar = ui.linear_progress(value=0.0, show_value=False).props("instant-feedback rounded size=6px")
             self._said = ui.label()
             self._stop = (
@@ -341,6 +342,7 @@ class Progress:
 
     def _set(self, *, bar: bool, stop: bool, again: bool, failed: bool) -> None:
         self.body.set_visibility(True)
+        self.body.classes(**{"add" if bar else "remove": "over"})  # what is passing moves nothing on the page
         self._bar.set_visibility(bar)
         self._stop.set_visibility(stop)
         self._again.set_visibility(again)

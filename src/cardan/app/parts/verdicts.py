@@ -130,8 +130,10 @@ class Verdicts:
         document = self.session.document
         self._list.classes(**{"remove" if document.valid else "add": "stale"})
         said = "".join(f"<li>{escape(str(one))}</li>" for one in document.problems)
-        head = escape(_("The file describes no drive; the verdicts below are those of when it last did."))
-        self._problems.set_content("" if document.valid else f'<p class="wrong">{head}</p><ul>{said}</ul>')
+        head = _("The file describes no drive; the verdicts below are those of when it last did.")
+        if self.session.drive is None:
+            head = _("The file describes no drive yet.")
+        self._problems.set_content("" if document.valid else f'<p class="wrong">{escape(head)}</p><ul>{said}</ul>')
 
     def _pressed(self, what: str) -> None:
         action, _space, name = what.partition(" ")
