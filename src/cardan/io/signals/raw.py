@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -85,10 +86,11 @@ def content(path: object, name: str, limit: int) -> bytes:
     """
     try:
         with open(str(path), "rb") as stream:
-            found = stream.read(limit + 1)
+            size = os.fstat(stream.fileno()).st_size
+            found = stream.read(limit + 1) if size <= limit else b""
     except OSError as error:
         raise refuse(name, _("cannot be read: {why}").format(why=refusal(error))) from None
-    if len(found) > limit:
+    if max(size, len(found)) > limit:
         text = _("is larger than {limit} MB; cut the recording or read a part of it")
         raise refuse(name, text.format(limit=limit // 10**6), "out_of_range")
     if not found:

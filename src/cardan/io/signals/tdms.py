@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cardan.errors import MissingExtraError, refuse
+from cardan.errors import InputError, MissingExtraError, refuse
 from cardan.texts import _
 
 from .raw import Asked, Column, Raw, content
@@ -42,7 +42,9 @@ def read(path: Path, asked: Asked) -> Raw:
         cut = bool(file.file_status.incomplete_final_segment)
         groups = file.groups()
         rows = [(group, channel, channel[:]) for group in groups for channel in group.channels()]
-    except (ValueError, KeyError, EOFError, IndexError, TypeError, OverflowError, MemoryError, AttributeError) as error:
+    except InputError:
+        raise
+    except Exception as error:  # a header of nonsense makes all sorts
         raise refuse(name, _("is no TDMS file that can be read: {why}").format(why=error)) from None
     cautions = [_("{name} is cut off: it holds less than it says.").format(name=name)] if cut else []
     columns = []
@@ -65,5 +67,5 @@ def read(path: Path, asked: Asked) -> Raw:
             )
         )
     if not columns:
-        raise refuse(name, _("holds no channel of numbers"), "empty")
+        raise refuse(name, _("is cut off before its numbers") if cut else _("holds no channel of numbers"), "empty")
     return Raw(columns=columns, cautions=tuple(cautions))
