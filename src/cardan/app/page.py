@@ -128,7 +128,7 @@ def build(session: Session, jobs: Jobs) -> None:
         "dim.addEventListener('change',()=>emitEvent('cardan-dark',dim.matches))"
     )
     if session.notice:
-        ui.notify(session.notice, type="negative", timeout=0, close_button=_("close"))
+        ui.notify(session.notice, type="negative", timeout=0, close_button=_("Close"))
 
 
 def _tell_browser(session: Session) -> None:

@@ -354,7 +354,7 @@ def applied(session: Session, change: Applicable) -> None:
     try:
         session.change(lambda text: edit(text, change.values, folder=session.workspace.enclosed))
     except InputError as error:
-        ui.notify(str(error), type="negative", multi_line=True, close_button=_("close"))
+        ui.notify(str(error), type="negative", multi_line=True, close_button=_("Close"))
     else:
         ui.notify(_("{change}: applied").format(change=change.label), type="positive", timeout=1500)
 
