@@ -284,3 +284,20 @@ def test_sizes_that_do_not_turn_are_shown_turning_evenly():
     stuck = Drive(joints=(kinds.PinCoupling(bend=1.2, driving_slant=0.2),))
     build = assembled(stuck, count=4)
     assert np.all(np.isfinite(build.arms.driven))
+
+
+def test_bodies_of_unusual_proportions_stay_sound():
+    tight = Spline(position=0.02, outer=0.3, root=0.01, engaged=0.5, gap=0.5, teeth=3)
+    drive = Drive(
+        joints=(kinds.Hooke(bend=1.4), kinds.Hooke(bend=0.0)),
+        shafts=(
+            Shaft(number=1, outer=0.9),
+            Shaft(number=2, length=0.1, outer=0.4, wall=0.2, spline=tight),
+            Shaft(number=3, outer=0.002),
+        ),
+        supports=(Support(shaft=2, position=0.05, bore=0.5), Support(shaft=3, position=0.0, bore=0.001)),
+        stations=(Station(shaft=1, end="start", inertia=1e-6), Station(shaft=3, end="end", inertia=1e3)),
+    )
+    for solid in assembled(drive, count=4).solids:
+        assert meshes.volume(solid.surface) > 0.0, solid.part
+        assert closed(solid.surface), solid.part
