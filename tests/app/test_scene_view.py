@@ -336,13 +336,14 @@ def volume(positions: np.ndarray, indices: np.ndarray) -> float:
 
 
 def test_thinned_bodies_are_closed_and_of_the_same_shape(page):
-    """Without a graphics card bodies move with fewer triangles: the same surface within a 600th of the whole."""
+    """Without a graphics card bodies move with fewer triangles: the same surface within a pixel."""
     page.wait_for_function("[...cardanView.bodies.meshes.values()].every((mesh) => mesh.thin)")
     found = page.evaluate(
         """() => [...cardanView.bodies.meshes.values()].map((mesh) => [mesh, mesh.thin].map(
           ({positions, indices}) => [[...positions], [...indices]]))"""
     )
-    error = scene()["size"] / 600
+    error = page.evaluate("cardanView.bodies.error")
+    assert error <= scene()["size"] / 320
     fewer = 0
     for pair in found:
         (points, corners), (kept, left) = (

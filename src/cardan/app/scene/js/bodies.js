@@ -87,6 +87,13 @@ export class Bodies {
   // Make a second form of every mesh with fewer triangles, a little at a time; `done` is called when there is one of all.
   thin(error, done) {
     clearTimeout(this.thinning);
+    if (error !== this.error) {
+      for (const batch of this.batches.values()) {
+        batch.coarse?.dispose();
+        batch.coarse = null;
+      }
+      this.dress();
+    }
     this.error = error;
     const step = () => {
       const begun = performance.now();

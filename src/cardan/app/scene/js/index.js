@@ -19,7 +19,8 @@ import { Quality, software } from "./quality.js";
 import { THEMES, uniforms } from "./studio.js";
 
 const REST = 160; // ms without motion until the picture is drawn at its best
-const THIN = 600; // without a graphics card, moving bodies keep to their form within this part of the whole
+const THIN = [700, 320]; // without a graphics card, moving bodies keep to their form within a pixel: this part of the whole
+const FOLLOW = 100; // ms between two angles told to the page where every change of it costs a frame
 const HEARD = 100; // ms between two angles told to the server
 const mounted = [];
 
@@ -116,9 +117,19 @@ class View {
     this.switch();
     this.floor();
     if (first) this.look(this.viewer.view, false);
-    if (this.slow) this.bodies.thin(scene.size / THIN, () => this.draw());
+    this.thin();
     this.draw();
     return true;
+  }
+
+  // Without a graphics card, fewer triangles: as many as can be told apart.
+  thin() {
+    if (!this.slow || !this.sized) return;
+    const [least, most] = THIN.map((part) => this.scene.size / part);
+    const error = this.bodies.error ?? 0;
+    const pixel = Math.min(Math.max(this.viewer.pixel, least), most);
+    const keep = pixel / error < 1.3 && error / pixel < 1.3; // the forms there are will do
+    this.bodies.thin(keep ? error : pixel, () => this.draw());
   }
 
   floor() {
@@ -243,6 +254,7 @@ class View {
     this.viewer.resize(width, height);
     for (const { screen } of [this.lines, this.ground.lines, this.bodies.outline]) screen.value.set(width, height);
     if (fit) this.look(this.viewer.view, false);
+    if (fit && this.scene) this.thin();
     this.render(performance.now(), this.quality.resting);
   }
 
@@ -298,10 +310,11 @@ class View {
     this.tell(now);
   }
 
-  // Tell the page where the drive is, at each frame; the server at most every tenth of a second.
+  // Tell the page where the drive is: at each frame, where that is cheap; the server at most every tenth of a second.
   tell(now) {
-    if (this.angle === this.told) return;
+    if (this.angle === this.told || (this.slow && this.playing && now - (this.toldAt ?? -FOLLOW) < FOLLOW)) return;
     this.told = this.angle;
+    this.toldAt = now;
     window.dispatchEvent(new CustomEvent("cardan-angle", { detail: { angle: this.angle, view: this } }));
     clearTimeout(this.late);
     const send = () => {
@@ -321,6 +334,7 @@ class View {
     return url.slice(url.indexOf(",") + 1);
   }
 
+  // Stop, and leave nothing behind.
   dispose() {
     this.gone = true;
     cancelAnimationFrame(this.pending);
