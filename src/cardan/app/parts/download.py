@@ -17,6 +17,10 @@ from .dialogs import asking
 from .making import Making
 
 
+MARKS = {"json": "data"}
+"""What tests call a form of the report where the drive itself has the same."""
+
+
 def _forms() -> dict[papers.Form, str]:
     """Return the forms of a report with what they are called."""
     return {
@@ -57,10 +61,12 @@ class ReportMenu:
         self._jobs = jobs
         with ui.dropdown_button(_("Report"), auto_close=True).props('flat dense no-caps data-mark="report-menu"'):
             for form, title in _forms().items():
-                ui.item(title, on_click=lambda form=form: self.report(form)).props(f'data-mark="report-{form}"')
+                ui.item(title, on_click=lambda form=form: self.report(form)).props(
+                    f'data-mark="export-{MARKS.get(form, form)}"'
+                )
             ui.separator()
-            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="drive-toml"')
-            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="drive-json"')
+            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="export-toml"')
+            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="export-json"')
 
     def report(self, form: papers.Form) -> None:
         """Make the report of the drive in a form and give it to the browser."""
@@ -115,7 +121,7 @@ class Exports:
             known = _kinds()
             for kind in kinds(thing):
                 button = ui.button(known[kind], on_click=lambda kind=kind: self._chosen(dialog, thing, kind))
-                button.props(f'flat no-caps align=left data-mark="export-{kind}"')
+                button.props(f'flat no-caps align=left data-mark="as-{kind}"')
             ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
 
     def _chosen(self, dialog: ui.dialog, thing: Figure | Page, kind: str) -> None:

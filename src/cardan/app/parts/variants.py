@@ -74,6 +74,7 @@ class VariantsMenu:
     def _count(self) -> None:
         count = len(self.session.variants)
         self._button.text = f"{_('Variants')} ({count})" if count else _("Variants")
+        self._filled()
 
     def _filled(self) -> None:
         """Fill the menu as it opens."""
