@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
 from nicegui import run, ui
 
@@ -16,11 +17,14 @@ from cardan.figures.scene_words import in_words_of
 from cardan.report.preferred import names_in
 from cardan.texts import _, speaking
 
+if TYPE_CHECKING:
+    from cardan import Verdict
+
 LOADED = ("forces", "couples")
 """Groups that need the forces of the drive."""
 
 QUIET = 0.35
-"""Seconds without an edit after which forces and mode shapes are reckoned anew."""
+"""Seconds without an edit after which utilisations, forces and mode shapes are reckoned anew."""
 
 SOON = 0.02
 """Seconds by which the view follows the curves."""
@@ -112,32 +116,27 @@ class View:
             self._next = ui.timer(SOON, self._follow, once=True)
 
     def _follow(self) -> None:
-        """Show the drive as it is now; forces and mode shapes follow once the user is quiet."""
+        """Show the drive as it is now; what takes longer follows once the user is quiet."""
         drive, self._next = self.session.drive, None
         if drive is None:
             return
         with self.session.speaking():
             self._show(self._made(drive))
-        if self._asks_more():
-            if self._waiting is not None:
-                self._waiting.cancel()
-            self._waiting = ui.timer(QUIET, self._complete, once=True)
+        if self._waiting is not None:
+            self._waiting.cancel()
+        self._waiting = ui.timer(QUIET, self._complete, once=True)
 
-    def _asks_more(self) -> bool:
-        return self.mode is not None or bool(self.on and self.on.intersection(LOADED))
-
-    def _made(self, drive: Drive, *, forces: bool = False, modes: bool = False) -> Scene:
+    def _made(self, drive: Drive, *, used: bool = False, forces: bool = False, modes: bool = False) -> Scene:
         pose = self.pose if self.pose is not None and self.pose < len(drive.poses) else None
-        try:
-            verdicts = cardan.check(drive)
-        except CardanError:
-            verdicts = ()
+        verdicts: tuple[Verdict, ...] = ()
+        with suppress(CardanError):
+            verdicts = cardan.check(drive) if used else ()
         found = scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
         choices = self.session.choices
         return in_words_of(found, choices.units, choices.decimal, names=names_in(drive))
 
     async def _complete(self) -> None:
-        """Add forces and mode shapes, away from the page's own work."""
+        """Add utilisations, forces and mode shapes, away from the page's own work."""
         drive, language = self.session.drive, self.session.choices.language
         if drive is None:
             return
@@ -145,7 +144,7 @@ class View:
 
         def made() -> Scene:
             with speaking(language):
-                return self._made(drive, forces=forces, modes=modes)
+                return self._made(drive, used=True, forces=forces, modes=modes)
 
         found = await run.io_bound(made)
         if found is not None and drive is self.session.drive:
