@@ -104,6 +104,13 @@ _HOMES = {
     "OrderSpectrum": "diagnosis.orders",
     "order_map": "diagnosis.orders",
     "order_spectrum": "diagnosis.orders",
+    "Orbit": "diagnosis.orbit",
+    "orbit": "diagnosis.orbit",
+    "Cepstrum": "diagnosis.spectra",
+    "cepstrum": "diagnosis.spectra",
+    "integrated": "diagnosis.spectra",
+    "TorsionalVibration": "diagnosis.torsional",
+    "torsional_vibration": "diagnosis.torsional",
     "TrackedOrders": "diagnosis.order_tracks",
     "tracked_orders": "diagnosis.order_tracks",
     "Cure": "synthesis.change",
@@ -227,6 +234,8 @@ if TYPE_CHECKING:
     from .checks.checks import CHECKS as CHECKS
     from .checks.checks import check as check
     from .checks.verdict import Verdict as Verdict
+    from .diagnosis.orbit import Orbit as Orbit
+    from .diagnosis.orbit import orbit as orbit
     from .diagnosis.order_tracks import TrackedOrders as TrackedOrders
     from .diagnosis.order_tracks import tracked_orders as tracked_orders
     from .diagnosis.orders import OrderMap as OrderMap
@@ -235,6 +244,11 @@ if TYPE_CHECKING:
     from .diagnosis.orders import order_spectrum as order_spectrum
     from .diagnosis.signal import Channel as Channel
     from .diagnosis.signal import Signal as Signal
+    from .diagnosis.spectra import Cepstrum as Cepstrum
+    from .diagnosis.spectra import cepstrum as cepstrum
+    from .diagnosis.spectra import integrated as integrated
+    from .diagnosis.torsional import TorsionalVibration as TorsionalVibration
+    from .diagnosis.torsional import torsional_vibration as torsional_vibration
     from .diagnosis.turning import Rotation as Rotation
     from .diagnosis.turning import rotation as rotation
     from .drive.accuracy import Tolerance as Tolerance
