@@ -16,7 +16,6 @@ from cardan.texts import _
 from .dialogs import asking
 from .making import Making
 
-
 MARKS = {"json": "data"}
 """What tests call a form of the report where the drive itself has the same."""
 
