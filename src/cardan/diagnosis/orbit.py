@@ -19,6 +19,9 @@ from .turning import Rotation
 POINTS = 181
 """Points of an ellipse."""
 
+SMOOTH = 16.0
+"""Order up to which the raw way is read: it is drawn."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Ellipse:
@@ -153,7 +156,7 @@ def orbit(
     1.000, 0.500, 0.000 rad
     """
     check(_misfits(x, y, angles))
-    highest = max(4.0, 2.0 * max((float(one) for one in orders), default=1.0))
+    highest = max(SMOOTH, 2.0 * max((float(one) for one in orders), default=1.0))
     rows = [turned(one, rotation, highest=highest) for one in (x, y)]
     first = max(row.angle[0] for row in rows)
     last = min(row.angle[-1] for row in rows)

@@ -44,6 +44,12 @@ _MAKERS = {
     "cardan.synthesis.absorber.Absorber": "calm.absorber_figures",
     "cardan.synthesis.calm.Calm": "calm.calm_figures",
     "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",
+    "cardan.diagnosis.orders.OrderSpectrum": "diagnosis.spectrum_figures",
+    "cardan.diagnosis.orders.OrderMap": "diagnosis.map_figures",
+    "cardan.diagnosis.order_tracks.TrackedOrders": "diagnosis.tracks_figures",
+    "cardan.diagnosis.turning.Rotation": "diagnosis_motion.rotation_figures",
+    "cardan.diagnosis.orbit.Orbit": "diagnosis_motion.orbit_figures",
+    "cardan.diagnosis.torsional.TorsionalVibration": "diagnosis_motion.torsional_figures",
 }
 """Result -> file and function of this folder that make its figures."""
 
