@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.figures.conversion import Conversion
 from cardan.files import write_bytes
 
 from .content import content
 from .html import text
+from .preferred import in_choice, names_in
 from .renderer import renderer_for
 
 
@@ -24,6 +26,8 @@ def report(
     interactive: bool = False,
     progress: Callable[[float], object] | None = None,
     known: Catalogue | None = None,
+    units: Mapping[str, str] | None = None,
+    decimal: str = ".",
 ) -> Path:
     """Write the report of a drive as one file that needs nothing else.
 
@@ -44,6 +48,10 @@ def report(
         Called with the share done; answering "stop" leaves out what is still to be reckoned.
     known : Catalogue, optional
         Norms, types and sizes that it is judged by; the shipped ones when not given.
+    units : mapping of str to str, optional
+        Dimension -> unit that it is told in, as in the keys of a drive file: ``{"length": "in"}``.
+    decimal : str
+        Sign between whole and part, ``"."`` or ``","``; workbooks show numbers as the spreadsheet is set.
 
     Returns
     -------
@@ -53,7 +61,8 @@ def report(
     Raises
     ------
     InputError
-        The path does not end like a report or cannot be written, or its form has no figures to point at.
+        The path does not end like a report or cannot be written, its form has no figures to point at, or there is no
+        such unit.
     MissingExtraError
         What writes that form is not installed.
 
@@ -66,8 +75,10 @@ def report(
     """
     place = Path(path)
     written = renderer_for(place, interactive=interactive)
+    chosen = Conversion(units=units or {}, decimal=decimal)  # refuses what is no unit before any work is done
     said = content(drive, duty, source_text=source_text, progress=progress, known=known)
-    write_bytes(place, written(said))
+    sign = "." if place.suffix.lower() == ".xlsx" else chosen.decimal
+    write_bytes(place, written(in_choice(said, chosen.units, sign, names=names_in(drive))))
     if progress is not None:
         progress(1.0)
     return place
