@@ -1,7 +1,8 @@
 // The 3-D view of a drive: what Python describes, drawn; it turns between frames that Python worked out.
 //
 // Other parts of the page follow without the server: every drawn frame sends "cardan-angle" {angle, view} to the
-// window, and the view turns to the angle of a "cardan-go-to" {angle}. `window.cardanView` is the view made last.
+// window (without a graphics card ten a second do), and the view turns to the angle of a "cardan-go-to" {angle}.
+// `window.cardanView` is the view made last.
 
 import { THREE } from "nicegui-scene";
 import { Areas, Curves } from "./areas.js";
