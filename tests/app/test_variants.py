@@ -113,13 +113,17 @@ def test_a_report_that_is_stopped_leaves_the_page_at_work(page: Any, url: str) -
     page.goto(f"{url}/?file=long.toml")
     mark(page, "answer").first.wait_for()
     mark(page, "report-menu").click()
-    mark(page, "export-pdf").click()
+    mark(page, "report-pdf").click()
     mark(page, "making-cancel").click()
     mark(page, "making").wait_for(state="detached")
     mark(page, "report-menu").click()
     with page.expect_download() as saved:
-        mark(page, "export-toml").click()
+        mark(page, "drive-toml").click()
     assert saved.value.suggested_filename == "long.toml"
+    mark(page, "report-menu").click()
+    with page.expect_download() as saved:
+        mark(page, "view-png").click()
+    assert saved.value.path().read_bytes().startswith(b"\x89PNG")
 
 
 def test_answers_are_in_the_units_and_with_the_sign_that_the_user_chose(page: Any) -> None:

@@ -146,7 +146,7 @@ def _parts(session: Session, jobs: Jobs) -> None:
         with ui.element("section").classes("pane file").props(f'aria-label="{_("Drive file")}"'):
             Editor(session)
         with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
-            View(session)
+            head.report.snapshot = View(session).scene.snapshot
         with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
             Answers(session, jobs, export=Exports(session, jobs))
         with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Awaitable, Callable
+from typing import TypeAlias
+
 from nicegui import ui
 
 from cardan.app.state import papers
@@ -16,8 +19,7 @@ from cardan.texts import _
 from .dialogs import asking
 from .making import Making
 
-MARKS = {"json": "data"}
-"""What tests call a form of the report where the drive itself has the same."""
+Snapshot: TypeAlias = Callable[[], Awaitable[bytes]]
 
 
 def _forms() -> dict[papers.Form, str]:
@@ -53,19 +55,24 @@ class ReportMenu:
         Whose drive is reported.
     jobs : Jobs
         Where reports are made.
+
+    Attributes
+    ----------
+    snapshot : function or None
+        Gives a picture of the view in space; the page sets it.
     """
 
     def __init__(self, session: Session, jobs: Jobs) -> None:
         self.session = session
         self._jobs = jobs
+        self.snapshot: Snapshot | None = None
         with ui.dropdown_button(_("Report"), auto_close=True).props('flat dense no-caps data-mark="report-menu"'):
             for form, title in _forms().items():
-                ui.item(title, on_click=lambda form=form: self.report(form)).props(
-                    f'data-mark="export-{MARKS.get(form, form)}"'
-                )
+                ui.item(title, on_click=lambda form=form: self.report(form)).props(f'data-mark="report-{form}"')
             ui.separator()
-            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="export-toml"')
-            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="export-json"')
+            ui.item(_("Drive file (TOML)"), on_click=self.toml).props('data-mark="drive-toml"')
+            ui.item(_("Drive as data (JSON)"), on_click=self.json).props('data-mark="drive-json"')
+            ui.item(_("What the view shows (PNG)"), on_click=self.picture).props('data-mark="view-png"')
 
     def report(self, form: papers.Form) -> None:
         """Make the report of the drive in a form and give it to the browser."""
@@ -90,6 +97,18 @@ class ReportMenu:
                 return
             text = dumps(self.session.drive, form="json")
             ui.download.content(text, f"{self._name()}.json", "application/json")
+
+    async def picture(self) -> None:
+        """Give the browser a picture of what the view in space shows."""
+        if self.snapshot is None:
+            return
+        try:
+            seen = await self.snapshot()
+        except TimeoutError:
+            with self.session.speaking():
+                ui.notify(_("The view gave no picture; try again."), type="negative", position="top")
+            return
+        ui.download.content(seen, f"{self._name()}.png", "image/png")
 
     def _name(self) -> str:
         drive = self.session.drive

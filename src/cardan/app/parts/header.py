@@ -40,7 +40,7 @@ class Header:
                 self.undo = _button("undo", _("Undo (ctrl Z)"), session.undo)
                 self.redo = _button("redo", _("Redo (ctrl shift Z)"), session.redo)
                 self.variants = VariantsMenu(session, jobs)
-                ReportMenu(session, jobs)
+                self.report = ReportMenu(session, jobs)
             self._files()
             SettingsMenu(session)
         self._follow()
