@@ -27,6 +27,9 @@ OVERLAP = 0.75
 POINTS_AN_ORDER = 4
 """Points in the period of the highest order, which `read_slowly` asks for."""
 
+MOST_POINTS = 2e7
+"""Points at even angles; more would not fit the memory with all that is made of them."""
+
 WINDOWS = {"hann": (0.5, 0.5), "flattop": (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368)}
 """Window -> weights of its cosines. A flat top reads amplitudes between two lines to 0.1 %, but is twice as wide."""
 
@@ -84,6 +87,9 @@ def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) ->
     end = min(float(rotation.time[-1]), channel.start + channel.duration)
     per_turn = 4 * math.ceil(POINTS_AN_ORDER * highest / 4)
     step = 2.0 * math.pi / per_turn
+    if rotation.turns * per_turn > MOST_POINTS:
+        text = _("{turns:.3g} turns with {points} points each are too many: cut the recording, or ask for lower orders")
+        raise refuse(channel.name, text.format(turns=rotation.turns, points=per_turn), "out_of_range")
     ends = rotation.angle_at(np.asarray([begin, end])) / step
     place = np.arange(math.ceil(ends[0] - 1e-9), math.floor(ends[1] + 1e-9) + 1) if end > begin else np.zeros(0)
     if place.size < LEAST_TURNS * per_turn:

@@ -9,6 +9,8 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
+from .signal import LARGEST
+
 CLIPPED = 3.0
 """Times as many values at the very top as just below it: no vibration does that."""
 
@@ -81,7 +83,7 @@ def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False
     ('front: clipped at its limits, 29 % of its values; peaks are cut and orders made up.', 0.2)
     """
     values = np.asarray(values, dtype=float)
-    missing = ~np.isfinite(values)
+    missing = ~(np.abs(values) <= LARGEST)
     share = float(np.mean(missing)) if values.size else 1.0
     if share > LOST:
         return None

@@ -54,12 +54,14 @@ SEEN, UNSEEN = 0.5, 0.1
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Map:
-    """Logarithm of power over that around it: steps in time by lines of frequency."""
+    """Logarithm of power over that around it, steps in time by lines of frequency; and the first row it was made of."""
 
     level: Array
     time: Array
     frequency: Array
     window: float
+    row: Array
+    rate: float
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -205,7 +207,9 @@ def _drawn(rows: Sequence[Array], rate: float, length: float) -> _Map:
         around = np.maximum(around, 1e-12 * np.max(power, initial=1e-300))
         level = level + np.log(np.maximum(power / around, 1e-3))
     level = np.asarray(level).T / math.sqrt(len(rows))
-    return _Map(level=level, time=made.t(size, p0=first, p1=last), frequency=made.f, window=length)
+    return _Map(
+        level=level, time=made.t(size, p0=first, p1=last), frequency=made.f, window=length, row=rows[0], rate=rate
+    )
 
 
 def _viterbi(drawn: _Map, band: tuple[float, float]) -> _Path | None:
@@ -280,17 +284,20 @@ def _seen(found: _Path, multiples: Sequence[float]) -> bool:
 def _angle(channel: Channel, found: _Path) -> tuple[Array, Array]:
     """Return times and angle of the ridge's own order, sharpened by the phase of the vibration along it."""
     from scipy.ndimage import gaussian_filter1d
+    from scipy.signal import oaconvolve
 
     smooth = gaussian_filter1d(found.frequency, 1.0, mode="nearest")
     begin, end = channel.start, channel.start + channel.duration
-    time = np.arange(begin, end, found.map.window / (2 * HOPS))
-    rate = np.interp(time, begin + found.map.time, smooth)
-    angle = np.concatenate([[0.0], np.cumsum(math.pi * (rate[1:] + rate[:-1]) * np.diff(time))])
+    time = np.arange(begin, end, 0.5 * float(found.map.time[1] - found.map.time[0]))
+    local = np.interp(time, begin + found.map.time, smooth)
+    angle = np.concatenate([[0.0], np.cumsum(math.pi * (local[1:] + local[:-1]) * np.diff(time))])
     if found.height < SURE:
         return time, angle
-    turned = channel.values * np.exp(-1j * np.interp(channel.time, time, angle))
-    width = 0.25 * found.map.window * channel.rate
-    calm = gaussian_filter1d(turned.real, width) + 1j * gaussian_filter1d(turned.imag, width)
-    at = np.clip(np.rint((time - begin) * channel.rate).astype(int), 0, channel.values.size - 1)
+    row, rate = found.map.row, found.map.rate
+    turned = (row - np.mean(row)) * np.exp(-1j * np.interp(begin + np.arange(row.size) / rate, time, angle))
+    sigma = 0.25 * found.map.window * rate
+    reach = np.arange(-math.ceil(4.0 * sigma), math.ceil(4.0 * sigma) + 1)
+    calm = oaconvolve(turned, np.exp(-0.5 * (reach / sigma) ** 2), mode="same")
+    at = np.clip(np.rint((time - begin) * rate).astype(int), 0, row.size - 1)
     sharp = angle + np.unwrap(np.angle(calm[at]))
     return (time, sharp) if float(np.min(np.diff(sharp))) > 0.0 else (time, angle)

@@ -27,6 +27,9 @@ QUANTITIES = {
 
 DIRECTIONS = ("x", "y", "z", "radial", "axial", "torsion", "")
 
+LARGEST = 1e30
+"""Numbers beyond this are no measurement, in any unit."""
+
 TURNING = ("pulses", "angular_speed", "angle")
 """Quantities that tell how a shaft turns."""
 
@@ -93,6 +96,9 @@ class Channel:
             yield Problem("values", text.format(shape=self.values.shape), "empty")
         elif not np.all(np.isfinite(self.values)):
             yield Problem("values", _("not all numbers are finite; fill the gaps first"), "not_finite")
+        elif float(np.max(np.abs(self.values))) > LARGEST:
+            text = _("holds numbers beyond {limit:g}: nothing measures that").format(limit=LARGEST)
+            yield Problem("values", text, "out_of_range")
 
     @property
     def time(self) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.errors import Problem, check
+from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -17,6 +17,9 @@ from .turning import Rotation
 
 NEXT = {"acceleration": "velocity", "velocity": "displacement", "angular_speed": "angle"}
 """Quantity -> its integral over time."""
+
+LEAST_VALUES = 16
+"""A cepstrum of fewer values says nothing."""
 
 FLOOR = 1e-6
 """Share of the highest power below which a line counts as this much; a logarithm needs something."""
@@ -94,16 +97,17 @@ def integrated(channel: Channel, *, low: float) -> Channel:
         text = _("{value:.6g} Hz given; a frequency above 0 and below {limit:.6g} Hz is needed")
         problems.append(Problem("low", text.format(value=low, limit=0.5 * channel.rate), "out_of_range"))
     check(problems)
+    from scipy.fft import next_fast_len
+
     values = channel.values - np.mean(channel.values)
     count = values.size
-    head, tail = values[:0:-1], values[-2::-1]
-    whole = np.concatenate([head, values, tail]) if count > 1 else values
+    begin = count - 1
+    whole = np.pad(values, (begin, next_fast_len(3 * count) - 2 * count + 1), mode="symmetric")
     whole = whole - np.mean(whole)
     frequency = np.fft.rfftfreq(whole.size, 1.0 / channel.rate)
     factor = np.zeros(frequency.size, dtype=complex)
     factor[1:] = 1.0 / (2j * math.pi * frequency[1:] * (1.0 + (low / frequency[1:]) ** 8))
     found = np.fft.irfft(np.fft.rfft(whole) * factor, whole.size)
-    begin = head.size if count > 1 else 0
     return replace(channel, quantity=NEXT[channel.quantity], values=found[begin : begin + count], unit="")
 
 
@@ -126,7 +130,7 @@ def cepstrum(channel: Channel, rotation: Rotation | None = None, *, highest: flo
     Raises
     ------
     InputError
-        Too few turns.
+        Too few turns or values.
 
     Notes
     -----
@@ -145,6 +149,9 @@ def cepstrum(channel: Channel, rotation: Rotation | None = None, *, highest: flo
     else:
         read = turned(channel, rotation, highest=highest)
         values, step, unit = read.values, 1.0 / read.per_turn, "turn"
+    if values.size < LEAST_VALUES:
+        text = _("has {given} values; at least {wanted} are needed").format(given=values.size, wanted=LEAST_VALUES)
+        raise refuse(channel.name, text, "empty")
     window = np.hanning(values.size)
     power = np.abs(np.fft.rfft((values - np.mean(values)) * window)) ** 2
     power = np.maximum(power, FLOOR * np.max(power, initial=1e-300))

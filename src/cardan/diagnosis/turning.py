@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 LEAST_TURNS = 3.0
 """A recording of fewer turns tells nothing of orders."""
 
+MOST_TURNS = 1e7
+"""No recording has more: 10 000 rpm for half a day."""
+
 SAMPLES_A_PULSE = 4.0
 """Values between pulses below which their times are guesses."""
 
@@ -178,6 +181,9 @@ def rotation(
     if found.turns < LEAST_TURNS:
         text = _("holds {given:.3g} turns of the shaft; at least {wanted:g} are needed")
         raise refuse(tacho.name, text.format(given=found.turns, wanted=LEAST_TURNS), "out_of_range")
+    if found.turns > MOST_TURNS:
+        text = _("makes {given:.3g} turns; more than {most:g} are no recording: its unit or rate is wrong")
+        raise refuse(tacho.name, text.format(given=found.turns, most=MOST_TURNS), "out_of_range")
     return _judged(found, tacho, signal.measured, speed_range)
 
 
