@@ -78,3 +78,10 @@ def test_a_wrong_sampling_rate_shows_in_lengths_that_differ():
 def test_pulses_at_random_are_not_believed():
     values = np.random.default_rng(5).random(12000) > 0.99
     assert alone("pulses", values).confidence < 0.3
+
+
+def test_a_speed_in_the_wrong_unit_is_refused():
+    with pytest.raises(InputError, match="no shaft turns so fast"):
+        alone("angular_speed", np.full(1000, 2e5))
+    with pytest.raises(InputError, match="are no recording"):
+        alone("angular_speed", np.full(1000, 1e5), rate=1e-3)

@@ -26,6 +26,9 @@ LEAST_TURNS = 3.0
 MOST_TURNS = 1e7
 """No recording has more: 10 000 rpm for half a day."""
 
+FASTEST = 1e6 * rpm
+"""No shaft of a drive turns faster."""
+
 SAMPLES_A_PULSE = 4.0
 """Values between pulses below which their times are guesses."""
 
@@ -184,6 +187,9 @@ def rotation(
     if found.turns > MOST_TURNS:
         text = _("makes {given:.3g} turns; more than {most:g} are no recording: its unit or rate is wrong")
         raise refuse(tacho.name, text.format(given=found.turns, most=MOST_TURNS), "out_of_range")
+    if found.mean_speed > FASTEST:
+        text = _("makes {given:.3g} rpm; no shaft turns so fast: its unit, its rate or the pulses per turn are wrong")
+        raise refuse(tacho.name, text.format(given=found.mean_speed / rpm), "out_of_range")
     return _judged(found, tacho, signal.measured, speed_range)
 
 
