@@ -20,6 +20,9 @@ from cardan.texts import _, speaking
 if TYPE_CHECKING:
     from cardan import Verdict
 
+TURNING = -1
+"""In place of the index of a mode shape: the drive turns."""
+
 LOADED = ("forces", "couples")
 """Groups that need the forces of the drive."""
 
@@ -51,7 +54,7 @@ class View:
         self.session = session
         self.shown: Scene | None = None
         self.on: set[str] | None = None
-        self.mode: str | None = None
+        self.mode: int | None = None  # None until mode shapes were asked for
         self.pose: int | None = None
         self._waiting: ui.timer | None = None
         self._next: ui.timer | None = None
@@ -97,7 +100,9 @@ class View:
             ).classes("speed")
             ui.label(_("fast")).classes("hint")
             ui.label("φ = 0°").classes("phi")
-            self.shapes = ui.select({"": _("turning")}, value="", on_change=lambda event: self._swing(event.value))
+            self.shapes = ui.select(
+                {TURNING: _("turning")}, value=TURNING, on_change=lambda event: self._chosen(event.value)
+            )
             self.shapes.props(f'dense options-dense borderless aria-label="{_("turning or swinging")}"').props(
                 'data-mark="shapes"'
             )
@@ -182,31 +187,31 @@ class View:
             ui.timer(0.01, self._complete, once=True)
 
     def _ask_modes(self) -> None:
-        self.mode = self.mode or ""
+        self.mode = 0 if self.mode in (None, TURNING) else self.mode
         ui.timer(0.01, self._complete, once=True)
 
     def _shapes(self, found: Scene) -> None:
-        names = {"": _("turning"), **{mode.name: mode.name for mode in found.modes}}
-        if self.mode not in names:
-            self.mode = "" if self.mode is not None else None
-        if self.shapes.options != names:
-            self.shapes.set_options(names, value=self.mode or "")
-        self._swing(self.mode or "")
-        lacking = "" if self.mode is None or found.modes else found.missing.get("modes", "")
-        self.told.set_text(lacking)
+        """Offer the mode shapes of a scene; those of a drive just edited are still to come."""
+        if found.modes:
+            names = {TURNING: _("turning"), **{k: mode.name for k, mode in enumerate(found.modes)}}
+            self.mode = self.mode if self.mode in names else TURNING
+            self.shapes.set_options(names, value=self.mode)
+        self._swing()
 
-    def _swing(self, name: str) -> None:
+    def _chosen(self, mode: int) -> None:
+        if self.shown is not None and self.shown.modes:
+            self.mode = mode
+            self._swing()
+
+    def _swing(self) -> None:
+        """Let the scene swing or turn as was chosen, and say what is seen or why nothing is."""
         found = self.shown
         if found is None:
             return
-        if self.mode is not None:
-            self.mode = name
-        place = next((k for k, mode in enumerate(found.modes) if mode.name == name), None)
-        self.scene.mode(place)
-        if place is not None:
-            self.told.set_text(found.modes[place].text)
-        elif found.modes:
-            self.told.set_text("")
+        swings = self.mode is not None and 0 <= self.mode < len(found.modes)
+        self.scene.mode(self.mode if swings else None)
+        lacking = found.missing.get("modes", "") if self.mode is not None and not found.modes else ""
+        self.told.set_text(found.modes[self.mode].text if swings and self.mode is not None else lacking)
 
     def _posed(self, pose: Any) -> None:
         self.pose = pose
