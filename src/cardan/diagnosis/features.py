@@ -1,0 +1,465 @@
+"""What a recording of a drive shows, in figures that mean something: levels, exponents, what the torque changes, peaks.
+
+Each is a logarithm or a plain ratio, so that a calibration can weigh them; nan where the recording cannot tell.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.errors import InputError, refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .expected import Expected, expected_orders
+from .order_tracks import TrackedOrders, tracked_orders
+from .plant import Plant, plant
+from .signal import Channel, Signal
+from .turning import LEAST_TURNS, Rotation, rotation
+
+ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+
+PROBES = (0.75, 1.25, 1.75, 2.5, 3.5)
+"""Orders that no fault has: what is there is noise, at about the frequency of the orders beside them."""
+
+TURNS = 16
+
+NAMES = (
+    "order_1",
+    "order_2",
+    "order_2_unloaded",
+    "order_3",
+    "order_4",
+    "half_orders",
+    "at_centre",
+    "torque_on_1",
+    "turned_by_torque",
+    "torque_on_2",
+    "power_of_1",
+    "steep_at_top",
+    "power_of_2",
+    "peak_of_2",
+    "peak_of_3",
+    "at_third",
+    "axial_share",
+    "knocks_1",
+    "knocks_2",
+    "uneven",
+)
+"""Names of the features, in the order of the calibration."""
+
+CLEAR = 2.5
+"""Times what noise leaves that an order has to reach to count as seen."""
+
+HIDDEN = {0.5: -1.0, 1.5: -1.0, 3.0: -1.0, 4.0: -1.0}
+"""Largest level of an order that noise hides; 0, that of the drive in order, for orders 1 and 2."""
+
+SAME_SPEED = 0.04
+"""Share of the speed within which windows count as held at it."""
+
+DIFFERENT = 0.3
+"""Share of the largest torque by which two holds must differ to tell what the torque does."""
+
+NEAR_THIRD = 0.05
+"""Share of a third of the critical speed within which a peak of order 3 counts as its."""
+
+BINS = 14
+"""Of speed in a run-up."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Features:
+    """What a recording shows.
+
+    Attributes
+    ----------
+    value : array (f,)
+        By `NAMES`; nan where it cannot be told.
+    speed : (float, float) [rad/s]
+        Between which the shaft turned.
+    held : float [rad/s]
+        Speed that it was held at longest.
+    peak_2, peak_3 : float [rad/s]
+        Speeds at which orders 2 and 3 are largest.
+    critical : float [rad/s]
+        Lowest bending critical speed as computed; nan where not known.
+    confidence : float
+        From 0 to 1: that of the recording and of its rotation, less by what it cannot tell.
+    cautions : tuple of str
+        What was doubtful.
+    """
+
+    value: Array
+    speed: tuple[float, float]
+    held: float
+    peak_2: float
+    peak_3: float
+    critical: float
+    confidence: float
+    cautions: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> float:
+        """Return the feature of a name."""
+        return float(self.value[NAMES.index(name)])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Track:
+    """Orders at a sensor as acceleration (o, w), their noise (o,) for one window, and the housing it sits on."""
+
+    kind: str
+    mass: float
+    value: Array
+    noise: Array
+    found: TrackedOrders
+
+
+@lru_cache(maxsize=16)
+def _known(drive: Drive) -> tuple[Plant, Expected]:
+    return plant(drive), expected_orders(drive)
+
+
+def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] | None = None) -> Features:
+    """Return what a recording of a drive shows, in figures.
+
+    Parameters
+    ----------
+    signal : Signal
+        With one channel of vibration at least; better with a tacho, two torques and a run-up.
+    drive : Drive
+        The drive in order: levels are measured by what it should show.
+    speed_range : (float, float) [rad/s], optional
+        Between which the shaft turned, for a recording without a tacho; the duty of the drive otherwise.
+
+    Returns
+    -------
+    Features
+
+    Raises
+    ------
+    InputError
+        No channel of vibration, or too few turns.
+
+    Notes
+    -----
+    Levels are decadic logarithms of the amplitude at the held speed over that of the drive in order, all radial sensors
+    together by the forces on their housings; exponents are slopes of log amplitude over log speed; nothing counts below
+    what noise leaves in an average of as many windows.
+
+    Examples
+    --------
+    >>> from cardan.diagnosis.simulate import simulate_fault
+    >>> from cardan.io import example
+    >>> drive = example("truck-supports")
+    >>> shown = features(simulate_fault(drive, "unbalance", seed=4), drive)
+    >>> print(shown["order_1"] > 0.3, abs(shown["torque_on_1"]) < 0.2)
+    True True
+    """
+    base, healthy = _known(drive)
+    shaft = rotation(signal, speed_range=speed_range or (None if signal.tacho is not None else base.speed))
+    radial, axial = _accelerations(signal, shaft, base)
+    if not radial:
+        raise refuse("signal", _("the recording has no channel of vibration across the shaft"), "missing")
+    first = radial[0].found
+    torque, told = _torque(signal, first.time, base.torque)
+    held = _held(first)
+    still = np.abs(first.speed / held - 1.0) < SAME_SPEED
+    high, low = _groups(torque, still, told, base.torque)
+    out = dict.fromkeys(NAMES, math.nan)
+    _levels(out, radial, healthy, base, held, torque, high, low)
+    peaks = _over_speed(out, radial, first, torque, told, base)
+    _sideways(out, radial, axial, high)
+    _knocks(out, signal, shaft, first, low if low.any() else high)
+    _uneven(out, signal, shaft, base)
+    value = np.asarray([out[name] for name in NAMES])
+    known = float(np.mean(np.isfinite(value)))
+    return Features(
+        value=value,
+        speed=shaft.speeds,
+        held=held,
+        peak_2=peaks[0],
+        peak_3=peaks[1],
+        critical=base.critical,
+        confidence=signal.trust * shaft.confidence * (0.3 + 0.7 * known),
+        cautions=(*signal.cautions, *shaft.cautions, *_doubts(out, told, low, base)),
+    )
+
+
+def _doubts(out: dict[str, float], told: bool, low: Array, base: Plant) -> list[str]:
+    found = []
+    if not told or not low.any():
+        found.append(_("The recording has no two torques at one speed: what the torque changes is not known."))
+    if math.isnan(out["peak_of_2"]):
+        found.append(_("The speed hardly changes: how the vibration grows with speed is not known."))
+    if math.isnan(out["axial_share"]):
+        found.append(_("There is no axial sensor: a bent shaft is hard to tell from an unbalance."))
+    if math.isnan(out["uneven"]):
+        found.append(_("The speed of the output was not recorded: how evenly it turns is not known."))
+    if base.assumed:
+        text = _("The drive does not say {names}; the sizes to be expected are assumed.")
+        found.append(text.format(names=", ".join(base.assumed)))
+    return found
+
+
+def _accelerations(signal: Signal, shaft: Rotation, base: Plant) -> tuple[list[_Track], list[_Track]]:
+    """Return the orders at the radial and at the axial sensors."""
+    powers = {"acceleration": 0, "velocity": 1, "displacement": 2}
+    radial: list[_Track] = []
+    axial: list[_Track] = []
+    for channel in signal.measured:
+        if channel.quantity not in powers or channel.direction == "torsion" or not np.any(channel.values):
+            continue
+        try:
+            found = tracked_orders(channel, shaft, (*ORDERS, *PROBES), turns=TURNS)
+        except InputError:
+            continue
+        value = found.value * (np.asarray(found.orders)[:, None] * found.speed) ** powers[channel.quantity]
+        house = next((one for one in base.housings if one.place == channel.place), base.housings[-1])
+        probes = np.sqrt(np.median(np.abs(value[len(ORDERS) :]) ** 2, axis=1) / math.log(2.0))
+        noise = np.exp(np.interp(np.log(ORDERS), np.log(PROBES), np.log(np.maximum(probes, 1e-300))))
+        track = _Track(kind=house.kind, mass=house.mass, value=value[: len(ORDERS)], noise=noise, found=found)
+        (axial if channel.direction in ("axial", "x") else radial).append(track)
+    same = [one for one in radial if one.value.shape == radial[0].value.shape]
+    return same, [one for one in axial if same and one.value.shape == same[0].value.shape]
+
+
+def _torque(signal: Signal, time: Array, usual: float) -> tuple[Array, bool]:
+    """Return the torque of every window, and whether it was measured."""
+    at = next((one for one in signal.channels if one.quantity == "torque"), None)
+    if at is None:
+        return np.full(time.size, usual), False
+    width = max(1, int(0.25 * at.rate))
+    smooth = np.convolve(at.values, np.ones(width) / width, mode="same")
+    return np.interp(time, at.time, smooth), True
+
+
+def _held(found: TrackedOrders) -> float:
+    """Return the speed in whose neighbourhood it ran longest; the fastest of equals."""
+    lasting = np.gradient(found.time) if found.time.size > 1 else np.ones(1)
+    near = np.abs(found.speed[:, None] / found.speed - 1.0) < SAME_SPEED
+    weight = lasting @ near
+    return float(found.speed[int(np.argmax(np.round(weight, 1) + 1e-6 * found.speed / np.max(found.speed)))])
+
+
+def _groups(torque: Array, still: Array, told: bool, usual: float) -> tuple[Array, Array]:
+    """Return which windows at the held speed have much torque, and which little or the other way."""
+    nothing = np.zeros_like(still)
+    if not told or not still.any():
+        return still, nothing
+    most, least = float(np.max(torque[still])), float(np.min(torque[still]))
+    if most - least < DIFFERENT * max(abs(most), abs(least), 0.1 * usual):
+        return still, nothing
+    room = 0.1 * (most - least)
+    return still & (torque > most - room), still & (torque < least + room)
+
+
+def _mean(track: _Track, order: float, which: Array) -> tuple[float, complex]:
+    """Return amplitude, no less than noise leaves, and mean of an order over windows; together where phases mean."""
+    k = ORDERS.index(order)
+    chosen = track.value[k, which]
+    if chosen.size == 0:
+        return math.nan, complex(math.nan)
+    mean = complex(np.mean(chosen)) if track.found.phased else complex(np.sqrt(np.mean(np.abs(chosen) ** 2)))
+    return max(abs(mean), _floor(track, order, which)), mean
+
+
+def _floor(track: _Track, order: float, which: Array) -> float:
+    """Return what noise leaves of an order in the mean over windows, of which four share a length."""
+    count = max(1.0, float(np.sum(which)) / 3.0) if track.found.phased else 1.0
+    return float(track.noise[ORDERS.index(order)]) / math.sqrt(count)
+
+
+def _force(tracks: list[_Track], order: float, which: Array) -> float:
+    """Return the amplitude of the forces on all housings together."""
+    return math.sqrt(sum((one.mass * _mean(one, order, which)[0]) ** 2 for one in tracks))
+
+
+def _stands_out(tracks: list[_Track], order: float, which: Array) -> bool:
+    """Tell whether an order rises over the noise at any housing."""
+    return any(_mean(one, order, which)[0] > CLEAR * _floor(one, order, which) for one in tracks)
+
+
+def _level(tracks: list[_Track], order: float, which: Array, usual: float) -> float:
+    """Return the logarithm of an order over what is usual; what noise hides counts as not above it."""
+    value = math.log10(_force(tracks, order, which) / usual)
+    return value if _stands_out(tracks, order, which) else min(value, HIDDEN.get(order, 0.0))
+
+
+def _healthy_force(healthy: Expected, tracks: list[_Track], order: float, speed: float, torque: float) -> float:
+    """Return the same of the drive in order."""
+    total = 0.0
+    for one in tracks:
+        lines = (line for line in healthy.orders if line.order == order and line.direction == "radial")
+        size = sum(abs(healthy.value(line, speed, torque)) ** 2 for line in lines if line.kind == one.kind)
+        total += one.mass**2 * float(size)
+    return math.sqrt(total) or math.nan
+
+
+def _levels(
+    out: dict[str, float],
+    radial: list[_Track],
+    healthy: Expected,
+    base: Plant,
+    held: float,
+    torque: Array,
+    high: Array,
+    low: Array,
+) -> None:
+    """Fill in the levels at the held speed, and what the torque changes in them."""
+    if not high.any():
+        return
+    much = float(np.mean(torque[high]))
+    one = _healthy_force(healthy, radial, 1.0, held, much)
+    two = _healthy_force(healthy, radial, 2.0, held, max(abs(much), 0.1 * base.torque))
+    out["order_1"] = _level(radial, 1.0, high, one)
+    out["order_2"] = _level(radial, 2.0, high, two)
+    out["order_3"] = _level(radial, 3.0, high, one)
+    out["order_4"] = _level(radial, 4.0, high, two)
+    out["half_orders"] = max(_level(radial, 0.5, high, one), _level(radial, 1.5, high, one))
+    centre = [track for track in radial if track.kind == "centre"]
+    rest = [track for track in radial if track.kind != "centre"]
+    if centre and rest and _stands_out(centre, 3.0, high):
+        out["at_centre"] = math.log10(_force(centre, 3.0, high) / _force(rest, 3.0, high))
+    if not low.any():
+        return
+    out["order_2_unloaded"] = _level(radial, 2.0, low, two)
+    if _stands_out(radial, 2.0, high):
+        out["torque_on_2"] = math.log10(_force(radial, 2.0, high) / _force(radial, 2.0, low))
+    if not (_stands_out(radial, 1.0, high) or _stands_out(radial, 1.0, low)):
+        return
+    out["torque_on_1"] = math.log10(_force(radial, 1.0, high) / _force(radial, 1.0, low))
+    if radial[0].found.phased:
+        apart = sum(track.mass * abs(_mean(track, 1.0, high)[1] - _mean(track, 1.0, low)[1]) for track in radial)
+        whole = sum(track.mass * (_mean(track, 1.0, high)[0] + _mean(track, 1.0, low)[0]) for track in radial)
+        out["turned_by_torque"] = apart / whole
+
+
+def _over_speed(
+    out: dict[str, float], radial: list[_Track], first: TrackedOrders, torque: Array, told: bool, base: Plant
+) -> tuple[float, float]:
+    """Fill in exponents and peaks over the speed; return the speeds of the peaks of orders 2 and 3."""
+    slowest, fastest = float(np.min(first.speed)), float(np.max(first.speed))
+    if fastest < 1.6 * slowest:
+        return math.nan, math.nan
+    moving = np.ones(first.speed.size, dtype=bool)
+    if told:
+        off = np.abs(first.speed / _held(first) - 1.0) > SAME_SPEED
+        usual = float(np.median(torque[off])) if off.any() else float(np.median(torque))
+        moving = np.abs(torque - usual) < 0.15 * max(abs(usual), 0.3 * base.torque)
+    edges = np.geomspace(slowest, fastest * 1.0001, BINS + 1)
+    number = np.digitize(first.speed, edges) - 1
+    curve = {}
+    for order in (1.0, 2.0, 3.0):
+        k = ORDERS.index(order)
+        power = sum((one.mass * np.abs(one.value[k])) ** 2 for one in radial)
+        level = np.sqrt(power)
+        curve[order] = np.asarray(
+            [
+                np.median(level[moving & (number == b)]) if np.any(moving & (number == b)) else np.nan
+                for b in range(BINS)
+            ]
+        )
+        curve[-order] = level
+        noise = math.sqrt(sum((one.mass * float(one.noise[k])) ** 2 for one in radial))
+        curve[order][curve[order] < 1.5 * noise] = np.nan
+    speed = np.sqrt(edges[1:] * edges[:-1])
+    lower = speed < 0.75 * fastest
+    out["power_of_1"] = _slope(speed[lower], curve[1.0][lower])
+    out["power_of_2"] = _slope(speed[lower], curve[2.0][lower])
+    upper = moving & (first.speed > 0.7 * fastest)
+    if np.isfinite(curve[1.0][-1]):
+        out["steep_at_top"] = _slope(first.speed[upper], curve[-1.0][upper])
+    at = []
+    for order in (2.0, 3.0):
+        inside = moving & (first.speed > 1.15 * slowest)
+        level = curve[-order][inside]
+        if level.size < 4:
+            at.append(math.nan)
+            continue
+        out[f"peak_of_{order:.0f}"] = math.log10(float(np.percentile(level, 98)) / float(np.median(level)))
+        at.append(float(first.speed[inside][int(np.argmax(level))]))
+    near = np.abs(3.0 * first.speed / base.critical - 1.0) < NEAR_THIRD
+    rest = np.abs(3.0 * first.speed / base.critical - 1.0) > 3.0 * NEAR_THIRD
+    if np.sum(moving & near) > 1 and np.any(moving & rest):
+        level = curve[-3.0]
+        out["at_third"] = math.log10(float(np.max(level[moving & near])) / float(np.median(level[moving & rest])))
+    return at[0], at[1]
+
+
+def _slope(speed: Array, level: Array) -> float:
+    good = np.isfinite(level) & (level > 0.0)
+    if np.sum(good) < 4:
+        return math.nan
+    x, y = np.log(speed[good]), np.log(level[good])
+    return float(np.polyfit(x, y, 1)[0]) if float(np.ptp(x)) > 0.05 else math.nan
+
+
+def _sideways(out: dict[str, float], radial: list[_Track], axial: list[_Track], high: Array) -> None:
+    """Fill in how much of order 1 goes along the shaft, at the end where most does."""
+    if not high.any():
+        return
+    across = {one.kind: one for one in radial}
+    shares = [
+        (one.mass * _mean(one, 1.0, high)[0], _mean(one, 1.0, high)[0] / _mean(across[one.kind], 1.0, high)[0])
+        for one in axial
+        if one.kind in across
+    ]
+    if shares:
+        out["axial_share"] = math.log10(max(shares)[1])
+
+
+def _knocks(out: dict[str, float], signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array) -> None:
+    """Fill in how much of the noise comes once and twice a turn: orders of the squared high-passed signal."""
+    from scipy.signal import butter, sosfiltfilt
+
+    best = {1.0: math.nan, 2.0: math.nan}
+    for channel in signal.measured:
+        if channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
+            continue
+        cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
+        if cut > 0.4 * channel.rate or channel.values.size < 100:
+            continue
+        rough = sosfiltfilt(butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values) ** 2
+        try:
+            found = tracked_orders(
+                Channel(name=channel.name, quantity="other", values=rough, rate=channel.rate, start=channel.start),
+                shaft,
+                (1.0, 2.0),
+                turns=TURNS,
+            )
+        except InputError:
+            continue
+        if found.time.size != which.size:
+            continue
+        mean = np.mean(np.interp(found.time[which], channel.time, _running(rough, channel.rate)))
+        for k, order in enumerate((1.0, 2.0)):
+            chosen = found.value[k, which]
+            size = abs(np.mean(chosen)) if found.phased else float(np.median(np.abs(chosen)))
+            best[order] = float(np.fmax(best[order], size / max(float(mean), 1e-300)))
+    out["knocks_1"], out["knocks_2"] = best[1.0], best[2.0]
+
+
+def _running(values: Array, rate: float) -> Array:
+    width = max(1, int(0.5 * rate))
+    return np.convolve(values, np.ones(width) / width, mode="same")
+
+
+def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant) -> None:
+    """Fill in how unevenly the output turns, over what the joints make and a small tolerance of their yokes."""
+    usual = base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.bend))) ** 2
+    for k, channel in enumerate(signal.channels):
+        if k == signal.tacho or channel.quantity not in ("angle", "angular_speed") or usual <= 0.0:
+            continue
+        if shaft.turns < LEAST_TURNS:
+            continue
+        found = tracked_orders(channel, shaft, (1.0, 2.0), turns=TURNS)
+        angle = found.value[1]
+        if channel.quantity == "angular_speed":
+            angle = angle / (2.0 * found.speed)
+        size = abs(np.mean(angle)) if found.phased else float(np.median(np.abs(angle)))
+        out["uneven"] = math.log10(max(size, 1e-9) / usual)
