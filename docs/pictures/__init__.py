@@ -16,6 +16,7 @@ MODULES = (
     "movements",
     "absorbers",
     "cracked",
+    "recordings",
     "calm",
     "parametric",
     "torsion",
