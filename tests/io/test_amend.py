@@ -125,3 +125,28 @@ def test_joints_change_places_but_the_line_stays() -> None:
     tree = tomllib.loads(joint_moved(text, 0, 1))
     assert tree["joints"][1] == {"name": "first", "cross": {"span_mm": 80}, "centre_mm": [1200, 0, -160]}
     assert tree["joints"][0] == {"centre_mm": [0, 0, 0]}
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "joints = 5", "joints = [1]", "joints = 'x'", "[joints]\na = 1", "x = " + "9" * 5000, "x = " + "[" * 3000],
+)
+def test_a_file_with_something_else_for_its_joints_is_refused_in_words(text: str) -> None:
+    for change in (
+        lambda: amend(text, {"joints[0].bend_deg": 5}),
+        lambda: amend(text, {"joints[0].cross.span_mm": 5}),
+        lambda: with_joint(text, 0),
+        lambda: without_joint(text, 0),
+        lambda: joint_moved(text, 0, 1),
+    ):
+        with pytest.raises(InputError):
+            change()
+
+
+def test_a_file_with_something_else_for_other_tables_is_refused_in_words() -> None:
+    joints = "\n[[joints]]\nbend_deg = 10\n[[joints]]\nbend_deg = 10\n"
+    for line in ("supports = 5", "shafts = [1]", "poses = [1]", "movements = [[1]]"):
+        with pytest.raises(InputError):
+            with_joint(line + joints, 1)
+    with pytest.raises(InputError):
+        insert("supports = 5" + joints, "supports[0]", {"shaft": 1})

@@ -7,7 +7,8 @@ passes through states that are not sound; here only the text must be TOML and th
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, TypeAlias, get_args, get_origin
 
 from cardan.drive.drive import Drive
@@ -54,17 +55,22 @@ def amend(text: str, values: Mapping[str, Any]) -> str:
 
     document = parsed(text)
     for path, value in values.items():
-        *steps, last = steps_of(path)
-        if value is None:
-            _take(document, (*steps, last))
-            continue
-        if not isinstance(last, str):
-            raise refuse(path, _("leads to a place in a list, not to a key"))
-        known = spellings_of(kind_at(document, steps))
-        if last not in known and last != "kind":
-            raise refuse(path, _("is no key of a drive file"))
-        _put(document, steps, last, known, value)
+        with tables_only(path):
+            _amended(document, path, value)
     return tomlkit.dumps(document)
+
+
+def _amended(document: Any, path: str, value: Any) -> None:
+    *steps, last = steps_of(path)
+    if value is None:
+        _take(document, (*steps, last))
+        return
+    if not isinstance(last, str):
+        raise refuse(path, _("leads to a place in a list, not to a key"))
+    known = spellings_of(kind_at(document, steps))
+    if last not in known and last != "kind":
+        raise refuse(path, _("is no key of a drive file"))
+    _put(document, steps, last, known, value)
 
 
 def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
@@ -91,18 +97,34 @@ def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
 
     document = parsed(text)
     *steps, name, place = steps_of(path)
-    holder = held_at(document, steps)
-    if name not in holder:
-        inline = isinstance(holder, tomlkit.items.InlineTable | tomlkit.items.Array)
-        if holder is document and len(document):
-            document.add(tomlkit.nl())
-        holder[name] = tomlkit.array() if inline else tomlkit.aot()
-    tables = holder[name]
-    new: Any = tomlkit.inline_table() if isinstance(tables, tomlkit.items.Array) else tomlkit.table()
-    for key, value in values.items():
-        new[key] = _plain(value)
-    tables.insert(min(int(place), len(tables)), new)
+    with tables_only(path):
+        holder = held_at(document, steps)
+        if name not in holder:
+            inline = isinstance(holder, tomlkit.items.InlineTable | tomlkit.items.Array)
+            if holder is document and len(document):
+                document.add(tomlkit.nl())
+            holder[name] = tomlkit.array() if inline else tomlkit.aot()
+        tables = holder[name]
+        new: Any = tomlkit.inline_table() if isinstance(tables, tomlkit.items.Array) else tomlkit.table()
+        for key, value in values.items():
+            new[key] = _plain(value)
+        tables.insert(min(int(place), len(tables)), new)
     return tomlkit.dumps(document)
+
+
+@contextmanager
+def tables_only(path: str) -> Iterator[None]:
+    """Refuse a change that finds something else where a drive file has tables, or nothing.
+
+    Raises
+    ------
+    InputError
+        The file is so.
+    """
+    try:
+        yield
+    except (AttributeError, IndexError, KeyError, TypeError):
+        raise refuse(path, _("is no table of a drive file")) from None
 
 
 def parsed(text: str) -> Any:
@@ -117,7 +139,7 @@ def parsed(text: str) -> Any:
 
     try:
         return tomlkit.parse(text)
-    except tomlkit.exceptions.ParseError as error:
+    except (ValueError, RecursionError) as error:  # of the parser, of Python for thousands of digits, too deep
         raise refuse("file", _("is no TOML: {why}").format(why=error)) from None
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from cardan.errors import refuse
 from cardan.texts import _
 
-from .amend import parsed
+from .amend import parsed, tables_only
 from .edit import _plain
 
 _PLACE = re.compile(r"\b(joints|shafts)\[(\d+)\]")
@@ -18,6 +18,7 @@ Moved = Callable[[int], int | None]
 """Index before -> index behind; None for what goes."""
 
 
+@tables_only("joints")
 def with_joint(text: str, at: int) -> str:
     """Return a drive file with a further joint, halfway between its neighbours.
 
@@ -57,6 +58,7 @@ def with_joint(text: str, at: int) -> str:
     return tomlkit.dumps(document)
 
 
+@tables_only("joints")
 def without_joint(text: str, at: int) -> str:
     """Return a drive file without a joint; the shaft behind it goes with it.
 
@@ -85,6 +87,7 @@ def without_joint(text: str, at: int) -> str:
     return tomlkit.dumps(document)
 
 
+@tables_only("joints")
 def joint_moved(text: str, at: int, to: int) -> str:
     """Return a drive file whose joint stands elsewhere in the chain; centres stay where they are in space.
 

@@ -98,3 +98,18 @@ def test_a_text_that_is_no_toml_has_no_form() -> None:
         "limits",
         "settings",
     ]
+
+
+@pytest.mark.parametrize("spoilt", ["friction = " + "9" * 5000, "friction = " + "[" * 3000 + "]" * 3000])
+def test_a_text_beyond_the_parser_has_no_form(spoilt: str) -> None:
+    assert tree_of(f"[[joints]]\n{spoilt}\n") is None
+
+
+@pytest.mark.parametrize(
+    "text", ["joints = 5", "joints = [1, 'x']\nshafts = 5\nsupports = [[1]]", "input = 5\nposes = 1"]
+)
+def test_a_text_with_something_else_for_tables_has_a_form(text: str) -> None:
+    tree = tree_of(text)
+    assert tree is not None
+    for path, _title in parts(tree):
+        assert section(tree, path).entries

@@ -180,3 +180,51 @@ def test_choices_survive_as_plain_data_and_nonsense_is_dropped() -> None:
     assert choices_of(json.loads(json.dumps(chosen.kept()))) == chosen
     assert choices_of({"language": "xx", "units": {"length": "deg", 1: 2}, "decimal": ";", "more": 1}) == Choices()
     assert choices_of({"units": 5, "theme": []}) == Choices()
+
+
+def test_nonsense_kept_by_a_browser_is_dropped_whatever_its_sort() -> None:
+    assert choices_of({"language": [], "units": {"length": []}, "decimal": {}}) == Choices()
+
+
+def test_names_of_files_that_no_system_takes_are_told(tmp_path: Path) -> None:
+    (tmp_path / "circle").symlink_to(tmp_path / "circle")
+    for name in ("a\\u0000b", "circle"):
+        text = f'format = 1\nsettings.catalogues = ["{name}"]\n[[joints]]\nbend_deg = 20\n'
+        assert not read(text, Enclosed(tmp_path)).valid
+
+
+def test_undo_ends_a_gesture(session: Session) -> None:
+    def dragged(y: int) -> None:
+        session.change(lambda text: amend(text, {"joints[1].centre_mm": [600, y, -30]}), gesture="drag")
+
+    first = session.document.text
+    dragged(1)
+    dragged(2)
+    session.undo()
+    dragged(3)
+    assert session.history.behind == ()
+    session.undo()
+    assert session.document.text == first
+
+
+def test_a_text_all_deleted_can_be_undone(session: Session) -> None:
+    first = session.document.text
+    session.rewrite("")
+    assert not session.empty
+    session.undo()
+    assert session.document.text == first
+    session.open("", saved=False)
+    assert session.empty
+
+
+def test_a_part_that_fails_keeps_nothing_from_the_others(session: Session) -> None:
+    heard: list[str] = []
+
+    def failing() -> None:
+        raise ZeroDivisionError
+
+    session.listen("text", failing)
+    session.listen("text", lambda: heard.append("text"))
+    with pytest.raises(ZeroDivisionError):
+        session.change(lambda text: amend(text, {"duty.speed_rpm": 777}))
+    assert heard == ["text"]

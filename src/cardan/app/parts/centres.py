@@ -8,7 +8,7 @@ from typing import Any
 from nicegui import events, ui
 from nicegui.element import Element
 
-from cardan.app.state.form import Entry, parts, section, tree_of
+from cardan.app.state.form import Entry, parts, section, tables, tree_of
 from cardan.app.state.session import Session
 from cardan.io.amend import amend
 from cardan.texts import _
@@ -116,12 +116,9 @@ def _sound(at: Any) -> bool:
 
 def _form(tree: Mapping[str, Any]) -> str:
     """Return in which form a file gives the geometry, also one that is not sound yet."""
-    joints = [one for one in tree.get("joints", []) if isinstance(one, dict)]
-    keys = {str(key) for joint in joints for key in joint}
-    if any(key.startswith("bend_") for key in keys):
+    if any(str(key).startswith("bend_") for one in tables(tree, "joints") for key in one):
         return "angles"
-    shafts = [one for one in tree.get("shafts", []) if isinstance(one, dict)]
-    if any(str(key).startswith(("side_slope", "plan_slope")) for one in shafts for key in one):
+    if any(str(key).startswith(("side_slope", "plan_slope")) for one in tables(tree, "shafts") for key in one):
         return "slopes"
     return "points"
 

@@ -101,6 +101,8 @@ class KeyField:
         self.entry = entry
         self._silent = True
         value = self._value()
+        if isinstance(self.widget, ui.select) and value is not None and value not in self.widget.options:
+            self.widget.set_options([*self.widget.options, value])
         if self.widget.value != value:
             self.widget.value = value
         self._silent = False

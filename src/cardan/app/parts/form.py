@@ -7,7 +7,7 @@ from typing import Any
 
 from nicegui import ui
 
-from cardan.app.state.form import Entry, Section, parts, problems_of, section, tree_of
+from cardan.app.state.form import Entry, Section, parts, problems_of, section, tables, tree_of
 from cardan.app.state.session import Session
 from cardan.io.amend import insert
 from cardan.io.restructure import joint_moved, with_joint, without_joint
@@ -91,13 +91,13 @@ class Form:
 
     def _add_joint(self) -> None:
         tree = tree_of(self.session.document.text) or {}
-        at = len(tree.get("joints", []))
+        at = len(tables(tree, "joints"))
         attempt(self.session, lambda text: with_joint(text, at))
         self.session.select(f"joints[{at}]")
 
     def _add(self, name: str) -> None:
         tree = tree_of(self.session.document.text) or {}
-        at = len(tree.get(name, []))
+        at = len(tables(tree, name))
         attempt(self.session, lambda text: insert(text, f"{name}[{at}]", NEW[name]))
         self.session.select(f"{name}[{at}]")
 
@@ -197,7 +197,8 @@ class Table:
             return
         with ui.element("div").classes("line"):
             ui.label(_("kind")).classes("name")
-            ui.select(list(now.kinds), value=now.kind, on_change=lambda event: self._kind(event.value)).props(
+            kinds = list(dict.fromkeys([*now.kinds, now.kind]))  # also one that there is not: the loader says so
+            ui.select(kinds, value=now.kind, on_change=lambda event: self._kind(event.value)).props(
                 f'dense outlined aria-label="{_("kind")}"'
             ).props(f'data-mark="kind-{self.path}"')
 

@@ -49,11 +49,11 @@ def choices_of(kept: Mapping[str, Any]) -> Choices:
     units = kept.get("units")
     given = dict(units) if isinstance(units, Mapping) else {}
     sound = {
-        "language": kept.get("language") in LANGUAGES,
+        "language": kept.get("language") in tuple(LANGUAGES),
         "decimal": kept.get("decimal") in (".", ","),
         "theme": kept.get("theme") in ("auto", "light", "dark"),
     }
     return Choices(
-        units={one: unit for one, unit in given.items() if unit in DIMENSIONS.get(one, {})},
+        units={one: unit for one, unit in given.items() if unit in tuple(DIMENSIONS.get(one, {}))},
         **{one.name: kept[one.name] for one in fields(Choices) if sound.get(one.name)},
     )

@@ -125,7 +125,7 @@ def tree_of(text: str) -> dict[str, Any] | None:
     """Return the tables of a text; None where it is no TOML."""
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # that of the parser, of Python for a number of thousands of digits, too deep
         return None
 
 
@@ -139,7 +139,7 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """
     yield "", _("Drive")
     yield "input", _("Input")
-    joints = _tables(tree, "joints")
+    joints = tables(tree, "joints")
     for k, joint in enumerate(joints):
         yield f"shafts[{k}]", _titled(_("Shaft {number}").format(number=k + 1), _shaft(tree, k))
         yield f"joints[{k}]", _titled(_("Joint {number}").format(number=k + 1), joint)
@@ -150,13 +150,13 @@ def parts(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         )
     yield "output", _("Output")
     for name, title in (("supports", _("Support {number}")), ("stations", _("Station {number}"))):
-        for k, table in enumerate(_tables(tree, name)):
+        for k, table in enumerate(tables(tree, name)):
             yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
     yield "duty", _("Duty")
     yield "limits", _("Limits")
     yield "settings", _("Surroundings")
     for name, title in (("movements", _("Movement {number}")), ("poses", _("Pose {number}"))):
-        for k, table in enumerate(_tables(tree, name)):
+        for k, table in enumerate(tables(tree, name)):
             yield f"{name}[{k}]", _titled(title.format(number=k + 1), table)
 
 
@@ -280,13 +280,20 @@ def _number(text: str) -> float | int | str | None:
         return text
 
 
-def _tables(tree: Mapping[str, Any], name: str) -> Sequence[Mapping[str, Any]]:
+def tables(tree: Mapping[str, Any], name: str) -> Sequence[Mapping[str, Any]]:
+    """Return the tables of a list; empty ones where something else stands.
+
+    Examples
+    --------
+    >>> tables({"joints": [{"bend_deg": 20}, 5]}, "joints"), tables({"joints": 5}, "joints")
+    ([{'bend_deg': 20}, {}], [])
+    """
     found = tree.get(name, [])
     return [one if isinstance(one, Mapping) else {} for one in found] if isinstance(found, list) else []
 
 
 def _shaft(tree: Mapping[str, Any], k: int) -> Mapping[str, Any]:
-    return next((one for one in _tables(tree, "shafts") if one.get("number") == k + 1), {})
+    return next((one for one in tables(tree, "shafts") if one.get("number") == k + 1), {})
 
 
 def _titled(title: str, table: Mapping[str, Any]) -> str:

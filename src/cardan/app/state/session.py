@@ -80,10 +80,16 @@ class Session:
         }
 
     def tell(self, change: Change) -> None:
-        """Call all who want to know of a change, in the user's language."""
+        """Call all who want to know of a change, in the user's language; one that fails keeps it from no other."""
+        failed: Exception | None = None
         with self.speaking():
             for listener in tuple(self._listeners.get(change, ())):
-                listener()
+                try:
+                    listener()
+                except Exception as error:
+                    failed = failed or error
+        if failed is not None:
+            raise failed
 
     @contextmanager
     def speaking(self) -> Iterator[None]:
@@ -99,7 +105,7 @@ class Session:
     @property
     def empty(self) -> bool:
         """Whether no drive was opened yet."""
-        return not self.document.text
+        return not self.document.text and not self.history.before
 
     def open(self, text: str, name: str = "", *, saved: bool = True) -> None:
         """Begin with another file; the page is built anew for it.
@@ -114,6 +120,7 @@ class Session:
             Whether the workspace has it so.
         """
         self.history, self.selected, self.name = History(), "", name
+        self.end_gesture()
         self._saved = text if saved else ""
         self.document = read(text, self.workspace.enclosed)
         self.drive = self.document.drive
@@ -165,12 +172,14 @@ class Session:
 
     def undo(self) -> None:
         """Go a step back."""
+        self.end_gesture()
         text, self.history = self.history.undone(self.document.text)
         self._now(read(text, self.workspace.enclosed))
         self.tell("file")
 
     def redo(self) -> None:
         """Go a step forward again."""
+        self.end_gesture()
         text, self.history = self.history.redone(self.document.text)
         self._now(read(text, self.workspace.enclosed))
         self.tell("file")
