@@ -130,7 +130,11 @@ def test_bars_lie_along_the_unit_of_their_heading():
     shown = in_choice(Figure(name="", title="", sentence="", source="", rows=(Row(panels=(panel,)),)), {"power": "kW"})
     told = shown.panels[0]
     assert (told.title, told.x.high, told.y) == ("Heat [kW]", pytest.approx(0.6), panel.y)
-    assert (told.series[0].size[0], told.series[0].thick, told.series[0].texts) == (pytest.approx(0.5), 0.5, ("0.5000",))
+    assert (told.series[0].size[0], told.series[0].thick, told.series[0].texts) == (
+        pytest.approx(0.5),
+        0.5,
+        ("0.5000",),
+    )
 
 
 @pytest.mark.parametrize("language", ["en", "ru"])
