@@ -104,8 +104,14 @@ _HOMES = {
     "OrderSpectrum": "diagnosis.orders",
     "order_map": "diagnosis.orders",
     "order_spectrum": "diagnosis.orders",
+    "Expected": "diagnosis.expected",
+    "expected_orders": "diagnosis.expected",
+    "Finding": "diagnosis.findings",
+    "diagnose": "diagnosis.findings",
     "Orbit": "diagnosis.orbit",
     "orbit": "diagnosis.orbit",
+    "Runs": "diagnosis.simulate",
+    "simulate_fault": "diagnosis.simulate",
     "Cepstrum": "diagnosis.spectra",
     "cepstrum": "diagnosis.spectra",
     "integrated": "diagnosis.spectra",
@@ -234,6 +240,10 @@ if TYPE_CHECKING:
     from .checks.checks import CHECKS as CHECKS
     from .checks.checks import check as check
     from .checks.verdict import Verdict as Verdict
+    from .diagnosis.expected import Expected as Expected
+    from .diagnosis.expected import expected_orders as expected_orders
+    from .diagnosis.findings import Finding as Finding
+    from .diagnosis.findings import diagnose as diagnose
     from .diagnosis.orbit import Orbit as Orbit
     from .diagnosis.orbit import orbit as orbit
     from .diagnosis.order_tracks import TrackedOrders as TrackedOrders
@@ -244,6 +254,8 @@ if TYPE_CHECKING:
     from .diagnosis.orders import order_spectrum as order_spectrum
     from .diagnosis.signal import Channel as Channel
     from .diagnosis.signal import Signal as Signal
+    from .diagnosis.simulate import Runs as Runs
+    from .diagnosis.simulate import simulate_fault as simulate_fault
     from .diagnosis.spectra import Cepstrum as Cepstrum
     from .diagnosis.spectra import cepstrum as cepstrum
     from .diagnosis.spectra import integrated as integrated

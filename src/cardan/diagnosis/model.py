@@ -1,0 +1,132 @@
+"""How likely each cause is by what a recording shows: a multinomial logistic model with its numbers in a data file."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import resources
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+FAR = 3.0
+"""Standard deviations beyond which a feature counts no more."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Model:
+    """Weights of a multinomial logistic model.
+
+    Attributes
+    ----------
+    features, causes : tuple of str
+        What it weighs, and what it tells apart; ``healthy`` or an id of the catalogue of faults.
+    mean, spread : array (f,)
+        Of the features in the calibration.
+    weight : array (c, 1 + 2f)
+        Of 1, z, and z² − 1 of every feature, z its distance from the mean over the spread.
+    """
+
+    features: tuple[str, ...]
+    causes: tuple[str, ...]
+    mean: Array
+    spread: Array
+    weight: Array
+
+    def terms(self, value: Array) -> Array:
+        """Return 1, z and z² − 1 of features, array (..., f) to array (..., 1 + 2f); what is not known adds nothing."""
+        z = np.clip((np.asarray(value, dtype=float) - self.mean) / self.spread, -FAR, FAR)
+        known = np.isfinite(z)
+        first, second = np.where(known, z, 0.0), np.where(known, z**2 - 1.0, 0.0)
+        return np.concatenate([np.ones((*z.shape[:-1], 1)), first, second], axis=-1)
+
+    def probability(self, value: Array) -> Array:
+        """Return the share of belief in each cause, array (..., f) to array (..., c)."""
+        level = self.terms(value) @ self.weight.T
+        grown = np.exp(level - np.max(level, axis=-1, keepdims=True))
+        return np.asarray(grown / np.sum(grown, axis=-1, keepdims=True))
+
+    def speaks(self, value: Array) -> Array:
+        """Return what each feature adds for each cause, beside the mean over the causes, array (c, f) [nat]."""
+        count = len(self.features)
+        each = self.weight[:, 1:] * self.terms(value)[1:]
+        each = each[:, :count] + each[:, count:]
+        return np.asarray(each - np.mean(each, axis=0))
+
+
+@lru_cache(maxsize=1)
+def shipped() -> Model:
+    """Return the model calibrated on simulated recordings, ``catalogue/calibration.json``."""
+    text = (resources.files("cardan") / "catalogue" / "calibration.json").read_text(encoding="utf-8")
+    return model_of(json.loads(text))
+
+
+def model_of(tree: dict[str, object]) -> Model:
+    """Return a model from the tables of its file."""
+    return Model(
+        features=tuple(tree["features"]),  # type: ignore[arg-type]
+        causes=tuple(tree["causes"]),  # type: ignore[arg-type]
+        mean=np.asarray(tree["mean"], dtype=float),
+        spread=np.asarray(tree["spread"], dtype=float),
+        weight=np.asarray(tree["weight"], dtype=float),
+    )
+
+
+def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: float = 1.0) -> Model:
+    """Return the model that fits recordings of known causes best.
+
+    Parameters
+    ----------
+    value : array (r, f)
+        Features; nan where not known.
+    cause : list of str
+        Of each recording.
+    features : tuple of str
+        Names of the features.
+    pull : float
+        Pull of the weights to 0: half of it times the sum of their squares goes on top of the surprise.
+
+    Returns
+    -------
+    Model
+
+    Notes
+    -----
+    Least of −Σ log p + ½ pull Σ w² over the weights w but those of 1 (maximum a posteriori), by L-BFGS; convex, so that
+    the answer does not depend on a start.
+    """
+    from scipy.optimize import minimize
+
+    names = tuple(sorted(set(cause), key=lambda one: (one != "healthy", one)))
+    spread = np.nanstd(value, axis=0)
+    bare = Model(
+        features=features,
+        causes=names,
+        mean=np.nanmean(value, axis=0),
+        spread=np.where(spread > 0.0, spread, 1.0),
+        weight=np.zeros((len(names), 1 + 2 * len(features))),
+    )
+    terms = bare.terms(value)
+    truth = np.eye(len(names))[[names.index(one) for one in cause]]
+
+    def surprise(flat: Array) -> tuple[float, Array]:
+        weight = flat.reshape(bare.weight.shape)
+        level = terms @ weight.T
+        level = level - np.max(level, axis=1, keepdims=True)
+        total = np.log(np.sum(np.exp(level), axis=1))
+        pulled = weight.copy()
+        pulled[:, 0] = 0.0
+        cost = float(np.sum(total - np.sum(truth * level, axis=1)) + 0.5 * pull * np.sum(pulled**2))
+        slope = (np.exp(level - total[:, None]) - truth).T @ terms + pull * pulled
+        return cost, slope.ravel()
+
+    best = minimize(surprise, bare.weight.ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 2000})
+    return Model(
+        features=features,
+        causes=names,
+        mean=bare.mean,
+        spread=bare.spread,
+        weight=np.asarray(best.x).reshape(bare.weight.shape),
+    )

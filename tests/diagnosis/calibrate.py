@@ -1,0 +1,127 @@
+"""Calibrate the diagnosis on simulated recordings, and evaluate it on others.
+
+    python -m tests.diagnosis.calibrate calibrate   writes src/cardan/catalogue/calibration.json
+    python -m tests.diagnosis.calibrate evaluate    writes tests/diagnosis/evaluation.json and docs/theory/diagnosis.md
+
+Every recording follows from its number; calibration and evaluation share neither a drive nor a seed.
+"""
+
+import json
+import re
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from cardan.diagnosis.expected import FAULTS
+from cardan.diagnosis.features import NAMES
+from cardan.diagnosis.findings import SURE
+from cardan.diagnosis.model import Model, fitted, shipped
+from tests.diagnosis.recorded_faults import CALIBRATION, EVALUATION, shown
+
+ROOT = Path(__file__).parents[2]
+MODEL = ROOT / "src" / "cardan" / "catalogue" / "calibration.json"
+RESULT = Path(__file__).parent / "evaluation.json"
+PAGE = ROOT / "docs" / "theory" / "diagnosis.md"
+LEARNT, JUDGED = 560, 500
+PULL = 3.0
+TABLE = re.compile(r"(<!-- confusion -->\n).*?(<!-- end -->)", re.S)
+
+
+def named(fault):
+    return FAULTS[fault] or "healthy"
+
+
+def gathered(count, start):
+    """Return faults, features and confidences of recordings, on every core."""
+    with ProcessPoolExecutor() as pool:
+        found = list(pool.map(partial(shown, start=start), range(count), chunksize=8))
+    faults = [fault for fault, _shown in found]
+    return faults, np.stack([one.value for _fault, one in found]), np.array([one.confidence for _fault, one in found])
+
+
+def write_model(faults, value):
+    """Fit the model and write its file."""
+    model = fitted(value, [named(one) for one in faults], NAMES, pull=PULL)
+    tree = {
+        "source": f"python -m tests.diagnosis.calibrate calibrate: {len(faults)} recordings, seeds from {CALIBRATION}",
+        "features": list(model.features),
+        "causes": list(model.causes),
+        "mean": np.round(model.mean, 4).tolist(),
+        "spread": np.round(model.spread, 4).tolist(),
+        "weight": np.round(model.weight, 4).tolist(),
+    }
+    rows = [f" {json.dumps(key)}: {json.dumps(one)}" for key, one in tree.items() if key != "weight"]
+    weights = ",\n  ".join(json.dumps(row) for row in tree["weight"])
+    MODEL.write_text("{\n" + ",\n".join(rows) + f',\n "weight": [\n  {weights}\n ]\n}}\n', encoding="utf-8")
+
+
+def judged(faults, value, confidence, model: Model):
+    """Return what the evaluation found, as it is stored."""
+    sure = np.minimum(SURE, confidence)[:, None]
+    score = sure * model.probability(value) + (1.0 - sure) / len(model.causes)
+    order = np.argsort(-score, axis=1)
+    truth = np.array([model.causes.index(named(one)) for one in faults])
+    rank = np.argmax(order == truth[:, None], axis=1)
+    size = len(model.causes)
+    table = np.zeros((size, size), dtype=int)
+    np.add.at(table, (truth, order[:, 0]), 1)
+    healthy = truth == model.causes.index("healthy")
+    top = score.max(axis=1)
+    bands = []
+    for low, high in ((0.0, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 1.01)):
+        inside = (top >= low) & (top < high)
+        if inside.any():
+            bands.append(
+                [low, min(high, 1.0), int(inside.sum()), float(top[inside].mean()), float((rank == 0)[inside].mean())]
+            )
+    return {
+        "recordings": len(faults),
+        "seeds": [EVALUATION, EVALUATION + len(faults) - 1],
+        "first": float(np.mean(rank == 0)),
+        "first_three": float(np.mean(rank < 3)),
+        "healthy": float(np.mean(rank[healthy] == 0)),
+        "false_alarms": int(np.sum(rank[healthy] > 0)),
+        "causes": list(model.causes),
+        "confusion": table.tolist(),
+        "scores": [[round(x, 4) for x in band] for band in bands],
+    }
+
+
+def tables(result):
+    """Return the tables of the page, from what is stored."""
+    causes = result["causes"]
+    lines = ["| true cause | " + " | ".join(causes) + " |", "|---" * (len(causes) + 1) + "|"]
+    for name, row in zip(causes, result["confusion"], strict=True):
+        lines.append(f"| {name} | " + " | ".join(str(x) if x else "" for x in row) + " |")
+    lines += ["", "| score of the first cause | recordings | mean score | right |", "|---|---|---|---|"]
+    for low, high, count, mean, right in result["scores"]:
+        lines.append(f"| {100 * low:.0f} to {100 * high:.0f} % | {count} | {100 * mean:.1f} % | {100 * right:.1f} % |")
+    summary = (
+        f"Of {result['recordings']} recordings (seeds {result['seeds'][0]} to {result['seeds'][1]}) the true cause "
+        f"came first in {100 * result['first']:.1f} %, among the first three in {100 * result['first_three']:.1f} %; "
+        f"{100 * result['healthy']:.1f} % of the drives in order were called healthy."
+    )
+    return "\n".join([summary, "", *lines]) + "\n"
+
+
+def write_page(result):
+    """Put the tables onto the page."""
+    text = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(TABLE.sub(lambda found: found[1] + tables(result) + found[2], text), encoding="utf-8")
+
+
+def main(task):
+    if task == "calibrate":
+        faults, value, _confidence = gathered(LEARNT, CALIBRATION)
+        write_model(faults, value)
+        return
+    result = judged(*gathered(JUDGED, EVALUATION), shipped())
+    RESULT.write_text(json.dumps(result) + "\n", encoding="utf-8")
+    write_page(result)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
