@@ -245,3 +245,35 @@ EXPORTS = {
     "drive-toml": _toml,
     "drive-json": _json,
 }
+
+
+def test_joints_come_and_go_and_the_view_goes_along(page: Any) -> None:
+    mark(page, "scene").get_by_text("joint 4", exact=True).wait_for()
+    for name, gone in (("a joint after this one", False), ("take this joint out", True)):
+        page.get_by_label(name, exact=True).first.click()
+        page.locator('[data-mark="table-joints[4]"]').wait_for(state="detached" if gone else "attached")
+        shown = mark(page, "scene").get_by_text("joint 5", exact=True)
+        shown.wait_for(state="detached" if gone else "attached")
+
+
+def test_ends_of_lines_stay_as_the_file_has_them_and_a_pose_written_can_be_looked_at(
+    page_of: Open, url: str, folder: Path
+) -> None:
+    lines = example_text("truck-printed-coordinates").replace("\n", "\r\n")
+    (folder / "windows.toml").write_bytes(lines.encode())
+    page = page_of(f"{url}/?file=windows.toml", reduced_motion="reduce")
+    ready(page)
+    assert not mark(page, "pose").is_visible()
+    text_of(page)
+    page.locator(".cm-content").press("Control+End")
+    page.keyboard.type('\n[[poses]]\nname = "low"\nset = { "output.point_mm" = [2000, 0, -300] }')
+    mark(page, "pose").wait_for()
+    mark(page, "language-ru").click()  # builds the page anew, and it still saves once
+    page.wait_for_function("document.documentElement.lang === 'ru'")
+    ready(page)
+    page.keyboard.press("Control+s")
+    page.wait_for_selector(".q-notification")
+    assert page.locator(".q-notification").count() == 1
+    saved = (folder / "windows.toml").read_bytes().decode()
+    assert saved.startswith(lines.rstrip())
+    assert saved.count("\r\n") == saved.count("\n")

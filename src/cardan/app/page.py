@@ -95,7 +95,7 @@ def build(session: Session, jobs: Jobs) -> None:
         Where long answers are made.
     """
     ui.add_head_html('<link rel="stylesheet" href="/cardan/app.css">')
-    ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#b36b00")
+    ui.colors(primary="#1f4e8c", positive="#1b7f4b", negative="#b3261e", warning="#9a5b00")
     dark = ui.dark_mode({"auto": None, "light": False, "dark": True}[session.choices.theme])
     ui.query("body").classes("cardan")
     _tell_browser(session)
@@ -117,6 +117,7 @@ def build(session: Session, jobs: Jobs) -> None:
 
     session.rebuild = filled
     filled()
+    Keys(session)
 
     def dimmed(event: Any) -> None:
         session.dark = bool(event.args)
@@ -138,7 +139,6 @@ def _tell_browser(session: Session) -> None:
 
 def _parts(session: Session, jobs: Jobs) -> None:
     head = Header(session, jobs)
-    Keys(session)
     if session.empty:
         Start(session)
         return

@@ -136,7 +136,8 @@ class KeyField:
             return ui.switch(value=bool(self._value()), on_change=lambda event: self._typed(event.value)).props(told)
         if entry.sort == "choice":
             options = list(dict.fromkeys([*entry.choices, *([shown(entry)] if entry.given else [])]))
-            return ui.select(options, value=self._value(), on_change=lambda event: self._typed(event.value)).props(told)
+            chosen = ui.select(options, value=self._value(), on_change=lambda event: self._typed(event.value))
+            return chosen.props(told).props(f'title="{entry.name}"')
         if entry.name in LONG:
             widget: Any = ui.textarea(value=shown(entry)).props(f"{told} autogrow")
         else:
@@ -154,7 +155,8 @@ class KeyField:
             return
         options = {unit: label(unit) for unit in entry.units}
         chosen = ui.select(options, value=entry.unit, on_change=lambda event: self._turned(event.value))
-        chosen.props(f'dense borderless options-dense aria-label="{_("unit of")} {entry.name}"').classes("unit")
+        told = f"{_('unit of')} {entry.name}"  # the title is what Quasar passes on to the element with the focus
+        chosen.props(f'dense borderless options-dense aria-label="{told}" title="{told}"').classes("unit")
 
     def _typed(self, value: Any) -> None:
         if self._silent:

@@ -199,7 +199,7 @@ class Table:
             ui.label(_("kind")).classes("name")
             kinds = list(dict.fromkeys([*now.kinds, now.kind]))  # also one that there is not: the loader says so
             ui.select(kinds, value=now.kind, on_change=lambda event: self._kind(event.value)).props(
-                f'dense outlined aria-label="{_("kind")}"'
+                f'dense outlined aria-label="{_("kind")}" title="{_("kind")}"'
             ).props(f'data-mark="kind-{self.path}"')
 
     def _kind(self, kind: str) -> None:

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
-from nicegui import events, ui
+from nicegui import ui
 
 from cardan.app.state.session import Session
 from cardan.errors import InputError
 from cardan.texts import _
 
+PRESSED = """if (!window.cardanKeys) {
+  window.cardanKeys = true;
+  addEventListener('keydown', (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const writing = event.target.closest('input, select, textarea, [contenteditable=true]');
+    const letter = (/^[a-z]$/i.test(event.key) ? event.key : event.code.replace('Key', '')).toLowerCase();
+    if (letter === 's') {
+      event.preventDefault();
+      if (!event.repeat) emitEvent('cardan-key', 'save');
+    } else if ((letter === 'z' || letter === 'y') && !writing) {
+      event.preventDefault();
+      emitEvent('cardan-key', letter === 'y' || event.shiftKey ? 'redo' : 'undo');
+    }
+  });
+}"""
+"""Tells which key was pressed: by its letter, or by its place where letters of another script are written."""
+
 
 class Keys:
     """Listens to ctrl Z, ctrl shift Z, ctrl Y and ctrl S; inside a text the browser's own undo goes first.
+
+    It belongs to the window: parts of the page that are built anew do not bring another one.
 
     Parameters
     ----------
@@ -20,20 +39,15 @@ class Keys:
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        ui.keyboard(self._pressed, ignore=["input", "select", "textarea"], repeating=False)
-        ui.on("cardan-save", self._save)
-        ui.run_javascript(
-            "if(!window.cardanKeys){window.cardanKeys=true;addEventListener('keydown',e=>{"
-            "if((e.ctrlKey||e.metaKey)&&e.key.toLowerCase()==='s'){e.preventDefault();emitEvent('cardan-save')}})}"
-        )
+        ui.on("cardan-key", lambda event: self._pressed(str(event.args)))
+        ui.run_javascript(PRESSED)
 
-    def _pressed(self, event: events.KeyEventArguments) -> None:
-        if not event.action.keydown or not (event.modifiers.ctrl or event.modifiers.meta):
-            return
-        name = event.key.name.lower()
-        if name == "y" or (name == "z" and event.modifiers.shift):
+    def _pressed(self, what: str) -> None:
+        if what == "save":
+            self._save()
+        elif what == "redo":
             self.session.redo()
-        elif name == "z":
+        else:
             self.session.undo()
 
     def _save(self) -> None:

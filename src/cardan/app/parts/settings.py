@@ -54,7 +54,7 @@ class SettingsMenu:
                             options,
                             value=session.choices.units.get(dimension, usual),
                             on_change=lambda event, dimension=dimension: self._unit(dimension, event.value),
-                        ).props(f'dense options-dense borderless aria-label="{title}"').props(
+                        ).props(f'dense options-dense borderless aria-label="{title}" title="{title}"').props(
                             f'data-mark="unit-{dimension}"'
                         )
 

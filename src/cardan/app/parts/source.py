@@ -26,12 +26,13 @@ class Source:
         self.session = session
         self._silent = False
         self._due: ui.timer | None = None
-        theme = "vscodeDark" if session.choices.theme == "dark" else "vscodeLight"
-        self.text: Any = ui.codemirror(session.document.text, language="TOML", theme=theme, on_change=self._typed)  # type: ignore[arg-type]
+        self.text: Any = ui.codemirror(self._lines(), language="TOML", on_change=self._typed)
+        self._theme()
         self.text.classes("source").props('data-mark="source"').props(f'aria-label="{_("text of the drive file")}"')
         self.problems = ui.element("div").classes("problems").props("role=status")
         self._judge()
         session.listen("text", self._follow)
+        session.listen("choices", self._theme)
 
     def _typed(self) -> None:
         if self._silent:
@@ -42,16 +43,30 @@ class Source:
 
     def _read(self) -> None:
         self._due = None
+        if self.text.value == self._lines():
+            return
+        ends = "\r\n" if "\r\n" in self.session.document.text else "\n"
         self._silent = True
-        self.session.rewrite(self.text.value)
-        self._silent = False
+        try:
+            self.session.rewrite(self.text.value.replace("\n", ends))
+        finally:
+            self._silent = False
+
+    def _lines(self) -> str:
+        """Return the text with the one end of a line that the browser counts."""
+        return self.session.document.text.replace("\r\n", "\n")
 
     def _follow(self) -> None:
-        if not self._silent and self.text.value != self.session.document.text:
+        if not self._silent and self.text.value != self._lines():
             self._silent = True
-            self.text.value = self.session.document.text
+            self.text.value = self._lines()
             self._silent = False
         self._judge()
+
+    def _theme(self) -> None:
+        theme = self.session.choices.theme
+        dark = theme == "dark" or (theme == "auto" and self.session.dark)
+        self.text.theme = "vscodeDark" if dark else "vscodeLight"
 
     def _judge(self) -> None:
         self.problems.clear()

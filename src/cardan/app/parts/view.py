@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ from nicegui import run, ui
 
 import cardan
 from cardan.app.scene.element import SceneView
+from cardan.app.state.jobs import own_fault
 from cardan.app.state.session import Session
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError
@@ -58,7 +60,7 @@ class View:
         self.pose: int | None = None
         self._waiting: ui.timer | None = None
         self._next: ui.timer | None = None
-        with ui.element("div").classes("stage"):
+        with ui.element("div").classes("stage") as self.stage:
             self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
             self.scene.props('data-mark="scene"')
             self.told = ui.label("").classes("told").props("role=status")
@@ -82,13 +84,11 @@ class View:
                 self.switches = ui.element("div").classes("switches")
             colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
             ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
-                f'dense options-dense borderless aria-label="{_("colour")}"'
+                f'dense options-dense borderless aria-label="{_("colour")}" title="{_("colour")}"'
             ).props('data-mark="colour"')
-            poses = self._poses()
-            if poses:
-                ui.select(poses, value=None, on_change=lambda event: self._posed(event.value)).props(
-                    f'dense options-dense borderless aria-label="{_("pose")}"'
-                ).props('data-mark="pose"')
+            told = f'aria-label="{_("pose")}" title="{_("pose")}" data-mark="pose"'
+            self.poses = ui.select({None: ""}, value=None, on_change=lambda event: self._posed(event.value))
+            self.poses.props(f"dense options-dense borderless {told}")
 
     def _bar(self) -> None:
         with ui.element("div").classes("bar"):
@@ -103,22 +103,27 @@ class View:
             self.shapes = ui.select(
                 {TURNING: _("turning")}, value=TURNING, on_change=lambda event: self._chosen(event.value)
             )
-            self.shapes.props(f'dense options-dense borderless aria-label="{_("turning or swinging")}"').props(
-                'data-mark="shapes"'
-            )
+            told = _("turning or swinging")
+            self.shapes.props(f'dense options-dense borderless aria-label="{told}" title="{told}" data-mark="shapes"')
             ask = ui.button(_("mode shapes"), on_click=self._ask_modes).props("flat dense no-caps size=sm")
             ask.props('data-mark="mode-shapes"')
 
-    def _poses(self) -> dict[int | None, str]:
-        drive = self.session.drive
-        if drive is None or not drive.poses:
-            return {}
-        return {None: _("as drawn"), **{k: pose.name for k, pose in enumerate(drive.poses)}}
+    def _offer_poses(self, drive: Drive) -> None:
+        names: dict[int | None, str] = {None: _("as drawn"), **{k: pose.name for k, pose in enumerate(drive.poses)}}
+        self.pose = self.pose if self.pose in names else None
+        if names != self.poses.options:
+            self.poses.set_options(names, value=self.pose)
+        self.poses.set_visibility(bool(drive.poses))
 
     def _soon(self) -> None:
         """Follow once curves and verdicts have been sent, and once for several edits of a drag."""
         if self._next is None:
-            self._next = ui.timer(SOON, self._follow, once=True)
+            self._next = self._timer(SOON, self._follow)
+
+    def _timer(self, seconds: float, what: Callable[[], object]) -> ui.timer:
+        """Return a timer that stays when the part whose button was pressed is built anew."""
+        with self.stage:
+            return ui.timer(seconds, what, once=True)
 
     def _follow(self) -> None:
         """Show the drive as it is now; what takes longer follows once the user is quiet."""
@@ -126,17 +131,29 @@ class View:
         if drive is None:
             return
         with self.session.speaking():
-            self._show(self._made(drive))
+            self._offer_poses(drive)
+            found = self._attempted(drive)
+            if found is not None:
+                self._show(found)
         if self._waiting is not None:
             self._waiting.cancel()
-        self._waiting = ui.timer(QUIET, self._complete, once=True)
+        self._waiting = self._timer(QUIET, self._complete)
+
+    def _attempted(self, drive: Drive, **more: bool) -> Scene | None:
+        """Return the scene; where there is none, say why."""
+        try:
+            return self._made(drive, **more)
+        except CardanError as error:
+            self.told.set_text(str(error))
+        except Exception as error:  # whatever it is, the page goes on and says so
+            self.told.set_text(own_fault(self.session.choices.language, f"{type(error).__name__}: {error}"))
+        return None
 
     def _made(self, drive: Drive, *, used: bool = False, forces: bool = False, modes: bool = False) -> Scene:
-        pose = self.pose if self.pose is not None and self.pose < len(drive.poses) else None
         verdicts: tuple[Verdict, ...] = ()
         with suppress(CardanError):
             verdicts = cardan.check(drive) if used else ()
-        found = scene(drive, verdicts=verdicts, pose=pose, with_forces=forces, with_modes=modes)
+        found = scene(drive, verdicts=verdicts, pose=self.pose, with_forces=forces, with_modes=modes)
         choices = self.session.choices
         return in_words_of(found, choices.units, choices.decimal, names=names_in(drive))
 
@@ -147,12 +164,12 @@ class View:
             return
         forces, modes = bool(self.on and self.on.intersection(LOADED)), self.mode is not None
 
-        def made() -> Scene:
+        def made() -> Scene | None:
             with speaking(language):
-                return self._made(drive, used=True, forces=forces, modes=modes)
+                return self._attempted(drive, used=True, forces=forces, modes=modes)
 
         found = await run.io_bound(made)
-        if found is not None and drive is self.session.drive:
+        if found is not None and drive is self.session.drive and not self.stage.is_deleted:
             with self.session.speaking():
                 self._show(found)
 
@@ -184,11 +201,11 @@ class View:
         self.on = self.on | {name} if on else self.on - {name}
         self.scene.groups(self.on)
         if on and name in LOADED:
-            ui.timer(0.01, self._complete, once=True)
+            self._timer(0.01, self._complete)
 
     def _ask_modes(self) -> None:
         self.mode = 0 if self.mode in (None, TURNING) else self.mode
-        ui.timer(0.01, self._complete, once=True)
+        self._timer(0.01, self._complete)
 
     def _shapes(self, found: Scene) -> None:
         """Offer the mode shapes of a scene; those of a drive just edited are still to come."""
@@ -214,8 +231,9 @@ class View:
         self.told.set_text(found.modes[self.mode].text if swings and self.mode is not None else lacking)
 
     def _posed(self, pose: Any) -> None:
-        self.pose = pose
-        self._follow()
+        if pose != self.pose:
+            self.pose = pose
+            self._follow()
 
     def _play(self, on: bool) -> None:
         self.scene.play(on)
