@@ -16,11 +16,14 @@ async def _inner(scope: Any, _receive: Any, send: Any) -> None:
     await send({"type": "http.response.body", "body": seen})
 
 
-def ask(guard: Guard, *, query: str = "", kind: str = "http", **headers: str) -> tuple[int, list[str], str]:
+def ask(
+    guard: Guard, *, query: str = "", kind: str = "http", method: str = "GET", **headers: str
+) -> tuple[int, list[str], str]:
     """Return status, cookies set and body of an answer."""
     given = {"host": "127.0.0.1:8321", **headers}
     scope = {
         "type": kind,
+        "method": method,
         "query_string": query.encode(),
         "headers": [(name.encode(), value.encode()) for name, value in given.items()],
     }
@@ -29,7 +32,7 @@ def ask(guard: Guard, *, query: str = "", kind: str = "http", **headers: str) ->
     async def send(message: dict[str, Any]) -> None:
         sent.append(message)
 
-    asyncio.run(guard(scope, None, send))  # type: ignore[arg-type]
+    asyncio.run(guard(scope, None, send))
     if sent[0]["type"] == "websocket.close":
         return sent[0]["code"], [], ""
     cookies = [value.decode() for name, value in sent[0]["headers"] if name == b"set-cookie"]
@@ -70,3 +73,24 @@ def test_every_visitor_of_a_shared_server_gets_a_name() -> None:
     other = ask(guard, query="token=t")[1]
     assert name not in "".join(other)
     assert ask(guard, cookie=f"{COOKIE}=t; {name}")[1] == []
+
+
+def test_cookies_of_other_servers_of_the_machine_hide_no_token() -> None:
+    guard = Guard(_inner, names=(), token="t", apart=True)
+    assert ask(guard, cookie=f'odd:name={{"a": 1}}; {COOKIE}=t; {VISITOR}=me') == (
+        200,
+        [],
+        f'odd:name={{"a": 1}}; {COOKIE}=t; {VISITOR}=me',
+    )
+
+
+@pytest.mark.parametrize(
+    ("length", "status"), [("2000000", 200), ("900000000000", 413), ("9" * 5000, 413), ("-1", 413), ("", 413)]
+)
+def test_what_is_sent_is_limited_before_it_is_read(length: str, status: int) -> None:
+    assert ask(Guard(_inner), method="POST", **{"content-length": length})[0] == status
+
+
+def test_a_name_that_is_none_is_turned_away() -> None:
+    assert ask(Guard(_inner), host="[::1")[0] == 421
+    assert ask(Guard(_inner), origin="http://[::1")[0] == 421

@@ -5,7 +5,6 @@ from __future__ import annotations
 import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass
-from http.cookies import SimpleCookie
 from typing import Any, TypeAlias
 from urllib.parse import parse_qs, urlsplit
 
@@ -16,6 +15,9 @@ VISITOR = "cardan_visitor"
 
 LOCAL = ("127.0.0.1", "localhost", "::1")
 """Names of this machine that need no token."""
+
+LARGEST = 4_000_000
+"""Bytes of a request at most: a drive file of the largest size and what goes with it."""
 
 App: TypeAlias = Any
 
@@ -58,7 +60,10 @@ class Guard:
             await _refused(scope, send, 401, "Open cardan by the address that it printed, token included.")
             return
         cookies = {COOKIE: self.token} if fresh else {}
-        if self.apart and VISITOR not in SimpleCookie(headers.get("cookie", "")):
+        if not _small(scope, headers):
+            await _refused(scope, send, 413, "This is more than a drive file.")
+            return
+        if self.apart and VISITOR not in cookies_of(headers):
             cookies[VISITOR] = secrets.token_urlsafe(24)
             told = "; ".join([*filter(None, [headers.get("cookie")]), f"{VISITOR}={cookies[VISITOR]}"])
             rest = [pair for pair in scope["headers"] if pair[0] != b"cookie"]
@@ -66,12 +71,15 @@ class Guard:
         await self.app(scope, receive, _remembering(send, cookies) if cookies else send)
 
     def _named(self, headers: Mapping[str, str]) -> bool:
-        host = urlsplit(f"//{headers.get('host', '')}").hostname
+        try:
+            host = urlsplit(f"//{headers.get('host', '')}").hostname
+        except ValueError:
+            return False
         return not self.names or host in self.names
 
     def _same_origin(self, headers: Mapping[str, str]) -> bool:
         origin = headers.get("origin")
-        return origin is None or urlsplit(origin).netloc == headers.get("host")
+        return origin is None or origin.partition("://")[2] == headers.get("host")
 
     def _knows(self, scope: Mapping[str, Any], headers: Mapping[str, str]) -> tuple[bool, bool]:
         """Return whether the visitor knows the token, and whether it came in the address."""
@@ -80,9 +88,28 @@ class Guard:
         asked = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
         if secrets.compare_digest(asked.encode(), self.token.encode()):
             return True, True
-        cookie: SimpleCookie = SimpleCookie(headers.get("cookie", ""))
-        held = cookie[COOKIE].value if COOKIE in cookie else ""
+        held = cookies_of(headers).get(COOKIE, "")
         return secrets.compare_digest(held.encode(), self.token.encode()), False
+
+
+def cookies_of(headers: Mapping[str, str]) -> dict[str, str]:
+    """Return the cookies of a request; one that another server of this machine spoilt hides no other.
+
+    Examples
+    --------
+    >>> cookies_of({"cookie": 'odd:name={"a": 1}; cardan_token=abc'})["cardan_token"]
+    'abc'
+    """
+    pairs = (part.partition("=") for part in headers.get("cookie", "").split(";"))
+    return {name.strip(): value.strip() for name, _sign, value in pairs}
+
+
+def _small(scope: Mapping[str, Any], headers: Mapping[str, str]) -> bool:
+    """Tell whether a request says that it is no larger than we take."""
+    if scope["type"] == "websocket" or scope.get("method") in ("GET", "HEAD", None):
+        return True
+    length = headers.get("content-length", "")
+    return length.isascii() and length.isdigit() and int(length[:12]) <= LARGEST
 
 
 def _remembering(send: Any, cookies: Mapping[str, str]) -> Any:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import hashlib
 import secrets
 import socket
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from cardan.errors import InputError, MissingExtraError, refuse
+from cardan.files import refusal
 from cardan.texts import _, language
 
 from .guard import LOCAL, VISITOR, Guard
@@ -97,16 +99,17 @@ def start(how: Start) -> None:
     told = address + (f"?token={token}" if token else "")
     print(_("cardan is at {address} - ctrl-C ends it").format(address=told), flush=True)
     try:
-        ui.run(
-            host=how.host,
-            port=port,
-            title="cardan",
-            reload=False,
-            show=told if how.show else False,
-            show_welcome_message=False,
-            uvicorn_logging_level="error",
-            reconnect_timeout=RECONNECT,
-        )
+        with suppress(KeyboardInterrupt):  # how it is meant to end
+            ui.run(
+                host=how.host,
+                port=port,
+                title="cardan",
+                reload=False,
+                show=told if how.show else False,
+                show_welcome_message=False,
+                uvicorn_logging_level="error",
+                reconnect_timeout=RECONNECT,
+            )
     finally:
         jobs.close()
 
@@ -118,10 +121,15 @@ def _session(how: Start, request: Any) -> Session:
     kept = page.kept_choices(request.cookies)
     choices = choices_of({"language": language(), **kept})
     folder = how.folder
+    notice = ""
     if how.shared:
         folder = folder / "visitors" / _visitor(request)
-        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:  # what is not to be saved can still be worked on
+            notice = f"{folder.name}: {refusal(error)}"
     session = Session(Workspace(folder), choices)
+    session.notice = notice
     asked = request.query_params.get("file", "") or ("" if how.shared else how.file)
     example = request.query_params.get("example", "")
     try:

@@ -43,7 +43,8 @@ def browser(
 
     from .failure import about
 
-    folder = Path.cwd() if file is None else file.resolve().parent
+    there = (file or Path.cwd()).resolve()
+    folder, name = (there, "") if there.is_dir() else (there.parent, there.name)
     with about(str(file or folder)):
-        start(Start(folder=folder, file=file.name if file else "", host=host, port=port, show=not no_browser))
+        start(Start(folder=folder, file=name, host=host, port=port, show=not no_browser))
     return 0
