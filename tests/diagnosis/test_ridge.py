@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy.signal import bilinear, lfilter
 
 from cardan import InputError
 from cardan.diagnosis.ridge import ridge
@@ -50,6 +51,27 @@ def test_halves_of_the_line_tell_that_it_is_the_second_order():
 @pytest.mark.parametrize("seed", range(3))
 def test_noise_is_not_believed(seed):
     assert found({}, noise=1.0, seed=seed).confidence < 0.15
+
+
+@pytest.mark.parametrize("damping", [0.005, 0.01, 0.02, 0.05])
+def test_a_resonance_that_noise_excites_is_not_taken_for_a_shaft(damping):
+    square = (2 * np.pi * 40.0) ** 2
+    upper, lower = bilinear([1, 0, 0], [1, 2 * damping * np.sqrt(square), square], 2000.0)
+    values = lfilter(upper, lower, np.random.default_rng(1).normal(size=20000))
+    one = ridge([Channel(name="a", values=values, rate=2000.0)], speed_range=(150.0, 350.0))
+    assert one.confidence < 0.3
+    assert any("wavers" in text for text in one.cautions)
+
+
+def test_a_shaft_that_passes_a_resonance_is_believed():
+    time = np.arange(20000) / 2000
+    angle = 2 * np.pi * (10 * time + time**2)
+    ratio = 2 * (10 + 2 * time) / 50
+    values = np.real(ratio**2 / (1 - ratio**2 + 0.06j * ratio) * np.exp(2j * angle))
+    values += np.random.default_rng(2).normal(size=time.size)
+    one = ridge([Channel(name="a", values=values, rate=2000.0)], speed_range=(60.0, 200.0))
+    assert one.speed_at(INSIDE) == pytest.approx(2 * np.pi * (10 + 2 * INSIDE), rel=0.02)
+    assert one.confidence > 0.5
 
 
 def test_several_channels_help():

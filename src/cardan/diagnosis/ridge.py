@@ -42,6 +42,9 @@ STIFF = 0.5
 SURE, NOISE = 4.0, 2.2
 """Mean height of a ridge over what is around it [nepers of power]: surely a tone; what chance makes in noise."""
 
+STEADY, WAVERING = 0.3, 0.6
+"""Change of a ridge from window to window, straight courses apart [nepers of power]: a tone's; about that of noise."""
+
 PRIOR = {1.0: 0.50, 2.0: 0.35, 3.0: 0.08, 4.0: 0.07}
 """Belief, before looking, that the strongest line of a shaft drive is this order."""
 
@@ -54,12 +57,13 @@ SEEN, UNSEEN = 0.5, 0.1
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Map:
-    """Logarithm of power over that around it, steps in time by lines of frequency; and the first row it was made of."""
+    """Power, its logarithm over that around it, steps in time by lines of frequency; the first row it is made of."""
 
     level: Array
     time: Array
     frequency: Array
     window: float
+    power: Array
     row: Array
     rate: float
 
@@ -100,7 +104,8 @@ def ridge(
     In a spectrogram every line is put over the median of its neighbours; the path with the greatest sum of logarithms,
     less a toll for every change, is the ridge (dynamic programming, as Viterbi's). Of several windows the one with the
     highest ridge counts. The angle then follows the phase of the vibration along the ridge. Which order the ridge is,
-    is weighed by whether there is anything at its halves, thirds and quarters.
+    is weighed by whether there is anything at its halves, thirds and quarters. A ridge whose power wavers from window
+    to window is a resonance that noise excites, not a shaft, and is not believed.
 
     Examples
     --------
@@ -128,7 +133,8 @@ def ridge(
     shares = _shares(found, low if speed_range else BAND[0], high, order, factor)
     best = max(shares, key=lambda one: shares[one])
     trust = min(one.trust for one in together)
-    tone = float(np.clip((found.height - NOISE) / (SURE - NOISE), 0.0, 1.0))
+    steady = float(np.clip((WAVERING - _wavering(found)) / (WAVERING - STEADY), 0.0, 1.0))
+    tone = steady * float(np.clip((found.height - NOISE) / (SURE - NOISE), 0.0, 1.0))
     time, angle = _angle(together[0], found)
     turns = float(angle[-1] - angle[0]) / (2.0 * math.pi * best)
     if turns < LEAST_TURNS:
@@ -144,11 +150,11 @@ def ridge(
         alternatives=tuple(
             (best / one, share) for one, share in sorted(shares.items(), key=lambda row: -row[1]) if one != best
         ),
-        cautions=_told(found, best, shares, tone),
+        cautions=_told(found, best, shares, tone, steady),
     )
 
 
-def _told(found: _Path, best: float, shares: dict[float, float], tone: float) -> tuple[str, ...]:
+def _told(found: _Path, best: float, shares: dict[float, float], tone: float, steady: float) -> tuple[str, ...]:
     low, high = float(np.min(found.frequency)), float(np.max(found.frequency))
     text = _(
         "There is no tacho; the speed, {low:.4g} to {high:.4g} rpm, is that of the strongest line as order {order:g}."
@@ -158,7 +164,11 @@ def _told(found: _Path, best: float, shares: dict[float, float], tone: float) ->
         others = ", ".join(f"{best / one:.3g}" for one, share in shares.items() if one != best and share > 0.02)
         text = _("The line may be another order: the true speed may be {factors} times as high.")
         told.append(text.format(factors=others))
-    if tone < 0.3:
+    if steady < 0.5 and found.height > NOISE:
+        told.append(
+            _("The line wavers as a resonance does that noise excites: it may have nothing to do with the shaft.")
+        )
+    elif tone < 0.3:
         told.append(_("The line hardly stands out of the noise: the speed is a guess."))
     return tuple(told)
 
@@ -201,14 +211,22 @@ def _drawn(rows: Sequence[Array], rate: float, length: float) -> _Map:
     size = rows[0].size
     first, last = made.lower_border_end[1], made.upper_border_begin(size)[1]
     level: Array = 0.0
+    total: Array = 0.0
     for row in rows:
         power = made.spectrogram(row - np.mean(row), p0=first, p1=last)
         around = median_filter(power, size=(2 * 16 + 1, 1), mode="reflect")
         around = np.maximum(around, 1e-12 * np.max(power, initial=1e-300))
         level = level + np.log(np.maximum(power / around, 1e-3))
+        total = total + power / np.mean(around)
     level = np.asarray(level).T / math.sqrt(len(rows))
     return _Map(
-        level=level, time=made.t(size, p0=first, p1=last), frequency=made.f, window=length, row=rows[0], rate=rate
+        level=level,
+        time=made.t(size, p0=first, p1=last),
+        frequency=made.f,
+        window=length,
+        power=total.T,
+        row=rows[0],
+        rate=rate,
     )
 
 
@@ -239,6 +257,25 @@ def _viterbi(drawn: _Map, band: tuple[float, float]) -> _Path | None:
     shift = np.clip(np.where(bow < 0.0, 0.5 * (left - right) / np.where(bow < 0.0, bow, -1.0), 0.0), -0.5, 0.5)
     frequency = lines[inner] + shift * (lines[1] - lines[0])
     return _Path(map=drawn, frequency=frequency, height=float(np.mean(level[row, path])))
+
+
+def _wavering(found: _Path) -> float:
+    """Return by how much the logarithm of the power changes from window to window along a ridge, bends alone counted.
+
+    A tone, also one that grows as it nears a resonance, changes little; a resonance that noise excites does by about 1,
+    as the ratio of two independent powers.
+    """
+    step = found.map.frequency[1] - found.map.frequency[0]
+    place = np.clip(np.rint(found.frequency / step).astype(int), 1, found.map.frequency.size - 2)
+    row = np.arange(place.size)
+    power = found.map.power[row, place - 1] + found.map.power[row, place] + found.map.power[row, place + 1]
+    level = np.log(np.maximum(power, 1e-300))
+    bends = [
+        float(np.median(np.abs(level[: -2 * lag] - 2.0 * level[lag:-lag] + level[2 * lag :]))) / math.sqrt(3.0)
+        for lag in (HOPS, 2 * HOPS)
+        if level.size > 2 * lag + 2
+    ]
+    return sum(bends) / len(bends) if bends else WAVERING
 
 
 def _shares(
