@@ -73,7 +73,8 @@ class Plant:
     allowed : array (n-1,) [kg·m]
         Unbalance that the balance grade leaves in each of these shafts.
     critical : float [rad/s]
-        Lowest bending critical speed; nan where the drive does not say enough.
+        Lowest bending critical speed in which a shaft bows (a soft support that gives way damps its mode); nan where
+        the drive does not say enough.
     damping : float
         Of that mode.
     speed : (float, float) [rad/s]
@@ -180,10 +181,13 @@ def _allowed(drive: Drive, mass: Array, speed: float) -> Array:
 def _critical(drive: Drive, assumed: list[str]) -> float:
     try:
         found = bending_speeds(drive, modes=1)
+        bowing = found.deciding or 0
+        if bowing:
+            found = bending_speeds(drive, modes=bowing + 1)
     except InputError as problem:
         assumed.extend(one.field for one in problem.problems)
         return math.nan
-    return float(found.actual[0])
+    return float(found.actual[bowing])
 
 
 def _housings(drive: Drive, mass: float) -> tuple[Housing, ...]:
