@@ -150,3 +150,13 @@ def test_a_file_with_something_else_for_other_tables_is_refused_in_words() -> No
             with_joint(line + joints, 1)
     with pytest.raises(InputError):
         insert("supports = 5" + joints, "supports[0]", {"shaft": 1})
+
+
+def test_poses_follow_the_joint_but_places_stay() -> None:
+    text = DRIVE.replace('"shafts[1].yoke_angle_deg" = 3', '"joints[0].friction" = 0.1, "shafts[1].yoke_angle_deg" = 3')
+    tree = tomllib.loads(joint_moved(text, 0, 1))
+    assert tree["poses"][0]["set"] == {
+        "joints[1].centre_mm": [1200, 0, -100],
+        "joints[1].friction": 0.1,
+        "shafts[1].yoke_angle_deg": 3,
+    }

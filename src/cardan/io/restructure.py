@@ -115,6 +115,11 @@ def joint_moved(text: str, at: int, to: int) -> str:
             del joint[key]
         for key, value in {**other, **lies}.items():
             joint[key] = value
+    order = list(range(len(joints)))
+    order.insert(to, order.pop(at))
+    for pose in document.get("poses", []):
+        if isinstance(pose, Mapping):
+            _renamed(pose, {"joints": order.index, "shafts": int}, of_place=False)
     return tomlkit.dumps(document)
 
 
@@ -174,12 +179,18 @@ def _number(tables: Any, k: int, key: str, shaft: Moved) -> None:
         tables[k][key] = number + 1
 
 
-def _renamed(table: Any, moved: Mapping[str, Moved]) -> None:
-    """Rename the paths in a table, its keys and its words."""
+def _renamed(table: Any, moved: Mapping[str, Moved], *, of_place: bool = True) -> None:
+    """Rename the paths in a table, its keys and its words; those that say where a joint lies only where asked."""
     for key in list(table):
         value = table[key]
         if isinstance(value, MutableMapping):
-            held = [(_path(str(path), moved), value[path]) for path in value]
+            held = [
+                (
+                    str(path) if not of_place and _lies(str(path).rpartition(".")[2]) else _path(str(path), moved),
+                    value[path],
+                )
+                for path in value
+            ]
             if [path for path, _one in held] != list(value):
                 for path in list(value):
                     del value[path]

@@ -89,6 +89,13 @@ def test_history_forgets_the_oldest_and_what_was_undone() -> None:
     assert history.after(text).behind == ()
 
 
+def test_history_of_long_texts_keeps_within_its_room() -> None:
+    history = History()
+    for _step in range(50):
+        history = history.after("x" * 1_900_000)
+    assert 1 <= len(history.before) <= 10
+
+
 def test_saving_writes_into_the_workspace_alone(session: Session, tmp_path: Path) -> None:
     session.save("mine")
     assert (tmp_path / "mine.toml").read_text("utf-8") == session.document.text

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 DEPTH = 200
 """Steps kept."""
 
+ROOM = 20_000_000
+"""Characters kept at most, of long files fewer steps."""
+
 
 @dataclass(frozen=True, slots=True)
 class History:
@@ -25,7 +28,10 @@ class History:
 
     def after(self, text: str) -> History:
         """Return the history once ``text`` gave way to a new one; what was undone is forgotten."""
-        return History((*self.before, text)[-DEPTH:], ())
+        steps = (*self.before, text)[-DEPTH:]
+        while len(steps) > 1 and sum(map(len, steps)) > ROOM:
+            steps = steps[1:]
+        return History(steps, ())
 
     def undone(self, text: str) -> tuple[str, History]:
         """Return the text before ``text``, and the history there; the text itself where there is none before."""
