@@ -205,10 +205,10 @@ def test_a_mode_swings_while_the_drive_stands(page, mode):
     angle = page.evaluate("cardanView.angle")
     ask(page, mode)
     page.wait_for_function("cardanView.modes.chosen")
-    deflected = pixels(page)
-    assert changed(turning, deflected) > 0.0005
     page.evaluate("cardanView.modes.time = 0; cardanView.play(true)")
     page.wait_for_function("cardanView.modes.time > 0")
+    # Somewhere in the swing the drive stands otherwise than at rest; in its middle a picture differs little.
+    assert any(changed(turning, pixels(page)) > 0.0005 for _look in range(20))
     assert page.evaluate("cardanView.angle") == angle
     ask(page, "turn")
     page.wait_for_function("!cardanView.modes.chosen")

@@ -84,4 +84,5 @@ def two() -> None:
             SceneView().style("width: 100%; height: 100%").show(scene(radius=radius))
 
 
-ui.run(host="127.0.0.1", port=int(sys.argv[1]), show=False, reload=False, reconnect_timeout=60)
+if __name__ == "__main__":
+    ui.run(host="127.0.0.1", port=int(sys.argv[1]), show=False, reload=False, reconnect_timeout=60)
