@@ -16,7 +16,7 @@ from cardan.drive.keys import KINDS, NAMED, fields_of, spellings_of
 from cardan.errors import refuse
 from cardan.texts import _
 
-from .edit import _plain, _removed, _shaft
+from .edit import plain, removed, shaft_table
 
 Step: TypeAlias = str | int
 
@@ -107,7 +107,7 @@ def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
         tables = holder[name]
         new: Any = tomlkit.inline_table() if isinstance(tables, tomlkit.items.Array) else tomlkit.table()
         for key, value in values.items():
-            new[key] = _plain(value)
+            new[key] = plain(value)
         tables.insert(min(int(place), len(tables)), new)
     return tomlkit.dumps(document)
 
@@ -192,7 +192,7 @@ def held_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
     table = document
     for k, step in enumerate(steps):
         if isinstance(step, int):
-            table = _shaft(table, step + 1) if steps[k - 1] == "shafts" else table[step]
+            table = shaft_table(table, step + 1) if steps[k - 1] == "shafts" else table[step]
         elif step in table and not isinstance(table[step], str):
             table = table[step]
         else:
@@ -231,9 +231,9 @@ def _value_at(document: Any, steps: list[Step], key: str, default: Any) -> Any:
 def _put(document: Any, steps: list[Step], key: str, known: Mapping[str, tuple[str, float]], value: Any) -> None:
     table = held_at(document, steps)
     others = [one for one in known if key in known and known[one][0] == known[key][0] and one != key and one in table]
-    comment = "".join(_removed(table, one) for one in others)
+    comment = "".join(removed(table, one) for one in others)
     kept = comment or (str(table[key].trivia.comment).lstrip("# ") if key in table else "")
-    table[key] = dict(value) if isinstance(value, Mapping) else _plain(value)
+    table[key] = dict(value) if isinstance(value, Mapping) else plain(value)
     if kept and hasattr(table[key], "comment"):
         table[key].comment(kept)
 

@@ -66,12 +66,12 @@ def edit(
             continue
         inner = there.steps[len(there.steps) - there.inside :]
         others = [spelling for spelling in there.field.spellings if spelling in table and spelling != there.spelling]
-        comment = "".join(_removed(table, spelling) for spelling in others)
+        comment = "".join(removed(table, spelling) for spelling in others)
         if inner and there.spelling in table:
             _put(table[there.spelling], inner, values[path])
         else:
             whole = re.sub(r"(\[\d+\])+$", "", path) if inner else path
-            table[there.spelling] = _plain(read(wanted, whole))
+            table[there.spelling] = plain(read(wanted, whole))
         if comment:
             table[there.spelling].comment(comment)
     changed = tomlkit.dumps(document)
@@ -91,7 +91,7 @@ def _table(document: Any, steps: Sequence[str | int]) -> Any:
     """Return the table that steps lead to, made where the file does not have it yet."""
     table = document
     for before, step in zip((None, *steps), steps, strict=False):
-        table = _shaft(table, step + 1) if before == "shafts" and isinstance(step, int) else _inside(table, step)
+        table = shaft_table(table, step + 1) if before == "shafts" and isinstance(step, int) else _inside(table, step)
     return table
 
 
@@ -104,7 +104,7 @@ def _inside(table: Any, step: str | int) -> Any:
     return table[step]
 
 
-def _shaft(tables: Any, number: int) -> Any:
+def shaft_table(tables: Any, number: int) -> Any:
     """Return the table of a shaft, a new one at the end where the file does not describe it yet."""
     import tomlkit
 
@@ -117,7 +117,7 @@ def _shaft(tables: Any, number: int) -> Any:
     return tables[-1]
 
 
-def _removed(table: Any, key: str) -> str:
+def removed(table: Any, key: str) -> str:
     """Take a key out of a table and return its comment."""
     comment = str(table[key].trivia.comment).lstrip("# ")
     del table[key]
@@ -131,8 +131,8 @@ def _put(items: Any, steps: Sequence[str | int], value: Any) -> None:
     items[steps[-1]] = value
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Return tuples as lists, and whole numbers without a point."""
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     return whole(value)

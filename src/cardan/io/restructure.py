@@ -10,7 +10,7 @@ from cardan.errors import refuse
 from cardan.texts import _
 
 from .amend import parsed, tables_only
-from .edit import _plain
+from .edit import plain
 
 _PLACE = re.compile(r"\b(joints|shafts)\[(\d+)\]")
 
@@ -53,7 +53,7 @@ def with_joint(text: str, at: int) -> str:
     _renumber(document, lambda k: k + (k >= at), lambda k: k + (k > at))
     table: Any = tomlkit.inline_table() if isinstance(joints, tomlkit.items.Array) else tomlkit.table()
     for key, value in new.items():
-        table[key] = _plain(value)
+        table[key] = plain(value)
     joints.insert(at, table)
     return tomlkit.dumps(document)
 

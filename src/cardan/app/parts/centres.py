@@ -8,7 +8,7 @@ from typing import Any
 from nicegui import events, ui
 from nicegui.element import Element
 
-from cardan.app.state.form import Entry, parts, section, tables, tree_of
+from cardan.app.state.form import Entry, parts, section, tables
 from cardan.app.state.session import Session
 from cardan.io.amend import amend
 from cardan.texts import _
@@ -66,7 +66,7 @@ class Centres:
         session.listen("selection", self._draw)
 
     def _follow(self) -> None:
-        tree = tree_of(self.session.document.text)
+        tree = self.session.document.tree
         if tree is None:
             return
         found = list(_geometry(tree))
@@ -91,14 +91,14 @@ class Centres:
 
     def _draw(self) -> None:
         drive = self.session.drive
-        points = [] if drive is None else list(_points(self.session.document.text, drive))
+        points = [] if drive is None else list(_points(self.session.document.tree or {}, drive))
         self.views.set_visibility(bool(points))
         self.hint.set_visibility(bool(points))
         self.views.show(points, self.session.selected)
 
     def _moved(self, event: events.GenericEventArguments, *, last: bool) -> None:
         path, at = event.args["path"], event.args["at"]
-        tree = tree_of(self.session.document.text) or {}
+        tree = self.session.document.tree or {}
         entry = next((one for _title, one in _geometry(tree) if one.path == path and one.size == 3), None)
         if entry is None or not _sound(at):
             return
@@ -135,7 +135,7 @@ def _geometry(tree: Mapping[str, Any]) -> list[tuple[str, Entry]]:
     return found
 
 
-def _points(text: str, drive: Any) -> list[dict[str, Any]]:
+def _points(tree: Mapping[str, Any], drive: Any) -> list[dict[str, Any]]:
     """Return the points of a drive given by points, as the views show them; none for another form."""
     if drive.form != "points" or drive.input.point is None or drive.output.point is None:
         return []
@@ -143,7 +143,7 @@ def _points(text: str, drive: Any) -> list[dict[str, Any]]:
     ends = {"input": drive.input.point, "output": drive.output.point}
     inner = {f"joints[{k}]": joint.centre for k, joint in enumerate(drive.joints)}
     rows = {"input": ends["input"], **inner, "output": ends["output"]}
-    names = {path: title for path, title in parts(tree_of(text) or {})}
+    names = {path: title for path, title in parts(tree)}
     return [
         {
             "path": path,

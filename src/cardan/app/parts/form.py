@@ -7,7 +7,7 @@ from typing import Any
 
 from nicegui import ui
 
-from cardan.app.state.form import Entry, Section, parts, problems_of, section, tables, tree_of
+from cardan.app.state.form import Entry, Section, parts, problems_of, section, tables
 from cardan.app.state.session import Session
 from cardan.io.amend import insert
 from cardan.io.restructure import joint_moved, with_joint, without_joint
@@ -43,7 +43,7 @@ class Form:
         session.listen("selection", self._selected)
 
     def _fill(self) -> None:
-        tree = tree_of(self.session.document.text)
+        tree = self.session.document.tree
         if tree is None:
             return
         opened = {path for path, table in self.tables.items() if table.opened} or {"joints[0]"}
@@ -56,7 +56,7 @@ class Form:
         self._paths = tuple(self.tables)
 
     def _follow(self) -> None:
-        tree = tree_of(self.session.document.text)
+        tree = self.session.document.tree
         if tree is None:
             return
         found = dict(parts(tree))
@@ -90,13 +90,13 @@ class Form:
                     ui.item(title, on_click=lambda name=name: self._add(name))
 
     def _add_joint(self) -> None:
-        tree = tree_of(self.session.document.text) or {}
+        tree = self.session.document.tree or {}
         at = len(tables(tree, "joints"))
         attempt(self.session, lambda text: with_joint(text, at))
         self.session.select(f"joints[{at}]")
 
     def _add(self, name: str) -> None:
-        tree = tree_of(self.session.document.text) or {}
+        tree = self.session.document.tree or {}
         at = len(tables(tree, name))
         attempt(self.session, lambda text: insert(text, f"{name}[{at}]", NEW[name]))
         self.session.select(f"{name}[{at}]")
@@ -131,7 +131,7 @@ class Table:
         inner = next((one for key, one in self.fields.items() if path.startswith(key) and isinstance(one, Table)), None)
         if inner is not None:
             inner.open(path)
-        elif self.fold.is_deleted is False:
+        elif not self.fold.is_deleted:
             ui.run_javascript(f"getElement({self.fold.id})?.$el.scrollIntoView({{block:'nearest',behavior:'smooth'}})")
 
     def follow(self, tree: Mapping[str, Any], title: str) -> None:
@@ -149,10 +149,9 @@ class Table:
             held = self.fields.get(entry.key())
             if isinstance(held, KeyField):
                 held.show(entry)
-        for key, held in self.fields.items():
+        for held in self.fields.values():
             if isinstance(held, Table):
                 held.follow(tree, held.fold.text)
-                del key
 
     def _judge(self) -> None:
         bad = bool(problems_of(self.path, self.session.document.problems)) if self.path else False
@@ -166,7 +165,7 @@ class Table:
             self.session.select(self.path)
 
     def _build(self) -> None:
-        tree = tree_of(self.session.document.text) or {}
+        tree = self.session.document.tree or {}
         now = section(tree, self.path)
         inner = {key for key, one in self.fields.items() if isinstance(one, Table) and one.opened}
         self.built, self._shape, self.fields = True, _shape(now), {}
@@ -227,7 +226,7 @@ class Table:
         """Show an empty field for a key, or write a new table."""
         if entry.sort == "tables":
             attempt(self.session, lambda text: insert(text, f"{entry.key()}[0]", {}))
-        elif entry.sort in ("table",):
+        elif entry.sort == "table":
             apply(self.session, {entry.key(): {}})
         else:
             before.value = None

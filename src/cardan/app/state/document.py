@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, refuse
@@ -12,6 +14,7 @@ from cardan.io import dumps, loads
 from cardan.io.drive_file import parsed
 from cardan.texts import _
 
+from .form import tree_of
 from .workspace import MAX_UPLOAD
 
 
@@ -32,6 +35,11 @@ class Document:
     text: str
     drive: Drive | None = None
     problems: tuple[Problem, ...] = ()
+
+    @cached_property
+    def tree(self) -> dict[str, Any] | None:
+        """The tables of the text, read once; None where it is no TOML."""
+        return tree_of(self.text)
 
     @property
     def valid(self) -> bool:
