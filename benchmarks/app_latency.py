@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
-import socket
 import statistics
-import subprocess
-import sys
-import tempfile
-import time
-import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
 
-from cardan.io import example_text
-
+from .browser import opened
 from .harness import Figure
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+EXAMPLE = "truck-printed-coordinates"
 
 EDIT = """async value => {
   const field = document.querySelector('[aria-label="centre mm y"]');
@@ -41,7 +30,7 @@ EDIT = """async value => {
 
 def figures(quick: bool) -> Iterator[Figure]:
     """Yield the median from an edit to the new curve."""
-    with opened() as page:
+    with opened(EXAMPLE) as page:
         page.wait_for_selector(".cardan-chart path.js-line", state="attached", timeout=120_000)
         page.wait_for_timeout(3000)
         times = []
@@ -56,45 +45,3 @@ def figures(quick: bool) -> Iterator[Figure]:
             yardstick="0.1 s, aim ≤ 1",
             ratio=median / 100.0,
         )
-
-
-@contextmanager
-def opened(example: str = "truck-printed-coordinates", **context: Any) -> Iterator[Any]:
-    """Open the app with an example in a browser that draws by software."""
-    from playwright.sync_api import sync_playwright
-
-    path = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if path is None:
-        raise RuntimeError(f"no browser on the PATH: none of {', '.join(BROWSERS)}")
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        port = one.getsockname()[1]
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "drive.toml"
-        file.write_text(example_text(example), "utf-8")
-        command = [sys.executable, "-m", "cardan", "app", str(file), "--port", str(port), "--no-browser"]
-        server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            _await(f"http://127.0.0.1:{port}/")
-            with sync_playwright() as entry:
-                arguments = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-                browser = entry.chromium.launch(executable_path=path, args=arguments)
-                page = browser.new_context(viewport={"width": 1280, "height": 720}, **context).new_page()
-                page.goto(f"http://127.0.0.1:{port}/")
-                yield page
-                browser.close()
-        finally:
-            server.terminate()
-            server.wait()
-
-
-def _await(url: str) -> None:
-    end = time.monotonic() + 60
-    while True:
-        try:
-            with urllib.request.urlopen(url, timeout=5):
-                return
-        except OSError:
-            if time.monotonic() > end:
-                raise
-            time.sleep(0.1)

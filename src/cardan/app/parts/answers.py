@@ -21,6 +21,7 @@ from cardan.report.preferred import in_choice, names_in
 from cardan.texts import _, speaking
 
 from .blocks import Export, PageView
+from .timers import timer
 
 AT_ONCE = ("motion",)
 """Answers so quick that they are made while the edit is worked on."""
@@ -167,7 +168,7 @@ class Sheet:
         self._stale()
         self._hold()
         self._jobs_end()
-        self._due = self._timer(QUIET, self.begin, once=True)
+        self._due = timer(self.session, self.body, QUIET, self.begin, once=True)
 
     def rest(self) -> None:
         """Nobody looks: begin nothing, and give up what is not done."""
@@ -198,7 +199,7 @@ class Sheet:
                 self._look()
             else:
                 self._progress.show(self.job)
-                self._watch = self._timer(LOOK, self._look)
+                self._watch = timer(self.session, self.body, LOOK, self._look, once=False)
 
     def cancel(self) -> None:
         """Give up a long answer."""
@@ -284,14 +285,6 @@ class Sheet:
     def _jobs_end(self) -> None:
         if self.job is not None and not self.job.finished:
             self._jobs.cancel(self.job)
-
-    def _timer(self, seconds: float, what: Callable[[], object], *, once: bool = False) -> ui.timer:
-        def spoken() -> None:
-            with self.session.speaking():
-                what()
-
-        with self.body:
-            return ui.timer(seconds, spoken, once=once)
 
 
 class Progress:

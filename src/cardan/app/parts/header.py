@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 
 from nicegui import events, ui
 
@@ -14,6 +13,7 @@ from cardan.errors import InputError
 from cardan.io import starter
 from cardan.texts import _
 
+from .dialogs import asking
 from .download import ReportMenu
 from .settings import SettingsMenu
 from .variants import VariantsMenu
@@ -72,7 +72,7 @@ class Header:
         if self.session.empty or self.session.saved or not self.session.history.before:
             then()
             return
-        with self.session.speaking(), _dialog() as dialog:
+        with self.session.speaking(), asking("leave-file") as dialog:
             ui.label(_("The drive is not saved. Leave it?"))
             with ui.row().classes("ends"):
                 ui.button(_("Stay"), on_click=dialog.close).props("flat no-caps")
@@ -82,7 +82,7 @@ class Header:
 
     def open(self) -> None:
         """Offer the files of the workspace."""
-        with self.session.speaking(), _dialog() as dialog:
+        with self.session.speaking(), asking("open-file") as dialog:
             ui.label(_("Files of the folder, the newest first")).classes("head")
             names = self.session.workspace.names()
             if not names:
@@ -107,7 +107,7 @@ class Header:
 
     def send(self) -> None:
         """Take a file from the user's disk."""
-        with self.session.speaking(), _dialog() as dialog:
+        with self.session.speaking(), asking("send-file") as dialog:
             ui.label(_("A drive file, at most {size} MB").format(size=MAX_UPLOAD // 10**6)).classes("head")
 
             async def taken(event: events.UploadEventArguments) -> None:
@@ -140,7 +140,7 @@ class Header:
 
     def save_as(self) -> None:
         """Ask for a name and write the file."""
-        with self.session.speaking(), _dialog() as dialog:
+        with self.session.speaking(), asking("save-file-as") as dialog:
             name = ui.input(_("name"), value=self.session.name or "drive.toml").props("autofocus outlined dense")
 
             def named() -> None:
@@ -164,15 +164,6 @@ class Header:
                 ui.notify(str(error), type="negative", position="top", multi_line=True, timeout=8000)
                 return False
         return True
-
-
-@contextmanager
-def _dialog() -> Iterator[ui.dialog]:
-    """Open a dialog with what is built within; it goes once it is closed."""
-    with ui.dialog() as dialog, ui.card().classes("dialog"):
-        yield dialog
-    dialog.on("hide", dialog.delete)
-    dialog.open()
 
 
 def _button(icon: str, title: str, act: Callable[[], None]) -> ui.button:

@@ -19,6 +19,7 @@ from cardan.report.preferred import in_choice
 from cardan.texts import _
 
 from .answers import applied
+from .timers import timer
 
 QUIET = 0.4
 """Seconds without an edit after which cures are looked for."""
@@ -96,7 +97,7 @@ class Verdicts:
         self._summed.text = sentence(found)
         self._show(found)
         if any(one.tone == "failed" for one in found):
-            self._due = self._timer(QUIET, self._search, once=True)
+            self._due = timer(self.session, self.body, QUIET, self._search, once=True)
 
     def _search(self) -> None:
         question = asked(self.session, CURES)
@@ -106,7 +107,7 @@ class Verdicts:
         if self._job.finished:
             self._look()
         else:
-            self._watch = self._timer(LOOK, self._look)
+            self._watch = timer(self.session, self.body, LOOK, self._look, once=False)
 
     def _look(self) -> None:
         job = self._job
@@ -163,20 +164,12 @@ class Verdicts:
                 self._told.set_visibility(True)
 
     def _end(self) -> None:
-        for timer in (self._due, self._watch):
-            if timer is not None:
-                timer.cancel()
+        for waiting in (self._due, self._watch):
+            if waiting is not None:
+                waiting.cancel()
         self._due = self._watch = None
         if self._job is not None and not self._job.finished:
             self._jobs.cancel(self._job)
-
-    def _timer(self, seconds: float, what: Callable[[], object], *, once: bool = False) -> ui.timer:
-        def spoken() -> None:
-            with self.session.speaking():
-                what()
-
-        with self.body:
-            return ui.timer(seconds, spoken, once=once)
 
 
 def field_of(light: Light) -> str:
