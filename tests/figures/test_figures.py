@@ -17,7 +17,8 @@ from cardan.analysis.equivalence import after_each_joint, equivalent_joint
 from cardan.analysis.motion import motion
 from cardan.drive.drive import Drive
 from cardan.figures import palette
-from cardan.figures.figure import Bars, Curve, axis, steps, written
+from cardan.figures.axes import axis, steps, written
+from cardan.figures.figure import Bars, Curve
 from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described

@@ -9,7 +9,8 @@ from cardan.analysis.absorbers import AbsorberResponse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, axis, written
+from .axes import axis, written
+from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .wording import significant
 
 ACROSS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)

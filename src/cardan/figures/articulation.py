@@ -10,7 +10,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, mm
 
-from .figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series, axis
+from .axes import axis
+from .figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
 from .palette import dash_of, shaft
 from .wording import fixed, percent, significant
 

@@ -12,7 +12,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series, axis
+from .axes import axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from .palette import shaft
 from .turning import across, support_dashes, support_name
 from .wording import significant

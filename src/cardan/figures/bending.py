@@ -12,7 +12,8 @@ from cardan.analysis.speed_map import CriticalSpeedMap
 from cardan.texts import _, plural
 from cardan.units import mm, rpm
 
-from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from .palette import DASHES, dash_of, shaft
 from .wording import significant
 

@@ -8,7 +8,8 @@ from cardan.analysis.book import BookComparison
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Curve, Figure, Panel, Row, Rule, axis
+from .axes import axis
+from .figure import Curve, Figure, Panel, Row, Rule
 from .turning import across
 from .wording import significant
 

@@ -16,7 +16,8 @@ from cardan.synthesis.calm import Calm
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, axis
+from .axes import axis
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
 from .palette import shaft
 from .wording import percent, significant
 

@@ -9,7 +9,8 @@ import numpy as np
 from cardan.checks import Verdict
 from cardan.texts import _, plural
 
-from .figure import Axis, Bars, Curve, Figure, Panel, Row, steps, written
+from .axes import steps, written
+from .figure import Axis, Bars, Curve, Figure, Panel, Row
 
 MOST = 40
 """Bars in a figure; the least used limits are left out."""

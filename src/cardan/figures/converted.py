@@ -12,8 +12,9 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.units import spoken
 
+from .axes import steps, written
 from .conversion import ALONE, Conversion
-from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape, steps, written
+from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 
 HEADED = re.compile(r"\[([^\[\]]+)\]\s*$")
 """The unit at the end of a panel's heading."""
@@ -43,7 +44,8 @@ def converted(figure: Figure, how: Conversion) -> Figure:
 
     Examples
     --------
-    >>> from cardan.figures.figure import Row, axis
+    >>> from cardan.figures.axes import axis
+    >>> from cardan.figures.figure import Row
     >>> panel = Panel(series=(Rule(value=25.4),), y=axis("way", "mm", include=(0.0, 50.8)))
     >>> shown = Figure(name="way", title="Way", sentence="It slides 25.4 mm.", source="", rows=(Row(panels=(panel,)),))
     >>> inches = converted(shown, Conversion(units={"length": "in"}))

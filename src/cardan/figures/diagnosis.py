@@ -13,7 +13,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from .palette import DASHES, shaft
 from .wording import significant
 

@@ -12,8 +12,9 @@ from cardan.diagnosis.turning import Rotation
 from cardan.texts import _
 from cardan.units import deg, rpm
 
+from .axes import axis, steps, written
 from .diagnosis import UNITS, order_text, quantity_word, told
-from .figure import Axis, Curve, Figure, Panel, Row, axis, steps, written
+from .figure import Axis, Curve, Figure, Panel, Row
 from .palette import shaft
 from .wording import significant
 

@@ -18,7 +18,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import mm
 
-from .figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Series, View, steps, written
+from .axes import steps, written
+from .figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Series, View
 from .palette import shaft as role_of
 from .projection import onto
 from .wording import fixed, half_turn

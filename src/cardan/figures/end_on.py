@@ -10,7 +10,8 @@ import numpy as np
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 
-from .figure import Axis, Curve, Note, Panel, Row, Series, steps, written
+from .axes import steps, written
+from .figure import Axis, Curve, Note, Panel, Row, Series
 
 DOWN = 0.99
 """A shaft whose axis has this vertical part is upright: then x runs up on paper instead of z."""

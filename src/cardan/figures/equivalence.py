@@ -10,7 +10,8 @@ from cardan.analysis.equivalence import SYNCHRONOUS, EquivalentJoint
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Bars, Figure, Panel, Row, Rule, Series, axis, written
+from .axes import axis, written
+from .figure import Axis, Bars, Figure, Panel, Row, Rule, Series
 from .palette import shaft
 from .wording import percent, power_of_ten, significant
 

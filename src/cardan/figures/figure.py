@@ -6,18 +6,12 @@ units of their axes.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import Literal, TypeAlias
-
-import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.units import spoken
-
-from .wording import significant
 
 Dash: TypeAlias = str
 Side: TypeAlias = Literal["left", "centre", "right"]
@@ -305,100 +299,3 @@ class Figure:
                 if isinstance(item, Curve | Bars | Shape) and item.label:
                     seen.setdefault(item.label, item)
         return tuple(seen.values())
-
-
-def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:
-    """Return round values between two bounds, about ``count`` of them.
-
-    Examples
-    --------
-    >>> steps(0.0, 1.0)
-    (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
-    >>> steps(0.93, 1.07, 4)
-    (0.95, 1.0, 1.05)
-    """
-    span = high - low
-    if not span > 0.0:
-        return (low,)
-    rough = span / max(count, 1)
-    size = 10.0 ** math.floor(math.log10(rough))
-    step = min((m * size for m in (1.0, 2.0, 5.0, 10.0)), key=lambda s: abs(math.log(s / rough)))
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    return tuple(round(k * step, 12 - math.floor(math.log10(step))) + 0.0 for k in range(first, last + 1))
-
-
-def written(values: Sequence[float]) -> tuple[str, ...]:
-    """Return tick values with as many decimals as tell them apart, and a true minus.
-
-    Examples
-    --------
-    >>> written((-0.5, 0.0, 0.5)), written((0.0, 1000.0)), written((0.0, 2e-7))
-    (('−0.5', '0', '0.5'), ('0', '1\u202f000'), ('0', '2·10⁻⁷'))
-    """
-    gap = min((b - a for a, b in pairwise(values)), default=abs(values[0]) if values else 1.0)
-    if gap and gap < 1e-5:
-        told = ([significant(v, digits) for v in values] for digits in (1, 2, 3))
-        return tuple(next((row for row in told if len(set(row)) == len(row)), [significant(v, 4) for v in values]))
-    decimals = max(0, 2 - math.floor(math.log10(gap) + 1e-9)) if gap > 0.0 else 3
-    texts = [f"{v:,.{decimals}f}" for v in values]
-    while decimals and all(t.endswith("0") for t in texts):
-        decimals -= 1
-        texts = [f"{v:,.{decimals}f}" for v in values]
-    return tuple(
-        "0" if v == 0.0 else t.replace(",", "\u202f").replace("-", "−") for v, t in zip(values, texts, strict=True)
-    )
-
-
-def axis(
-    label: str,
-    unit: str,
-    values: Iterable[Array] = (),
-    *,
-    include: Sequence[float] = (),
-    least: float = 0.0,
-    mirrored: float | None = None,
-    count: int = 5,
-    margin: float = 0.06,
-) -> Axis:
-    """Return an axis that fits values, never narrower than ``least``: rounding noise stays a flat line.
-
-    Parameters
-    ----------
-    label, unit : str
-        What runs along it.
-    values : iterable of array
-        What it is to hold.
-    include : sequence of float
-        Values always within its range.
-    least : float
-        Smallest range drawn.
-    mirrored : float, optional
-        Value in the middle of the axis.
-    count : int
-        About how many ticks.
-    margin : float
-        Share of the range left free at both ends.
-    """
-    flat = [np.asarray(value, dtype=float).ravel() for value in values]
-    every = np.concatenate([*flat, np.asarray(include, dtype=float)]) if flat or include else np.asarray([0.0, 1.0])
-    every = every[np.isfinite(every)]
-    low, high = (float(np.min(every)), float(np.max(every))) if every.size else (0.0, 1.0)
-    if mirrored is not None:
-        reach = max(high - mirrored, mirrored - low)
-        low, high = mirrored - reach, mirrored + reach
-    span = high - low
-    if span < least or span == 0.0:
-        middle = mirrored if mirrored is not None else 0.5 * (low + high)
-        half = 0.5 * (least or abs(middle) or 1.0)
-        low, high = middle - half, middle + half
-    else:
-        below = margin if low < 0.0 or low > 0.0 else 0.02  # a range from nought begins there
-        low, high = low - min(below, margin) * span, high + margin * span
-    ticks = steps(low, high, count)
-    return Axis(label=label, unit=unit, low=low, high=high, ticks=ticks, texts=written(ticks))
-
-
-def angle_axis(label: str, stop: float = 360.0) -> Axis:
-    """Return the axis of an angle of rotation [°], marked every eighth of a turn."""
-    ticks = tuple(float(k) for k in range(0, int(stop) + 1, 45 if stop <= 360.0 else 90))
-    return Axis(label=label, unit="°", low=0.0, high=stop, ticks=ticks, texts=written(ticks))

@@ -14,8 +14,9 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
+from .axes import axis
 from .end_on import Tip, end_on
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series, axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from .force_arrows import loads_figures, senses, worst
 from .palette import dash_of, shaft
 from .turning import across, shaft_name, support_dashes, support_name

@@ -11,7 +11,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, angle_axis, axis
+from .axes import angle_axis, axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .wording import significant
 

@@ -9,8 +9,9 @@ from cardan.synthesis.layout import Layout
 from cardan.texts import _
 from cardan.units import deg, mm
 
+from .axes import axis, written
 from .drive import views_figure
-from .figure import Axis, Bars, Figure, Panel, Row, axis, written
+from .figure import Axis, Bars, Figure, Panel, Row
 from .palette import shaft
 from .wording import fixed, percent, significant
 

@@ -9,7 +9,8 @@ import numpy as np
 from cardan.analysis.life import Life
 from cardan.texts import _
 
-from .figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .wording import percent, significant
 

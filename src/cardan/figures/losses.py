@@ -9,7 +9,8 @@ from cardan.drive.drive import Drive
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .figure import Axis, Bars, Curve, Figure, Panel, Row, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Bars, Curve, Figure, Panel, Row
 from .palette import DASHES, dash_of, shaft
 from .turning import across
 from .wording import percent, significant

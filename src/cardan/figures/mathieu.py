@@ -12,7 +12,8 @@ from cardan.maths.mathieu import LARGEST_Q, boundaries, damped_zone, exponents
 from cardan.texts import _
 from cardan.units import rpm
 
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Series, Shape, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Series, Shape
 from .wording import significant
 
 POINTS = 121

@@ -16,7 +16,8 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _, plural
 from cardan.units import deg, mm
 
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, angle_axis, axis, steps, written
+from .axes import angle_axis, axis, steps, written
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
 from .wording import significant
 
 HALF = 0.2

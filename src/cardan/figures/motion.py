@@ -9,7 +9,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, axis
+from .axes import axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .turning import across, shaft_name
 from .wording import percent, significant

@@ -10,7 +10,8 @@ from cardan.analysis.moving_forces import MovingForces
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series, axis
+from .axes import axis
+from .figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from .palette import dash_of, shaft
 from .turning import shaft_name, support_dashes, support_name
 from .wording import significant

@@ -13,7 +13,8 @@ from cardan.synthesis.phases import Phasing, YokeSetting
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series
 from .palette import dash_of, shaft
 from .wording import percent, significant
 

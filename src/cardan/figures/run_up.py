@@ -9,7 +9,8 @@ from cardan.analysis.run_up import RunUp
 from cardan.texts import _
 from cardan.units import rpm
 
-from .figure import Curve, Figure, Panel, Row, Rule, axis
+from .axes import axis
+from .figure import Curve, Figure, Panel, Row, Rule
 from .wording import significant
 
 

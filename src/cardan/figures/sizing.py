@@ -9,7 +9,8 @@ from cardan.synthesis.trade_off import TradeOff
 from cardan.texts import _
 from cardan.units import mm, rpm
 
-from .figure import Curve, Figure, Panel, Row, Rule, axis
+from .axes import axis
+from .figure import Curve, Figure, Panel, Row, Rule
 from .palette import DASHES
 from .strength import AMBER, bars_of
 from .wording import significant

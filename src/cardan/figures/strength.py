@@ -8,7 +8,8 @@ from cardan.analysis.strength import Strength
 from cardan.analysis.strength_use import Use
 from cardan.texts import _
 
-from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule
 from .palette import shaft
 from .wording import percent, significant
 

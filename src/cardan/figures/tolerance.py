@@ -14,7 +14,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import arcmin, deg, mm
 
-from .figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series, Shape
 from .palette import shaft
 from .turning import across
 from .wording import percent, significant

@@ -13,7 +13,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 from cardan.units import mm, rpm
 
-from .figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series
 from .palette import DASHES, shaft
 from .wording import significant
 

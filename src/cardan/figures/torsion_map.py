@@ -12,7 +12,8 @@ from cardan.analysis.torsion_stability import BEND, Stability
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from .torsion_running import runs, unstable_bands
 from .wording import percent, significant
 

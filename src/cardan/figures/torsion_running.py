@@ -14,7 +14,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg, rpm
 
-from .figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row, axis, steps, written
+from .axes import axis, steps, written
+from .figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row
 from .palette import DASHES, shaft
 from .turning import across
 from .wording import significant

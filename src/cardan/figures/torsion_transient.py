@@ -8,7 +8,8 @@ from cardan.analysis.torsion_transient import Transient
 from cardan.texts import _
 from cardan.units import rpm
 
-from .figure import Curve, Figure, Panel, Row, axis
+from .axes import axis
+from .figure import Curve, Figure, Panel, Row
 from .palette import DASHES
 from .torsion_running import looks, worst_elements
 from .wording import significant

@@ -10,7 +10,8 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .figure import Axis, angle_axis, axis
+from .axes import angle_axis, axis
+from .figure import Axis
 from .palette import DASHES
 
 LONG = 24

@@ -12,7 +12,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import deg
 
-from .figure import Curve, Figure, Panel, Row, Rule, axis
+from .axes import axis
+from .figure import Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .turning import across
 from .wording import significant
