@@ -1,0 +1,1 @@
+"""Many drives at once: what varies, what is asked, on which machines."""
