@@ -6,7 +6,8 @@ import pytest
 from cardan import Drive, InputError, equivalent_joint
 from cardan.analysis.crack import Crack
 from cardan.analysis.cracked_rotor import cracked_rotor
-from cardan.diagnosis.expected import FAULTS, LOSSES, expected_orders
+from cardan.diagnosis.expected import FAULTS, expected_orders
+from cardan.diagnosis.fault_orders import LOSSES
 from cardan.diagnosis.plant import plant
 from cardan.io import example
 from cardan.units import deg
