@@ -17,17 +17,11 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .expected import Expected, expected_orders
+from .levels import ORDERS, TURNS, Track, accelerations, force_on, healthy_force, level_of, mean_of, stands_out
 from .order_tracks import TrackedOrders, tracked_orders
 from .plant import Plant, plant
 from .signal import Channel, Signal
 from .turning import LEAST_TURNS, Rotation, rotation
-
-ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
-
-PROBES = (0.75, 1.25, 1.75, 2.5, 3.5)
-"""Orders that no fault has: what is there is noise, at about the frequency of the orders beside them."""
-
-TURNS = 16
 
 NAMES = (
     "order_1",
@@ -52,12 +46,6 @@ NAMES = (
     "uneven",
 )
 """Names of the features, in the order of the calibration."""
-
-CLEAR = 2.5
-"""Times what noise leaves that an order has to reach to count as seen."""
-
-HIDDEN = {0.5: -1.0, 1.5: -1.0, 3.0: -1.0, 4.0: -1.0}
-"""Largest level of an order that noise hides; 0, that of the drive in order, for orders 1 and 2."""
 
 SAME_SPEED = 0.04
 """Share of the speed within which windows count as held at it."""
@@ -92,6 +80,8 @@ class Features:
         From 0 to 1: that of the recording and of its rotation, less by what it cannot tell.
     cautions : tuple of str
         What was doubtful.
+    rotation : Rotation
+        How the shaft turned.
     """
 
     value: Array
@@ -102,21 +92,11 @@ class Features:
     critical: float
     confidence: float
     cautions: tuple[str, ...]
+    rotation: Rotation
 
     def __getitem__(self, name: str) -> float:
         """Return the feature of a name."""
         return float(self.value[NAMES.index(name)])
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class _Track:
-    """Orders at a sensor as acceleration (o, w), their noise (o,) for one window, and the housing it sits on."""
-
-    kind: str
-    mass: float
-    value: Array
-    noise: Array
-    found: TrackedOrders
 
 
 @lru_cache(maxsize=16)
@@ -162,7 +142,7 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
     """
     base, healthy = _known(drive)
     shaft = rotation(signal, speed_range=speed_range or (None if signal.tacho is not None else base.speed))
-    radial, axial = _accelerations(signal, shaft, base)
+    radial, axial = accelerations(signal, shaft, base)
     if not radial:
         raise refuse("signal", _("the recording has no channel of vibration across the shaft"), "missing")
     first = radial[0].found
@@ -187,6 +167,7 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
         critical=base.critical,
         confidence=signal.trust * shaft.confidence * (0.3 + 0.7 * known),
         cautions=(*signal.cautions, *shaft.cautions, *_doubts(out, told, low, base)),
+        rotation=shaft,
     )
 
 
@@ -204,28 +185,6 @@ def _doubts(out: dict[str, float], told: bool, low: Array, base: Plant) -> list[
         text = _("The drive does not say {names}; the sizes to be expected are assumed.")
         found.append(text.format(names=", ".join(base.assumed)))
     return found
-
-
-def _accelerations(signal: Signal, shaft: Rotation, base: Plant) -> tuple[list[_Track], list[_Track]]:
-    """Return the orders at the radial and at the axial sensors."""
-    powers = {"acceleration": 0, "velocity": 1, "displacement": 2}
-    radial: list[_Track] = []
-    axial: list[_Track] = []
-    for channel in signal.measured:
-        if channel.quantity not in powers or channel.direction == "torsion" or not np.any(channel.values):
-            continue
-        try:
-            found = tracked_orders(channel, shaft, (*ORDERS, *PROBES), turns=TURNS)
-        except InputError:
-            continue
-        value = found.value * (np.asarray(found.orders)[:, None] * found.speed) ** powers[channel.quantity]
-        house = next((one for one in base.housings if one.place == channel.place), base.housings[-1])
-        probes = np.sqrt(np.median(np.abs(value[len(ORDERS) :]) ** 2, axis=1) / math.log(2.0))
-        noise = np.exp(np.interp(np.log(ORDERS), np.log(PROBES), np.log(np.maximum(probes, 1e-300))))
-        track = _Track(kind=house.kind, mass=house.mass, value=value[: len(ORDERS)], noise=noise, found=found)
-        (axial if channel.direction in ("axial", "x") else radial).append(track)
-    same = [one for one in radial if one.value.shape == radial[0].value.shape]
-    return same, [one for one in axial if same and one.value.shape == same[0].value.shape]
 
 
 def _torque(signal: Signal, time: Array, usual: float) -> tuple[Array, bool]:
@@ -258,51 +217,9 @@ def _groups(torque: Array, still: Array, told: bool, usual: float) -> tuple[Arra
     return still & (torque > most - room), still & (torque < least + room)
 
 
-def _mean(track: _Track, order: float, which: Array) -> tuple[float, complex]:
-    """Return amplitude, no less than noise leaves, and mean of an order over windows; together where phases mean."""
-    k = ORDERS.index(order)
-    chosen = track.value[k, which]
-    if chosen.size == 0:
-        return math.nan, complex(math.nan)
-    mean = complex(np.mean(chosen)) if track.found.phased else complex(np.sqrt(np.mean(np.abs(chosen) ** 2)))
-    return max(abs(mean), _floor(track, order, which)), mean
-
-
-def _floor(track: _Track, order: float, which: Array) -> float:
-    """Return what noise leaves of an order in the mean over windows, of which four share a length."""
-    count = max(1.0, float(np.sum(which)) / 3.0) if track.found.phased else 1.0
-    return float(track.noise[ORDERS.index(order)]) / math.sqrt(count)
-
-
-def _force(tracks: list[_Track], order: float, which: Array) -> float:
-    """Return the amplitude of the forces on all housings together."""
-    return math.sqrt(sum((one.mass * _mean(one, order, which)[0]) ** 2 for one in tracks))
-
-
-def _stands_out(tracks: list[_Track], order: float, which: Array) -> bool:
-    """Tell whether an order rises over the noise at any housing."""
-    return any(_mean(one, order, which)[0] > CLEAR * _floor(one, order, which) for one in tracks)
-
-
-def _level(tracks: list[_Track], order: float, which: Array, usual: float) -> float:
-    """Return the logarithm of an order over what is usual; what noise hides counts as not above it."""
-    value = math.log10(_force(tracks, order, which) / usual)
-    return value if _stands_out(tracks, order, which) else min(value, HIDDEN.get(order, 0.0))
-
-
-def _healthy_force(healthy: Expected, tracks: list[_Track], order: float, speed: float, torque: float) -> float:
-    """Return the same of the drive in order."""
-    total = 0.0
-    for one in tracks:
-        lines = (line for line in healthy.orders if line.order == order and line.direction == "radial")
-        size = sum(abs(healthy.value(line, speed, torque)) ** 2 for line in lines if line.kind == one.kind)
-        total += one.mass**2 * float(size)
-    return math.sqrt(total) or math.nan
-
-
 def _levels(
     out: dict[str, float],
-    radial: list[_Track],
+    radial: list[Track],
     healthy: Expected,
     base: Plant,
     held: float,
@@ -314,33 +231,33 @@ def _levels(
     if not high.any():
         return
     much = float(np.mean(torque[high]))
-    one = _healthy_force(healthy, radial, 1.0, held, much)
-    two = _healthy_force(healthy, radial, 2.0, held, max(abs(much), 0.1 * base.torque))
-    out["order_1"] = _level(radial, 1.0, high, one)
-    out["order_2"] = _level(radial, 2.0, high, two)
-    out["order_3"] = _level(radial, 3.0, high, one)
-    out["order_4"] = _level(radial, 4.0, high, two)
-    out["half_orders"] = max(_level(radial, 0.5, high, one), _level(radial, 1.5, high, one))
+    one = healthy_force(healthy, radial, 1.0, held, much)
+    two = healthy_force(healthy, radial, 2.0, held, max(abs(much), 0.1 * base.torque))
+    out["order_1"] = level_of(radial, 1.0, high, one)
+    out["order_2"] = level_of(radial, 2.0, high, two)
+    out["order_3"] = level_of(radial, 3.0, high, one)
+    out["order_4"] = level_of(radial, 4.0, high, two)
+    out["half_orders"] = max(level_of(radial, 0.5, high, one), level_of(radial, 1.5, high, one))
     centre = [track for track in radial if track.kind == "centre"]
     rest = [track for track in radial if track.kind != "centre"]
-    if centre and rest and _stands_out(centre, 3.0, high):
-        out["at_centre"] = math.log10(_force(centre, 3.0, high) / _force(rest, 3.0, high))
+    if centre and rest and stands_out(centre, 3.0, high):
+        out["at_centre"] = math.log10(force_on(centre, 3.0, high) / force_on(rest, 3.0, high))
     if not low.any():
         return
-    out["order_2_unloaded"] = _level(radial, 2.0, low, two)
-    if _stands_out(radial, 2.0, high):
-        out["torque_on_2"] = math.log10(_force(radial, 2.0, high) / _force(radial, 2.0, low))
-    if not (_stands_out(radial, 1.0, high) or _stands_out(radial, 1.0, low)):
+    out["order_2_unloaded"] = level_of(radial, 2.0, low, two)
+    if stands_out(radial, 2.0, high):
+        out["torque_on_2"] = math.log10(force_on(radial, 2.0, high) / force_on(radial, 2.0, low))
+    if not (stands_out(radial, 1.0, high) or stands_out(radial, 1.0, low)):
         return
-    out["torque_on_1"] = math.log10(_force(radial, 1.0, high) / _force(radial, 1.0, low))
+    out["torque_on_1"] = math.log10(force_on(radial, 1.0, high) / force_on(radial, 1.0, low))
     if radial[0].found.phased:
-        apart = sum(track.mass * abs(_mean(track, 1.0, high)[1] - _mean(track, 1.0, low)[1]) for track in radial)
-        whole = sum(track.mass * (_mean(track, 1.0, high)[0] + _mean(track, 1.0, low)[0]) for track in radial)
+        apart = sum(track.mass * abs(mean_of(track, 1.0, high)[1] - mean_of(track, 1.0, low)[1]) for track in radial)
+        whole = sum(track.mass * (mean_of(track, 1.0, high)[0] + mean_of(track, 1.0, low)[0]) for track in radial)
         out["turned_by_torque"] = apart / whole
 
 
 def _over_speed(
-    out: dict[str, float], radial: list[_Track], first: TrackedOrders, torque: Array, told: bool, base: Plant
+    out: dict[str, float], radial: list[Track], first: TrackedOrders, torque: Array, told: bool, base: Plant
 ) -> tuple[float, float]:
     """Fill in exponents and peaks over the speed; return the speeds of the peaks of orders 2 and 3."""
     slowest, fastest = float(np.min(first.speed)), float(np.max(first.speed))
@@ -399,13 +316,13 @@ def _slope(speed: Array, level: Array) -> float:
     return float(np.polyfit(x, y, 1)[0]) if float(np.ptp(x)) > 0.05 else math.nan
 
 
-def _sideways(out: dict[str, float], radial: list[_Track], axial: list[_Track], high: Array) -> None:
+def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], high: Array) -> None:
     """Fill in how much of order 1 goes along the shaft, at the end where most does."""
     if not high.any():
         return
     across = {one.kind: one for one in radial}
     shares = [
-        (one.mass * _mean(one, 1.0, high)[0], _mean(one, 1.0, high)[0] / _mean(across[one.kind], 1.0, high)[0])
+        (one.mass * mean_of(one, 1.0, high)[0], mean_of(one, 1.0, high)[0] / mean_of(across[one.kind], 1.0, high)[0])
         for one in axial
         if one.kind in across
     ]
