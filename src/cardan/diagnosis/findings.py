@@ -113,7 +113,6 @@ def diagnose(
     >>> first.cause, first.evidence[0]
     ('F21', 'The noise swells once a turn, by 133 % of its mean.')
     """
-    rows = (known or catalogue()).rows(Fault)
     if isinstance(shown, OrderSpectrum):
         return _by_signs(Signs(orders=tuple(order for order, _size in shown.peaks())), shown.confidence, known)
     if isinstance(shown, Signs):
@@ -122,7 +121,20 @@ def diagnose(
         from cardan.errors import refuse
 
         raise refuse("drive", _("a recording can only be judged beside the drive that it is of"), "missing")
-    seen = features(shown, drive, speed_range=speed_range)
+    return weighed(features(shown, drive, speed_range=speed_range), known=known)
+
+
+def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding, ...]:
+    """Return the causes of what a recording shows, the likeliest first; see `diagnose`.
+
+    Parameters
+    ----------
+    seen : Features
+        What it shows.
+    known : Catalogue, optional
+        With the table of faults; the shipped one when not given.
+    """
+    rows = (known or catalogue()).rows(Fault)
     model = shipped()
     confidence = min(SURE, seen.confidence)
     score = confidence * model.probability(seen.value) + (1.0 - confidence) / len(model.causes)
