@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, plural
 
 from .signal import LARGEST
 
@@ -186,9 +186,11 @@ def evened(times: Array, rows: Array) -> tuple[float, float, Array, tuple[str, .
         found[:, hole] = np.nan
         share = float(np.mean(hole))
         count = int(np.sum(gaps))
-        text = _("the times have {count} gaps, {share:.2g} % of the recording; they were bridged.")
-        if count == 1:
-            text = _("the times have {count} gap, {share:.2g} % of the recording; it was bridged.")
+        text = plural(
+            "the times have {count} gap, {share:.2g} % of the recording; it was bridged.",
+            "the times have {count} gaps, {share:.2g} % of the recording; they were bridged.",
+            count,
+        )
         told.append(text.format(count=count, share=100.0 * float(np.sum(np.diff(times)[gaps] - step)) / lasting))
         trust *= max(0.1, 1.0 - 2.0 * share)
     if jitter > max(UNEVEN * step, rounding):
