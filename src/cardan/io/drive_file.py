@@ -10,6 +10,7 @@ from typing import Any
 
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
+from cardan.drive.tables import tree_of
 from cardan.errors import Problem, check, refuse
 from cardan.files import Enclosed, folder_of, refusal, write_text
 from cardan.mechanism.mechanism import Mechanism
@@ -17,7 +18,7 @@ from cardan.texts import _
 
 from .reader import drive_from_tree
 from .shifts import keep_rows
-from .writer import toml_text, tree_of
+from .writer import toml_text
 
 MAX_BYTES = 20_000_000
 """Larger files are refused; no more of them is read."""

@@ -24,11 +24,10 @@ from cardan.drive.settings import Settings
 from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
+from cardan.drive.tables import written
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
 from cardan.units import DIMENSIONS
-
-from .writer import written
 
 SECTIONS: tuple[tuple[str, type], ...] = (
     ("Head of the file", Drive),

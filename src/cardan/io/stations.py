@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
+from cardan.drive.tables import tree_of
 
 from .drive_file import loads
-from .writer import toml_text, tree_of, whole
+from .writer import toml_text, whole
 
 
 def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".") -> str:

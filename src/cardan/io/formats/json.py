@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.tables import tree_of
 from cardan.errors import InputError
-from cardan.io.writer import tree_of
 
 suffix = ".json"
 
