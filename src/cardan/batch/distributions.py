@@ -1,0 +1,215 @@
+"""Distributions of the values of a field, by their inverse: a share in (0, 1) to a value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+
+class Distribution(Protocol):
+    """How the values of a field are distributed, in the unit of its path."""
+
+    kind: ClassVar[str]
+
+    def at(self, share: Array) -> Array:
+        """Return the values (k,) below which the shares (k,) in (0, 1) lie."""
+        ...
+
+    def told(self) -> dict[str, Any]:
+        """Return the distribution as keys of a plan file."""
+        ...
+
+
+def _told(one: Any) -> dict[str, Any]:
+    return {"distribution": one.kind, **{item.name: getattr(one, item.name) for item in fields(one)}}
+
+
+def _finite(one: Any) -> Iterator[Problem]:
+    for item in fields(one):
+        value = getattr(one, item.name)
+        if not math.isfinite(value):
+            yield Problem(item.name, _("{value} is not a finite number").format(value=value))
+
+
+def _rising(low: float, high: float) -> Iterator[Problem]:
+    if not low < high:
+        yield Problem("high", _("{high} is not above {low}").format(high=high, low=low))
+
+
+def _wide(std: float) -> Iterator[Problem]:
+    if not std > 0.0:
+        yield Problem("std", _("{value} is not above 0").format(value=std))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Uniform:
+    """Every value between two bounds alike.
+
+    Examples
+    --------
+    >>> Uniform(low=-1.0, high=1.0).at(np.asarray([0.25]))
+    array([-0.5])
+    """
+
+    kind: ClassVar[str] = "uniform"
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        check([*_finite(self), *_rising(self.low, self.high)])
+
+    def at(self, share: Array) -> Array:
+        """Return the values (k,) below which the shares (k,) lie."""
+        return self.low + (self.high - self.low) * share
+
+    def told(self) -> dict[str, Any]:
+        """Return the distribution as keys of a plan file."""
+        return _told(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Normal:
+    """The normal distribution of a mean and a standard deviation.
+
+    Examples
+    --------
+    >>> Normal(mean=10.0, std=2.0).at(np.asarray([0.5]))
+    array([10.])
+    """
+
+    kind: ClassVar[str] = "normal"
+    mean: float
+    std: float
+
+    def __post_init__(self) -> None:
+        check([*_finite(self), *_wide(self.std)])
+
+    def at(self, share: Array) -> Array:
+        """Return the values (k,) below which the shares (k,) lie."""
+        from scipy.special import ndtri
+
+        found: Array = self.mean + self.std * ndtri(share)
+        return found
+
+    def told(self) -> dict[str, Any]:
+        """Return the distribution as keys of a plan file."""
+        return _told(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Truncated:
+    """The normal distribution of a mean and a standard deviation, cut at two bounds.
+
+    Examples
+    --------
+    >>> Truncated(mean=0.0, std=1.0, low=-1.0, high=1.0).at(np.asarray([0.0, 0.5, 1.0])) + 0.0
+    array([-1.,  0.,  1.])
+    """
+
+    kind: ClassVar[str] = "truncated"
+    mean: float
+    std: float
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        check([*_finite(self), *_wide(self.std), *_rising(self.low, self.high)])
+
+    def at(self, share: Array) -> Array:
+        """Return the values (k,) below which the shares (k,) lie."""
+        from scipy.special import ndtr, ndtri
+
+        below, above = (float(ndtr((bound - self.mean) / self.std)) for bound in (self.low, self.high))
+        found: Array = np.clip(self.mean + self.std * ndtri(below + (above - below) * share), self.low, self.high)
+        return found
+
+    def told(self) -> dict[str, Any]:
+        """Return the distribution as keys of a plan file."""
+        return _told(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Triangular:
+    """Rising in a straight line to the likeliest value and falling in one behind it.
+
+    Examples
+    --------
+    >>> Triangular(low=0.0, mode=0.0, high=1.0).at(np.asarray([0.75]))
+    array([0.5])
+    """
+
+    kind: ClassVar[str] = "triangular"
+    low: float
+    mode: float
+    high: float
+
+    def __post_init__(self) -> None:
+        outside = not self.low <= self.mode <= self.high
+        text = _("{mode} does not lie between {low} and {high}")
+        message = text.format(mode=self.mode, low=self.low, high=self.high)
+        check([*_finite(self), *_rising(self.low, self.high), *([Problem("mode", message)] if outside else [])])
+
+    def at(self, share: Array) -> Array:
+        """Return the values (k,) below which the shares (k,) lie."""
+        width, up = self.high - self.low, self.mode - self.low
+        rising = self.low + np.sqrt(share * width * up)
+        falling = self.high - np.sqrt((1.0 - share) * width * (width - up))
+        return np.where(share * width < up, rising, falling)
+
+    def told(self) -> dict[str, Any]:
+        """Return the distribution as keys of a plan file."""
+        return _told(self)
+
+
+DISTRIBUTIONS: dict[str, type[Any]] = {one.kind: one for one in (Uniform, Normal, Truncated, Triangular)}
+"""Key ``distribution`` of a plan file -> class."""
+
+
+def correlated(paths: Sequence[str], correlations: Sequence[tuple[str, str, float]]) -> Array | None:
+    """Return the factor L of the correlation matrix L Lᵀ of normal scores, array (k, k); None where all is independent.
+
+    Parameters
+    ----------
+    paths : sequence of k str
+    correlations : sequence of (str, str, float)
+        Two of the paths and their correlation.
+
+    Raises
+    ------
+    InputError
+        A path that does not vary, a correlation outside (-1, 1), or correlations that contradict each other.
+
+    Examples
+    --------
+    >>> correlated(("a", "b"), (("a", "b", 0.6),))
+    array([[1. , 0. ],
+           [0.6, 0.8]])
+    """
+    if not correlations:
+        return None
+    problems = []
+    matrix = np.eye(len(paths))
+    for one, other, value in correlations:
+        for path in (one, other):
+            if path not in paths:
+                problems.append(Problem("correlations", _("{path} does not vary in this design").format(path=path)))
+        if one == other or not -1.0 < value < 1.0:
+            text = _("{value} for {one} and {other}: needed are two fields and a number between -1 and 1")
+            problems.append(Problem("correlations", text.format(value=value, one=one, other=other)))
+        elif one in paths and other in paths:
+            i, j = paths.index(one), paths.index(other)
+            matrix[i, j] = matrix[j, i] = value
+    check(problems)
+    try:
+        factor: Array = np.linalg.cholesky(matrix)
+    except np.linalg.LinAlgError:
+        check([Problem("correlations", _("they contradict each other: no numbers are correlated so"))])
+    return factor
