@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from cardan.maths.compiled.threads import available, share
+from cardan.maths.compiled.threads import LIMITS, available, processors, share
 
 
 @pytest.mark.parametrize("rows", [0, 1, 2, 7, 100, 1001])
@@ -31,5 +31,16 @@ def test_an_error_in_a_thread_is_not_lost():
         share(work, 100, threads=2)
 
 
-def test_processors():
-    assert available() >= 1
+def test_processors(monkeypatch):
+    for name in LIMITS:
+        monkeypatch.delenv(name, raising=False)
+    assert available() == processors() >= 1
+
+
+@pytest.mark.parametrize("name", LIMITS)
+@pytest.mark.parametrize(("said", "threads"), [("1", 1), ("0", None), ("many", None), ("100000", None)])
+def test_a_cluster_says_how_many_threads(monkeypatch, name, said, threads):
+    for other in LIMITS:
+        monkeypatch.delenv(other, raising=False)
+    monkeypatch.setenv(name, said)
+    assert available() == (threads or processors())

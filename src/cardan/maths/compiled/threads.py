@@ -10,7 +10,17 @@ PARTS = 8
 """Pieces for each thread, so that a thread that was held up leaves work to the others."""
 
 
+LIMITS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS")
+"""Variables of the environment that say how many threads a process may have; a cluster gives its workers one."""
+
+
 def available() -> int:
+    """Return how many threads this process may use: one for each processor, or as `LIMITS` say."""
+    said = (os.environ.get(name, "") for name in LIMITS)
+    return min([processors(), *(int(text) for text in said if text.isdecimal() and int(text) > 0)])
+
+
+def processors() -> int:
     """Return how many processors this process may use."""
     try:
         return len(os.sched_getaffinity(0))

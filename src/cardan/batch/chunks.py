@@ -1,0 +1,187 @@
+"""Pieces of a sweep: idempotent, named by what they hold, of a size that pays and fits."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import time
+import tracemalloc
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import overload
+
+from .work import Work
+
+TARGET = 0.5
+"""Seconds that a chunk should take: long against handing it over, short against being stopped or killed."""
+
+ROOM = 2**28
+"""Bytes that the making of one chunk may take."""
+
+MOST = 20_000
+"""How many chunks a sweep is cut into at most, as far as `ROOM` lets it: each is a file."""
+
+ENOUGH = 0.05
+"""Seconds that a trial has to last to be believed."""
+
+UNKNOWN = 256
+"""Rows of a chunk where none could be evaluated to see how long they take."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Rows ``start`` to ``stop`` of a sweep.
+
+    Attributes
+    ----------
+    index : int
+        Which chunk it is.
+    start, stop : int
+        Its rows.
+    name : str
+        Where it begins, and a hash of the sweep and of its rows: the same name means the same content.
+    """
+
+    index: int
+    start: int
+    stop: int
+    name: str
+
+    @property
+    def size(self) -> int:
+        """How many rows it holds."""
+        return self.stop - self.start
+
+
+@dataclass(frozen=True, slots=True)
+class Chunks(Sequence[Chunk]):
+    """All chunks of a sweep, each made when it is asked for: millions of them take no memory.
+
+    Parameters
+    ----------
+    work : str
+        Name of the sweep.
+    size : int
+        How many points it has.
+    rows : int
+        How many rows a chunk has; the last one may have fewer.
+
+    Examples
+    --------
+    >>> chunks = Chunks("a sweep", size=10, rows=4)
+    >>> [(chunk.start, chunk.stop) for chunk in chunks]
+    [(0, 4), (4, 8), (8, 10)]
+    """
+
+    work: str
+    size: int
+    rows: int
+
+    def __len__(self) -> int:
+        return -(-self.size // self.rows)
+
+    def __iter__(self) -> Iterator[Chunk]:
+        return (self[k] for k in range(len(self)))
+
+    @overload
+    def __getitem__(self, index: int) -> Chunk: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Chunk]: ...
+
+    def __getitem__(self, index: int | slice) -> Chunk | Sequence[Chunk]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        k = index + len(self) if index < 0 else index
+        if not 0 <= k < len(self):
+            raise IndexError(index)
+        start, stop = k * self.rows, min((k + 1) * self.rows, self.size)
+        digest = hashlib.sha256(f"{self.work}\n{start}\n{stop}".encode()).hexdigest()
+        return Chunk(k, start, stop, f"{start:012d}-{digest[:16]}")
+
+
+def chunks_of(work: Work, rows: int | None = None) -> Chunks:
+    """Return the chunks of a sweep.
+
+    Parameters
+    ----------
+    work : Work
+        The sweep.
+    rows : int, optional
+        Rows of a chunk; measured by `rows_for` by default.
+
+    Returns
+    -------
+    Chunks
+    """
+    return Chunks(work.name, work.size, rows if rows is not None else rows_for(work))
+
+
+def rows_for(work: Work, *, target: float = TARGET, room: int = ROOM) -> int:
+    """Return how many rows make a chunk that takes about ``target`` seconds and at most ``room`` bytes, measured.
+
+    Parameters
+    ----------
+    work : Work
+        The sweep; a few rows from its middle are evaluated.
+    target : float [s]
+        Time a chunk should take.
+    room : int
+        Bytes that its making may take, working space included.
+
+    Returns
+    -------
+    int
+        A power of two, so that small differences of the clock seldom change it; at least 1.
+
+    Notes
+    -----
+    Memory is the slope of the traced peak between one row and many: what is allocated once does not count a row. Rows
+    that cannot be evaluated tell nothing; their chunks will say why.
+    """
+    try:
+        rows = _measured(work, target, room)
+    except Exception:
+        rows = max(float(UNKNOWN), work.size / MOST)
+    return int(2 ** max(0, round(math.log2(max(rows, 1.0)))))
+
+
+def _measured(work: Work, target: float, room: int) -> float:
+    _seen(work, 1)  # what is loaded or compiled at first is no cost of a row
+    count, seconds = 1, _seconds(work, 1)
+    while seconds < min(ENOUGH, target) and count < work.size:
+        count = min(work.size, count * (8 if seconds < 0.2 * ENOUGH else 2))
+        seconds = _seconds(work, count)
+    rows = max(count * target / max(seconds, 1e-9), work.size / MOST)
+    if rows > 1.5 and work.size > 1:
+        count = max(count, 2)
+        slope = (_peak(work, count) - _peak(work, 1)) / (count - 1)
+        rows = min(rows, room / max(slope, 1.0))
+    return rows
+
+
+def _seen(work: Work, count: int) -> None:
+    start = (work.size - count) // 2
+    rows = work.evaluate(start, start + count)
+    for reduction in work.reductions:
+        reduction.add(reduction.empty(), rows, start)
+
+
+def _seconds(work: Work, count: int) -> float:
+    begin = time.perf_counter()
+    _seen(work, count)
+    return time.perf_counter() - begin
+
+
+def _peak(work: Work, count: int) -> int:
+    ours = not tracemalloc.is_tracing()
+    if ours:
+        tracemalloc.start(1)
+    try:
+        tracemalloc.reset_peak()
+        before = tracemalloc.get_traced_memory()[0]
+        _seen(work, count)
+        return tracemalloc.get_traced_memory()[1] - before
+    finally:
+        if ours:
+            tracemalloc.stop()
