@@ -104,6 +104,8 @@ _HOMES = {
     "OrderSpectrum": "diagnosis.orders",
     "order_map": "diagnosis.orders",
     "order_spectrum": "diagnosis.orders",
+    "Examination": "diagnosis.examination",
+    "examine": "diagnosis.examination",
     "Expected": "diagnosis.expected",
     "expected_orders": "diagnosis.expected",
     "Finding": "diagnosis.findings",
@@ -240,6 +242,8 @@ if TYPE_CHECKING:
     from .checks.checks import CHECKS as CHECKS
     from .checks.checks import check as check
     from .checks.verdict import Verdict as Verdict
+    from .diagnosis.examination import Examination as Examination
+    from .diagnosis.examination import examine as examine
     from .diagnosis.expected import Expected as Expected
     from .diagnosis.expected import expected_orders as expected_orders
     from .diagnosis.findings import Finding as Finding

@@ -50,6 +50,7 @@ _MAKERS = {
     "cardan.diagnosis.turning.Rotation": "diagnosis_motion.rotation_figures",
     "cardan.diagnosis.orbit.Orbit": "diagnosis_motion.orbit_figures",
     "cardan.diagnosis.torsional.TorsionalVibration": "diagnosis_motion.torsional_figures",
+    "cardan.diagnosis.examination.Examination": "examination.examination_figures",
 }
 """Result -> file and function of this folder that make its figures."""
 
