@@ -78,3 +78,20 @@ def test_amplitudes_of_the_tracks_are_those_found():
     curves = [one for one in figure.panels[0].series if isinstance(one, Curve)]
     for curve, row in zip(curves, TRACKS.amplitude, strict=True):
         assert np.sort(curve.y) == pytest.approx(np.sort(row))
+
+
+def test_a_run_up_and_a_hold_at_another_level_are_not_mixed():
+    """Over the speed only the run-up: a hold has the same speed with other amplitudes."""
+    count = TRACKS.speed.size
+    held = replace(
+        TRACKS,
+        time=np.concatenate([TRACKS.time, TRACKS.time[-1] + TRACKS.time]),
+        speed=np.concatenate([TRACKS.speed, np.full(count, 0.9 * TRACKS.speed[-1])]),
+        value=np.concatenate([TRACKS.value, 9.0 * TRACKS.value], axis=1),
+    )
+    (figure,) = figures.for_result(held)
+    assert figure.panels[0].x.unit == "rpm"
+    for curve, row in zip(figure.panels[0].series, TRACKS.amplitude, strict=True):
+        assert np.sort(curve.y) == pytest.approx(np.sort(row))
+    swaying = replace(TRACKS, speed=TRACKS.speed[0] * (2.0 + np.sin(np.arange(count))))
+    assert figures.for_result(swaying)[0].panels[0].x.unit == "s"

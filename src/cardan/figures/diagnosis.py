@@ -27,6 +27,9 @@ NAMED = 5
 WHOLE = 0.02
 """How far from a whole number an order may be to be called whole."""
 
+RUN = 0.7
+"""Share of the range of speed that a run through it has to cover to be drawn over the speed."""
+
 BELIEVED = 0.6
 """Confidence below which the sentence says so."""
 
@@ -247,12 +250,14 @@ def tracks_figure(found: TrackedOrders) -> Figure:
         Of one channel.
     """
     unit, size = UNITS[found.quantity]
-    order = np.argsort(found.speed, kind="stable")
-    steady = float(np.ptp(found.speed)) < 0.02 * float(np.mean(found.speed))
-    across = found.time if steady else found.speed[order] / rpm
-    pick = np.arange(found.time.size) if steady else order
-    bottom = axis(_("time"), "s", [across], margin=0.0, count=8)
-    if not steady:
+    run = _longest_run(found.speed)
+    if run is None:
+        pick = np.arange(found.time.size)
+        across = found.time
+        bottom = axis(_("time"), "s", [across], margin=0.0, count=8)
+    else:
+        pick = run[0] + np.argsort(found.speed[slice(*run)], kind="stable")
+        across = found.speed[pick] / rpm
         bottom = axis(_("speed"), "rpm", [across], margin=0.0, count=8)
     level = found.amplitude[:, pick] / size
     looks = [(shaft(k + 1), DASHES[k // 8 % len(DASHES)]) for k in range(len(found.orders))]
@@ -284,7 +289,7 @@ def tracks_figure(found: TrackedOrders) -> Figure:
             ),
         )
         rows.append(Row(panels=(lower,), height=1.3))
-    at = np.unravel_index(int(np.argmax(found.amplitude)), found.amplitude.shape)
+    at = np.unravel_index(int(np.argmax(level)), level.shape)
     text = _("Order {order} is the highest: {amplitude} {unit} at {speed} rpm.")
     return Figure(
         name="tracked-orders",
@@ -292,15 +297,33 @@ def tracks_figure(found: TrackedOrders) -> Figure:
         sentence=told(
             text.format(
                 order=f"{found.orders[at[0]]:g}",
-                amplitude=significant(float(found.amplitude[at]) / size, 3),
+                amplitude=significant(float(level[at]), 3),
                 unit=unit,
-                speed=significant(float(found.speed[at[1]]) / rpm, 3),
+                speed=significant(float(found.speed[pick[at[1]]]) / rpm, 3),
             ),
             found.confidence,
         ),
         source=_("all orders fitted together in windows of {turns} turns").format(turns=found.turns),
         rows=tuple(rows),
     )
+
+
+def _longest_run(speed: Array) -> tuple[int, int] | None:
+    """Return begin and end of the windows over which the speed rises, or falls, through most of its range.
+
+    None where no run goes through most of it, as where the speed is held: torque and speed then change in turn, and a
+    speed has more than one value.
+    """
+    if speed.size < 3 or float(np.ptp(speed)) < 0.02 * float(np.mean(speed)):
+        return None
+    from scipy.ndimage import median_filter
+
+    way = np.sign(np.diff(median_filter(speed, size=5, mode="nearest")))  # a stray window turns no run
+    ends = np.concatenate([[0], np.flatnonzero(np.diff(way)) + 1, [way.size]])
+    runs = [(int(first), int(last) + 1) for first, last in zip(ends[:-1], ends[1:], strict=True)]
+    best = max(runs, key=lambda run: abs(float(speed[run[1] - 1] - speed[run[0]])))
+    swept = abs(float(speed[best[1] - 1] - speed[best[0]]))
+    return best if swept > RUN * float(np.ptp(speed)) else None
 
 
 def _broken(phase: Array) -> Array:
