@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -320,7 +321,7 @@ def _longest_run(speed: Array) -> tuple[int, int] | None:
 
     way = np.sign(np.diff(median_filter(speed, size=5, mode="nearest")))  # a stray window turns no run
     ends = np.concatenate([[0], np.flatnonzero(np.diff(way)) + 1, [way.size]])
-    runs = [(int(first), int(last) + 1) for first, last in zip(ends[:-1], ends[1:], strict=True)]
+    runs = [(int(first), int(last) + 1) for first, last in pairwise(ends)]
     best = max(runs, key=lambda run: abs(float(speed[run[1] - 1] - speed[run[0]])))
     swept = abs(float(speed[best[1] - 1] - speed[best[0]]))
     return best if swept > RUN * float(np.ptp(speed)) else None
