@@ -28,8 +28,8 @@ NAMED = 5
 WHOLE = 0.02
 """How far from a whole number an order may be to be called whole."""
 
-RUN = 0.7
-"""Share of the range of speed that a run through it has to cover to be drawn over the speed."""
+RUN, LASTING = 0.7, 0.2
+"""Shares of the range of speed and of the recording that one run has to cover to be drawn over the speed."""
 
 BELIEVED = 0.6
 """Confidence below which the sentence says so."""
@@ -324,7 +324,7 @@ def _longest_run(speed: Array) -> tuple[int, int] | None:
     runs = [(int(first), int(last) + 1) for first, last in pairwise(ends)]
     best = max(runs, key=lambda run: abs(float(speed[run[1] - 1] - speed[run[0]])))
     swept = abs(float(speed[best[1] - 1] - speed[best[0]]))
-    return best if swept > RUN * float(np.ptp(speed)) else None
+    return best if swept > RUN * float(np.ptp(speed)) and best[1] - best[0] > LASTING * speed.size else None
 
 
 def _broken(phase: Array) -> Array:
