@@ -16,6 +16,7 @@ from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
+from .doubts import doubts
 from .expected import Expected, expected_orders
 from .levels import ORDERS, TURNS, Track, accelerations, force_on, healthy_force, level_of, mean_of, stands_out
 from .order_tracks import TrackedOrders, tracked_orders
@@ -158,6 +159,7 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
     _uneven(out, signal, shaft, base)
     value = np.asarray([out[name] for name in NAMES])
     known = float(np.mean(np.isfinite(value)))
+    misfits = tuple(doubts(signal, shaft, base))
     return Features(
         value=value,
         speed=shaft.speeds,
@@ -165,13 +167,18 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
         peak_2=peaks[0],
         peak_3=peaks[1],
         critical=base.critical,
-        confidence=signal.trust * shaft.confidence * (0.3 + 0.7 * known),
-        cautions=(*signal.cautions, *shaft.cautions, *_doubts(out, told, low, base)),
+        confidence=signal.trust * shaft.confidence * (0.3 + 0.7 * known) * math.prod(share for _text, share in misfits),
+        cautions=(
+            *signal.cautions,
+            *shaft.cautions,
+            *(text for text, _share in misfits),
+            *_unknown(out, told, low, base),
+        ),
         rotation=shaft,
     )
 
 
-def _doubts(out: dict[str, float], told: bool, low: Array, base: Plant) -> list[str]:
+def _unknown(out: dict[str, float], told: bool, low: Array, base: Plant) -> list[str]:
     found = []
     if not told or not low.any():
         found.append(_("The recording has no two torques at one speed: what the torque changes is not known."))

@@ -54,7 +54,7 @@ def accelerations(signal: Signal, shaft: Rotation, base: Plant) -> tuple[list[Tr
         except InputError:
             continue
         value = found.value * (np.asarray(found.orders)[:, None] * found.speed) ** powers[channel.quantity]
-        house = next((one for one in base.housings if one.place == channel.place), base.housings[-1])
+        house = base.housing_at(channel.place) or base.housings[-1]
         probes = np.sqrt(np.median(np.abs(value[len(ORDERS) :]) ** 2, axis=1) / math.log(2.0))
         noise = np.exp(np.interp(np.log(ORDERS), np.log(PROBES), np.log(np.maximum(probes, 1e-300))))
         track = Track(kind=house.kind, mass=house.mass, value=value[: len(ORDERS)], noise=noise, found=found)

@@ -44,6 +44,8 @@ class Housing:
         ``input``, ``centre`` or ``output``.
     place : str
         Key path of the support, or of the shaft where the drive has no support there.
+    places : tuple of str
+        All key paths that belong to it: supports, shafts and joints.
     joints : tuple of int
         Joints whose forces it takes, counted from 0.
     mass : float [kg]
@@ -52,6 +54,7 @@ class Housing:
 
     kind: str
     place: str
+    places: tuple[str, ...]
     joints: tuple[int, ...]
     mass: float
 
@@ -103,6 +106,10 @@ class Plant:
     def housing(self, kind: str) -> Housing | None:
         """Return the housing of a kind, None where the drive has none."""
         return next((one for one in self.housings if one.kind == kind), None)
+
+    def housing_at(self, place: str) -> Housing | None:
+        """Return the housing that a key path belongs to, None where it belongs to none."""
+        return next((one for one in self.housings if place in one.places), None)
 
 
 def plant(drive: Drive) -> Plant:
@@ -193,14 +200,14 @@ def _critical(drive: Drive, assumed: list[str]) -> float:
 def _housings(drive: Drive, mass: float) -> tuple[Housing, ...]:
     count = len(drive.joints)
 
-    def held(first: int, last: int) -> str:
+    def housing(kind: str, first: int, last: int, joints: tuple[int, ...], share: float) -> Housing:
         numbers = range(first, last + 1)
-        at = next((k for k, one in enumerate(drive.supports) if one.shaft in numbers), None)
-        return f"shafts[{first - 1}]" if at is None else f"supports[{at}]"
+        supports = [f"supports[{k}]" for k, one in enumerate(drive.supports) if one.shaft in numbers]
+        shafts = [f"shafts[{number - 1}]" for number in numbers]
+        places = (*supports, *shafts, *(f"joints[{k}]" for k in joints))
+        return Housing(kind=kind, place=places[0], places=places, joints=joints, mass=share * mass)
 
-    found = [Housing(kind="input", place=held(1, 1), joints=(0,), mass=HOUSING * mass)]
+    found = [housing("input", 1, 1, (0,), HOUSING)]
     if count > 2:
-        inner = tuple(range(1, count - 1))
-        found.append(Housing(kind="centre", place=held(2, count), joints=inner, mass=HANGER * mass))
-    last = Housing(kind="output", place=held(count + 1, count + 1), joints=(count - 1,), mass=HOUSING * mass)
-    return (*found, last)
+        found.append(housing("centre", 2, count, tuple(range(1, count - 1)), HANGER))
+    return (*found, housing("output", count + 1, count + 1, (count - 1,), HOUSING))

@@ -1,0 +1,87 @@
+"""What does not fit between a recording and the drive that it is said to be of: speeds and places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from cardan.texts import _
+from cardan.units import rpm
+
+from .plant import Plant
+from .signal import Signal
+from .turning import Rotation
+
+TOO_FAST = 1.15
+"""Times the top speed of the drive that a recording may reach."""
+
+TOO_SLOW = 0.5
+"""Share of the least speed of the drive that a recording should reach."""
+
+APART = 0.03
+"""Share by which the mean speed of the output may differ from that of the shaft: over whole turns joints make none."""
+
+MISFIT, FAR, PLACELESS = 0.3, 0.6, 0.8
+"""What is left of the confidence: where two speeds contradict each other, where the recording lies outside of the
+running of the drive, where a sensor does not say its place."""
+
+
+def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+    """Yield what does not fit, each with the share of confidence that it leaves.
+
+    Parameters
+    ----------
+    signal : Signal
+        The recording.
+    shaft : Rotation
+        How the shaft turned.
+    base : Plant
+        The drive.
+    """
+    yield from _speeds(shaft, base)
+    yield from _other_speeds(signal, shaft)
+    shaking = [one for one in signal.measured if one.quantity in ("acceleration", "velocity", "displacement")]
+    lost = [one for one in shaking if base.housing_at(one.place) is None]
+    if lost:
+        text = _("It is not known where {names} sits; it counts as sitting at the output. Known places are {places}.")
+        names = ", ".join(f"{one.name} ({one.place})" if one.place else one.name for one in lost)
+        places = ", ".join(one.place for one in base.housings)
+        yield text.format(names=names, places=places), PLACELESS
+
+
+def _speeds(shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
+    """Yield a speed that the drive does not have."""
+    if "duty.speed" in base.assumed:
+        return
+    high, (low, top) = shaft.speeds[1], base.speed
+    if high > TOO_FAST * top:
+        text = _(
+            "The shaft turned up to {high:.4g} rpm; the drive runs up to {top:.4g} rpm: the sampling rate, the pulses "
+            "per turn or the drive file are wrong."
+        )
+        yield text.format(high=high / rpm, top=top / rpm), MISFIT
+    elif high < TOO_SLOW * low:
+        text = _(
+            "The shaft turned up to {high:.4g} rpm only; the drive runs from {low:.4g} rpm: the recording is far from "
+            "its running, or the sampling rate or the pulses per turn are wrong."
+        )
+        yield text.format(high=high / rpm, low=low / rpm), FAR
+
+
+def _other_speeds(signal: Signal, shaft: Rotation) -> Iterator[tuple[str, float]]:
+    """Yield channels of a speed that turn otherwise than the shaft."""
+    for k, one in enumerate(signal.channels):
+        if k == signal.tacho or one.quantity != "angular_speed":
+            continue
+        inside = (one.time >= shaft.time[0]) & (one.time <= shaft.time[-1])
+        if not np.any(inside):
+            continue
+        mean = float(np.mean(shaft.speed_at(one.time[inside])))
+        other = abs(float(np.mean(one.values[inside])))
+        if abs(other / mean - 1.0) > APART:
+            text = _(
+                "{name} turns at {other:.4g} rpm on average and the shaft at {mean:.4g} rpm: the sampling rate, the "
+                "pulses per turn or a unit is wrong, or it is another shaft."
+            )
+            yield text.format(name=one.name, other=other / rpm, mean=mean / rpm), MISFIT
