@@ -136,3 +136,23 @@ def test_a_channel_from_another_time_is_refused():
     late = Channel(name="late", values=signal.channels[1].values, rate=4000.0, start=100.0)
     with pytest.raises(InputError, match="late: shares 0 turns"):
         order_spectrum(late, rotation(signal))
+
+
+def test_a_map_that_is_stopped_ends_where_it_was_read_to_and_long_ones_are_read_in_blocks(monkeypatch):
+    signal = recorded(ORDERS)
+    shaft, front = rotation(signal), signal.channel("front")
+    whole = order_map(front, shaft)
+    tracked = tracked_orders(front, shaft)
+    monkeypatch.setattr("cardan.diagnosis.order_windows.BLOCK", 3000)
+    monkeypatch.setattr("cardan.maths.resampling.BLOCK", 500)
+    shares = []
+    assert np.allclose(order_map(front, shaft, progress=shares.append).amplitude, whole.amplitude, rtol=0, atol=1e-12)
+    assert np.allclose(tracked_orders(front, shaft).value, tracked.value, rtol=0, atol=1e-12)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    part = order_map(front, shaft, progress=lambda share: "stop" if share > 0.5 else None)
+    assert 0 < part.time.size < whole.time.size
+    assert part.time[-1] < 0.7 * whole.time[-1]
+    assert np.median(part.amplitude[:, part.order == 1.0]) == pytest.approx(1.0, rel=2e-3)
+    with pytest.raises(InputError, match="was stopped after"):
+        order_map(front, shaft, progress=lambda share: "stop", turns=4, highest=100.0)

@@ -90,3 +90,13 @@ def test_nothing_to_look_at_is_refused():
         rotation(Signal(channels=(Channel(name="dead", values=np.zeros(100), rate=100.0),)))
     with pytest.raises(InputError, match="too little to find a speed"):
         rotation(Signal(channels=(Channel(name="short", values=np.arange(10.0), rate=100.0),)))
+
+
+def test_a_search_that_is_stopped_has_tried_one_length_of_the_window():
+    shares = []
+    whole = found({1: (1.0, 0.3), 2: (0.4, 0.0)}, speed_range=(80.0, 180.0), progress=shares.append)
+    first = found({1: (1.0, 0.3), 2: (0.4, 0.0)}, speed_range=(80.0, 180.0), progress=lambda share: "stop")
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert first.speed_at(INSIDE) == pytest.approx(TRUE, rel=0.02)
+    assert whole.confidence >= first.confidence - 0.2

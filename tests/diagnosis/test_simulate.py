@@ -50,3 +50,21 @@ def test_bad_options_come_all_at_once():
     with pytest.raises(InputError) as told:
         simulate_fault(example("car-propshaft"), snr=float("nan"), runs=Runs(hold=0.0, rate=-1.0))
     assert [one.field for one in told.value.problems] == ["snr", "runs.hold", "runs.rate"]
+
+
+def test_a_recording_that_is_stopped_lacks_sensors_and_one_beyond_the_memory_is_refused():
+    shares = []
+
+    def stopping(share):
+        shares.append(share)
+        return "stop" if share > 0.3 else None
+
+    drive = example("car-propshaft")
+    part = simulate_fault(drive, "bent", seed=1, runs=SHORT, progress=stopping)
+    assert [one.name for one in part.channels] == ["tacho", "input radial", "output radial", "torque"]
+    assert "lacks sensors" in part.cautions[0]
+    assert shares == [0.2, 0.4]
+    whole = simulate_fault(drive, "bent", seed=1, runs=SHORT)
+    assert np.array_equal(part.channel("output radial").values, whole.channel("output radial").values)
+    with pytest.raises(InputError, match=r"runs\.rate"):
+        simulate_fault(drive, runs=Runs(run_up=1e7))

@@ -12,9 +12,10 @@ from cardan.errors import check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .order_windows import TURNS, cut, refused, starts, turned, window_shape
+from .order_windows import TURNS, cut, refused, turned, window_shape, windows_of
 from .signal import Channel
 from .turning import Rotation
+from .watching import Progress
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -66,7 +67,12 @@ class TrackedOrders:
 
 
 def tracked_orders(
-    channel: Channel, rotation: Rotation, orders: Sequence[float] = (1.0, 2.0, 3.0, 4.0), *, turns: int = TURNS
+    channel: Channel,
+    rotation: Rotation,
+    orders: Sequence[float] = (1.0, 2.0, 3.0, 4.0),
+    *,
+    turns: int = TURNS,
+    progress: Progress | None = None,
 ) -> TrackedOrders:
     """Return amplitude and phase of some orders over the speed.
 
@@ -80,6 +86,8 @@ def tracked_orders(
         Those to follow, whole or not.
     turns : int
         In a window; four windows in the length of one.
+    progress : function, optional
+        Told the share done; when it answers "stop" the orders are followed as far as the channel was read.
 
     Returns
     -------
@@ -109,22 +117,26 @@ def tracked_orders(
     wanted = np.asarray(orders, dtype=float)
     highest = float(np.max(wanted, initial=1.0))
     check(refused(highest, turns, "hann"))
-    read = turned(channel, rotation, highest=highest)
-    used, rows, time, speed = cut(read, turns)
+    read = turned(channel, rotation, highest=highest, progress=progress)
+    used, begins, time, speed = cut(read, turns)
     every = np.sort(np.concatenate([[0.0], wanted]))
     if wanted.size == 0 or float(np.min(np.diff(every))) < 1.5 / used:
         text = _("orders must lie {least:.3g} apart, and be above that, to be told apart in {turns} turns")
         raise refuse("orders", text.format(least=1.5 / used, turns=used), "out_of_range")
-    angle = (np.arange(rows.shape[1]) - 0.5 * rows.shape[1]) * (2.0 * math.pi / read.per_turn)
-    weight = np.sqrt(window_shape(rows.shape[1], "hann"))[:, None]
+    length = used * read.per_turn
+    angle = (np.arange(length) - 0.5 * length) * (2.0 * math.pi / read.per_turn)
+    weight = np.sqrt(window_shape(length, "hann"))
     waves = np.concatenate(
         [np.ones((angle.size, 1)), np.cos(np.outer(angle, wanted)), np.sin(np.outer(angle, wanted))], axis=1
     )
-    solution = (np.linalg.pinv(weight * waves) @ (weight * rows.T)).T
-    left = rows - solution @ waves.T
-    residual = np.sqrt(np.sum((weight[:, 0] * left) ** 2, axis=1) / np.sum(weight**2))
+    fit = np.linalg.pinv(weight[:, None] * waves).T * weight[:, None]
+    solution, residual = np.empty((begins.size, waves.shape[1])), np.empty(begins.size)
+    for some, rows in windows_of(read, used, begins):
+        solution[some] = rows @ fit
+        left = rows - solution[some] @ waves.T
+        residual[some] = np.sqrt(np.sum((weight * left) ** 2, axis=1) / np.sum(weight**2))
     local = solution[:, 1 : wanted.size + 1] - 1j * solution[:, wanted.size + 1 :]
-    middle = read.angle[0] + (2.0 * math.pi / read.per_turn) * (starts(read, used) + 0.5 * rows.shape[1])
+    middle = read.angle[0] + (2.0 * math.pi / read.per_turn) * (begins + 0.5 * length)
     return TrackedOrders(
         name=channel.name,
         quantity=channel.quantity,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +15,16 @@ from cardan.texts import _
 
 from .signal import Channel
 from .turning import LEAST_TURNS, Rotation
+from .watching import Progress
 
 HIGHEST = 10.0
 """Order up to which spectra reach."""
 
 TURNS = 16
 """Turns in a window."""
+
+BLOCK = 1 << 20
+"""Points that are transformed at once; bounds the memory."""
 
 OVERLAP = 0.75
 """Share of a window that the next one shares with it."""
@@ -56,7 +61,13 @@ class Turned:
     per_turn: int
 
 
-def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) -> Turned:
+def turned(
+    channel: Channel,
+    rotation: Rotation,
+    *,
+    highest: float = HIGHEST,
+    progress: Progress | None = None,
+) -> Turned:
     """Return a channel at even angles of the shaft, filtered so that nothing folds onto the orders asked for.
 
     Parameters
@@ -67,6 +78,8 @@ def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) ->
         Of the shaft, over at least a part of the channel.
     highest : float
         Order up to which it is to be right.
+    progress : function, optional
+        Told the share done; when it answers "stop" what was read so far counts.
 
     Returns
     -------
@@ -76,7 +89,7 @@ def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) ->
     Raises
     ------
     InputError
-        Channel and rotation share fewer than three turns.
+        Channel and rotation share fewer than three turns, or it was stopped before so many were read.
 
     Notes
     -----
@@ -98,8 +111,11 @@ def turned(channel: Channel, rotation: Rotation, *, highest: float = HIGHEST) ->
     angle = step * place
     time = rotation.time_at(angle)
     distance = np.gradient(time) * channel.rate
-    values = read_slowly(channel.values, (time - channel.start) * channel.rate, distance)
-    return Turned(values=values, angle=angle, time=time, per_turn=per_turn)
+    values = read_slowly(channel.values, (time - channel.start) * channel.rate, distance, progress=progress)
+    if values.size < LEAST_TURNS * per_turn:
+        text = _("was stopped after {given:.3g} turns; at least {wanted:g} are needed")
+        raise refuse(channel.name, text.format(given=values.size / per_turn, wanted=LEAST_TURNS), "out_of_range")
+    return Turned(values=values, angle=angle[: values.size], time=time[: values.size], per_turn=per_turn)
 
 
 def refused(highest: float, turns: int, window: str) -> list[Problem]:
@@ -138,22 +154,29 @@ def starts(read: Turned, used: int) -> Array:
 
 
 def cut(read: Turned, turns: int) -> tuple[int, Array, Array, Array]:
-    """Return the turns in a window, the windows (w, n), their middle times [s] and mean speeds [rad/s]."""
+    """Return the turns in a window, and where the windows begin, their middle times [s] and mean speeds [rad/s]."""
     used = min(turns, read.values.size // read.per_turn)
     length = used * read.per_turn
     begins = starts(read, used)
-    rows = read.values[begins[:, None] + np.arange(length)]
     last = np.minimum(begins + length, read.time.size - 1)
     speed = (read.angle[last] - read.angle[begins]) / (read.time[last] - read.time[begins])
-    return used, rows, read.time[begins + length // 2], speed
+    return used, begins, read.time[begins + length // 2], speed
 
 
-def lines_of(read: Turned, turns: int, window: str) -> tuple[Array, Array, Array, int]:
-    """Return the lines of all windows (w, k) with phases against angle 0, middle times, speeds, turns in a window."""
-    used, rows, time, speed = cut(read, turns)
-    shape = window_shape(rows.shape[1], window)
-    lines = np.fft.rfft(rows * shape, axis=1) * (2.0 / np.sum(shape))
-    lines[:, 0] *= 0.5
-    order = np.arange(lines.shape[1]) / used
-    begin = read.angle[starts(read, used)]
-    return lines * np.exp(-1j * np.outer(begin, order)), time, speed, used
+def windows_of(read: Turned, used: int, begins: Array) -> Iterator[tuple[slice, Array]]:
+    """Yield the windows (b, n), some of them at a time, each time with which ones they are."""
+    length = used * read.per_turn
+    count = max(1, BLOCK // length)
+    for first in range(0, begins.size, count):
+        some = slice(first, first + count)
+        yield some, read.values[begins[some, None] + np.arange(length)]
+
+
+def lines_of(read: Turned, used: int, begins: Array, window: str) -> Iterator[tuple[slice, Array]]:
+    """Yield the lines of the windows (b, k), with phases against angle 0, likewise."""
+    shape = window_shape(used * read.per_turn, window)
+    for some, rows in windows_of(read, used, begins):
+        lines = np.fft.rfft(rows * shape, axis=1) * (2.0 / np.sum(shape))
+        lines[:, 0] *= 0.5
+        order = np.arange(lines.shape[1]) / used
+        yield some, lines * np.exp(-1j * np.outer(read.angle[begins[some]], order))

@@ -14,9 +14,10 @@ import numpy as np
 from cardan.errors import check
 from cardan.maths.arrays import Array
 
-from .order_windows import HIGHEST, TURNS, line_width, lines_of, refused, turned
+from .order_windows import HIGHEST, TURNS, cut, line_width, lines_of, refused, turned
 from .signal import Channel
 from .turning import Rotation
+from .watching import Progress
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -134,7 +135,13 @@ class OrderMap:
 
 
 def order_spectrum(
-    channel: Channel, rotation: Rotation, *, highest: float = HIGHEST, turns: int = TURNS, window: str = "hann"
+    channel: Channel,
+    rotation: Rotation,
+    *,
+    highest: float = HIGHEST,
+    turns: int = TURNS,
+    window: str = "hann",
+    progress: Progress | None = None,
 ) -> OrderSpectrum:
     """Return the amplitudes of a channel over the orders of a shaft.
 
@@ -150,6 +157,8 @@ def order_spectrum(
         In a window; fewer where the recording has not so many. Lines lie 1/turns apart.
     window : str
         ``hann`` tells near orders apart; ``flattop`` reads amplitudes of any order to 0.1 %.
+    progress : function, optional
+        Told the share done; when it answers "stop" the spectrum is that of what was read so far.
 
     Returns
     -------
@@ -174,23 +183,26 @@ def order_spectrum(
     0.5000, 1.0000 rad
     """
     check(refused(highest, turns, window))
-    read = turned(channel, rotation, highest=highest)
-    lines, _time, _speed, used = lines_of(read, turns, window)
-    keep = np.arange(lines.shape[1]) / used <= highest + 1e-9
-    lines = lines[:, keep]
-    amplitude = np.sqrt(np.mean(np.abs(lines) ** 2, axis=0))
-    order = np.arange(lines.shape[1]) / used
+    read = turned(channel, rotation, highest=highest, progress=progress)
+    used, begins, _time, _speed = cut(read, turns)
+    count = _kept(highest, used, read.per_turn)
+    power, mean = np.zeros(count), np.zeros(count, dtype=complex)
+    for _some, lines in lines_of(read, used, begins, window):
+        power += np.sum(np.abs(lines[:, :count]) ** 2, axis=0)
+        mean += np.sum(lines[:, :count], axis=0)
+    amplitude = np.sqrt(power / begins.size)
+    order = np.arange(count) / used
     return OrderSpectrum(
         name=channel.name,
         quantity=channel.quantity,
         order=order,
         amplitude=amplitude,
-        coherent=np.mean(lines, axis=0),
+        coherent=mean / begins.size,
         floor=_floor(amplitude, used),
         resolution=line_width(window) / used,
         window=window,
         turns=used,
-        windows=len(lines),
+        windows=begins.size,
         speeds=rotation.speeds,
         confidence=rotation.confidence * channel.trust,
     )
@@ -203,6 +215,7 @@ def order_map(
     highest: float = HIGHEST,
     turns: int = TURNS,
     window: str = "hann",
+    progress: Progress | None = None,
 ) -> OrderMap:
     """Return the amplitudes of a channel over the orders of a shaft and its speed, as in a run-up.
 
@@ -218,6 +231,8 @@ def order_map(
         In a window; a line of the map for each, four in the length of one.
     window : str
         As in `order_spectrum`.
+    progress : function, optional
+        Told the share done; when it answers "stop" the map ends where the channel was read to.
 
     Returns
     -------
@@ -241,20 +256,28 @@ def order_map(
     75 rad/s: 1.00, 230 rad/s: 1.00
     """
     check(refused(highest, turns, window))
-    read = turned(channel, rotation, highest=highest)
-    lines, time, speed, used = lines_of(read, turns, window)
-    keep = np.arange(lines.shape[1]) / used <= highest + 1e-9
+    read = turned(channel, rotation, highest=highest, progress=progress)
+    used, begins, time, speed = cut(read, turns)
+    count = _kept(highest, used, read.per_turn)
+    amplitude = np.empty((begins.size, count))
+    for some, lines in lines_of(read, used, begins, window):
+        amplitude[some] = np.abs(lines[:, :count])
     return OrderMap(
         name=channel.name,
         quantity=channel.quantity,
         time=time,
         speed=speed,
-        order=np.arange(lines.shape[1])[keep] / used,
-        amplitude=np.abs(lines[:, keep]),
+        order=np.arange(count) / used,
+        amplitude=amplitude,
         resolution=line_width(window) / used,
         turns=used,
         confidence=rotation.confidence * channel.trust,
     )
+
+
+def _kept(highest: float, used: int, per_turn: int) -> int:
+    """Return how many lines reach up to an order."""
+    return min(math.floor(highest * used + 1e-6), used * per_turn // 2) + 1
 
 
 def _floor(amplitude: Array, turns: int) -> Array:

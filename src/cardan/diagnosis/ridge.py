@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
@@ -20,6 +21,7 @@ from cardan.units import rpm
 
 from .signal import Channel
 from .turning import LEAST_TURNS, Rotation
+from .watching import Progress, Watch
 
 BAND = (1.5, 250.0)
 """Turns a second between which a shaft is sought where nothing is known of it [Hz]."""
@@ -32,6 +34,12 @@ WINDOWS = (0.25, 0.5, 1.0, 2.0, 4.0)
 
 HOPS = 4
 """Steps of the spectrogram in the length of a window."""
+
+AROUND = 16
+"""Lines to each side whose median a line is put over."""
+
+BLOCK = 1 << 20
+"""Values that are transformed at once; bounds the memory."""
 
 JUMP = 4
 """Lines that the ridge may change by from step to step."""
@@ -76,7 +84,11 @@ class _Path:
 
 
 def ridge(
-    channels: Sequence[Channel], *, speed_range: tuple[float, float] | None = None, order: float | None = None
+    channels: Sequence[Channel],
+    *,
+    speed_range: tuple[float, float] | None = None,
+    order: float | None = None,
+    progress: Progress | None = None,
 ) -> Rotation:
     """Return how a shaft turned, from the strongest line of what shakes.
 
@@ -88,6 +100,8 @@ def ridge(
         Least and greatest speed of the shaft. The narrower, the surer.
     order : float, optional
         Order of the strongest line, where it is known.
+    progress : function, optional
+        Told the share done; when it answers "stop" lengths of the window not yet tried are left out, all but the first.
 
     Returns
     -------
@@ -129,7 +143,7 @@ def ridge(
             "lasts {given:.3g} s with {rate:.6g} values a second; that is too little to find a speed without a tacho"
         )
         raise refuse(usable[0].name, text.format(given=usable[0].duration, rate=usable[0].rate), "out_of_range")
-    found, factor = _strongest(together, low, high, order)
+    found, factor = _strongest(together, low, high, order, progress)
     shares = _shares(found, low if speed_range else BAND[0], high, order, factor)
     best = max(shares, key=lambda one: shares[one])
     trust = min(one.trust for one in together)
@@ -174,7 +188,7 @@ def _told(found: _Path, best: float, shares: dict[float, float], tone: float, st
 
 
 def _strongest(
-    channels: Sequence[Channel], low: float, high: float, order: float | None
+    channels: Sequence[Channel], low: float, high: float, order: float | None, progress: Progress | None
 ) -> tuple[_Path, tuple[float, float]]:
     """Return the highest ridge over all windows, and the band it was sought in [Hz]."""
     bands = [(order * low, order * high)] if order else [(low, FASTEST * high)]
@@ -187,47 +201,68 @@ def _strongest(
     found: list[tuple[_Path, tuple[float, float]]] = []
     lasting = channels[0].duration
     lengths = [one for one in WINDOWS if one * low >= 1.5 and one <= lasting / 4.0] or [min(lasting / 4.0, 1.0)]
+    watch = Watch(progress, len(lengths))
     for length in lengths:
-        drawn = _drawn(rows, rate, length)
+        drawn = _drawn(rows, rate, length, watch)
         for band in bands:
             path = _viterbi(drawn, band)
             if path is not None:
                 found.append((path, band))
+        watch.next()
+        if watch.stopped and found:
+            break
     if not found:
         raise refuse(channels[0].name, _("is too short to find a speed without a tacho"), "out_of_range")
     # A long window lifts a steady tone by its length alone; what counts is the height over chance, the same for all.
     return max(found, key=lambda one: one[0].height)
 
 
-def _drawn(rows: Sequence[Array], rate: float, length: float) -> _Map:
+def _drawn(rows: Sequence[Array], rate: float, length: float, watch: Watch) -> _Map:
     """Return the spectrogram of the channels together, every line over the median around it."""
-    from scipy.ndimage import median_filter
-    from scipy.signal import ShortTimeFFT
-    from scipy.signal.windows import hann
-
     count = max(16, round(length * rate))
     hop = max(1, count // HOPS)
-    made = ShortTimeFFT(hann(count, sym=False), hop, rate, mfft=2 * count, scale_to="psd")
-    size = rows[0].size
-    first, last = made.lower_border_end[1], made.upper_border_begin(size)[1]
+    begins = np.arange(math.ceil(count // 2 / hop) * hop - count // 2, rows[0].size - count + 1, hop)
     level: Array = 0.0
     total: Array = 0.0
-    for row in rows:
-        power = made.spectrogram(row - np.mean(row), p0=first, p1=last)
-        around = median_filter(power, size=(2 * 16 + 1, 1), mode="reflect")
+    for k, row in enumerate(rows):
+        power = _powers(row - np.mean(row), begins, count)
+        around = _around(power)
         around = np.maximum(around, 1e-12 * np.max(power, initial=1e-300))
         level = level + np.log(np.maximum(power / around, 1e-3))
         total = total + power / np.mean(around)
-    level = np.asarray(level).T / math.sqrt(len(rows))
+        watch(0.8 * (k + 1) / len(rows))
     return _Map(
-        level=level,
-        time=made.t(size, p0=first, p1=last),
-        frequency=made.f,
+        level=np.asarray(level) / math.sqrt(len(rows)),
+        time=(begins + count // 2) / rate,
+        frequency=np.fft.rfftfreq(2 * count, 1.0 / rate),
         window=length,
-        power=total.T,
+        power=np.asarray(total),
         row=rows[0],
         rate=rate,
     )
+
+
+def _powers(row: Array, begins: Array, count: int) -> Array:
+    """Return the power spectra of windows of a row, padded to twice their length; in blocks, to bound the memory."""
+    from scipy.signal.windows import hann
+
+    shape, place = hann(count, sym=False), np.arange(count)
+    found = np.empty((begins.size, count + 1))
+    block = max(1, BLOCK // count)
+    for first in range(0, begins.size, block):
+        some = begins[first : first + block]
+        found[first : first + block] = np.abs(np.fft.rfft(row[some[:, None] + place] * shape, 2 * count, axis=1)) ** 2
+    return found
+
+
+def _around(power: Array) -> Array:
+    """Return the median about each line of each spectrum; all spectra in one row, which is what is fast."""
+    from scipy.ndimage import median_filter
+
+    room = min(AROUND, power.shape[1])
+    wide = np.pad(power, ((0, 0), (room, room)), mode="symmetric")
+    found = median_filter(wide.ravel(), size=2 * AROUND + 1, mode="reflect").reshape(wide.shape)
+    return np.asarray(found[:, room:-room])
 
 
 def _viterbi(drawn: _Map, band: tuple[float, float]) -> _Path | None:
@@ -238,14 +273,16 @@ def _viterbi(drawn: _Map, band: tuple[float, float]) -> _Path | None:
     if steps < 3 or count < 3:
         return None
     shifts = np.arange(-JUMP, JUMP + 1)
+    toll, own = STIFF * np.abs(shifts)[:, None], np.arange(count)
     came = np.zeros((steps, count), dtype=np.int8)
-    best = level[0].copy()
+    padded = np.full(count + 2 * JUMP, -np.inf)
+    best, reached = padded[JUMP:-JUMP], sliding_window_view(padded, count)
+    best[:] = level[0]
     for k in range(1, steps):
-        padded = np.pad(best, JUMP, constant_values=-np.inf)
-        choices = np.stack([padded[JUMP + s : JUMP + s + count] - STIFF * abs(s) for s in shifts])
+        choices = reached - toll
         pick = np.argmax(choices, axis=0)
         came[k] = shifts[pick]
-        best = choices[pick, np.arange(count)] + level[k]
+        best[:] = choices[pick, own] + level[k]
     path = np.empty(steps, dtype=int)
     path[-1] = int(np.argmax(best))
     for k in range(steps - 1, 0, -1):

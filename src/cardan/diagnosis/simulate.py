@@ -14,9 +14,13 @@ from cardan.texts import _
 
 from .expected import Expected, expected_orders
 from .signal import Channel, Signal
+from .watching import Progress, Watch
 
 SPREAD = 0.25
 """Standard deviation of the logarithm of what decides a line's size in one recording and nobody knows."""
+
+MOST_VALUES = 2e7
+"""Values of a channel; what is made of all of them together would not fit the memory otherwise."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,6 +70,7 @@ def simulate_fault(
     snr: float = 10.0,
     runs: Runs = RUNS,
     shaft: int | None = None,
+    progress: Progress | None = None,
 ) -> Signal:
     """Return a recording of a drive with a fault, the same for the same seed.
 
@@ -85,6 +90,8 @@ def simulate_fault(
         Run-up and holds.
     shaft : int, optional
         Number of the shaft with the fault.
+    progress : function, optional
+        Told the share done; when it answers "stop" the sensors not yet written are left out, and a caution says so.
 
     Returns
     -------
@@ -119,7 +126,10 @@ def simulate_fault(
     places = {line.kind: line.place for line in expected.orders}
     kinds = [one for one in ("input", "centre", "output") if one in places]
     wanted = [(kind, "radial") for kind in kinds] + [("input", "axial"), ("output", "axial"), ("output", "torsion")]
+    watch = Watch(progress, len(wanted))
     for kind, direction in wanted:
+        if watch.stopped:
+            break
         values = _noised(_shaken(expected, kind, direction, course, rng), course, snr, rng)
         named = "speed" if direction == "torsion" else direction
         quantity = "angular_speed" if direction == "torsion" else "acceleration"
@@ -135,9 +145,11 @@ def simulate_fault(
                 direction=direction,
             )
         )
+        watch.next()
     torque = course.torque + rng.normal(scale=0.02 * expected.reference, size=course.torque.size)
     channels.append(Channel(name="torque", quantity="torque", values=torque, rate=runs.rate, direction="torsion"))
-    return Signal(name=f"{fault} {seed}", channels=tuple(channels), tacho=0)
+    cautions = (_("The recording was stopped: it lacks sensors."),) if len(channels) < len(wanted) + 2 else ()
+    return Signal(name=f"{fault} {seed}", channels=tuple(channels), tacho=0, cautions=cautions)
 
 
 def _problems(snr: float, runs: Runs) -> list[Problem]:
@@ -149,6 +161,9 @@ def _problems(snr: float, runs: Runs) -> list[Problem]:
         if not 0.0 < value < math.inf:
             text = _("{value:.6g} given; a finite number above 0 is needed").format(value=value)
             found.append(Problem(f"runs.{name}", text, "not_positive"))
+    if not found and (count := (runs.run_up + 2.0 * runs.hold + 1.5) * runs.rate) > MOST_VALUES:
+        text = _("{count:.3g} values a channel would not fit the memory; at most {most:.3g} are written")
+        found.append(Problem("runs.rate", text.format(count=count, most=MOST_VALUES), "out_of_range"))
     return found
 
 

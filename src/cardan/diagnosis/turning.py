@@ -16,6 +16,7 @@ from cardan.units import rpm
 
 from .pulses import counted
 from .signal import Channel, Signal
+from .watching import Progress
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -139,6 +140,7 @@ def rotation(
     order: float | None = None,
     level: float | None = None,
     hysteresis: float | None = None,
+    progress: Progress | None = None,
 ) -> Rotation:
     """Return how the shaft turned while a signal was recorded.
 
@@ -152,6 +154,8 @@ def rotation(
         Order of the strongest vibration, for a signal without a tacho.
     level, hysteresis : float, optional
         Where the pulses are timed, see `cardan.diagnosis.pulses.edges`.
+    progress : function, optional
+        Told the share done of a search without a tacho, see `cardan.diagnosis.ridge.ridge`.
 
     Returns
     -------
@@ -175,7 +179,7 @@ def rotation(
     if signal.tacho is None:
         from .ridge import ridge
 
-        return ridge(signal.measured, speed_range=speed_range, order=order)
+        return ridge(signal.measured, speed_range=speed_range, order=order, progress=progress)
     tacho = signal.channels[signal.tacho]
     if tacho.quantity == "pulses":
         found = _from_pulses(tacho, signal.pulses_per_turn, level, hysteresis)

@@ -8,6 +8,7 @@ record: every point is read from the one of several records, each half as dense 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -111,23 +112,33 @@ def read_at(values: Array, place: Array) -> Array:
     >>> bool(np.max(np.abs(read_at(row, place) - np.cos(0.7 * np.pi * place))) < 1e-4)
     True
     """
-    count = min(TAPS, values.size - 1)
-    padded = _continued(values, count)
-    if count < TAPS:
-        padded = np.pad(padded, TAPS - count, mode="edge")
+    padded = _padded(values)
     found = np.empty(place.size)
-    steps, table = np.arange(1 - TAPS, TAPS + 1), _sinc_table()
     for first in range(0, place.size, BLOCK):
-        some = place[first : first + BLOCK]
-        whole = np.clip(np.floor(some).astype(int), 0, values.size - 1)
-        fine = (some - whole) * PHASES
-        row = np.clip(fine.astype(int), 0, PHASES - 1)
-        weight = table[row] + (fine - row)[:, None] * (table[row + 1] - table[row])
-        found[first : first + BLOCK] = np.sum(weight * padded[whole[:, None] + steps + TAPS], axis=1)
+        found[first : first + BLOCK] = _read(padded, place[first : first + BLOCK])
     return found
 
 
-def read_slowly(values: Array, place: Array, step: Array) -> Array:
+def _padded(values: Array) -> Array:
+    """Return a record with as many values beyond its ends as interpolation reaches."""
+    count = min(TAPS, values.size - 1)
+    padded = _continued(values, count)
+    return np.pad(padded, TAPS - count, mode="edge") if count < TAPS else padded
+
+
+def _read(padded: Array, place: Array) -> Array:
+    """Return a record with its ends padded at a block of places."""
+    steps, table = np.arange(1 - TAPS, TAPS + 1), _sinc_table()
+    whole = np.clip(np.floor(place).astype(int), 0, padded.size - 2 * TAPS - 1)
+    fine = (place - whole) * PHASES
+    row = np.clip(fine.astype(int), 0, PHASES - 1)
+    weight = table[row] + (fine - row)[:, None] * (table[row + 1] - table[row])
+    return np.asarray(np.einsum("ij,ij->i", weight, padded[whole[:, None] + steps + TAPS]))
+
+
+def read_slowly(
+    values: Array, place: Array, step: Array, *, progress: Callable[[float], object] | None = None
+) -> Array:
     """Return a record at points that may lie farther apart than its values, filtered before.
 
     Parameters
@@ -138,6 +149,8 @@ def read_slowly(values: Array, place: Array, step: Array) -> Array:
         Where: 0 is the first value.
     step : array (m,)
         Distance of the points there, in steps of the record.
+    progress : function, optional
+        Told the share done; when it answers "stop" the points read so far are returned.
 
     Returns
     -------
@@ -162,11 +175,19 @@ def read_slowly(values: Array, place: Array, step: Array) -> Array:
     need = np.log2(np.maximum(0.7 * step, 1e-9))
     deepest = max(0, int(math.log2(max(values.size / (2 * HALVING), 1.0))))
     level = np.clip(np.ceil(need - 1e-9).astype(int), 0, deepest)
-    found = np.empty(place.size)
+    used = set(np.unique(level).tolist())
+    rows = {}
     row = values
-    for j in range(int(np.max(level, initial=0)) + 1):
-        mine = level == j
-        if np.any(mine):
-            found[mine] = read_at(row, place[mine] / 2.0**j)
-        row = halved(row)
+    for j in range(max(used, default=0) + 1):
+        row = halved(row) if j else row
+        if j in used:
+            rows[j] = _padded(row)
+    found = np.empty(place.size)
+    for first in range(0, place.size, BLOCK):
+        last = min(first + BLOCK, place.size)
+        for j in np.unique(level[first:last]).tolist():
+            mine = first + np.flatnonzero(level[first:last] == j)
+            found[mine] = _read(rows[j], place[mine] / 2.0**j)
+        if progress is not None and progress(last / place.size) == "stop":
+            return found[:last]
     return found
