@@ -11,7 +11,7 @@ import pickle
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
@@ -69,7 +69,7 @@ class Engine(Protocol):
 
     def run(
         self, task: Callable[[Chunk], T], chunks: Iterable[Chunk], *, heard: Heard | None = None
-    ) -> Iterator[Done[T]]:
+    ) -> Generator[Done[T], None, None]:
         """Work on chunks.
 
         Parameters
@@ -105,7 +105,7 @@ class InProcess:
 
     def run(
         self, task: Callable[[Chunk], T], chunks: Iterable[Chunk], *, heard: Heard | None = None
-    ) -> Iterator[Done[T]]:
+    ) -> Generator[Done[T], None, None]:
         """Work on chunks in their order."""
         for chunk in chunks:
             if heard is not None and heard() == "stop":
@@ -159,7 +159,7 @@ class Processes:
 
     def run(
         self, task: Callable[[Chunk], T], chunks: Iterable[Chunk], *, heard: Heard | None = None
-    ) -> Iterator[Done[T]]:
+    ) -> Generator[Done[T], None, None]:
         """Work on chunks, as many at once as there are processes.
 
         Raises
