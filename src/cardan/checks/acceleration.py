@@ -28,8 +28,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if design.joints > 1:
         said.append((_("acceleration of inside shafts in drive"), "", norm.inertia_drive))
         said.append((_("acceleration of inside shafts in coast"), "", norm.inertia_coast))
-    swings = None if speed is None else _swings(design.chain)
-    moved = None if speed is None else design.while_moving(_swings)
+    drawn_swings = None if speed is None else swings(design.chain)
+    moved = None if speed is None else design.while_moving(swings)
     for k, (title, subject, limit) in enumerate(said):
         made = partial(
             Verdict,
@@ -41,10 +41,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
             limit=limit,
             source=norm.source,
         )
-        if speed is None or swings is None:
+        if speed is None or drawn_swings is None:
             yield made(missing=("duty.speed",))
             continue
-        drawn, most = swings[..., k], swings[..., k] if moved is None else moved[..., k]
+        drawn = drawn_swings[..., k]
+        most = drawn if moved is None else moved[..., k]
         yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
         yield made(
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
@@ -53,8 +54,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-def _swings(chain: Chain) -> Array:
-    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast (..., k)."""
+def swings(chain: Chain) -> Array:
+    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast (..., k).
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+        k is 3, or 1 where there is one joint and no shaft inside.
+    """
     each, n = after_each_joint(chain).max_acceleration, chain.joints
     if n == 1:
         return each

@@ -75,6 +75,25 @@ def geometry_from_points(points: Array) -> Geometry:
     >>> np.rad2deg(g.bend)
     array([45.])
     """
+    axis = frames.unit(points[..., 1:, :] - points[..., :-1, :])
+    _refuse_right_angles(frames.dot(axis[..., :-1, :], axis[..., 1:, :]))
+    return polyline(points)
+
+
+def polyline(points: Array) -> Geometry:
+    """Return what `geometry_from_points` does and refuse nothing: who asks has to look at the bends himself.
+
+    Parameters
+    ----------
+    points : array (..., n+2, 3) [m]
+        Point of the input axis, joint centres, point of the output axis.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.rad2deg(polyline(np.asarray([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])).bend)
+    array([135.])
+    """
     xp = namespace(points)
     shaft = points[..., 1:, :] - points[..., :-1, :]
     length = frames.norm(shaft)
@@ -82,7 +101,6 @@ def geometry_from_points(points: Array) -> Geometry:
     across = frames.cross(axis[..., :-1, :], axis[..., 1:, :])
     sine = frames.norm(across)
     cosine = frames.dot(axis[..., :-1, :], axis[..., 1:, :])
-    _refuse_right_angles(cosine)
     straight = sine <= STRAIGHT
     bend = xp.where(straight, 0.0 * sine, xp.atan2(sine, cosine))
     safe = xp.where(straight, 1.0 + 0.0 * sine, sine)
@@ -216,4 +234,4 @@ def _lengths(drive: Drive) -> tuple[Array, tuple[str, ...]]:
     return length, assumed
 
 
-__all__ = ["Geometry", "geometry", "geometry_from_points", "given_angles", "points_from_angles"]
+__all__ = ["Geometry", "geometry", "geometry_from_points", "given_angles", "points_from_angles", "polyline"]
