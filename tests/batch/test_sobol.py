@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pytest
 
+from cardan.batch.distributions import Uniform
 from cardan.batch.evaluators import Formula
-from cardan.batch.sobol import RESAMPLES, Evenly, _design, sensitivity, swings
+from cardan.batch.sobol import RESAMPLES, _design, sensitivity, swings
 from cardan.errors import InputError
 
 A, B = 7.0, 0.1
-PI = Evenly(low=-math.pi, high=math.pi)
+PI = Uniform(low=-math.pi, high=math.pi)
 ISHIGAMI = Formula.of(
     ["x1", "x2", "x3"],
     {
@@ -88,7 +89,7 @@ def test_the_same_seed_gives_the_same_numbers_and_another_others():
 
 def test_samples_without_an_answer_are_left_out_and_counted():
     holes = Formula.of(["x", "y"], {"z": lambda x, y: np.where(x < 0.9, x + y, np.nan)})
-    found = sensitivity(holes, [Evenly(low=0.0, high=1.0)] * 2, samples=512)
+    found = sensitivity(holes, [Uniform(low=0.0, high=1.0)] * 2, samples=512)
     # A sample stays if x is below 0.9 at A and at B: 0.81 of them.
     assert found.left_out == pytest.approx(512 * 0.19, abs=12)
     assert found.samples + found.left_out == 512

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import nearest
 
+from .distributions import Distribution
 from .goals import Evaluator
 from .pieces import Progress, answered
 from .work import STATUS, Column
@@ -26,32 +26,6 @@ MOST = 2**22
 
 LEAST = 8
 """Samples with an answer, at least."""
-
-
-class Spread(Protocol):
-    """How a quantity is distributed."""
-
-    def at(self, share: Array) -> Array:
-        """Return the values that shares (n,) of all lie below, each between 0 and 1."""
-        ...
-
-
-@dataclass(frozen=True, kw_only=True)
-class Evenly:
-    """All values of a range are as likely.
-
-    Attributes
-    ----------
-    low, high : float
-        Its ends.
-    """
-
-    low: float
-    high: float
-
-    def at(self, share: Array) -> Array:
-        """Return the values that shares of all lie below."""
-        return self.low + (self.high - self.low) * np.asarray(share, dtype=float)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -103,7 +77,7 @@ class Sensitivity:
 
 def sensitivity(
     ask: Evaluator,
-    spread: Sequence[Spread],
+    spread: Sequence[Distribution],
     *,
     answers: Sequence[str] = (),
     samples: int = 1024,
@@ -117,7 +91,7 @@ def sensitivity(
     ----------
     ask : Evaluator
         What answers, over d fields.
-    spread : sequence of Spread
+    spread : sequence of Distribution
         How each field is distributed, independently of the others.
     answers : sequence of str
         Names of the columns looked at; all by default.
@@ -147,9 +121,10 @@ def sensitivity(
 
     Examples
     --------
+    >>> from cardan.batch.distributions import Uniform
     >>> from cardan.batch.evaluators import Formula
     >>> ask = Formula.of(["x", "y"], {"z": lambda x, y: 3.0 * x + y})
-    >>> found = sensitivity(ask, [Evenly(low=0.0, high=1.0)] * 2, samples=512)
+    >>> found = sensitivity(ask, [Uniform(low=0.0, high=1.0)] * 2, samples=512)
     >>> print(found.first.round(2), found.total.round(2))
     [[0.9 0.1]] [[0.9 0.1]]
     """
@@ -205,7 +180,7 @@ def sensitivity(
 
 
 def _chosen(
-    ask: Evaluator, spread: Sequence[Spread], answers: Sequence[str], samples: int, confidence: float
+    ask: Evaluator, spread: Sequence[Distribution], answers: Sequence[str], samples: int, confidence: float
 ) -> tuple[Column, ...]:
     """Return the columns looked at, if all that was given fits."""
     problems = []
@@ -227,7 +202,7 @@ def _chosen(
     return tuple(known[name] for name in answers) if answers else tuple(ask.answers)
 
 
-def _design(spread: Sequence[Spread], samples: int, seed: int) -> Array:
+def _design(spread: Sequence[Distribution], samples: int, seed: int) -> Array:
     """Return the points A, B and A with one field from B each, array (d + 2, samples, d)."""
     from scipy.stats import qmc
 
