@@ -118,3 +118,16 @@ def test_what_is_not_known_says_nothing():
     assert np.allclose(model.speaks(nothing), 0.0)
     result = judged(["healthy"], nothing[None], np.array([0.0]), model)
     assert result["scores"][0][3] == pytest.approx(1.0 / len(model.causes), abs=1e-4)
+
+
+def test_who_watches_is_told_how_far_it_is_and_may_stop_it():
+    drive = example("truck-supports")
+    signal = simulate_fault(drive, "unbalance", seed=4)
+    shares = []
+    whole = diagnose(signal, drive, progress=shares.append)
+    assert shares == sorted(shares)
+    assert shares[-1] == pytest.approx(1.0)
+    part = diagnose(signal, drive, progress=lambda share: "stop" if share > 0.2 else None)
+    assert "stopped before" in part[0].cautions[-1]
+    assert part[0].confidence < whole[0].confidence
+    assert not any("stopped" in one for one in whole[0].cautions)

@@ -12,17 +12,19 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.errors import InputError, refuse
+from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .doubts import doubts
 from .expected import Expected, expected_orders
+from .knocks import knocks, running
 from .levels import ORDERS, TURNS, Track, accelerations, force_on, healthy_force, level_of, mean_of, stands_out
 from .order_tracks import TrackedOrders, tracked_orders
 from .plant import Plant, plant
-from .signal import Channel, Signal
+from .signal import Signal
 from .turning import LEAST_TURNS, Rotation, rotation
+from .watching import Progress, Watch
 
 NAMES = (
     "order_1",
@@ -105,7 +107,13 @@ def _known(drive: Drive) -> tuple[Plant, Expected]:
     return plant(drive), expected_orders(drive)
 
 
-def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] | None = None) -> Features:
+def features(
+    signal: Signal,
+    drive: Drive,
+    *,
+    speed_range: tuple[float, float] | None = None,
+    progress: Progress | None = None,
+) -> Features:
     """Return what a recording of a drive shows, in figures.
 
     Parameters
@@ -116,6 +124,8 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
         The drive in order: levels are measured by what it should show.
     speed_range : (float, float) [rad/s], optional
         Between which the shaft turned, for a recording without a tacho; the duty of the drive otherwise.
+    progress : function, optional
+        Told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says so.
 
     Returns
     -------
@@ -142,8 +152,10 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
     True True
     """
     base, healthy = _known(drive)
-    shaft = rotation(signal, speed_range=speed_range or (None if signal.tacho is not None else base.speed))
-    radial, axial = accelerations(signal, shaft, base)
+    watch = Watch(progress, 1 + 2 * len(signal.measured))
+    speeds = speed_range or (None if signal.tacho is not None else base.speed)
+    shaft = rotation(signal, speed_range=speeds, progress=watch)
+    radial, axial = accelerations(signal, shaft, base, watch)
     if not radial:
         raise refuse("signal", _("the recording has no channel of vibration across the shaft"), "missing")
     first = radial[0].found
@@ -155,8 +167,10 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
     _levels(out, radial, healthy, base, held, torque, high, low)
     peaks = _over_speed(out, radial, first, torque, told, base)
     _sideways(out, radial, axial, high)
-    _knocks(out, signal, shaft, first, low if low.any() else high)
+    out["knocks_1"], out["knocks_2"] = knocks(signal, shaft, first, low if low.any() else high, watch)
     _uneven(out, signal, shaft, base)
+    stopped = watch.stopped
+    watch(1.0)
     value = np.asarray([out[name] for name in NAMES])
     known = float(np.mean(np.isfinite(value)))
     misfits = tuple(doubts(signal, shaft, base))
@@ -173,6 +187,7 @@ def features(signal: Signal, drive: Drive, *, speed_range: tuple[float, float] |
             *shaft.cautions,
             *(text for text, _share in misfits),
             *_unknown(out, told, low, base),
+            *((_("It was stopped before all channels were looked at."),) if stopped else ()),
         ),
         rotation=shaft,
     )
@@ -199,16 +214,16 @@ def _torque(signal: Signal, time: Array, usual: float) -> tuple[Array, bool]:
     at = next((one for one in signal.channels if one.quantity == "torque"), None)
     if at is None:
         return np.full(time.size, usual), False
-    width = max(1, int(0.25 * at.rate))
-    smooth = np.convolve(at.values, np.ones(width) / width, mode="same")
-    return np.interp(time, at.time, smooth), True
+    return np.interp(time, at.time, running(at.values, 0.25 * at.rate)), True
 
 
 def _held(found: TrackedOrders) -> float:
     """Return the speed in whose neighbourhood it ran longest; the fastest of equals."""
     lasting = np.gradient(found.time) if found.time.size > 1 else np.ones(1)
-    near = np.abs(found.speed[:, None] / found.speed - 1.0) < SAME_SPEED
-    weight = lasting @ near
+    order = np.argsort(found.speed)
+    sorted_speed, total = found.speed[order], np.concatenate([[0.0], np.cumsum(lasting[order])])
+    last, first = (np.searchsorted(sorted_speed, (1.0 + one) * found.speed) for one in (SAME_SPEED, -SAME_SPEED))
+    weight = total[last] - total[first]
     return float(found.speed[int(np.argmax(np.round(weight, 1) + 1e-6 * found.speed / np.max(found.speed)))])
 
 
@@ -335,42 +350,6 @@ def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], hi
     ]
     if shares:
         out["axial_share"] = math.log10(max(shares)[1])
-
-
-def _knocks(out: dict[str, float], signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array) -> None:
-    """Fill in how much of the noise comes once and twice a turn: orders of the squared high-passed signal."""
-    from scipy.signal import butter, sosfiltfilt
-
-    best = {1.0: math.nan, 2.0: math.nan}
-    for channel in signal.measured:
-        if channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
-            continue
-        cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
-        if cut > 0.4 * channel.rate or channel.values.size < 100:
-            continue
-        rough = sosfiltfilt(butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values) ** 2
-        try:
-            found = tracked_orders(
-                Channel(name=channel.name, quantity="other", values=rough, rate=channel.rate, start=channel.start),
-                shaft,
-                (1.0, 2.0),
-                turns=TURNS,
-            )
-        except InputError:
-            continue
-        if found.time.size != which.size:
-            continue
-        mean = np.mean(np.interp(found.time[which], channel.time, _running(rough, channel.rate)))
-        for k, order in enumerate((1.0, 2.0)):
-            chosen = found.value[k, which]
-            size = abs(np.mean(chosen)) if found.phased else float(np.median(np.abs(chosen)))
-            best[order] = float(np.fmax(best[order], size / max(float(mean), 1e-300)))
-    out["knocks_1"], out["knocks_2"] = best[1.0], best[2.0]
-
-
-def _running(values: Array, rate: float) -> Array:
-    width = max(1, int(0.5 * rate))
-    return np.convolve(values, np.ones(width) / width, mode="same")
 
 
 def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant) -> None:

@@ -18,6 +18,7 @@ from .match import Signs, likely_causes
 from .model import shipped
 from .orders import OrderSpectrum
 from .signal import Signal
+from .watching import Progress
 
 TELLING = 0.3
 """What a feature has to add for or against a cause to be told [nat]."""
@@ -74,6 +75,7 @@ def diagnose(
     *,
     speed_range: tuple[float, float] | None = None,
     known: Catalogue | None = None,
+    progress: Progress | None = None,
 ) -> tuple[Finding, ...]:
     """Return what may be wrong with a drive, the likeliest first.
 
@@ -87,6 +89,8 @@ def diagnose(
         Between which the shaft turned, for a recording without a tacho.
     known : Catalogue, optional
         With the table of faults; the shipped one when not given.
+    progress : function, optional
+        Told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says so.
 
     Returns
     -------
@@ -121,7 +125,7 @@ def diagnose(
         from cardan.errors import refuse
 
         raise refuse("drive", _("a recording can only be judged beside the drive that it is of"), "missing")
-    return weighed(features(shown, drive, speed_range=speed_range), known=known)
+    return weighed(features(shown, drive, speed_range=speed_range, progress=progress), known=known)
 
 
 def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding, ...]:

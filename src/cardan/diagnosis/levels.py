@@ -15,6 +15,7 @@ from .order_tracks import TrackedOrders, tracked_orders
 from .plant import Plant
 from .signal import Signal
 from .turning import Rotation
+from .watching import Watch
 
 ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 
@@ -41,14 +42,20 @@ class Track:
     found: TrackedOrders
 
 
-def accelerations(signal: Signal, shaft: Rotation, base: Plant) -> tuple[list[Track], list[Track]]:
-    """Return the orders at the radial and at the axial sensors."""
+def accelerations(
+    signal: Signal, shaft: Rotation, base: Plant, watch: Watch | None = None
+) -> tuple[list[Track], list[Track]]:
+    """Return the orders at the radial and at the axial sensors; those of the first radial one, whoever says stop."""
     powers = {"acceleration": 0, "velocity": 1, "displacement": 2}
     radial: list[Track] = []
     axial: list[Track] = []
     for channel in signal.measured:
+        if watch is not None:
+            watch.next()
         if channel.quantity not in powers or channel.direction == "torsion" or not np.any(channel.values):
             continue
+        if watch is not None and watch.stopped and radial:
+            break
         try:
             found = tracked_orders(channel, shaft, (*ORDERS, *PROBES), turns=TURNS)
         except InputError:
