@@ -174,10 +174,12 @@ def flaw(path: Path, chunk: Chunk, label: Label) -> str:
 
     try:
         with library().ParquetFile(path, page_checksum_verification=True) as file:
-            beside = file.schema_arrow.metadata or {}
+            beside, twin = file.metadata.metadata or {}, file.schema_arrow.metadata or {}  # the format holds both
             if beside.get(ABOUT) != label.about(chunk):
                 return _("it belongs to something else")
-            if beside.get(CHECK) != _digest(beside[ABOUT], beside.get(STATES, b"")):
+            if beside.get(CHECK) != _digest(beside[ABOUT], beside.get(STATES, b"")) or any(
+                twin.get(key) != beside.get(key) for key in (ABOUT, STATES, CHECK)
+            ):
                 return _("it is damaged")
             if file.metadata.num_rows != (chunk.size if label.keeps else 0):
                 return _("it is not whole")
@@ -193,7 +195,7 @@ def flaw(path: Path, chunk: Chunk, label: Label) -> str:
 def states_of(path: Path) -> list[State]:
     """Return the states of the reductions of a chunk."""
     with library().ParquetFile(path) as file:
-        states: list[State] = json.loads(file.schema_arrow.metadata[STATES])
+        states: list[State] = json.loads(file.metadata.metadata[STATES])
         return states
 
 

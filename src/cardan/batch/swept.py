@@ -138,7 +138,7 @@ def read_sweep(folder: str | Path) -> Sweep:
     ]
     if same:
         missing = tuple(Missing(*ends, told) for ends, told in sorted(why.items()))
-    status: Ending = "done" if not missing else "cancelled" if same and known[0] == "cancelled" else "incomplete"
+    status: Ending = "done" if not missing else "cancelled" if known[0] == "cancelled" else "incomplete"
     return Sweep(
         columns=manifest["columns"],
         size=int(manifest["size"]),
