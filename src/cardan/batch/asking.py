@@ -84,7 +84,7 @@ class Asked:
 
     @property
     def _method(self) -> Method:
-        return Compiled() if self.many_points and has_numba() else Plain()
+        return Compiled(threads=1) if self.many_points and has_numba() else Plain()
 
     def rows(self, values: Mapping[str, Array], count: int) -> Rows:
         """Return answers and status of points.

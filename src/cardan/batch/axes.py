@@ -42,7 +42,12 @@ class Axis(Protocol):
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """Paths with units; a name of a row is no path and stands first."""
+        """What varies: paths with units, and facts."""
+        ...
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """Those that are no field of the drive but said of a row: its name, a price."""
         ...
 
     @property
@@ -60,7 +65,7 @@ class Axis(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Grid:
+class Spaced:
     """Evenly spaced values of a field, both ends among them.
 
     Parameters
@@ -74,7 +79,7 @@ class Grid:
 
     Examples
     --------
-    >>> Grid(field="duty.speed_rpm", start=1000, stop=2000, count=3).values(np.arange(3))
+    >>> Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=3).values(np.arange(3))
     {'duty.speed_rpm': array([1000., 1500., 2000.])}
     """
 
@@ -104,6 +109,11 @@ class Grid:
         return (self.field,)
 
     @property
+    def facts(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    @property
     def size(self) -> int:
         """How many values there are."""
         return self.count
@@ -129,11 +139,13 @@ class Listed:
     Parameters
     ----------
     fields : tuple of str
-        Paths with units; ``name`` among them, where rows have names, is the name given to the axis.
+        Paths with units, and facts.
     rows : tuple of tuple
         One value for each field.
     name : str
         What groups of results are called by; the first field when empty.
+    facts : tuple of str
+        Those of the fields that are no field of the drive but said of a row: its name, a price.
 
     Examples
     --------
@@ -145,6 +157,7 @@ class Listed:
     fields: tuple[str, ...]
     rows: tuple[tuple[Value, ...], ...]
     name: str = ""
+    facts: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", self.name or (self.fields[0] if self.fields else ""))
@@ -178,7 +191,7 @@ class Listed:
         if len(self.fields) == 1 and self.name == self.fields[0]:
             return {"key": self.fields[0], "values": [row[0] for row in self.rows]}
         rows = [dict(zip(self.fields, row, strict=True)) for row in self.rows]
-        return {"name": self.name, "rows": rows}
+        return {"name": self.name, "rows": rows} | ({"facts": list(self.facts)} if self.facts else {})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,6 +250,11 @@ class Drawn:
         return tuple(self.distributions)
 
     @property
+    def facts(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    @property
     def size(self) -> int:
         """How many points there are."""
         return self.count
@@ -281,7 +299,7 @@ class Points:
 
     Examples
     --------
-    >>> speeds = Grid(field="duty.speed_rpm", start=1000, stop=2000, count=2)
+    >>> speeds = Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=2)
     >>> sizes = Listed(fields=("joints[0].size",), rows=(("a",), ("b",), ("c",)))
     >>> points = Points(axes=(speeds, sizes))
     >>> points.size, points.values(2, 5)["joints[0].size"]

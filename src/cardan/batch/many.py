@@ -195,18 +195,25 @@ def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any)
         twist = row([(f"joints[{i}].plane_twist", drive.joints[i].plane_twist) for i in range(1, n)])
         real = xp.all((bend >= 0.0) & (bend < 0.5 * xp.pi), axis=-1)
         own = np.asarray([joint.bend for joint in drive.joints])
-        return xp.where(real[:, None], bend, xp.asarray(own)), twist, None, real
+        return _mended(bend, own, real, xp), twist, None, real
     points, own = _points(drive, row, xp)
     apart = xp.linalg.vector_norm(points[:, 1:, :] - points[:, :-1, :], axis=-1)
     least = xp.maximum(COINCIDENT * xp.max(apart, axis=-1), xp.asarray(TINY))
     real = xp.all(apart > least[:, None], axis=-1)
-    points = xp.where(real[:, None, None], points, xp.asarray(own))
+    points = _mended(points, own, real, xp)
     found = polyline(points)
     real = real & xp.all(found.bend < 0.5 * xp.pi - RIGHT, axis=-1)
     base = polyline(np.asarray(own))
-    bend = xp.where(real[:, None], found.bend, xp.asarray(base.bend))
-    twist = xp.where(real[:, None], found.plane_twist, xp.asarray(base.plane_twist))
+    bend = _mended(found.bend, base.bend, real, xp)
+    twist = _mended(found.plane_twist, base.plane_twist, real, xp)
     return bend, twist, found.length if drive.form == "points" else None, real
+
+
+def _mended(values: Array, own: Array, real: Array, xp: Any) -> Array:
+    """Return values (count, ...) with those of the drive as it is where there is no drive."""
+    if xp is np and bool(real.all()):
+        return values
+    return xp.where(xp.reshape(real, (-1, *(1 for _axis in values.shape[1:]))), values, xp.asarray(own))
 
 
 def _points(drive: Drive, row: Any, xp: Any) -> tuple[Array, Array]:

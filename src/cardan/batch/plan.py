@@ -1,0 +1,260 @@
+"""A sweep as a whole: points, questions, constraints and reductions, put together as work that any engine can do."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, shortened
+from cardan.drive.drive import Drive
+from cardan.drive.tables import tree_of
+from cardan.errors import InputError, Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.compiled.threads import share
+from cardan.texts import _
+
+from .asking import STATUS_COLUMN, Asked, Device, ask_of
+from .axes import Axis, Listed, Points
+from .distributions import Distribution
+from .fields import TEXT_FEASIBLE, spread_out
+from .goals import Limit, check_names, excess, limit_of
+from .reductions import Reduce, Told, at_work, reduce_of
+from .work import FEASIBLE, STATUS, Column, Rows, State, Status
+
+BLOCK = 2**15
+"""Points that are answered at a time: their arrays stay in the caches."""
+
+GATHERED = 2**18
+"""Points that are summed up at a time."""
+
+RUNS = 8
+"""Runs of blocks that are summed up apart, whatever the number of processors, so that sums round alike anywhere."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SweepWork:
+    """A whole sweep; a `cardan.batch.work.Work`.
+
+    Attributes
+    ----------
+    ask : Asked
+        Questions, and the drive in which fields vary.
+    points : Points
+    limits : tuple of Limit
+        What a point has to keep to be feasible.
+    reduce : tuple of Reduce
+    title : str
+        What to call it.
+    """
+
+    ask: Asked
+    points: Points
+    limits: tuple[Limit, ...] = ()
+    reduce: tuple[Reduce, ...] = ()
+    title: str = ""
+    reductions: tuple[Told, ...] = field(init=False, default=())
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reductions", at_work(self.reduce, self.points, self.columns))
+
+    @property
+    def size(self) -> int:
+        """How many points there are."""
+        return self.points.size
+
+    @cached_property
+    def columns(self) -> tuple[Column, ...]:
+        """Columns of the table: what varies, answers, status, and whether all constraints are kept."""
+        by_path = {spot.path: spot.column for spot in self.ask.spots}
+        said = {name: Column(name=name, unit="", role="point", text=name) for name in self.points.fields}
+        points = tuple(by_path.get(name, said[name]) for name in self.points.fields)
+        kept = Column(name=FEASIBLE, unit="", role="status", text=TEXT_FEASIBLE)
+        return (*points, *self.ask.answers, STATUS_COLUMN, *([kept] if self.limits else []))
+
+    @cached_property
+    def name(self) -> str:
+        """Hash of all that decides rows and summaries, the version of the program among it."""
+        told = {**self.provenance, "whole drive": repr(self.ask.drive)}
+        return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+
+    @cached_property
+    def provenance(self) -> Mapping[str, Any]:
+        """What the rows come from: version, drive, axes with their seeds, questions, units."""
+        from cardan import __version__
+
+        return {
+            "program": "cardan",
+            "version": __version__,
+            "title": self.title,
+            "drive": tree_of(shortened(self.ask.drive, self.ask.known)),
+            "vary": [axis.told() for axis in self.points.axes],
+            "ask": list(self.ask.questions),
+            "constraints": [str(one) for one in self.limits],
+            "reduce": [one.told() for one in self.reduce],
+            "units": {one.name: one.unit for one in self.columns},
+            "device": self.ask.device,
+        }
+
+    def evaluate(self, start: int, stop: int) -> Rows:
+        """Return rows ``start`` to ``stop``."""
+        if not self.ask.fast or stop - start <= BLOCK or self.ask.device == "gpu":
+            return self._rows(start, stop)
+        whole = self._room(stop - start)
+        blocks = -(-(stop - start) // BLOCK)
+        share(lambda first, last: self._fill(whole, start, start + first * BLOCK, start + last * BLOCK), blocks)
+        return whole
+
+    def reduced(self, start: int, stop: int) -> list[State]:
+        """Return the states of the reductions over rows ``start`` to ``stop``, which are not kept.
+
+        No more than `GATHERED` rows are held for each processor.
+        """
+        if not self.ask.fast or self.ask.device == "gpu":
+            rows = self._rows(start, stop)
+            return [one.add(one.empty(), rows, start) for one in self.reductions]
+        parts = -(-(stop - start) // GATHERED)
+        runs = min(parts, RUNS)
+        states: list[list[State]] = [[] for _k in range(runs)]
+
+        def work(first: int, last: int) -> None:
+            room = self._room(min(GATHERED, stop - start))
+            for run in range(first, last):
+                seen = [one.empty() for one in self.reductions]
+                for part in range(parts * run // runs, parts * (run + 1) // runs):
+                    at, end = start + part * GATHERED, min(start + (part + 1) * GATHERED, stop)
+                    self._fill(room, at, at, end)
+                    rows = {name: values[: end - at] for name, values in room.items()}
+                    seen = [one.add(state, rows, at) for one, state in zip(self.reductions, seen, strict=True)]
+                states[run] = seen
+
+        share(work, runs)
+        whole = states[0]
+        for more in states[1:]:
+            whole = [one.merge(a, b) for one, a, b in zip(self.reductions, whole, more, strict=True)]
+        return whole
+
+    def _room(self, count: int) -> Rows:
+        """Return empty arrays for so many rows."""
+        return {name: np.empty(count, dtype=values.dtype) for name, values in self._rows(0, 0).items()}
+
+    def _fill(self, room: Rows, origin: int, start: int, stop: int) -> None:
+        """Put rows ``start`` to ``stop`` into arrays that begin with row ``origin`` and may end before the last."""
+        end = min(stop, self.size, origin + next(len(values) for values in room.values()))
+        for at in range(start, end, BLOCK):
+            for name, values in self._rows(at, min(at + BLOCK, end)).items():
+                room[name][at - origin : at - origin + len(values)] = values
+
+    def why(self, row: int) -> tuple[Problem, ...]:
+        """Return what stands in the way of a point's answers; nothing where it is answered."""
+        values = {name: column[0] for name, column in self.points.values(row, row + 1).items()}
+        return self.ask.at(values)[2]
+
+    def _rows(self, start: int, stop: int) -> Rows:
+        values: dict[str, Array] = self.points.values(start, stop)
+        rows: Rows = {**values, **self.ask.rows(values, stop - start)}
+        if self.limits:
+            kept = excess(self.limits, rows, stop - start) <= 0.0
+            rows[FEASIBLE] = kept & (rows[STATUS] == int(Status.ANSWERED))
+        return {column.name: rows[column.name] for column in self.columns}
+
+
+def work_of(
+    drive: Drive,
+    vary: Mapping[str, Any] | Sequence[Axis],
+    ask: Sequence[str],
+    *,
+    reduce: Sequence[str | Reduce] = (),
+    constraints: Sequence[str | Limit] = (),
+    known: Catalogue | None = None,
+    device: Device = "cpu",
+    title: str = "",
+) -> SweepWork:
+    """Return a sweep as work for an engine.
+
+    Parameters
+    ----------
+    drive : Drive
+    vary : mapping of str to sequence, or sequence of Axis
+        Path with unit -> list of values; or `Spaced`, `Listed` and `Drawn` axes. Every point of their product is one.
+    ask : sequence of str
+        Names of questions, see `questions`.
+    reduce : sequence of str or Reduce
+        ``"max irregularity by duty.speed_rpm"`` and the like.
+    constraints : sequence of str or Limit
+        ``"irregularity <= 0.02"``: what a point has to keep to be feasible.
+    known : Catalogue, optional
+        Where sizes and grades are looked up; the shipped one when not given.
+    device : {"cpu", "gpu"}
+    title : str
+        What to call it.
+
+    Raises
+    ------
+    InputError
+        All that is wrong with the sweep, at once.
+
+    Examples
+    --------
+    >>> pair = Drive.from_angles([0.3, 0.3])
+    >>> work = work_of(pair, {"joints[1].bend_deg": [10.0, 20.0]}, ["irregularity"], constraints=["irregularity <= 1"])
+    >>> rows = work.evaluate(0, 2)
+    >>> list(rows), rows["feasible"]
+    (['joints[1].bend_deg', 'irregularity', 'status', 'feasible'], array([ True,  True]))
+    """
+    problems: list[Problem] = []
+    axes: list[Axis] = []
+    limits: list[Limit] = []
+    reduces: list[Reduce] = []
+    for path, values in vary.items() if isinstance(vary, Mapping) else ():
+        _collect(problems, axes, lambda path=path, values=values: _listed(drive, path, values))
+    axes += [] if isinstance(vary, Mapping) else vary
+    for limit in constraints:
+        _collect(problems, limits, lambda one=limit: limit_of(one) if isinstance(one, str) else one)
+    for one in reduce:
+        _collect(problems, reduces, lambda one=one: reduce_of(one) if isinstance(one, str) else one)
+    points = Points(axes=())
+    try:
+        points = Points(axes=tuple(axes))
+    except InputError as error:
+        problems += error.problems
+    facts = {name for axis in axes for name in axis.facts}
+    paths = [name for axis in axes for name in axis.fields if name not in facts]
+    try:
+        asked = ask_of(drive, paths, ask, known=known, device=device, size=points.size)
+        if not problems:
+            bare = SweepWork(ask=asked, points=points)
+            check_names(limits, bare.columns)
+            with_limits = SweepWork(ask=asked, points=points, limits=tuple(limits))
+            at_work(reduces, points, with_limits.columns)
+    except InputError as error:
+        problems += error.problems
+    check(problems)
+    return SweepWork(ask=asked, points=points, limits=tuple(limits), reduce=tuple(reduces), title=title or drive.name)
+
+
+def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
+    try:
+        into.append(make())
+    except InputError as error:
+        problems += error.problems
+
+
+def _listed(drive: Drive, path: str, values: Any) -> Axis:
+    """Return the axis of a path with a list of values."""
+    if hasattr(values, "at"):
+        _refuse_distribution(path, values)
+    given = values.tolist() if hasattr(values, "tolist") else values
+    if not isinstance(given, Sequence) or isinstance(given, str):
+        check([Problem(path, _("a list of values is needed"))])
+    fields, rows = spread_out(drive, path, list(given))
+    return Listed(fields=fields, rows=tuple(rows), name=path)
+
+
+def _refuse_distribution(path: str, _given: Distribution) -> None:
+    check([Problem(path, _("a distribution says how points are drawn; put it into Drawn(distributions=…)"))])

@@ -1,0 +1,361 @@
+"""Reductions: what is told of all points of a sweep, or of each group of them, without keeping their rows."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+from cardan.units import nearest
+
+from . import summaries
+from .axes import Axis, Points
+from .goals import Limit, limit_of
+from .work import STATUS, Column, Rows, State
+
+KINDS = ("max", "min", "argmax", "argmin", "mean", "std", "percentile", "histogram", "count", "share")
+"""What may be told of a column; count and share are of the rows that keep a condition."""
+
+GROUPS = 10_000
+"""More groups than this are refused: a table of the rows is what is wanted then."""
+
+BINS = 50
+"""Bins of a histogram when none are asked for."""
+
+_PERCENT = re.compile(r"p(\d+(?:\.\d+)?)\s+(.*)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reduce:
+    """What is to be told of a column, as a plan says it.
+
+    Attributes
+    ----------
+    kind : str
+        One of `KINDS`.
+    of : str
+        Column; for ``count`` and ``share`` empty.
+    by : tuple of str
+        Axes, by their names or by a field of theirs: one answer for each of their places.
+    where : tuple of Limit
+        Rows that count; those without an answer never do.
+    percent : float
+        Of a percentile.
+    bins : int
+    low, high : float or None
+        Of a histogram; without them it has bins of a power of two that cover all numbers.
+    name : str
+        Among the results; made of the rest when empty.
+
+    Examples
+    --------
+    >>> reduce_of("p95 irregularity by duty.speed_rpm").label
+    'p95 irregularity by duty.speed_rpm'
+    """
+
+    kind: str
+    of: str = ""
+    by: tuple[str, ...] = ()
+    where: tuple[Limit, ...] = ()
+    percent: float = 50.0
+    bins: int = BINS
+    low: float | None = None
+    high: float | None = None
+    name: str = ""
+
+    @property
+    def label(self) -> str:
+        """Name among the results."""
+        if self.name:
+            return self.name
+        words = [f"p{self.percent:g}" if self.kind == "percentile" else self.kind]
+        if self.kind in ("count", "share"):
+            words += [" and ".join(str(one) for one in self.where)] if self.where else []
+        else:
+            words.append(self.of)
+            words += ["where " + " and ".join(str(one) for one in self.where)] if self.where else []
+        return " ".join(words) + (" by " + ", ".join(self.by) if self.by else "")
+
+    def told(self) -> dict[str, Any]:
+        """Return it as the table of a plan file."""
+        found: dict[str, Any] = {"kind": self.kind}
+        found |= {"of": self.of} if self.of else {}
+        found |= {"by": list(self.by)} if self.by else {}
+        found |= {"where": [str(one) for one in self.where]} if self.where else {}
+        if self.kind == "percentile":
+            found["percent"] = self.percent
+        if self.kind == "histogram":
+            found |= {"bins": self.bins} | {
+                k: getattr(self, k) for k in ("low", "high") if getattr(self, k) is not None
+            }
+        return found | ({"name": self.name} if self.name else {})
+
+
+def reduce_of(text: str) -> Reduce:
+    """Return the reduction that a text tells.
+
+    Parameters
+    ----------
+    text : str
+        ``max irregularity``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share irregularity <= 0.02 by supplier``.
+
+    Raises
+    ------
+    InputError
+        It is none.
+
+    Examples
+    --------
+    >>> reduce_of("share irregularity <= 0.02 by supplier").by
+    ('supplier',)
+    """
+    whole, _word, by = text.strip().partition(" by ")
+    groups = tuple(one.strip() for one in by.split(",") if one.strip())
+    percent = _PERCENT.fullmatch(whole)
+    if percent:
+        return Reduce(kind="percentile", percent=float(percent[1]), of=percent[2].strip(), by=groups)
+    kind, _space, rest = whole.partition(" ")
+    if kind not in KINDS or kind == "percentile" or not rest.strip():
+        message = _("{text} is no reduction; write “max irregularity”, “p95 life_h by supplier” or “share x <= 2”")
+        raise refuse("reduce", message.format(text=repr(text)))
+    if kind in ("count", "share"):
+        limits = tuple(limit_of(one) for one in rest.split(" and "))
+        return Reduce(kind=kind, where=limits, by=groups)
+    return Reduce(kind=kind, of=rest.strip(), by=groups)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """A reduction at work on the rows of a sweep; a `cardan.batch.work.Reduction`.
+
+    Attributes
+    ----------
+    what : Reduce
+    points : Points
+        The points of the sweep.
+    axes : tuple of int
+        Axes by which rows are grouped, by their numbers.
+    unit : str
+        Of the column.
+    """
+
+    what: Reduce
+    points: Points
+    axes: tuple[int, ...] = ()
+    unit: str = ""
+    count: int = field(init=False, default=1)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "count", math.prod(self.points.axes[k].size for k in self.axes))
+
+    @property
+    def name(self) -> str:
+        """Name among the results."""
+        return self.what.label
+
+    def empty(self) -> State:
+        """Return the state that has seen nothing."""
+        what = self.what
+        if what.kind in ("mean", "std"):
+            return summaries.moment_empty(self.count)
+        if what.kind in ("count", "share"):
+            return summaries.count_empty(self.count)
+        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
+            return summaries.rank_empty(self.count)
+        return (
+            summaries.histogram_empty(self.count, what.bins)
+            if what.kind == "histogram"
+            else summaries.extreme_empty(self.count)
+        )
+
+    def add(self, state: State, rows: Rows, start: int) -> State:
+        """Return the state that has also seen rows ``start`` and following."""
+        what = self.what
+        answered = rows[STATUS] == 0
+        held = answered.copy() if what.where else answered
+        for limit in what.where:
+            held &= limit.excess(rows) <= 0.0
+        if what.kind in ("count", "share"):
+            groups = self._groups(start, len(answered))
+            return summaries.count_add(state, held[answered], None if groups is None else groups[answered])
+        values = np.asarray(rows[what.of], dtype=float)
+        held = held & ~np.isnan(values)
+        groups = self._groups(start, len(values))
+        every = bool(held.all())
+        values = values if every else values[held]
+        groups = groups if every or groups is None else groups[held]
+        if what.kind in ("mean", "std"):
+            return summaries.moment_add(state, values, groups)
+        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
+            return summaries.rank_add(state, values, groups)
+        if what.kind == "histogram":
+            assert what.low is not None
+            assert what.high is not None
+            return summaries.histogram_add(state, values, groups, low=what.low, high=what.high)
+        numbers = np.arange(start, start + len(held)) if every else start + np.flatnonzero(held)
+        return summaries.extreme_add(state, values, numbers, groups, largest=self._largest)
+
+    def merge(self, one: State, other: State) -> State:
+        """Return the state that has seen what either has seen."""
+        what = self.what
+        if what.kind in ("mean", "std"):
+            return summaries.moment_merge(one, other)
+        if what.kind in ("count", "share"):
+            return summaries.count_merge(one, other)
+        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
+            return summaries.rank_merge(one, other)
+        if what.kind == "histogram":
+            return summaries.histogram_merge(one, other)
+        return summaries.extreme_merge(one, other, largest=self._largest)
+
+    def result(self, state: State) -> dict[str, Any]:
+        """Return what is told: kind, column and unit, and the value, or groups with a value each.
+
+        A value is a mapping: ``value``, with ``point`` and ``row`` of an argmax, with ``bound`` of a percentile, or
+        ``edges``, ``counts``, ``below`` and ``above`` of a histogram; None where nothing was seen.
+        """
+        what = self.what
+        head: dict[str, Any] = {"kind": what.kind, "of": what.of, "unit": self.unit}
+        if what.kind == "percentile":
+            head["percent"] = what.percent
+        values = [self._value(state, k) for k in range(self.count)]
+        if not self.axes:
+            return {**head, **values[0]}
+        return {**head, "by": list(what.by), "groups": [self._group(k) for k in range(self.count)], "values": values}
+
+    @property
+    def _largest(self) -> bool:
+        return self.what.kind in ("max", "argmax")
+
+    def _value(self, state: State, k: int) -> dict[str, Any]:
+        what = self.what
+        if what.kind in ("count", "share"):
+            n, of = state["n"][k], state["of"][k]
+            return {"value": n if what.kind == "count" else (n / of if of else None), "rows": of}
+        if what.kind in ("mean", "std"):
+            n = state["n"][k]
+            spread = math.sqrt(state["square"][k] / (n - 1)) if n > 1 else None
+            return {"value": (state["mean"][k] if n else None) if what.kind == "mean" else spread, "rows": n}
+        if what.kind == "percentile":
+            value, bound = summaries.rank_result(state[k], 0.01 * what.percent)
+            return {"value": None if math.isnan(value) else value, "bound": bound}
+        if what.kind == "histogram":
+            return self._histogram(state, k)
+        best, row = state["best"][k], state["row"][k]
+        if what.kind in ("max", "min") or best is None:
+            return {"value": best}
+        return {"value": best, "row": row, "point": self._point(row)}
+
+    def _histogram(self, state: State, k: int) -> dict[str, Any]:
+        what = self.what
+        if what.low is not None and what.high is not None:
+            edges = np.linspace(what.low, what.high, what.bins + 1).tolist()
+            return {
+                "edges": edges,
+                "counts": state["counts"][k],
+                "below": state["below"][k],
+                "above": state["above"][k],
+            }
+        seen = state[k]
+        exponent, first, counts = seen["exponent"], seen["first"], seen["counts"]
+        raw = [np.asarray(seen["kept"], dtype=float)] if seen["kept"] else []
+        if not raw and exponent is None:
+            return {"edges": [], "counts": [], "below": seen["least"], "above": seen["most"]}
+        exponent, first, counts = summaries.binned(raw, [] if raw else [seen], what.bins)
+        edges = [(first + j) * math.ldexp(1.0, exponent) for j in range(len(counts) + 1)]
+        return {"edges": edges, "counts": counts, "below": seen["least"], "above": seen["most"]}
+
+    def _groups(self, start: int, count: int) -> Array | None:
+        """Return the group of each row, None where there is one."""
+        if not self.axes:
+            return None
+        places = self.points.places(start, start + count)
+        found: Array = np.zeros(count, dtype=np.int64)
+        for k in self.axes:
+            found = found * self.points.axes[k].size + places[k]
+        return found
+
+    def _group(self, number: int) -> dict[str, Any]:
+        """Return the values of the fields that a group has in common."""
+        found: dict[str, Any] = {}
+        for k in reversed(self.axes):
+            number, place = divmod(number, self.points.axes[k].size)
+            values = self.points.axes[k].values(np.asarray([place]))
+            found = {name: one[0].item() for name, one in values.items()} | found
+        return found
+
+    def _point(self, row: int) -> dict[str, Any]:
+        return {name: one[0].item() for name, one in self.points.values(row, row + 1).items()}
+
+
+def at_work(reduce: Sequence[Reduce], points: Points, columns: Sequence[Column]) -> tuple[Told, ...]:
+    """Return reductions for the rows of a sweep.
+
+    Raises
+    ------
+    InputError
+        Kinds, columns and axes that are not there, bounds that bound nothing, names given twice; all at once.
+    """
+    units = {one.name: one.unit for one in columns}
+    problems: list[Problem] = []
+    found: list[Told] = []
+    for k, one in enumerate(reduce):
+        path = f"reduce[{k}]"
+        problems += _problems(one, path, units)
+        axes: list[int] = []
+        for group in one.by:
+            place = _axis(points.axes, group)
+            if place is None:
+                known = ", ".join(axis.name for axis in points.axes)
+                text = _("{name} does not vary; what varies: {known}")
+                problems.append(Problem(f"{path}.by", text.format(name=repr(group), known=known)))
+            elif place not in axes:
+                axes.append(place)
+        if math.prod(points.axes[a].size for a in axes) > GROUPS:
+            text = _("more than {limit} groups; keep the rows instead")
+            problems.append(Problem(f"{path}.by", text.format(limit=GROUPS)))
+        elif one.label in [other.name for other in found]:
+            problems.append(Problem(f"{path}.name", _("{name} is told twice").format(name=repr(one.label))))
+        else:
+            found.append(Told(what=one, points=points, axes=tuple(axes), unit=units.get(one.of, "")))
+    check(problems)
+    return tuple(found)
+
+
+def _axis(axes: Sequence[Axis], name: str) -> int | None:
+    return next((k for k, axis in enumerate(axes) if name == axis.name or name in axis.fields), None)
+
+
+def _problems(one: Reduce, path: str, units: dict[str, str]) -> Iterator[Problem]:
+    if one.kind not in KINDS:
+        text = _("{value} is none of {choices}")
+        yield Problem(f"{path}.kind", text.format(value=repr(one.kind), choices=", ".join(KINDS)))
+        return
+    wanted = [] if one.kind in ("count", "share") else [("of", one.of)]
+    for key, name in [*wanted, *(("where", limit.name) for limit in one.where)]:
+        if name not in units:
+            close = nearest(name, units)
+            text = (
+                _("there is no such column; the nearest is {near}")
+                if close
+                else _("there is no such column; known: {all}")
+            )
+            yield Problem(f"{path}.{key}", f"{name}: " + text.format(near=close, all=", ".join(units)))
+    if one.kind in ("count", "share") and not one.where:
+        yield Problem(f"{path}.where", _("missing; a condition such as “irregularity <= 0.02”"))
+    if not 0.0 <= one.percent <= 100.0:
+        yield Problem(f"{path}.percent", _("{value} does not lie between 0 and 100").format(value=one.percent))
+    if not 1 <= one.bins <= summaries.BINS:
+        text = _("{value} does not lie between {low} and {high}")
+        yield Problem(f"{path}.bins", text.format(value=one.bins, low=1, high=summaries.BINS))
+    if (one.low is None) != (one.high is None):
+        yield Problem(f"{path}.low", _("a histogram has both ends or none"))
+    elif one.low is not None and one.high is not None and not one.low < one.high:
+        yield Problem(f"{path}.high", _("{high} is not above {low}").format(high=one.high, low=one.low))
