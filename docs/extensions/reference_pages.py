@@ -240,6 +240,7 @@ GROUPS = {
     "Verdicts": ("checks",),
     "Choices": ("synthesis",),
     "Diagnosis": ("diagnosis",),
+    "Sweeps": ("batch",),
     "Results on paper": ("figures", "report", "calc"),
     "Errors": ("errors",),
 }

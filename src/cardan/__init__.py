@@ -157,6 +157,18 @@ _HOMES = {
     "PinGeometry": "synthesis.pin_geometry",
     "best_pins": "synthesis.pin_geometry",
     "pin_choices": "synthesis.pin_geometry",
+    "Listed": "batch.axes",
+    "Drawn": "batch.axes",
+    "Spaced": "batch.axes",
+    "Normal": "batch.distributions",
+    "Triangular": "batch.distributions",
+    "Truncated": "batch.distributions",
+    "Uniform": "batch.distributions",
+    "InProcess": "batch.engines",
+    "Processes": "batch.engines",
+    "Sweep": "batch.swept",
+    "read_sweep": "batch.swept",
+    "sweep": "batch.sweep",
     "example": "io.examples",
     "example_mechanism": "io.examples",
     "load": "io.drive_file",
@@ -238,6 +250,18 @@ if TYPE_CHECKING:
     from .analysis.traces import Traces as Traces
     from .analysis.traces import traces as traces
     from .analysis.transient import Adaptive as Adaptive
+    from .batch.axes import Drawn as Drawn
+    from .batch.axes import Listed as Listed
+    from .batch.axes import Spaced as Spaced
+    from .batch.distributions import Normal as Normal
+    from .batch.distributions import Triangular as Triangular
+    from .batch.distributions import Truncated as Truncated
+    from .batch.distributions import Uniform as Uniform
+    from .batch.engines import InProcess as InProcess
+    from .batch.engines import Processes as Processes
+    from .batch.sweep import sweep as sweep
+    from .batch.swept import Sweep as Sweep
+    from .batch.swept import read_sweep as read_sweep
     from .calc.calculations import calc as calc
     from .checks.checks import CHECKS as CHECKS
     from .checks.checks import check as check
