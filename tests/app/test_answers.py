@@ -1,5 +1,6 @@
 """Answers and verdicts in a browser: tabs, charts in step with the view, long work, what is applied, what is wrong."""
 
+import json
 import re
 import sys
 
@@ -60,6 +61,39 @@ def test_the_motion_follows_an_edit_in_place_and_its_cursor_the_drive(page):
     chart.focus()
     page.keyboard.press("ArrowRight")
     assert page.evaluate("went") == pytest.approx(5 / 57.29578, abs=1e-6)
+
+
+CURVES = """() => {
+  const plot = document.querySelector('.cardan-chart .plot');
+  return [...plot.querySelectorAll('g.trace.scatter')].map(one => {
+    const trace = one.__data__[0].trace;
+    const y = plot._fullLayout[trace.yaxis.replace('y', 'yaxis')];
+    const seen = one.querySelector('path.js-line').getAttribute('d').slice(1).split('L').map(at => +at.split(',')[1]);
+    return {place: trace.index, seen: seen.map(height => y.p2l(height)), pixel: Math.abs(y.p2l(1) - y.p2l(0))};
+  });
+}"""
+"""The curves of the first chart as they are drawn, read back into what their axes count."""
+
+HEIGHTS = "() => document.querySelector('.cardan-chart .plot').data.map(one => [...one.y])"
+
+
+def test_curves_drawn_at_once_stand_where_their_values_are(page):
+    before = page.evaluate(HEIGHTS)
+    drawn = page.evaluate(CURVES)
+    page.evaluate("document.querySelector('#turn').click()")
+    page.wait_for_function(
+        "before => document.querySelector('.said').textContent !== before", arg=said(page).inner_text()
+    )
+    page.wait_for_function(f"before => JSON.stringify(({CURVES})()) !== before", arg=json.dumps(drawn))
+    sketched = page.evaluate(CURVES)
+    page.wait_for_function(f"before => JSON.stringify(({HEIGHTS})()) !== before", arg=json.dumps(before))
+    heights = page.evaluate(HEIGHTS)
+    whole = [one for one in sketched if len(one["seen"]) == len(heights[one["place"]])]
+    assert whole, "no curve was drawn before plotly drew it"
+    for one in whole:
+        assert one["seen"] == pytest.approx(
+            heights[one["place"]], abs=0.02 * one["pixel"]
+        )  # two places behind the point
 
 
 def test_a_setting_is_applied_with_one_touch(page):

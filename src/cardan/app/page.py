@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,14 +15,17 @@ from cardan.io import example, example_names, example_text
 from cardan.texts import _
 
 from .parts.answers import Answers
+from .parts.diagnosis import Diagnosis
 from .parts.download import Exports
 from .parts.editor import Editor
 from .parts.header import Header
 from .parts.keys import Keys
 from .parts.start import Start
+from .parts.timers import Timer
 from .parts.verdicts import Verdicts
 from .parts.view import View
 from .state.jobs import Jobs
+from .state.recordings import DIAGNOSIS
 from .state.session import Session
 
 STATIC = Path(__file__).parent / "static"
@@ -33,6 +36,9 @@ CHOSEN = "cardan_choices"
 """Cookie with the choices of a user."""
 
 YEAR = 365 * 24 * 3600
+
+LATER = 0.03
+"""Seconds by which the form, the text and the view in space follow the curves and the verdicts."""
 
 
 def serve_files(app: Any) -> None:
@@ -105,6 +111,7 @@ def build(session: Session, jobs: Jobs) -> None:
         kept = quote(json.dumps(session.choices.kept()))
         ui.run_javascript(f"document.cookie='{CHOSEN}={kept}; path=/; max-age={YEAR}; samesite=strict'")
 
+    ui.context.client.on_delete(session.recordings.close)
     session.listen("choices", chosen)
     whole = ui.element("div").classes("page")
 
@@ -115,7 +122,11 @@ def build(session: Session, jobs: Jobs) -> None:
             _tell_browser(session)
             _parts(session, jobs)
 
+    def later(what: Callable[[], None]) -> None:
+        Timer(session, whole, LATER, what, once=True)
+
     session.rebuild = filled
+    session.later = later
     filled()
     Keys(session)
 
@@ -148,6 +159,8 @@ def _parts(session: Session, jobs: Jobs) -> None:
         with ui.element("section").classes("pane view").props(f'aria-label="{_("The drive turning")}"'):
             head.report.snapshot = View(session).scene.snapshot
         with ui.element("section").classes("pane answers").props(f'aria-label="{_("Answers")}"'):
-            Answers(session, jobs, export=Exports(session, jobs))
+            export = Exports(session, jobs)
+            answers = Answers(session, jobs, export=export)
+            answers.add(DIAGNOSIS, _("Diagnosis"), lambda: Diagnosis(session, jobs, export))
         with ui.element("section").classes("pane verdicts").props(f'aria-label="{_("Verdicts")}"'):
             Verdicts(session, jobs, compare=head.variants.compare)

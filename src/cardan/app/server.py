@@ -109,6 +109,8 @@ def start(how: Start) -> None:
                 show_welcome_message=False,
                 uvicorn_logging_level="error",
                 reconnect_timeout=RECONNECT,
+                tailwind=False,  # the page has its style of its own; the compiler would look at every change of it
+                ws_per_message_deflate=how.shared,  # on one machine it costs more than it saves
             )
     finally:
         jobs.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,25 @@ def test_an_edit_reaches_text_and_drive_and_all_who_listen(session: Session) -> 
     assert session.drive is not None
     assert session.drive.joints[1].centre == pytest.approx((0.65, 0.001, -0.03))
     assert not session.saved
+
+
+def test_what_the_user_waits_for_comes_first_and_the_rest_once_for_several_edits(session: Session) -> None:
+    heard: list[str] = []
+    waiting: list[Callable[[], None]] = []
+    session.later = waiting.append
+    session.listen("text", lambda: heard.append("form"))
+    session.listen("drive", lambda: heard.append("scene"))
+    session.listen("drive", lambda: heard.append("curves"), first=True)
+    for y in (1, 2):
+        session.change(lambda text, y=y: amend(text, {"joints[1].centre_mm": [650, y, -30]}))  # type: ignore[misc]
+    session.change(lambda text: text.replace("[650, 2, -30]", "[650, 2]"))
+    assert not session.document.valid
+    assert heard == ["curves", "curves"]
+    assert len(waiting) == 1
+    waiting.pop()()
+    assert heard == ["curves", "curves", "form", "scene"]
+    session.undo()
+    assert len(waiting) == 1
 
 
 def test_a_wrong_edit_keeps_the_last_sound_drive_and_tells_the_loaders_words(session: Session) -> None:

@@ -21,7 +21,7 @@ from cardan.report.preferred import in_choice, names_in
 from cardan.texts import _, speaking
 
 from .blocks import Export, PageView
-from .timers import timer
+from .timers import Timer
 
 AT_ONCE = ("motion",)
 """Answers so quick that they are made while the edit is worked on."""
@@ -72,9 +72,26 @@ class Answers:
         self._within = {names[0]: names[0] for _title, names in GROUPS}
         self._tabs.set_value(self.shown)
         self._show()
-        session.listen("drive", self._follow)
+        session.listen("drive", self._follow, first=True)
         session.listen("text", self._judge)
         session.listen("choices", self._anew)
+
+    def add(self, name: str, title: str, made: Callable[[], Sheet]) -> None:
+        """Add a tab, behind the others, for an answer of a kind of its own.
+
+        Parameters
+        ----------
+        name, title : str
+            What it is called here and on the page.
+        made : function
+            Builds its sheet.
+        """
+        with self._tabs:
+            ui.tab(name, label=title).props(f'data-mark="tab-{name}"')
+        with self._bodies:
+            self.sheets[name] = made()
+        self.sheets[name].body.set_visibility(False)
+        self._within[name] = name
 
     def open(self, group: str) -> None:
         """Open a tab."""
@@ -141,8 +158,8 @@ class Sheet:
         self._asked = 0
         self._choices: dict[str, Any] = {}
         self._settings: tuple[Applicable, ...] = ()
-        self._due: ui.timer | None = None
-        self._watch: ui.timer | None = None
+        self._due: Timer | None = None
+        self._watch: Timer | None = None
         with ui.element("div").classes("sheet").props(f'data-mark="sheet-{name}"') as self.body:
             self._progress = Progress(self.cancel, self.begin)
             if name == "selection":
@@ -168,7 +185,7 @@ class Sheet:
         self._stale()
         self._hold()
         self._jobs_end()
-        self._due = timer(self.session, self.body, QUIET, self.begin, once=True)
+        self._due = Timer(self.session, self.body, QUIET, self.begin, once=True)
 
     def rest(self) -> None:
         """Nobody looks: begin nothing, and give up what is not done."""
@@ -199,7 +216,7 @@ class Sheet:
                 self._look()
             else:
                 self._progress.show(self.job)
-                self._watch = timer(self.session, self.body, LOOK, self._look, once=False)
+                self._watch = Timer(self.session, self.body, LOOK, self._look, once=False)
 
     def cancel(self) -> None:
         """Give up a long answer."""

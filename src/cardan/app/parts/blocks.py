@@ -14,6 +14,7 @@ from cardan.report.block import Block, Cell, Listing, Page, Picture, Points, Tab
 from cardan.texts import _
 
 from .chart import Chart
+from .live import Live
 
 Export: TypeAlias = Callable[[Figure | Page], object]
 """What takes a figure or a page away from the app, into a file."""
@@ -128,18 +129,18 @@ class Drawing:
     """A figure as it is printed."""
 
     def __init__(self, figure: Figure) -> None:
-        self.element = ui.html(inline_svg(figure), sanitize=False).classes("drawing")
+        self.element = Live(inline_svg(figure)).classes("drawing")
 
     def show(self, figure: Figure) -> None:
         """Show another figure in its place."""
-        self.element.set_content(inline_svg(figure))
+        self.element.show(inline_svg(figure))
 
 
 class Text:
     """Words or a table on the page."""
 
     def __init__(self, block: Block, buttons: Mapping[str, str], pressed: Callable[[str], object]) -> None:
-        self.element = ui.html(block_html(block, buttons), sanitize=False).classes("block")
+        self.element = Live(block_html(block, buttons)).classes("block")
         self.element.on("click", lambda event: pressed(str(event.args)), js_handler=BUTTONS)
 
     def fits(self, block: Block) -> bool:
@@ -148,7 +149,7 @@ class Text:
 
     def show(self, block: Block, buttons: Mapping[str, str]) -> None:
         """Show another block in its place."""
-        self.element.set_content(block_html(block, buttons))
+        self.element.show(block_html(block, buttons))
 
 
 class Drawn:
@@ -158,7 +159,7 @@ class Drawn:
         self.figure = block.figure
         with ui.element("figure").classes("block") as self.element:
             with ui.element("div").classes("heading"):
-                self.title = ui.label().classes("title")
+                self.title = Live(escape(self.figure.title)).classes("title")
                 if export is not None:
                     button = ui.button(icon="download", on_click=lambda: export(self.figure))
                     button.props(f'flat dense round size=sm aria-label="{_("save this figure")}"').props(
@@ -166,9 +167,8 @@ class Drawn:
                     )
             self.picture = Drawing(self.figure) if drawn_in_space(self.figure) else Chart(self.figure)
             with ui.element("figcaption"):
-                self.sentence = ui.label()
-                self.source = ui.label().classes("small")
-        self._tell()
+                self.sentence = Live(escape(self.figure.sentence))
+                self.source = Live(escape(self.figure.source)).classes("small")
 
     def fits(self, block: Block) -> bool:
         """Whether a block can be shown in its place: another state of the same figure."""
@@ -179,12 +179,9 @@ class Drawn:
         assert isinstance(block, Picture)
         self.figure = block.figure
         self.picture.show(self.figure)
-        self._tell()
-
-    def _tell(self) -> None:
-        self.title.text = self.figure.title
-        self.sentence.text = self.figure.sentence
-        self.source.text = self.figure.source
+        self.title.say(self.figure.title)
+        self.sentence.say(self.figure.sentence)
+        self.source.say(self.figure.source)
 
 
 class PageView:
@@ -205,7 +202,7 @@ class PageView:
         self._parts: list[Text | Drawn] = []
         with ui.element("article").classes("answer") as self.element:
             with ui.element("div").classes("heading"):
-                self._answer = ui.label().classes("said").props("role=status").props('data-mark="answer"')
+                self._answer = Live().classes("said").props("role=status").props('data-mark="answer"')
                 if export is not None:
                     self._button = ui.button(icon="download", on_click=self._take)
                     self._button.props(f'flat dense round size=sm aria-label="{_("save this page")}"').props(
@@ -227,7 +224,7 @@ class PageView:
         self.page = page
         if self._export is not None:
             self._button.set_visibility(True)
-        self._answer.text = page.answer
+        self._answer.say(page.answer)
         given = _placed(page.blocks, buttons or {})
         same = 0
         while same < min(len(self._parts), len(page.blocks)) and self._parts[same].fits(page.blocks[same]):

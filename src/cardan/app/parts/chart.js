@@ -1,6 +1,9 @@
 // A chart that is updated in place, follows light and dark, and shares the angle of the drive with the view in space.
 // Curves over the input angle have a cursor: the window's "cardan-angle" moves it, pressing on the chart sends
 // "cardan-go-to". The cursor is a line of the page, moved by a transform alone: nothing is drawn anew while it moves.
+// Curves that an edit moves are drawn at once between the axes there are; plotly follows when the user is quiet.
+import { toRaw } from "vue";
+
 const CONFIG = {
   displaylogo: false,
   responsive: false,
@@ -8,6 +11,7 @@ const CONFIG = {
 };
 const TURN = 360;
 const STEP = 5;
+const QUIET = 250; // ms without an edit after which plotly draws everything anew
 
 const faded = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)).join(",");
 
@@ -23,17 +27,38 @@ function darkened(thing, colours, rgb) {
   return Object.fromEntries(Object.entries(thing).map(([key, one]) => [key, darkened(one, colours, rgb)]));
 }
 
+// Return the numbers that bytes in base 64 are.
+function numbers(bytes) {
+  return new Float64Array(Uint8Array.from(atob(bytes), (one) => one.charCodeAt(0)).buffer);
+}
+
+// Return a curve as the path of an SVG; a value that is missing leaves a gap.
+function curve(across, heights, x, y) {
+  let path = "";
+  let pen = "M";
+  for (let k = 0; k < heights.length; k++) {
+    if (Number.isNaN(heights[k])) pen = "M";
+    else {
+      path += `${pen}${x.l2p(across[k]).toFixed(2)},${y.l2p(heights[k]).toFixed(2)}`;
+      pen = "L";
+    }
+  }
+  return path;
+}
+
 export default {
-  template: `<div class="cardan-chart" tabindex="0" role="img" :aria-label="label" @keydown="key">
-    <div ref="plot" class="plot" :style="{ minHeight: spec.layout.meta.equal ? 0 : spec.layout.height + 'px' }"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
+  template: `<div class="cardan-chart" tabindex="0" role="img" @keydown="key">
+    <div ref="plot" class="plot"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
   props: { spec: Object, label: String, dark: Object },
   watch: {
     spec() {
+      this.take();
       this.draw();
     },
   },
   async mounted() {
     this.lines = [];
+    this.take();
     this.angle = window.cardanAngle ?? 0;
     this.shown = true;
     this.rgb = Object.fromEntries(Object.entries(this.dark).map(([from, to]) => [faded(from), faded(to)]));
@@ -47,6 +72,7 @@ export default {
   },
   unmounted() {
     this.gone = true;
+    clearTimeout(this.waiting);
     for (const end of this.ends) end();
     if (this.Plotly && this.$refs.plot) this.Plotly.purge(this.$refs.plot);
   },
@@ -86,10 +112,52 @@ export default {
     isDark() {
       return document.body.classList.contains("body--dark");
     },
+    // Keep what is to be drawn out of Vue's sight, which would watch every number of it.
+    take() {
+      const { data, layout } = toRaw(this.spec);
+      this.held = { data: [...data], layout };
+      this.dress(this.label);
+    },
+    dress(label) {
+      const { meta, height } = this.held.layout;
+      this.$refs.plot.style.minHeight = meta.equal ? "" : `${height}px`;
+      this.$el.setAttribute("aria-label", label);
+    },
+    // Show another state of the figure: the bytes of the `heights` of curves by their places, else all `data`; `layout` if it is another.
+    change(text) {
+      const { label, heights, data, layout } = JSON.parse(text);
+      if (data) this.held.data = data;
+      const curves = Object.entries(heights ?? {}).map(([place, bytes]) => [+place, numbers(bytes)]);
+      for (const [place, y] of curves) this.held.data[place] = { ...this.held.data[place], y };
+      if (layout) this.held.layout = layout;
+      this.dress(label);
+      clearTimeout(this.waiting);
+      if (!data && this.sketch(curves)) this.waiting = setTimeout(() => this.draw(), QUIET);
+      else this.draw();
+    },
+    // Draw curves anew between the axes as they stand; false where that cannot be.
+    sketch(curves) {
+      const whole = this.$refs.plot?._fullLayout;
+      if (!whole || this.drawing) return false;
+      const drawn = new Map();
+      for (const one of this.$refs.plot.querySelectorAll("g.trace.scatter")) {
+        const trace = one.__data__?.[0]?.trace;
+        if (trace) drawn.set(trace.index, { trace, path: one.querySelector("path.js-line") });
+      }
+      return curves.every(([place, heights]) => {
+        const { trace, path } = drawn.get(place) ?? {};
+        if (!trace) return this.held.data[place].visible === "legendonly";
+        const [x, y] = [whole[trace.xaxis.replace("x", "xaxis")], whole[trace.yaxis.replace("y", "yaxis")]];
+        if (!path || !x || !y || x.type !== "linear" || y.type !== "linear") return false;
+        path.setAttribute("d", curve(trace.x, heights, x, y));
+        return true;
+      });
+    },
     async draw() {
       if (!this.Plotly || this.gone) return;
+      clearTimeout(this.waiting);
       this.drawnDark = this.isDark();
-      let { data, layout } = this.spec;
+      let { data, layout } = this.held;
       if (this.drawnDark) {
         data = darkened(data, this.dark, this.rgb);
         layout = darkened(layout, this.dark, this.rgb);
@@ -98,7 +166,9 @@ export default {
       const size = this.size();
       const looks = { paper_bgcolor: "rgba(0,0,0,0)", uirevision: "kept", autosize: false, ...size };
       const plot = this.$refs.plot;
-      await this.Plotly.react(plot, data, { ...layout, ...looks, dragmode: turns.length ? false : "zoom" }, CONFIG);
+      const dragmode = turns.length ? false : "zoom";
+      this.drawing = true;
+      await this.Plotly.react(plot, data, { ...layout, ...looks, dragmode }, CONFIG).finally(() => (this.drawing = false));
       if (!this.afterplot && plot.on) {
         this.afterplot = true;
         plot.on("plotly_afterplot", this.measure);
@@ -108,7 +178,7 @@ export default {
     },
     // Return the size to draw at: as wide as there is room; where circles are to stay round as high as that asks for.
     size() {
-      const { height, meta } = this.spec.layout;
+      const { height, meta } = this.held.layout;
       const room = this.$el.clientWidth || 600;
       if (!meta.equal) return { width: room, height };
       const share = Math.min(1, room / meta.width);
@@ -118,7 +188,7 @@ export default {
     measure() {
       const whole = this.$refs.plot?._fullLayout;
       if (!whole || this.gone) return;
-      const turns = this.spec.layout.meta.turning;
+      const turns = this.held.layout.meta.turning;
       const cursors = this.$refs.cursors;
       while (cursors.children.length > turns.length) cursors.lastChild.remove();
       while (cursors.children.length < turns.length) cursors.append(document.createElement("div"));

@@ -9,6 +9,8 @@ from nicegui import ui
 from cardan.app.state.session import Session
 from cardan.texts import _
 
+from .timers import Timer
+
 QUIET = 0.4
 """Seconds without a key after which the text is read."""
 
@@ -25,7 +27,7 @@ class Source:
     def __init__(self, session: Session) -> None:
         self.session = session
         self._silent = False
-        self._due: ui.timer | None = None
+        self._due: Timer | None = None
         self.text: Any = ui.codemirror(self._lines(), language="TOML", on_change=self._typed)
         self._theme()
         self.text.classes("source").props('data-mark="source"').props(f'aria-label="{_("text of the drive file")}"')
@@ -39,7 +41,7 @@ class Source:
             return
         if self._due is not None:
             self._due.cancel()
-        self._due = ui.timer(QUIET, self._read, once=True)
+        self._due = Timer(self.session, self.text, QUIET, self._read, once=True)
 
     def _read(self) -> None:
         self._due = None

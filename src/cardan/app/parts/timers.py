@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
+from inspect import isawaitable
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from cardan.app.state.session import Session
 
 
-def timer(session: Session, body: ui.element, seconds: float, what: Callable[[], object], *, once: bool) -> ui.timer:
-    """Return a timer that speaks the user's language and goes with the part it belongs to.
+class Timer:
+    """Calls a function after a while, in the user's language; it ends with the part it belongs to.
 
     Parameters
     ----------
@@ -21,14 +23,37 @@ def timer(session: Session, body: ui.element, seconds: float, what: Callable[[],
     seconds : float
         Until it calls, and from call to call.
     what : function
-        What it calls.
+        What it calls; it may be awaited.
     once : bool
         Whether it calls a single time.
+
+    Notes
+    -----
+    Unlike NiceGUI's timer it is no element: the browser hears nothing of it.
     """
 
-    def spoken() -> None:
-        with session.speaking():
-            what()
+    def __init__(
+        self, session: Session, body: ui.element, seconds: float, what: Callable[[], object], *, once: bool
+    ) -> None:
+        self._session = session
+        self._body = body
+        self._seconds = seconds
+        self._what = what
+        self._once = once
+        self._task = background_tasks.create(self._run(), name="timer of a part of the page")
 
-    with body:
-        return ui.timer(seconds, spoken, once=once)
+    def cancel(self) -> None:
+        """Call no more."""
+        self._task.cancel()
+
+    async def _run(self) -> None:
+        while True:
+            await asyncio.sleep(self._seconds)
+            if self._body.is_deleted:
+                return
+            with self._body, self._session.speaking():
+                called = self._what()
+                if isawaitable(called):
+                    await called
+            if self._once:
+                return

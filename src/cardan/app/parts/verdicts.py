@@ -19,10 +19,14 @@ from cardan.report.preferred import in_choice
 from cardan.texts import _
 
 from .answers import applied
-from .timers import timer
+from .live import Live
+from .timers import Timer
 
 QUIET = 0.4
 """Seconds without an edit after which cures are looked for."""
+
+SOON = 0.002
+"""Seconds by which verdicts follow the curves."""
 
 LOOK = 0.2
 """Seconds between two looks whether they were found."""
@@ -55,11 +59,11 @@ class Verdicts:
         self.opened: set[str] = set()
         self._jobs = jobs
         self._job: Job | None = None
-        self._due: ui.timer | None = None
-        self._watch: ui.timer | None = None
+        self._due: Timer | None = None
+        self._watch: Timer | None = None
         with ui.element("div").classes("lights") as self.body:
             self._problems = ui.html("", sanitize=False).props("role=alert").props('data-mark="problems-of-verdicts"')
-            self._summed = ui.label().classes("summed").props("role=status").props('data-mark="judgement"')
+            self._summed = Live().classes("summed").props("role=status").props('data-mark="judgement"')
             with ui.element("div").classes("tools"):
                 even = ui.button(_("make synchronous"), on_click=self._even).props("outline dense no-caps size=sm")
                 even.props('data-mark="make-synchronous"')
@@ -67,14 +71,19 @@ class Verdicts:
                     button = ui.button(_("compare with …"), on_click=compare)
                     button.props("outline dense no-caps size=sm").props('data-mark="compare"')
             self._told = ui.label().classes("hint").props("role=status")
-            self._list = ui.html("", sanitize=False).classes("list").props('data-mark="verdicts"')
+            self._list = Live().classes("list").props('data-mark="verdicts"')
             self._list.on("click", lambda event: self._pressed(str(event.args)), js_handler=PRESSED)
         self._told.set_visibility(False)
-        session.listen("drive", self._follow)
+        session.listen("drive", self._soon, first=True)
         session.listen("text", self._judge)
         session.listen("choices", self._follow)
         self._follow()
         self._judge()
+
+    def _soon(self) -> None:
+        """Judge the drive once the curves have gone out."""
+        self._end()
+        self._due = Timer(self.session, self.body, SOON, self._follow, once=True)
 
     def _follow(self) -> None:
         """Judge the drive as it is now; cures come once the user is quiet."""
@@ -86,18 +95,18 @@ class Verdicts:
         try:
             found = result(question)
         except CardanError as error:
-            self._summed.text = str(error)
+            self._summed.say(str(error))
             self._show(())
             return
         except Exception as error:  # whatever it is, the page goes on and says so
-            self._summed.text = own_fault(question.language, f"{type(error).__name__}: {error}")
+            self._summed.say(own_fault(question.language, f"{type(error).__name__}: {error}"))
             self._show(())
             return
         assert isinstance(found, tuple)
-        self._summed.text = sentence(found)
+        self._summed.say(sentence(found))
         self._show(found)
         if any(one.tone == "failed" for one in found):
-            self._due = timer(self.session, self.body, QUIET, self._search, once=True)
+            self._due = Timer(self.session, self.body, QUIET, self._search, once=True)
 
     def _search(self) -> None:
         question = asked(self.session, CURES)
@@ -107,7 +116,7 @@ class Verdicts:
         if self._job.finished:
             self._look()
         else:
-            self._watch = timer(self.session, self.body, LOOK, self._look, once=False)
+            self._watch = Timer(self.session, self.body, LOOK, self._look, once=False)
 
     def _look(self) -> None:
         job = self._job
@@ -124,7 +133,7 @@ class Verdicts:
             return in_choice(Words(text=text), chosen.units, chosen.decimal).text
 
         self.lights = tuple(found)
-        self._list.set_content(lights_html(self.lights, self.opened, spoken))
+        self._list.show(lights_html(self.lights, self.opened, spoken))
 
     def _judge(self) -> None:
         """Show what is wrong with the file, over the verdicts of when it was sound."""

@@ -19,6 +19,8 @@ from cardan.figures.scene_words import in_words_of
 from cardan.report.preferred import names_in
 from cardan.texts import _, speaking
 
+from .timers import Timer
+
 if TYPE_CHECKING:
     from cardan import Verdict
 
@@ -32,7 +34,7 @@ QUIET = 0.35
 """Seconds without an edit after which utilisations, forces and mode shapes are reckoned anew."""
 
 SOON = 0.02
-"""Seconds by which the view follows the curves."""
+"""Seconds by which the view follows the form."""
 
 FOLLOWING = (
     "if(!window.cardanPhi){window.cardanPhi=true;let last=0;addEventListener('cardan-angle',e=>{"
@@ -58,8 +60,8 @@ class View:
         self.on: set[str] | None = None
         self.mode: int | None = None  # None until mode shapes were asked for
         self.pose: int | None = None
-        self._waiting: ui.timer | None = None
-        self._next: ui.timer | None = None
+        self._waiting: Timer | None = None
+        self._next: Timer | None = None
         with ui.element("div").classes("stage") as self.stage:
             self.scene = SceneView(on_touched=session.select, on_playing=self._played).classes("scene")
             self.scene.props('data-mark="scene"')
@@ -116,14 +118,12 @@ class View:
         self.poses.set_visibility(bool(drive.poses))
 
     def _soon(self) -> None:
-        """Follow once curves and verdicts have been sent, and once for several edits of a drag."""
+        """Follow once the form has been sent, and once for several changes in a row."""
         if self._next is None:
             self._next = self._timer(SOON, self._follow)
 
-    def _timer(self, seconds: float, what: Callable[[], object]) -> ui.timer:
-        """Return a timer that stays when the part whose button was pressed is built anew."""
-        with self.stage:
-            return ui.timer(seconds, what, once=True)
+    def _timer(self, seconds: float, what: Callable[[], object]) -> Timer:
+        return Timer(self.session, self.stage, seconds, what, once=True)
 
     def _follow(self) -> None:
         """Show the drive as it is now; what takes longer follows once the user is quiet."""

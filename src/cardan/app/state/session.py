@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias
@@ -13,6 +13,7 @@ from cardan.texts import speaking
 from .choices import Choices
 from .document import Document, changed, read, sent
 from .history import History
+from .recordings import Recordings
 from .variants import Variants
 from .workspace import Workspace
 
@@ -49,8 +50,12 @@ class Session:
         Whether the system of the user is dark; asked of the browser.
     variants : Variants
         The variants kept, also while another file is opened.
+    recordings : Recordings
+        The recording that is open, which nobody else sees.
     rebuild : function
         Builds the parts of the page anew: another file, another language.
+    later : function
+        Calls a function once what cannot wait has gone out to the browser; at once unless a page says otherwise.
     """
 
     def __init__(self, workspace: Workspace, choices: Choices | None = None) -> None:
@@ -64,26 +69,44 @@ class Session:
         self.dark = False
         self.history = History()
         self.variants = Variants()
+        self.recordings = Recordings(workspace)
         self._saved = ""
         self._gesture = ""
         self.rebuild: Listener = _nothing
+        self.later: Callable[[Listener], None] = _at_once
         self._listeners: dict[Change, list[Listener]] = {}
+        self._first: dict[Change, list[Listener]] = {}
+        self._behind: tuple[Change, ...] = ()
 
-    def listen(self, change: Change, listener: Listener) -> None:
-        """Have a function called after every change of a sort."""
-        self._listeners.setdefault(change, []).append(listener)
+    def listen(self, change: Change, listener: Listener, *, first: bool = False) -> None:
+        """Have a function called after every change of a sort.
+
+        Parameters
+        ----------
+        change : str
+            The sort.
+        listener : function
+            What is called.
+        first : bool
+            Of an edit it is told before all others and at once: it shows what the user waits for.
+        """
+        (self._first if first else self._listeners).setdefault(change, []).append(listener)
 
     def forget_parts(self) -> None:
         """Forget all listeners but those of the page itself, before its parts are built anew."""
+        self._first = {}
         self._listeners = {
             change: listeners[:1] for change, listeners in self._listeners.items() if change == "choices"
         }
 
     def tell(self, change: Change) -> None:
         """Call all who want to know of a change, in the user's language; one that fails keeps it from no other."""
+        self._call([*self._first.get(change, ()), *self._listeners.get(change, ())])
+
+    def _call(self, listeners: Iterable[Listener]) -> None:
         failed: Exception | None = None
         with self.speaking():
-            for listener in tuple(self._listeners.get(change, ())):
+            for listener in listeners:
                 try:
                     listener()
                 except Exception as error:
@@ -161,7 +184,6 @@ class Session:
             return
         if gesture and gesture == self._gesture:
             self._now(after)
-            self.tell("file")
         else:
             self._step(after)
         self._gesture = gesture
@@ -175,14 +197,12 @@ class Session:
         self.end_gesture()
         text, self.history = self.history.undone(self.document.text)
         self._now(read(text, self.workspace.enclosed))
-        self.tell("file")
 
     def redo(self) -> None:
         """Go a step forward again."""
         self.end_gesture()
         text, self.history = self.history.redone(self.document.text)
         self._now(read(text, self.workspace.enclosed))
-        self.tell("file")
 
     def save(self, name: str = "") -> None:
         """Write the file into the workspace.
@@ -217,15 +237,30 @@ class Session:
     def _step(self, document: Document) -> None:
         self.history, self._gesture = self.history.after(self.document.text), ""
         self._now(document)
-        self.tell("file")
 
     def _now(self, document: Document) -> None:
+        """Show another document: first what the user waits for, then all the rest, for several edits in a row once."""
         self.document = document
-        self.tell("text")
+        changes: tuple[Change, ...] = ("text", "file")
         if document.drive is not None:
             self.drive = document.drive
-            self.tell("drive")
+            changes = ("text", "drive", "file")
+        waiting, self._behind = bool(self._behind), max(changes, self._behind, key=len)
+        try:
+            self._call([listener for change in changes for listener in self._first.get(change, ())])
+        finally:
+            if not waiting:
+                self.later(self._follow)
+
+    def _follow(self) -> None:
+        """Tell all who could wait."""
+        changes, self._behind = self._behind, ()
+        self._call([listener for change in changes for listener in self._listeners.get(change, ())])
 
 
 def _nothing() -> None:
     """Stand where no page is."""
+
+
+def _at_once(what: Listener) -> None:
+    what()

@@ -16,12 +16,13 @@ from cardan.report.answers import answered, subject
 from cardan.report.block import Page
 from cardan.report.exports import Exported
 from cardan.report.lights import Light, lights, with_cures
+from cardan.report.recorded import Recorded
 from cardan.texts import speaking
 
-from . import papers
+from . import papers, recordings
 from .session import Session
 
-Result: TypeAlias = Page | tuple[Light, ...] | Exported
+Result: TypeAlias = Page | tuple[Light, ...] | Exported | Recorded
 
 Progress: TypeAlias = Callable[[float], object]
 
@@ -36,7 +37,7 @@ class Question:
     Parameters
     ----------
     name : str
-        A question of `cardan.report.answers.ANSWERS`, `VERDICTS`, `CURES` or one of `papers`.
+        A question of `cardan.report.answers.ANSWERS`, `VERDICTS`, `CURES`, one of `papers`, or `recordings.DIAGNOSIS`.
     drive : Drive
         About which drive.
     folder : Path
@@ -109,6 +110,8 @@ def result(question: Question, progress: Progress | None = None) -> Result:
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
         if question.name in (papers.REPORT, papers.PART, papers.COMPARE):
             return papers.made(question, known, progress)
+        if question.name == recordings.DIAGNOSIS:
+            return recordings.heard(question.drive, question.choices["recording"], known, progress)
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
             return lights(on)

@@ -49,7 +49,7 @@ class Workspace:
         InputError
             There is none of that name in the folder, or it is no text.
         """
-        return text_of(self._place(name))[0]
+        return text_of(self.place(name))[0]
 
     def write(self, name: str, text: str) -> str:
         """Write a file and return its name, with .toml at its end.
@@ -60,10 +60,17 @@ class Workspace:
             The name is none, leads out of the folder, or the file cannot be written.
         """
         full = name if name.endswith(".toml") or not name else f"{name}.toml"
-        write_text(self._place(full), text)
+        write_text(self.place(full), text)
         return full
 
-    def _place(self, name: str) -> Path:
+    def place(self, name: str) -> Path:
+        """Return where the file of a name is.
+
+        Raises
+        ------
+        InputError
+            The name is none, or leads out of the folder.
+        """
         if not re.fullmatch(r"[^/\\\x00-\x1f:*?\"<>|.][^/\\\x00-\x1f:*?\"<>|]{0,120}", name):
             raise refuse("name", _("{name} is no name of a file").format(name=repr(name)))
         return self.enclosed / name

@@ -21,6 +21,7 @@ import { THEMES, uniforms } from "./studio.js";
 
 const REST = 160; // ms without motion until the picture is drawn at its best
 const THIN = [700, 320]; // without a graphics card, moving bodies keep to their form within a pixel: this part of the whole
+const QUIET = 300; // ms without an edit until the floor follows
 const FOLLOW = 100; // ms between two angles told to the page where every change of it costs a frame
 const HEARD = 100; // ms between two angles told to the server
 const mounted = [];
@@ -116,7 +117,9 @@ class View {
     this.modes.show(scene.modes, this.motion);
     this.bodies.haunt(this.modes.whirls);
     this.switch();
-    this.floor();
+    clearTimeout(this.laying);
+    if (first) this.floor();
+    else this.laying = setTimeout(() => this.relay(), QUIET);
     if (first) this.look(this.viewer.view, false);
     this.thin();
     this.draw();
@@ -131,6 +134,12 @@ class View {
     const pixel = Math.min(Math.max(this.viewer.pixel, least), most);
     const keep = pixel / error < 1.3 && error / pixel < 1.3; // the forms there are will do
     this.bodies.thin(keep ? error : pixel, () => this.draw());
+  }
+
+  // The floor of a drive that was edited, once the user is quiet: its shade is read back, which takes its time.
+  relay() {
+    this.floor();
+    this.draw();
   }
 
   floor() {
@@ -318,6 +327,7 @@ class View {
     this.toldAt = now;
     window.dispatchEvent(new CustomEvent("cardan-angle", { detail: { angle: this.angle, view: this } }));
     clearTimeout(this.late);
+    clearTimeout(this.laying);
     const send = () => {
       this.sent = performance.now();
       this.emit("angle", this.told);

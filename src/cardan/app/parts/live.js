@@ -1,0 +1,18 @@
+// HTML that is changed by a message of its own.
+export default {
+  template: `<div></div>`,
+  props: { html: String },
+  mounted() {
+    this.show(this.html);
+  },
+  watch: {
+    html(now) {
+      this.show(now);
+    },
+  },
+  methods: {
+    show(html) {
+      if (html !== this.shown) this.$el.innerHTML = this.shown = html;
+    },
+  },
+};
