@@ -1,0 +1,215 @@
+"""The tab of the diagnosis: a recording is sent or opened, its channels are told, and its causes are shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import events, ui
+
+from cardan.app.state.jobs import Jobs
+from cardan.app.state.recordings import DIAGNOSIS, MAX_RECORDING
+from cardan.app.state.session import Session
+from cardan.errors import InputError
+from cardan.report.preferred import in_choice, names_in
+from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
+from cardan.texts import _
+
+from .answers import Sheet
+from .blocks import Export
+from .dialogs import asking
+
+MOST_PULSES = 10_000
+"""Pulses that a tacho gives in a turn at most."""
+
+
+class Diagnosis(Sheet):
+    """What a recording of the drive tells.
+
+    Parameters
+    ----------
+    session : Session
+        Whose drive and recording it is about.
+    jobs : Jobs
+        Where it is made.
+    export : function or None
+        Takes a figure or the page along.
+    """
+
+    def __init__(self, session: Session, jobs: Jobs, export: Export | None) -> None:
+        super().__init__(DIAGNOSIS, session, jobs, export)
+        self._sensors: tuple[Sensor, ...] = ()
+        self._tacho = ""
+        with self.body:
+            self._source = ui.element("div").classes("recording")
+            self._channels = ui.element("div").classes("recording")
+        self._source.move(target_index=0)
+        self._channels.move(target_index=1)
+        self._offer_recordings()
+
+    @property
+    def quick(self) -> bool:
+        """Never: it is a process of its own."""
+        return False
+
+    def begin(self) -> None:
+        """Answer now, where there is a recording."""
+        opened = self.session.recordings.opened
+        if opened is None:
+            return
+        self._choices = {"recording": opened}
+        super().begin()
+
+    def _offer_recordings(self) -> None:
+        """Show what is open, and how another one is opened."""
+        opened = self.session.recordings.opened
+        self._source.clear()
+        with self._source:
+            _button(_("Send a recording …"), "upload", self.send).props('data-mark="recording-send"')
+            with ui.dropdown_button(_("Open a recording"), icon="folder_open", auto_close=True) as menu:
+                menu.props('flat dense no-caps data-mark="recording-open"')
+                for name in self.session.recordings.names():
+                    ui.item(name, on_click=lambda name=name: self._open(lambda: self.session.recordings.open(name)))
+                if not self.session.recordings.names():
+                    ui.item(_("The folder holds no recording yet.")).props("disable")
+            said = opened.name if opened is not None else ""
+            ui.label(said).classes("head").props('role=status data-mark="recording-name"')
+            if opened is None:
+                text = _(
+                    "A recording of the running drive tells what may be wrong with it: vibration at its bearings, best "
+                    "with a tacho, over a run-up and at two torques. Files: {known}, at most {size} MB."
+                )
+                hint = text.format(known=", ".join(SUFFIXES), size=MAX_RECORDING // 10**6)
+                ui.label(hint).classes("hint wide").props('data-mark="recording-hint"')
+
+    def send(self) -> None:
+        """Take a recording from the user's disk."""
+        with self.session.speaking(), asking("send-recording") as dialog:
+            ui.label(_("A recording, at most {size} MB").format(size=MAX_RECORDING // 10**6)).classes("head")
+
+            async def taken(event: events.UploadEventArguments) -> None:
+                recordings, name = self.session.recordings, event.file.name
+                place = recordings.room(name)
+                await event.file.save(place)
+                dialog.close()
+                if not self.body.is_deleted:
+                    with self.body:
+                        self._open(lambda: recordings.take(name, place))
+
+            def refused() -> None:
+                text = _("The file is larger than {size} MB.").format(size=MAX_RECORDING // 10**6)
+                ui.notify(text, type="negative", position="top")
+
+            ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_RECORDING, auto_upload=True).props(
+                f"accept={','.join(SUFFIXES)} flat bordered"
+            ).props('data-mark="recording-upload"')
+            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+
+    def _open(self, opening: Callable[[], None]) -> None:
+        with self.session.speaking():
+            try:
+                opening()
+            except InputError as error:
+                ui.notify(str(error), type="negative", position="top", multi_line=True, timeout=8000)
+                return
+            self._sensors, self._tacho = (), ""
+            self._offer_recordings()
+            self._offer_channels()
+            self.begin()
+
+    def _say(self, **changes: Any) -> None:
+        """Say more of the recording, and ask again."""
+        with self.session.speaking():
+            self.session.recordings.say(**changes)
+            self.begin()
+
+    def _show(self, page: Any) -> None:
+        found: Recorded = page
+        self._progress.hide()
+        self.view.element.classes(remove="stale")
+        chosen, drive, opened = self.session.choices, self.about, self.session.recordings.opened
+        if drive is None or opened is None:
+            return
+        if (found.sensors, found.tacho) != (self._sensors, self._tacho):
+            self._sensors, self._tacho = found.sensors, found.tacho
+            self._offer_channels()
+        names = (*names_in(drive), opened.name, *(one.name for one in found.sensors))
+        self.view.show(in_choice(found.page, chosen.units, chosen.decimal, names=names))
+
+    def _offer_channels(self) -> None:
+        """Ask for what the file does not tell."""
+        self._channels.clear()
+        opened = self.session.recordings.opened
+        if opened is None:
+            return
+        said = opened.said
+        with self._channels:
+            if self._sensors:
+                turning = {one.name: one.name for one in self._sensors if one.turns}
+                options = turning if self._tacho else {"": _("none was found"), **turning}
+                tacho = ui.select(options, value=self._tacho, label=_("tells the speed"))
+                tacho.props('dense options-dense outlined data-mark="tacho"').classes("choice")
+                tacho.on_value_change(lambda event: self._say(tacho=event.value or None))
+                shaking = [one.name for one in self._sensors if one.shakes]
+                shown = ui.select({"": _("the loudest"), **dict.fromkeys(shaking)}, label=_("orders shown of"))
+                shown.set_options({"": _("the loudest"), **{one: one for one in shaking}}, value=said.channel or "")
+                shown.props('dense options-dense outlined data-mark="shown-channel"').classes("choice")
+                shown.on_value_change(lambda event: self._say(channel=event.value or None))
+            pulses = ui.number(_("pulses per turn"), value=said.pulses_per_turn, min=0, max=MOST_PULSES)
+            pulses.props('dense outlined debounce=600 data-mark="pulses"').classes("choice narrow")
+            pulses.on_value_change(lambda event: self._say(pulses_per_turn=float(event.value or 1.0)))
+            with ui.expansion(_("What the file does not tell")).props('dense data-mark="recording-more"') as more:
+                more.classes("wide")
+                self._more()
+
+    def _more(self) -> None:
+        opened, drive = self.session.recordings.opened, self.session.drive
+        if opened is None or drive is None:
+            return
+        said = opened.said
+        fields: list[tuple[ui.input | ui.number, Callable[[Any], dict[str, Any]]]] = [
+            (
+                ui.input(_("titles of all channels, in order"), value=", ".join(said.titles))
+                .classes("wide")
+                .props('placeholder="tacho, acceleration_supports[0]_z_m_s2, acceleration_supports[1]_z_m_s2"'),
+                lambda value: {"titles": tuple(one.strip() for one in str(value or "").split(",") if one.strip())},
+            ),
+            (
+                ui.number(_("rate [Hz]"), value=said.rate, min=0).classes("choice narrow"),
+                lambda value: {"rate": value or None},
+            ),
+            (
+                ui.number(_("full scale of a WAV file"), value=said.full_scale, min=0).classes("choice narrow"),
+                lambda value: {"full_scale": value or None},
+            ),
+        ]
+        for field, told in fields:
+            field.props("dense outlined")
+            field.on("change", lambda field=field, told=told: self._say(**told(field.value)))
+        fields[0][0].props('data-mark="titles"')
+        parts = [f"supports[{k}]" for k in range(len(drive.supports))]
+        parts += [f"shafts[{k}]" for k in range(len(drive.shafts))]
+        for one in self._sensors:
+            if one.shakes:
+                self._place(one, parts)
+
+    def _place(self, one: Sensor, parts: list[str]) -> None:
+        """Ask where a sensor sits and looks."""
+        with ui.element("div").classes("line"):
+            ui.label(one.name).classes("name")
+            known = dict.fromkeys(["", *parts, one.place])
+            where = ui.select({part: part or "–" for part in known}, value=one.place, label=_("sits on"))
+            way = ui.select({part: part or "–" for part in ("", *WAYS)}, value=one.direction, label=_("looks"))
+            for field in (where, way):
+                field.props("dense options-dense outlined").classes("choice narrow")
+                field.on_value_change(lambda: self._moved(one.name, where.value, way.value))
+
+    def _moved(self, name: str, place: str, way: str) -> None:
+        opened = self.session.recordings.opened
+        if opened is not None:
+            rest = tuple(said for said in opened.said.places if said[0] != name)
+            self._say(places=(*rest, (name, place, way)))
+
+
+def _button(text: str, icon: str, act: Callable[[], object]) -> ui.button:
+    return ui.button(text, icon=icon, on_click=act).props("flat dense no-caps")

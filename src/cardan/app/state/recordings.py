@@ -1,0 +1,178 @@
+"""The recording that one user has open: where its file is, and what he says of it. Nobody else sees it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.errors import refuse
+from cardan.files import refusal
+from cardan.io.signals import SIGNAL_FORMATS
+from cardan.report.recorded import Recorded, Said, recorded
+from cardan.texts import _
+
+from .workspace import MAX_LISTED, Workspace
+
+MAX_RECORDING = 100_000_000
+"""Bytes of a recording that a user may send."""
+
+DIAGNOSIS = "diagnosis"
+"""The question that is answered from a recording."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """A recording that is open.
+
+    Parameters
+    ----------
+    name : str
+        As the user calls it.
+    path : Path
+        Its file.
+    stamp : (int, int)
+        Time of its last change and its size: another state of the file is another recording.
+    said : Said
+        What the user says of it.
+    """
+
+    name: str
+    path: Path
+    stamp: tuple[int, int]
+    said: Said = field(default_factory=Said)
+
+
+class Recordings:
+    """The recording of one user, sent, or opened from the folder.
+
+    Parameters
+    ----------
+    workspace : Workspace
+        The folder with the user's files.
+
+    Attributes
+    ----------
+    opened : Recording or None
+        The one that is open.
+    """
+
+    def __init__(self, workspace: Workspace) -> None:
+        self.workspace = workspace
+        self.opened: Recording | None = None
+        self._sent: TemporaryDirectory[str] | None = None
+        self._coming: TemporaryDirectory[str] | None = None
+
+    def names(self) -> tuple[str, ...]:
+        """Return the recordings of the folder, the one changed last first."""
+        found = [
+            path
+            for path in self.workspace.folder.iterdir()
+            if path.suffix.lower() in SIGNAL_FORMATS and path.is_file() and not path.name.startswith(".")
+        ]
+        found.sort(key=lambda path: -path.stat().st_mtime)
+        return tuple(path.name for path in found[:MAX_LISTED])
+
+    def open(self, name: str) -> None:
+        """Open a recording of the folder.
+
+        Raises
+        ------
+        InputError
+            There is none of that name in the folder.
+        """
+        self._open(name, self.workspace.place(name))
+
+    def open_file(self, path: Path) -> None:
+        """Open a recording that is shipped.
+
+        Raises
+        ------
+        InputError
+            There is none.
+        """
+        self._open(path.name, path)
+
+    def room(self, name: str) -> Path:
+        """Return where the content of a file that the user sends is put; `take` opens it then.
+
+        Parameters
+        ----------
+        name : str
+            As the browser calls it; nothing but its letters and its end are taken from it.
+        """
+        self._coming = TemporaryDirectory(prefix="cardan-", ignore_cleanup_errors=True)
+        plain = re.sub(r"[^\w. -]+", "-", name.replace("\\", "/").rpartition("/")[2])[-80:].strip(". -")
+        return Path(self._coming.name) / (plain or "recording")
+
+    def take(self, name: str, path: Path) -> None:
+        """Open the file that was put into its room; what was sent before is deleted.
+
+        Raises
+        ------
+        InputError
+            It is too large.
+        """
+        if path.stat().st_size > MAX_RECORDING:
+            _delete(self._coming)
+            self._coming = None
+            raise refuse(name, _("larger than {size} MB").format(size=MAX_RECORDING // 10**6), "out_of_range")
+        self._open(name, path)
+        _delete(self._sent)
+        self._sent, self._coming = self._coming, None
+
+    def say(self, **changes: Any) -> None:
+        """Say more of the recording that is open, or something else."""
+        if self.opened is not None:
+            self.opened = replace(self.opened, said=replace(self.opened.said, **changes))
+
+    def close(self) -> None:
+        """Close the recording; what was sent is deleted."""
+        self.opened = None
+        for folder in (self._sent, self._coming):
+            _delete(folder)
+        self._sent = self._coming = None
+
+    def _open(self, name: str, path: Path) -> None:
+        try:
+            told = path.stat()
+        except OSError as error:
+            raise refuse(name, refusal(error)) from None
+        self.opened = Recording(name=name, path=path, stamp=(told.st_mtime_ns, told.st_size))
+
+
+def _delete(folder: TemporaryDirectory[str] | None) -> None:
+    """Delete a folder with all that is in it."""
+    if folder is not None:
+        with suppress(OSError):
+            folder.cleanup()
+
+
+def heard(
+    drive: Drive, recording: Recording, known: Catalogue | None, progress: Callable[[float], object] | None = None
+) -> Recorded:
+    """Return what a recording tells of a drive, in the language spoken.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive in order.
+    recording : Recording
+        The recording.
+    known : Catalogue or None
+        With the table of faults.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work.
+
+    Raises
+    ------
+    InputError
+        The file is none that can be read.
+    """
+    return recorded(recording.path, drive, recording.said, known=known, progress=progress)

@@ -1,0 +1,195 @@
+"""A recording in a file, read and judged beside a drive: its page, and the channels about which more can be said."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TypeAlias
+
+from cardan.catalogue import Catalogue
+from cardan.diagnosis.examination import examine
+from cardan.diagnosis.signal import DIRECTIONS, TURNING, Channel, Signal
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.io.signals import SIGNAL_FORMATS, signal
+from cardan.texts import _
+
+from .block import Page, Points, Words
+from .diagnosis import diagnosed
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
+
+READING = 0.4
+"""Share of the work that reading a file is, about."""
+
+SUFFIXES = tuple(SIGNAL_FORMATS)
+"""What recordings are called at their end."""
+
+WAYS = tuple(one for one in DIRECTIONS if one)
+"""Directions in which a sensor can look."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Said:
+    """What is said of a recording that its file does not tell.
+
+    Parameters
+    ----------
+    tacho : str, optional
+        Channel that tells how the shaft turns; the likeliest when not given.
+    pulses_per_turn : float
+        Pulses of the tacho in a turn.
+    titles : tuple of str
+        What the channels measure, all in order, as ``acceleration_front_z_m_s2``.
+    rate : float, optional
+        Values a second [Hz].
+    full_scale : float, optional
+        What the greatest number of a WAV file stands for.
+    places : tuple of (str, str, str)
+        Channel, key path of the part that it sits on, direction in which it looks; empty where nothing is said.
+    channel : str, optional
+        Channel whose orders are shown; the loudest when not given.
+    """
+
+    tacho: str | None = None
+    pulses_per_turn: float = 1.0
+    titles: tuple[str, ...] = ()
+    rate: float | None = None
+    full_scale: float | None = None
+    places: tuple[tuple[str, str, str], ...] = ()
+    channel: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sensor:
+    """A channel of a recording, as it was taken.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    place, direction : str
+        Where it sits and looks; empty where not known.
+    turns : bool
+        Whether it can tell how the shaft turns.
+    shakes : bool
+        Whether it measures vibration.
+    """
+
+    name: str
+    place: str = ""
+    direction: str = ""
+    turns: bool = False
+    shakes: bool = False
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Recorded:
+    """What a recording tells.
+
+    Parameters
+    ----------
+    page : Page
+        Its diagnosis, or why there is none.
+    sensors : tuple of Sensor
+        Its channels.
+    tacho : str
+        Name of the channel taken as tacho; empty where there is none.
+    """
+
+    page: Page
+    sensors: tuple[Sensor, ...]
+    tacho: str
+
+
+def recorded(
+    path: Path, drive: Drive, said: Said, *, known: Catalogue | None = None, progress: Progress | None = None
+) -> Recorded:
+    """Return what a recording in a file tells of a drive.
+
+    Parameters
+    ----------
+    path : Path
+        The file; it is read as data.
+    drive : Drive
+        The drive in order.
+    said : Said
+        What the file does not tell.
+    known : Catalogue, optional
+        With the table of faults; the shipped one when not given.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the work with what is known by then.
+
+    Raises
+    ------
+    InputError
+        The file is none that can be read.
+    """
+    told = progress or (lambda _share: None)
+    found = _placed(
+        signal(
+            path,
+            tacho=said.tacho,
+            pulses_per_turn=said.pulses_per_turn,
+            titles=said.titles,
+            rate=said.rate,
+            full_scale=said.full_scale or (),
+            progress=lambda share: told(READING * share),
+        ),
+        said,
+    )
+    names = [one.name for one in found.channels]
+    try:
+        page = diagnosed(
+            examine(
+                found,
+                drive,
+                channel=said.channel if said.channel in names else None,
+                known=known,
+                progress=lambda share: told(READING + (1.0 - READING) * share),
+            )
+        )
+    except InputError as error:
+        page = _unjudged(found, error)
+    return Recorded(
+        page=page,
+        sensors=tuple(_sensor(one) for one in found.channels),
+        tacho="" if found.tacho is None else names[found.tacho],
+    )
+
+
+def _placed(found: Signal, said: Said) -> Signal:
+    """Return a recording with its sensors where they are said to be."""
+    places = {name: (place, way) for name, place, way in said.places}
+
+    def moved(one: Channel) -> Channel:
+        place, way = places.get(one.name, ("", ""))
+        return replace(one, place=place or one.place, direction=way or one.direction)
+
+    return replace(found, channels=tuple(moved(one) for one in found.channels))
+
+
+def _sensor(one: Channel) -> Sensor:
+    turns = one.quantity in TURNING
+    return Sensor(
+        name=one.name,
+        place=one.place,
+        direction=one.direction,
+        turns=turns or one.quantity == "other",
+        shakes=one.quantity in ("acceleration", "velocity", "displacement"),
+    )
+
+
+def _unjudged(found: Signal, error: InputError) -> Page:
+    """Return the page of a recording that tells nothing, with the reasons."""
+    alarms = [Words(text=str(one), tone="warning") for one in error.problems]
+    more = [Points(title=_("To mind"), items=found.cautions)] if found.cautions else []
+    return Page(
+        name="diagnosis",
+        title=_("Diagnosis of {name}").format(name=found.name),
+        answer=_("This recording cannot be judged."),
+        blocks=[*alarms, *more],
+        alarms=alarms,
+    )
