@@ -68,3 +68,11 @@ def test_a_recording_that_is_stopped_lacks_sensors_and_one_beyond_the_memory_is_
     assert np.array_equal(part.channel("output radial").values, whole.channel("output radial").values)
     with pytest.raises(InputError, match=r"runs\.rate"):
         simulate_fault(drive, runs=Runs(run_up=1e7))
+
+
+def test_without_a_run_up_it_keeps_one_speed():
+    drive = example("truck-supports")
+    found = rotation(simulate_fault(drive, runs=Runs(run_up=0.0, hold=2.0, held=0.5, rate=1024.0)))
+    low, high = found.speeds
+    # Pulses are timed to a part of a sample: 15 turns a second, 1024 values.
+    assert (low, high) == pytest.approx((0.5 * 1800 * np.pi / 30,) * 2, rel=2e-3)

@@ -22,7 +22,7 @@ from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
 from cardan.cli.example import about
 from cardan.drive.keys import fields_of
-from cardan.io import example_names, example_text, mechanism_names
+from cardan.io import example_names, example_text, mechanism_names, recording_names
 from cardan.io.reference import SECTIONS
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
@@ -83,8 +83,8 @@ def _declared() -> Iterator[tuple[str, str]]:
         yield name, (cls.__doc__ or "").strip().splitlines()[0]
         for one in fields_of(cls).values():
             yield name, one.key.doc
-    for name in (*example_names(), *mechanism_names()):
-        yield f"examples/{name}.toml", about(example_text(name))
+    for name in (*example_names(), *mechanism_names(), *recording_names()):
+        yield f"examples/{name}", about(example_text(name))
     for one in CALCULATIONS.values():
         yield "calc", one.source
     for table, rows in catalogue().tables.items():

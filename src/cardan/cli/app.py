@@ -14,6 +14,7 @@ QUESTIONS = _("Questions")
 FILES = _("Drive files")
 FORMULAS = _("Formulas")
 DATA = _("Data")
+DIAGNOSIS = _("Diagnosis")
 ASKED = _("Torsional vibration")
 CHOSEN = _("Measures against it")
 
@@ -195,6 +196,27 @@ COMMANDS = {
         QUESTIONS,
         _("Whether the drive keeps its limits, and what cures it where it does not."),
         ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
+    ),
+    "diagnose": Entry(
+        "diagnose",
+        DIAGNOSIS,
+        _("What is likely wrong with a drive that shakes, by a recording of it."),
+        (
+            "cardan diagnose run.csv truck.toml",
+            "cardan diagnose run.wav truck.toml --title left=tacho --title right=acceleration_front_z_g",
+            "cardan diagnose run.csv truck.toml --report diagnosis.html",
+            "cardan diagnose --orders 2 --with-torque",
+        ),
+    ),
+    "simulate-fault": Entry(
+        "simulate_fault",
+        DIAGNOSIS,
+        _("What a fault of the drive should show, and a recording of it."),
+        (
+            "cardan simulate-fault truck.toml --list",
+            "cardan simulate-fault truck.toml worn_spline",
+            "cardan simulate-fault truck.toml unbalance --snr-db 3 -o run.csv",
+        ),
     ),
     "report": Entry(
         "report",

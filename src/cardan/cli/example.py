@@ -1,4 +1,4 @@
-"""``cardan example``: the shipped drives and mechanisms, to look at and to start from."""
+"""``cardan example``: the shipped drives, mechanisms and recordings, to look at and to start from."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 def _names(incomplete: str) -> list[str]:
     """Complete the name of an example."""
-    from cardan.io import example_names, mechanism_names
+    from cardan.io import example_names, mechanism_names, recording_names
 
-    return [name for name in (*example_names(), *mechanism_names()) if name.startswith(incomplete)]
+    return [name for name in (*example_names(), *mechanism_names(), *recording_names()) if name.startswith(incomplete)]
 
 
 def example(
@@ -29,7 +29,7 @@ def example(
     out: Annotated[
         Path | None,
         typer.Argument(
-            metavar="OUT", help=_("File to write; NAME.toml here by default, - prints it."), show_default=False
+            metavar="OUT", help=_("File to write; its own name here by default, - prints it."), show_default=False
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,
@@ -44,6 +44,7 @@ def example(
     check_common(json=json, csv=csv)
 
     from cardan.io import example_text
+    from cardan.io.examples import example_file
 
     if name is None:
         return show(_list(), json=json, csv=csv)
@@ -51,18 +52,19 @@ def example(
     if out == STDIN:
         print_text(text)
         return 0
-    place = out or Path(f"{name}.toml")
+    place = out or Path(example_file(name).name)
     check_new(place, force=force, field="OUT")
     write_text(place, text, "OUT")
     return show(_copied(name, text, place), json=json, csv=csv)
 
 
 def _list() -> Answer:
-    from cardan.io import example_names, example_text, mechanism_names
+    from cardan.io import example_names, example_text, mechanism_names, recording_names
 
     from .answer import Answer, Column, Remark, Table
 
-    rows = [(name, about(example_text(name))) for name in (*example_names(), *mechanism_names())]
+    names = (*example_names(), *mechanism_names(), *recording_names())
+    rows = [(name, about(example_text(name))) for name in names]
     return Answer(
         sentence=_("{count} examples to look at and to start from.").format(count=len(rows)),
         tables=lambda: (
@@ -87,17 +89,19 @@ def _list() -> Answer:
 
 
 def _copied(name: str, text: str, place: Path) -> Answer:
-    from cardan.io import mechanism_names
+    from cardan.io import mechanism_names, recording_names
 
     from .answer import Answer, Remark
 
-    question = "mobility" if name in mechanism_names() else "report"
+    command = ["cardan", "mobility" if name in mechanism_names() else "report", str(place)]
+    if name in recording_names():
+        command = ["cardan", "diagnose", str(place), "truck-supports.toml"]
     return Answer(
         sentence=_("{path}: example {name} copied.").format(path=place, name=name),
         tone="good",
         remarks=(
             Remark(text=about(text)),
-            Remark(text=_("Look at it:"), command=("cardan", question, str(place)), tone="next"),
+            Remark(text=_("Look at it:"), command=tuple(command), tone="next"),
         ),
         content=lambda: {"example": name, "file": str(place), "shows": about(text)},
     )

@@ -203,37 +203,42 @@ def _sentence(name: str, value: float, seen: Features) -> str:
     """Return what a feature says in words; empty where it says nothing."""
     if not math.isfinite(value):
         return ""
-    times, percent = 10.0**value, 100.0 * value
+    times, percent = _short(10.0**value), 100.0 * value
     if name in ("peak_of_2", "peak_of_3", "at_third"):
         return _peak(name, times, seen)
     texts = {
-        "order_1": _("Order 1 is {times:.2g} times as large as in the drive in order."),
-        "order_2": _("Under load order 2 is {times:.2g} times as large as in the drive in order."),
-        "order_2_unloaded": _("At the smaller torque order 2 is {times:.2g} times what the full torque should make."),
-        "order_3": _("Order 3 is {times:.2g} times the order 1 of the drive in order."),
-        "order_4": _("Order 4 is {times:.2g} times the order 2 of the drive in order."),
-        "half_orders": _("Orders 0.5 and 1.5 are {times:.2g} times the order 1 of the drive in order."),
-        "at_centre": _("Order 3 pushes the centre bearing {times:.2g} times as hard as the ends."),
-        "torque_on_1": _("Order 1 under load is {times:.2g} times that at the smaller torque."),
+        "order_1": _("Order 1 is {times} times as large as in the drive in order."),
+        "order_2": _("Under load order 2 is {times} times as large as in the drive in order."),
+        "order_2_unloaded": _("At the smaller torque order 2 is {times} times what the full torque should make."),
+        "order_3": _("Order 3 is {times} times the order 1 of the drive in order."),
+        "order_4": _("Order 4 is {times} times the order 2 of the drive in order."),
+        "half_orders": _("Orders 0.5 and 1.5 are {times} times the order 1 of the drive in order."),
+        "at_centre": _("Order 3 pushes the centre bearing {times} times as hard as the ends."),
+        "torque_on_1": _("Order 1 under load is {times} times that at the smaller torque."),
         "turned_by_torque": _("Order 1 turns its phase or changes its size by {percent:.0f} % with the torque."),
-        "torque_on_2": _("Order 2 under load is {times:.2g} times that at the smaller torque."),
+        "torque_on_2": _("Order 2 under load is {times} times that at the smaller torque."),
         "power_of_1": _("Order 1 grows with the power {value:.1f} of the speed."),
         "steep_at_top": _("Near the top speed order 1 grows with the power {value:.1f} of the speed."),
         "power_of_2": _("Order 2 grows with the power {value:.1f} of the speed."),
-        "axial_share": _("Along the shaft order 1 is {times:.2g} times that across it."),
+        "axial_share": _("Along the shaft order 1 is {times} times that across it."),
         "knocks_1": _("The noise swells once a turn, by {percent:.0f} % of its mean."),
         "knocks_2": _("The noise swells twice a turn, by {percent:.0f} % of its mean."),
-        "uneven": _("The output swings twice a turn {times:.2g} times as far as the joints make it."),
+        "uneven": _("The output swings twice a turn {times} times as far as the joints make it."),
     }
     return texts[name].format(times=times, percent=percent, value=value)
 
 
-def _peak(name: str, times: float, seen: Features) -> str:
+def _short(value: float) -> str:
+    """Return a number with two significant digits, written out."""
+    return f"{float(f'{value:.2g}'):.10g}"
+
+
+def _peak(name: str, times: str, seen: Features) -> str:
     if name == "at_third":
-        text = _("At a third of the critical speed, {speed:.0f} rpm, order 3 is {times:.2g} times that elsewhere.")
+        text = _("At a third of the critical speed, {speed:.0f} rpm, order 3 is {times} times that elsewhere.")
         return text.format(speed=seen.critical / 3.0 / rpm, times=times)
     order, speed = (2, seen.peak_2) if name == "peak_of_2" else (3, seen.peak_3)
-    text = _("Order {order} is largest at {speed:.0f} rpm, {times:.2g} times its median.")
+    text = _("Order {order} is largest at {speed:.0f} rpm, {times} times its median.")
     text = text.format(order=order, speed=speed / rpm, times=times)
     if math.isfinite(seen.critical):
         more = _("That is {share:.2f} of the critical speed.").format(share=speed / seen.critical)

@@ -30,7 +30,7 @@ class Runs:
     Attributes
     ----------
     run_up : float [s]
-        From the lowest to the top speed.
+        From the lowest to the top speed; 0 for a recording at one speed.
     hold : float [s]
         Each hold.
     held : float
@@ -156,7 +156,10 @@ def _problems(snr: float, runs: Runs) -> list[Problem]:
     found = []
     if not math.isfinite(snr):
         found.append(Problem("snr", _("is not finite"), "not_finite"))
-    for name in ("run_up", "hold", "rate", "held"):
+    if not 0.0 <= runs.run_up < math.inf:
+        text = _("{value:.6g} given; a finite number that is not negative is needed").format(value=runs.run_up)
+        found.append(Problem("runs.run_up", text, "negative"))
+    for name in ("hold", "rate", "held"):
         value = getattr(runs, name)
         if not 0.0 < value < math.inf:
             text = _("{value:.6g} given; a finite number above 0 is needed").format(value=value)
@@ -170,12 +173,16 @@ def _problems(snr: float, runs: Runs) -> list[Problem]:
 def _course(expected: Expected, runs: Runs) -> _Course:
     """Return angle, speed and torque: up evenly, then down to the held speed in a second, and a change of torque."""
     low, top = expected.speed
-    ends = np.cumsum([0.0, runs.run_up, 1.0, runs.hold, 0.5, runs.hold])
-    time = np.arange(int(ends[-1] * runs.rate)) / runs.rate
     held = runs.held * top
-    speed = np.interp(time, ends, [low, top, held, held, held, held])
     first, second, third = (one * expected.reference for one in runs.torques)
-    torque = np.interp(time, ends, [first, first, second, second, third, third])
+    lasting, speeds = [0.0, runs.run_up, 1.0, runs.hold, 0.5, runs.hold], [low, top, held, held, held, held]
+    torques = [first, first, second, second, third, third]
+    if not runs.run_up:
+        lasting, speeds, torques = [0.0, runs.hold, 0.5, runs.hold], speeds[2:], torques[2:]
+    ends = np.cumsum(lasting)
+    time = np.arange(int(ends[-1] * runs.rate)) / runs.rate
+    speed = np.interp(time, ends, speeds)
+    torque = np.interp(time, ends, torques)
     angle = np.cumsum(speed) / runs.rate
     return _Course(time=time, angle=angle, speed=speed, torque=torque)
 

@@ -51,6 +51,7 @@ _MAKERS = {
     "cardan.diagnosis.orbit.Orbit": "diagnosis_motion.orbit_figures",
     "cardan.diagnosis.torsional.TorsionalVibration": "diagnosis_motion.torsional_figures",
     "cardan.diagnosis.examination.Examination": "examination.examination_figures",
+    "cardan.diagnosis.expected.Expected": "expected.expected_figures",
 }
 """Result -> file and function of this folder that make its figures."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .drive_file import dumps, load, loads, save
 from .edit import edit
-from .examples import example, example_mechanism, example_names, example_text, mechanism_names
+from .examples import example, example_mechanism, example_names, example_text, mechanism_names, recording_names
 from .mechanism_file import load_either, load_mechanism, loads_either, loads_mechanism
 from .reference import mechanism_reference, reference
 from .schema import mechanism_schema, schema
@@ -26,6 +26,7 @@ __all__ = [
     "mechanism_names",
     "mechanism_reference",
     "mechanism_schema",
+    "recording_names",
     "reference",
     "save",
     "schema",

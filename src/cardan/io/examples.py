@@ -45,8 +45,19 @@ def mechanism_names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (_folder() / "mechanisms").glob("*.toml")))
 
 
+def recording_names() -> tuple[str, ...]:
+    """Return the names of the shipped recordings.
+
+    Examples
+    --------
+    >>> "truck-worn-spline" in recording_names()
+    True
+    """
+    return tuple(sorted(path.stem for path in (_folder() / "recordings").glob("*.csv")))
+
+
 def example_file(name: str) -> Path:
-    """Return the file of a shipped example, a drive or a mechanism.
+    """Return the file of a shipped example: a drive, a mechanism or a recording.
 
     Raises
     ------
@@ -55,8 +66,10 @@ def example_file(name: str) -> Path:
     """
     if name in mechanism_names():
         return _folder() / "mechanisms" / f"{name}.toml"
+    if name in recording_names():
+        return _folder() / "recordings" / f"{name}.csv"
     if name not in example_names():
-        near = nearest(name, example_names())
+        near = nearest(name, (*example_names(), *mechanism_names(), *recording_names()))
         hint = _("; the nearest is {near}").format(near=near) if near else ""
         raise refuse(
             "example",

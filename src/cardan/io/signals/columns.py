@@ -61,6 +61,9 @@ WORDS = {
 }
 """Word of a title -> what it may mean."""
 
+SHAKING = ("acceleration", "velocity", "displacement")
+"""Quantities of which a recording has several channels: where they sit tells them apart better than what they are."""
+
 PLACE = re.compile(r"(?:supports|shafts|joints)\[\d+\]")
 
 PRINTED = {
@@ -190,7 +193,8 @@ def _named(title: str, words: list[str], own: int | None, quantity: str, factor:
     place = next((one for one in rest if PLACE.fullmatch(one)), "")
     direction = next((one.lower() for one in rest if one.lower() in DIRECTIONS[:-1]), "")
     left = [one for one in rest if one != place and one.lower() != direction]
-    name = "_".join(left) or "_".join(one for one in (place, direction) if one) or "_".join(words) or title
+    said = words[own] if own is not None and quantity not in SHAKING else ""
+    name = "_".join(left) or said or "_".join(one for one in (place, direction) if one) or "_".join(words) or title
     return Meaning(name=name, quantity=quantity, factor=factor, unit=unit, place=place, direction=direction)
 
 

@@ -1,0 +1,220 @@
+"""``cardan diagnose``: a machine shakes, here is a recording; what is wrong with it, and what to check first?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cardan.texts import _
+
+from .options import AsCsv, AsJson, MoreRows, Plot
+from .recording import FullScale, Places, Pulses, Rate, Tacho, Titles
+
+if TYPE_CHECKING:
+    from cardan.diagnosis.examination import Examination
+    from cardan.diagnosis.match import Signs
+
+    from .recording import Reading
+
+LEAST = 0.1
+"""Share of the largest order below which one does not count."""
+
+
+def diagnose(
+    recording: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[SIGNAL]", help=_("Recording: .csv, .txt, .wav, .uff, .unv or .tdms."), show_default=False
+        ),
+    ] = None,
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[DRIVE]", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False
+        ),
+    ] = None,
+    tacho: Tacho = None,
+    pulses_per_turn: Pulses = 1.0,
+    rate: Rate = None,
+    title: Titles = None,
+    place: Places = None,
+    full_scale: FullScale = None,
+    speeds: Annotated[
+        str | None,
+        typer.Option(
+            "--speeds",
+            metavar="LOW:HIGH",
+            help=_("Least and greatest speed of the shaft [rpm], for a recording without a tacho."),
+            show_default=False,
+        ),
+    ] = None,
+    channel: Annotated[
+        str | None,
+        typer.Option(
+            "--channel",
+            metavar="CHANNEL",
+            help=_("Channel whose orders are shown; the one with the highest line otherwise."),
+            show_default=False,
+        ),
+    ] = None,
+    orders: Annotated[
+        str | None,
+        typer.Option(
+            "--orders",
+            metavar="N,N…",
+            help=_("Orders seen, as 1,2 or 1=3.2,2=5 with their sizes, instead of a recording."),
+            show_default=False,
+        ),
+    ] = None,
+    torque_sensitive: Annotated[
+        bool | None,
+        typer.Option(
+            "--with-torque/--not-with-torque",
+            help=_("With --orders or --symptom: whether it changes with the torque."),
+            show_default=False,
+        ),
+    ] = None,
+    symptom: Annotated[
+        str | None,
+        typer.Option(
+            "--symptom",
+            metavar="NAME",
+            help=_("What is noticed, instead of a recording, as clunk_on_load_reversal."),
+            show_default=False,
+        ),
+    ] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option(
+            "--report",
+            "-o",
+            metavar="PATH",
+            help=_("Write the diagnosis with its pictures into PATH: .html, .pdf or .xlsx."),
+            show_default=False,
+        ),
+    ] = None,
+    more: MoreRows = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell what is likely wrong with a drive by a recording of it, what speaks for it, and what to check."""
+    from cardan.errors import refuse
+
+    from .diagnose_answer import by_recording, by_signs, report_form
+    from .recording import Reading
+    from .show import check_common, show
+    from .torsion_band import band_of
+
+    check_common(json=json, csv=csv, plot=plot)
+    form = None if report is None else report_form(report)
+    catalogues = tuple(more or ())
+    if orders is not None or symptom is not None or torque_sensitive is not None:
+        if recording is not None:
+            raise refuse("--orders", _("neither a recording nor a drive file is read beside orders and symptoms"))
+        said = by_signs(_signs(orders, symptom, torque_sensitive), catalogues)
+    else:
+        path, drive_path = _files(recording, file)
+        how = Reading(
+            tacho=tacho,
+            pulses_per_turn=pulses_per_turn,
+            rate=rate,
+            titles=tuple(title or ()),
+            places=tuple(place or ()),
+            full_scale=tuple(full_scale or ()),
+        )
+        examined = _examined(path, drive_path, how, band_of(speeds), channel, catalogues)
+        again = ("cardan", "diagnose", str(path), str(drive_path), *how.arguments)
+        again += () if speeds is None else ("--speeds", speeds)
+        said = by_recording(examined, drive_path, () if report is not None else again)
+    if report is not None and form is not None:
+        said = said.written(report, form)
+    return show(said.answer, json=json, csv=csv, plot=plot)
+
+
+def _files(recording: Path | None, file: Path | None) -> tuple[Path, Path]:
+    """Return the recording and the drive, refusing what is missing or in the wrong order."""
+    from cardan.errors import InputError, Problem, refuse
+    from cardan.io.signals import SIGNAL_FORMATS
+
+    problems = []
+    if recording is None:
+        problems.append(Problem("SIGNAL", _("missing: the recording; or say what was seen with --orders or --symptom")))
+    elif file is None:
+        problems.append(Problem("DRIVE", _("missing: the drive file of what was recorded")))
+    if problems or recording is None or file is None:
+        raise InputError(problems)
+    if recording.suffix.lower() in (".toml", ".json") and file.suffix.lower() in SIGNAL_FORMATS:
+        text = _("the recording stands first: cardan diagnose {signal} {drive}")
+        raise refuse("", text.format(signal=file, drive=recording))
+    return recording, file
+
+
+def _signs(orders: str | None, symptom: str | None, torque_sensitive: bool | None) -> Signs:
+    """Return what was seen, or refuse what is no sign; all at once."""
+    from cardan.diagnosis.match import Signs, symptoms
+    from cardan.errors import InputError, Problem
+    from cardan.units import nearest
+
+    problems = []
+    if symptom is not None and symptom not in symptoms():
+        near = nearest(symptom, symptoms())
+        text = _("{value} is none of {choices}").format(value=repr(symptom), choices=", ".join(symptoms()))
+        text += _("; the nearest is {near}").format(near=near) if near else ""
+        problems.append(Problem("--symptom", text, "out_of_range"))
+    found = []
+    sizes = []
+    for part in (orders or "").split(",") if orders is not None else ():
+        order, sign, size = part.strip().partition("=")
+        try:
+            found.append(float(order))
+            sizes.append(float(size) if sign else 1.0)
+        except ValueError:
+            text = _("{text} is no order; write them as 1,2 or 1=3.2,2=5")
+            problems.append(Problem("--orders", text.format(text=repr(part.strip()))))
+    if not problems:
+        try:
+            told = tuple(order for order, size in zip(found, sizes, strict=True) if size >= LEAST * max(sizes))
+            return Signs(orders=told, symptom=symptom, torque_sensitive=torque_sensitive)
+        except InputError as error:
+            raise error.renamed(lambda field: "--orders" if field.startswith("orders") else field) from error
+    raise InputError(problems)
+
+
+def _examined(
+    path: Path,
+    drive_path: Path,
+    how: Reading,
+    limits: tuple[float, float] | None,
+    channel: str | None,
+    catalogues: tuple[Path, ...],
+) -> Examination:
+    """Return what the recording tells of the drive; what is wrong with both files at once."""
+    from cardan.diagnosis.examination import examine
+    from cardan.errors import InputError
+    from cardan.io.drive_file import known_to
+
+    from .failure import about
+    from .progress import watching
+    from .recording import placed, read_both
+    from .source import STDIN
+
+    with watching(_("looking for causes")) as progress:
+        signal, drive = read_both(path, drive_path, how, catalogues, lambda share: progress(0.5 * share))
+        signal = placed(signal, how.places, drive)
+        known = known_to(drive, "." if drive_path == STDIN else drive_path.parent, catalogues)
+        with about(str(path)):
+            try:
+                return examine(
+                    signal,
+                    drive,
+                    channel=channel,
+                    speed_range=limits,
+                    known=known,
+                    progress=lambda share: progress(0.5 + 0.5 * share),
+                )
+            except InputError as error:
+                names = {"channel": "--channel" if channel is not None else "", "signal": ""}
+                raise error.renamed(lambda field: names.get(field, field)) from error
