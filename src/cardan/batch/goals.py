@@ -164,8 +164,8 @@ def limit_of(text: str) -> Limit:
     return Limit(name=found[2], low=low, high=high)
 
 
-def check_names(named: Iterable[Goal | Limit], columns: Iterable[Column]) -> None:
-    """Refuse goals and limits on columns that are not there, all at once.
+def check_names(named: Iterable[Goal | Limit | str], columns: Iterable[Column]) -> None:
+    """Refuse columns, and goals and limits on columns, that are not there, all at once.
 
     Raises
     ------
@@ -175,12 +175,13 @@ def check_names(named: Iterable[Goal | Limit], columns: Iterable[Column]) -> Non
     known = [column.name for column in columns]
     problems = []
     for one in named:
-        if one.name in known:
+        name = one if isinstance(one, str) else one.name
+        if name in known:
             continue
-        close = nearest(one.name, known)
+        close = nearest(name, known)
         text = (
             _("there is no such column; the nearest is {near}") if close else _("there is no such column; known: {all}")
         )
-        field = "goals" if isinstance(one, Goal) else "limits"
+        field = "columns" if isinstance(one, str) else "goals" if isinstance(one, Goal) else "limits"
         problems.append(Problem(f"{field}: {one}", text.format(near=close, all=", ".join(known)), "unknown_key"))
     check(problems)
