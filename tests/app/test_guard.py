@@ -17,13 +17,14 @@ async def _inner(scope: Any, _receive: Any, send: Any) -> None:
 
 
 def ask(
-    guard: Guard, *, query: str = "", kind: str = "http", method: str = "GET", **headers: str
+    guard: Guard, *, query: str = "", kind: str = "http", method: str = "GET", path: str = "/", **headers: str
 ) -> tuple[int, list[str], str]:
     """Return status, cookies set and body of an answer."""
     given = {"host": "127.0.0.1:8321", **headers}
     scope = {
         "type": kind,
         "method": method,
+        "path": path,
         "query_string": query.encode(),
         "headers": [(name.encode(), value.encode()) for name, value in given.items()],
     }
@@ -89,6 +90,12 @@ def test_cookies_of_other_servers_of_the_machine_hide_no_token() -> None:
 )
 def test_what_is_sent_is_limited_before_it_is_read(length: str, status: int) -> None:
     assert ask(Guard(_inner), method="POST", **{"content-length": length})[0] == status
+
+
+@pytest.mark.parametrize(("length", "status"), [("100500000", 200), ("103000000", 413)])
+def test_recordings_may_be_larger_where_files_are_sent(length: str, status: int) -> None:
+    for path, found in (("/_nicegui/client/1/upload/2", status), ("/upload/", 413), ("/_nicegui/client/1", 413)):
+        assert ask(Guard(_inner), method="POST", path=path, **{"content-length": length})[0] == found
 
 
 def test_a_name_that_is_none_is_turned_away() -> None:

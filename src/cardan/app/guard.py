@@ -19,6 +19,12 @@ LOCAL = ("127.0.0.1", "localhost", "::1")
 LARGEST = 4_000_000
 """Bytes of a request at most: a drive file of the largest size and what goes with it."""
 
+LARGEST_SENT = 102_000_000
+"""The same of a request that sends a file: a recording of the largest size."""
+
+SENT = "/_nicegui/client/"
+"""Where NiceGUI takes the files that a page is sent."""
+
 App: TypeAlias = Any
 
 
@@ -61,7 +67,7 @@ class Guard:
             return
         cookies = {COOKIE: self.token} if fresh else {}
         if not _small(scope, headers):
-            await _refused(scope, send, 413, "This is more than a drive file.")
+            await _refused(scope, send, 413, "This is more than a drive file or a recording.")
             return
         if self.apart and VISITOR not in cookies_of(headers):
             cookies[VISITOR] = secrets.token_urlsafe(24)
@@ -109,7 +115,8 @@ def _small(scope: Mapping[str, Any], headers: Mapping[str, str]) -> bool:
     if scope["type"] == "websocket" or scope.get("method") in ("GET", "HEAD", None):
         return True
     length = headers.get("content-length", "")
-    return length.isascii() and length.isdigit() and int(length[:12]) <= LARGEST
+    sends = str(scope.get("path", "")).startswith(SENT) and "/upload/" in str(scope.get("path", ""))
+    return length.isascii() and length.isdigit() and int(length[:12]) <= (LARGEST_SENT if sends else LARGEST)
 
 
 def _remembering(send: Any, cookies: Mapping[str, str]) -> Any:

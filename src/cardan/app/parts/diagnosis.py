@@ -11,6 +11,7 @@ from cardan.app.state.jobs import Jobs
 from cardan.app.state.recordings import DIAGNOSIS, MAX_RECORDING
 from cardan.app.state.session import Session
 from cardan.errors import InputError
+from cardan.io import recording_names
 from cardan.report.preferred import in_choice, names_in
 from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
 from cardan.texts import _
@@ -68,10 +69,13 @@ class Diagnosis(Sheet):
             _button(_("Send a recording …"), "upload", self.send).props('data-mark="recording-send"')
             with ui.dropdown_button(_("Open a recording"), icon="folder_open", auto_close=True) as menu:
                 menu.props('flat dense no-caps data-mark="recording-open"')
-                for name in self.session.recordings.names():
-                    ui.item(name, on_click=lambda name=name: self._open(lambda: self.session.recordings.open(name)))
-                if not self.session.recordings.names():
-                    ui.item(_("The folder holds no recording yet.")).props("disable")
+                recordings = self.session.recordings
+                for name in recordings.names():
+                    ui.item(name, on_click=lambda name=name: self._open(lambda: recordings.open(name)))
+                ui.item_label(_("Examples, of the drive truck-supports")).props("header")
+                for name in recording_names():
+                    item = ui.item(name, on_click=lambda name=name: self._open(lambda: recordings.open_example(name)))
+                    item.props(f'data-mark="recording-{name}"')
             said = opened.name if opened is not None else ""
             ui.label(said).classes("head").props('role=status data-mark="recording-name"')
             if opened is None:
@@ -158,8 +162,8 @@ class Diagnosis(Sheet):
             pulses = ui.number(_("pulses per turn"), value=said.pulses_per_turn, min=0, max=MOST_PULSES)
             pulses.props('dense outlined debounce=600 data-mark="pulses"').classes("choice narrow")
             pulses.on_value_change(lambda event: self._say(pulses_per_turn=float(event.value or 1.0)))
-            with ui.expansion(_("What the file does not tell")).props('dense data-mark="recording-more"') as more:
-                more.classes("wide")
+            more = ui.expansion(_("What the file does not tell")).props('dense data-mark="recording-more"')
+            with more.classes("wide"), ui.element("div").classes("recording"):
                 self._more()
 
     def _more(self) -> None:

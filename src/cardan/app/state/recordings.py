@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import rmtree
+from tempfile import mkdtemp
 from typing import Any
+from weakref import finalize
 
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.files import refusal
+from cardan.io.examples import example_file
 from cardan.io.signals import SIGNAL_FORMATS
 from cardan.report.recorded import Recorded, Said, recorded
 from cardan.texts import _
@@ -66,8 +68,8 @@ class Recordings:
     def __init__(self, workspace: Workspace) -> None:
         self.workspace = workspace
         self.opened: Recording | None = None
-        self._sent: TemporaryDirectory[str] | None = None
-        self._coming: TemporaryDirectory[str] | None = None
+        self._delete_sent: Callable[[], object] = _nothing
+        self._delete_coming: Callable[[], object] = _nothing
 
     def names(self) -> tuple[str, ...]:
         """Return the recordings of the folder, the one changed last first."""
@@ -89,14 +91,15 @@ class Recordings:
         """
         self._open(name, self.workspace.place(name))
 
-    def open_file(self, path: Path) -> None:
-        """Open a recording that is shipped.
+    def open_example(self, name: str) -> None:
+        """Open a shipped recording.
 
         Raises
         ------
         InputError
-            There is none.
+            There is none of that name.
         """
+        path = example_file(name)
         self._open(path.name, path)
 
     def room(self, name: str) -> Path:
@@ -107,9 +110,11 @@ class Recordings:
         name : str
             As the browser calls it; nothing but its letters and its end are taken from it.
         """
-        self._coming = TemporaryDirectory(prefix="cardan-", ignore_cleanup_errors=True)
+        self._delete_coming()
+        folder = Path(mkdtemp(prefix="cardan-"))
+        self._delete_coming = finalize(self, rmtree, folder, ignore_errors=True)
         plain = re.sub(r"[^\w. -]+", "-", name.replace("\\", "/").rpartition("/")[2])[-80:].strip(". -")
-        return Path(self._coming.name) / (plain or "recording")
+        return folder / (plain or "recording")
 
     def take(self, name: str, path: Path) -> None:
         """Open the file that was put into its room; what was sent before is deleted.
@@ -120,12 +125,11 @@ class Recordings:
             It is too large.
         """
         if path.stat().st_size > MAX_RECORDING:
-            _delete(self._coming)
-            self._coming = None
+            self._delete_coming()
             raise refuse(name, _("larger than {size} MB").format(size=MAX_RECORDING // 10**6), "out_of_range")
         self._open(name, path)
-        _delete(self._sent)
-        self._sent, self._coming = self._coming, None
+        self._delete_sent()
+        self._delete_sent, self._delete_coming = self._delete_coming, _nothing
 
     def say(self, **changes: Any) -> None:
         """Say more of the recording that is open, or something else."""
@@ -135,9 +139,8 @@ class Recordings:
     def close(self) -> None:
         """Close the recording; what was sent is deleted."""
         self.opened = None
-        for folder in (self._sent, self._coming):
-            _delete(folder)
-        self._sent = self._coming = None
+        self._delete_sent()
+        self._delete_coming()
 
     def _open(self, name: str, path: Path) -> None:
         try:
@@ -147,11 +150,8 @@ class Recordings:
         self.opened = Recording(name=name, path=path, stamp=(told.st_mtime_ns, told.st_size))
 
 
-def _delete(folder: TemporaryDirectory[str] | None) -> None:
-    """Delete a folder with all that is in it."""
-    if folder is not None:
-        with suppress(OSError):
-            folder.cleanup()
+def _nothing() -> None:
+    """Stand where nothing was sent."""
 
 
 def heard(
