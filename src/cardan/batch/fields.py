@@ -120,13 +120,12 @@ def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
     return tuple(spots)
 
 
-def spread_out(drive: Drive, path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
+def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[Any, ...]]]:
     """Return the paths of the single numbers of a path with lists of them, and their values row by row.
 
     Examples
     --------
-    >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
-    >>> spread_out(drive, "joints[0].centre_mm", [[0, 1, 2], [3, 4, 5]])[0][2]
+    >>> spread_out("joints[0].centre_mm", [[0, 1, 2], [3, 4, 5]])[0][2]
     'joints[0].centre_mm[2]'
     """
     if not any(isinstance(one, list | tuple) for one in values):

@@ -21,11 +21,10 @@ from cardan.texts import _
 
 from .asking import STATUS_COLUMN, Asked, Device, ask_of
 from .axes import Axis, Listed, Points
-from .distributions import Distribution
 from .fields import TEXT_FEASIBLE, spread_out
 from .goals import Limit, check_names, excess, limit_of
-from .reductions import Reduce, Told, at_work, reduce_of
-from .work import FEASIBLE, STATUS, Column, Rows, State, Status
+from .reductions import Reduce, States, at_work, reduce_of
+from .work import FEASIBLE, STATUS, Column, Reduction, Rows, State, Status
 
 BLOCK = 2**15
 """Points that are answered at a time: their arrays stay in the caches."""
@@ -58,10 +57,11 @@ class SweepWork:
     limits: tuple[Limit, ...] = ()
     reduce: tuple[Reduce, ...] = ()
     title: str = ""
-    reductions: tuple[Told, ...] = field(init=False, default=())
+    reductions: tuple[Reduction, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "reductions", at_work(self.reduce, self.points, self.columns))
+        told = at_work(self.reduce, self.points, self.columns)
+        object.__setattr__(self, "reductions", (States(), *told))
 
     @property
     def size(self) -> int:
@@ -212,7 +212,7 @@ def work_of(
     limits: list[Limit] = []
     reduces: list[Reduce] = []
     for path, values in vary.items() if isinstance(vary, Mapping) else ():
-        _collect(problems, axes, lambda path=path, values=values: _listed(drive, path, values))
+        _collect(problems, axes, lambda path=path, values=values: listed(drive, path, values))
     axes += [] if isinstance(vary, Mapping) else vary
     for limit in constraints:
         _collect(problems, limits, lambda one=limit: limit_of(one) if isinstance(one, str) else one)
@@ -245,16 +245,24 @@ def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
         problems += error.problems
 
 
-def _listed(drive: Drive, path: str, values: Any) -> Axis:
-    """Return the axis of a path with a list of values."""
+def listed(drive: Drive, path: str, values: Any) -> Listed:
+    """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them.
+
+    Raises
+    ------
+    InputError
+        It is no list, or a distribution.
+
+    Examples
+    --------
+    >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
+    >>> listed(drive, "joints[0].centre_mm", [[0, 1, 2]]).fields[2]
+    'joints[0].centre_mm[2]'
+    """
     if hasattr(values, "at"):
-        _refuse_distribution(path, values)
+        check([Problem(path, _("a distribution says how points are drawn; put it into Drawn(distributions=…)"))])
     given = values.tolist() if hasattr(values, "tolist") else values
     if not isinstance(given, Sequence) or isinstance(given, str):
         check([Problem(path, _("a list of values is needed"))])
-    fields, rows = spread_out(drive, path, list(given))
+    fields, rows = spread_out(path, list(given))
     return Listed(fields=fields, rows=tuple(rows), name=path)
-
-
-def _refuse_distribution(path: str, _given: Distribution) -> None:
-    check([Problem(path, _("a distribution says how points are drawn; put it into Drawn(distributions=…)"))])

@@ -18,7 +18,7 @@ from cardan.units import nearest
 from . import summaries
 from .axes import Axis, Points
 from .goals import Limit, limit_of
-from .work import STATUS, Column, Rows, State
+from .work import FEASIBLE, STATUS, Column, Rows, State, Status
 
 KINDS = ("max", "min", "argmax", "argmin", "mean", "std", "percentile", "histogram", "count", "share")
 """What may be told of a column; count and share are of the rows that keep a condition."""
@@ -293,6 +293,42 @@ class Told:
 
     def _point(self, row: int) -> dict[str, Any]:
         return {name: one[0].item() for name, one in self.points.values(row, row + 1).items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class States:
+    """How many points are answered, make no drive, have no answer, keep the constraints; told of every sweep."""
+
+    name: str = "points"
+
+    def empty(self) -> State:
+        """Return the state that has seen nothing."""
+        return {"states": [0] * len(Status), "first": [-1] * len(Status), "feasible": None}
+
+    def add(self, state: State, rows: Rows, start: int) -> State:
+        """Return the state that has also seen rows ``start`` and following."""
+        status = np.asarray(rows[STATUS])
+        counts = [int(np.count_nonzero(status == one)) for one in Status]
+        first = [start + int(np.argmax(status == one)) if n else -1 for one, n in zip(Status, counts, strict=True)]
+        kept = int(np.count_nonzero(rows[FEASIBLE])) if FEASIBLE in rows else None
+        return self.merge(state, {"states": counts, "first": first, "feasible": kept})
+
+    def merge(self, one: State, other: State) -> State:
+        """Return the state that has seen what either has seen."""
+        first = [max(a, b) if min(a, b) < 0 else min(a, b) for a, b in zip(one["first"], other["first"], strict=True)]
+        known = [part["feasible"] for part in (one, other) if part["feasible"] is not None]
+        return {
+            "states": [a + b for a, b in zip(one["states"], other["states"], strict=True)],
+            "first": first,
+            "feasible": sum(known) if known else None,
+        }
+
+    def result(self, state: State) -> dict[str, Any]:
+        """Return the counts, and the first row of each kind that is not answered."""
+        told = {one.name.lower(): n for one, n in zip(Status, state["states"], strict=True)}
+        first = {one.name.lower(): row for one, row in zip(Status, state["first"], strict=True) if one and row >= 0}
+        feasible = {} if state["feasible"] is None else {"feasible": state["feasible"]}
+        return {"kind": "points", **told, **feasible, "first": first}
 
 
 def at_work(reduce: Sequence[Reduce], points: Points, columns: Sequence[Column]) -> tuple[Told, ...]:

@@ -218,6 +218,25 @@ COMMANDS = {
             "cardan simulate-fault truck.toml unbalance --snr-db 3 -o run.csv",
         ),
     ),
+    "sweep": Entry(
+        "sweep",
+        QUESTIONS,
+        _("What becomes of it when fields vary: grids, lists and random points, one or a hundred million."),
+        (
+            "cardan sweep plan.toml",
+            "cardan sweep plan.toml --into results --engine processes",
+            "cardan sweep plan.toml --into results --scheduler tcp://head:8786",
+            "cardan sweep show results",
+        ),
+        {
+            "show": Entry(
+                "sweep_show",
+                QUESTIONS,
+                _("What stands in the table of a sweep: the best points, pictures, exports."),
+                ("cardan sweep show results", "cardan sweep show results --plot sweep.html"),
+            ),
+        },
+    ),
     "report": Entry(
         "report",
         QUESTIONS,

@@ -29,7 +29,7 @@ class Entry:
     examples : tuple of str
         Lines below its own help.
     entries : mapping of str to Entry
-        Commands of a group.
+        Commands of a group; of a command with a module of its own, what else its first word may ask for.
     """
 
     module: str
@@ -107,12 +107,16 @@ class Group(TyperGroup):
         name, listed, rest = super().resolve_command(ctx, args)
         if listed is None or not listed.name or not self.entries[listed.name].module:
             return name, listed, rest
-        return name, load(listed.name, self.entries[listed.name]), rest
+        entry = self.entries[listed.name]
+        if rest and rest[0] in entry.entries:
+            whole = f"{listed.name} {rest[0]}"
+            return whole, load(whole, entry.entries[rest[0]]), rest[1:]
+        return name, load(listed.name, entry), rest
 
 
 def _listed(name: str, entry: Entry) -> Any:
     """Return what stands in a group for a command that is not imported yet, or a group within it."""
-    if not entry.entries:
+    if entry.module or not entry.entries:
         return Command(name, help=entry.help, rich_help_panel=entry.panel)
 
     class Inner(Group):

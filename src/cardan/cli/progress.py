@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
+
+from cardan.texts import _
 
 PATIENCE = 2.0
 """Seconds before the bar appears."""
 
 
 @contextmanager
-def watching(what: str) -> Iterator[Callable[[float], None]]:
+def watching(what: str, *, count: int = 0) -> Iterator[Callable[[float], None]]:
     """Give the function that long work tells its share done; until it does, the bar only shows that work goes on.
 
     Parameters
     ----------
     what : str
         What is being done, beside the bar.
+    count : int
+        Points of the whole work, where points a second and the time left are to be told.
     """
     if not sys.stderr.isatty():
         yield lambda _share: None
         return
     from threading import Lock, Timer
 
-    bar = _Bar(what)
+    bar = _Bar(what, count)
     lock = Lock()
 
     def begin() -> None:
@@ -46,28 +51,34 @@ def watching(what: str) -> Iterator[Callable[[float], None]]:
 class _Bar:
     """The share done so far, and the bar once it stands."""
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, what: str, count: int = 0) -> None:
         self.what = what
+        self.count = count
         self.share: float | None = None
+        self.first: tuple[float, float] | None = None
         self.shown: Any = None
         self.task: Any = None
         self.ended = False
 
     def tell(self, share: float) -> None:
         self.share = min(max(float(share), 0.0), 1.0)
+        now = time.monotonic()
+        self.first = self.first or (self.share, now)
         if self.shown is not None:
-            self.shown.update(self.task, completed=self.share, total=1.0)
+            told = pace(self.share - self.first[0], 1.0 - self.share, now - self.first[1], self.count)
+            self.shown.update(self.task, completed=self.share, total=1.0, pace=told)
 
     def begin(self) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
+        telling = (TextColumn("{task.fields[pace]}"),) if self.count else ()
         if self.ended:
             return
-        columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeElapsedColumn())
+        columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeElapsedColumn(), *telling)
         shown = Progress(*columns, console=Console(file=sys.stderr), transient=True)
         shown.start()
-        self.task = shown.add_task(self.what, total=None)
+        self.task = shown.add_task(self.what, total=None, pace="")
         self.shown = shown
         if self.share is not None:
             self.tell(self.share)
@@ -76,3 +87,27 @@ class _Bar:
         self.ended = True
         if self.shown is not None:
             self.shown.stop()
+
+
+def pace(done: float, left: float, seconds: float, count: int) -> str:
+    """Return how fast work goes and how long it will last, empty as long as nothing is known.
+
+    Parameters
+    ----------
+    done, left : float
+        Share done in these seconds, and share still to be done.
+    seconds : float
+    count : int
+        Points of the whole work.
+
+    Examples
+    --------
+    >>> pace(0.25, 0.75, 10.0, 1_000_000)
+    '25\u202f000 points/s, 0:30 left'
+    """
+    if not count or done <= 0.0 or seconds <= 0.0:
+        return ""
+    rate, rest = done * count / seconds, round(left * seconds / done)
+    clock = f"{rest // 3600}:{rest // 60 % 60:02d}:{rest % 60:02d}" if rest >= 3600 else f"{rest // 60}:{rest % 60:02d}"
+    shown = f"{rate:,.0f}".replace(",", "\u202f") if rate >= 10.0 else f"{rate:.2g}"
+    return _("{rate} points/s, {time} left").format(rate=shown, time=clock)

@@ -94,7 +94,7 @@ def values(text: str, option: str, *, count: int = COUNT, low: float | None = No
 
 
 @contextmanager
-def keeping(what: str) -> Iterator[Callable[[float], object]]:
+def keeping(what: str, *, count: int = 0) -> Iterator[Callable[[float], object]]:
     """Give the function that long work tells its share done; ctrl-C makes it answer "stop", so that its part is kept.
 
     A second ctrl-C ends the command at once. The function has an attribute ``stopped``.
@@ -103,6 +103,8 @@ def keeping(what: str) -> Iterator[Callable[[float], object]]:
     ----------
     what : str
         What is being done, beside the bar.
+    count : int
+        Points of the whole work, where points a second and the time left are to be told.
     """
     from .progress import watching
 
@@ -120,7 +122,7 @@ def keeping(what: str) -> Iterator[Callable[[float], object]]:
             raise KeyboardInterrupt
         telling.stopped = True
 
-    with watching(what) as tell:
+    with watching(what, count=count) as tell:
         try:
             before = signal.signal(signal.SIGINT, interrupt)
         except ValueError:  # not in the main thread: nobody interrupts there

@@ -1,0 +1,373 @@
+"""The plan file of a sweep: which drive, what varies, what is asked, on which machines."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from cardan.batch.asking import Device
+from cardan.batch.axes import Axis, Drawn, Listed, Spaced
+from cardan.batch.designs import METHODS
+from cardan.batch.distributions import DISTRIBUTIONS, Distribution
+from cardan.batch.fields import present, spread_out
+from cardan.batch.goals import limit_of
+from cardan.batch.plan import SweepWork, listed, work_of
+from cardan.batch.reductions import BINS, KINDS, Reduce, reduce_of
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.files import Enclosed, folder_of
+from cardan.texts import _
+
+from .drive_file import known_to, load, parsed, text_of
+from .tables import Table
+
+FORMAT = 1
+"""Version of the plan file."""
+
+ENGINES = ("in-process", "processes", "cluster")
+"""Where a sweep may be worked on."""
+
+KEYS = ("search", "sensitivity", "boundary")
+"""Tables of designs that choose their points themselves; read by those."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What a plan file says.
+
+    Attributes
+    ----------
+    drive : Drive
+    known : Catalogue
+        The catalogue of the drive, its own files among it.
+    axes : tuple of Axis
+        What varies.
+    ask : tuple of str
+        Names of questions.
+    reduce : tuple of Reduce
+    constraints : tuple of str
+    title : str
+    seed : int
+    rows : {"kept", "none"}
+    chunk : int or None
+        Rows worked on at a time.
+    device : {"cpu", "gpu"}
+    engine : str
+        One of `ENGINES`.
+    workers : int or None
+    scheduler : str
+        Address of the scheduler of a cluster.
+    parts : mapping of str to mapping
+        The tables of `KEYS` that are given, as they stand.
+    """
+
+    drive: Drive
+    known: Catalogue
+    axes: tuple[Axis, ...]
+    ask: tuple[str, ...]
+    reduce: tuple[Reduce, ...] = ()
+    constraints: tuple[str, ...] = ()
+    title: str = ""
+    seed: int = 0
+    rows: str = "kept"
+    chunk: int | None = None
+    device: Device = "cpu"
+    engine: str = "in-process"
+    workers: int | None = None
+    scheduler: str = ""
+    parts: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    def work(self, *, device: Device | None = None) -> SweepWork:
+        """Return the sweep as work for an engine.
+
+        Parameters
+        ----------
+        device : {"cpu", "gpu"}, optional
+            In place of that of the plan.
+
+        Raises
+        ------
+        InputError
+            All that is wrong with points, questions, constraints and reductions.
+        """
+        return work_of(
+            self.drive,
+            self.axes,
+            self.ask,
+            reduce=self.reduce,
+            constraints=self.constraints,
+            known=self.known,
+            device=device or self.device,
+            title=self.title,
+        )
+
+
+def read_plan(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Plan:
+    """Return the plan that a file describes.
+
+    Parameters
+    ----------
+    path : str or Path
+        A ``.toml`` file, or ``.json`` with the same tables.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the drive file names.
+
+    Raises
+    ------
+    InputError
+        The file, or the drive file that it names, cannot be read; every problem of the plan at once, with its path.
+
+    Examples
+    --------
+    >>> read_plan("examples/sweeps/truck-suspension.toml").ask  # doctest: +SKIP
+    ('irregularity', 'acceleration', 'bend')
+    """
+    where = Path(path)
+    text, form = text_of(where)
+    return plan_of(text, folder=where.parent, form=form, name=str(where), catalogues=catalogues)
+
+
+def plan_of(
+    text: str,
+    *,
+    folder: str | Path | Enclosed = ".",
+    form: str = "toml",
+    name: str = "plan",
+    catalogues: Sequence[str | Path] = (),
+) -> Plan:
+    """Return the plan that a text describes; see `read_plan`.
+
+    Parameters
+    ----------
+    text : str
+        The plan file.
+    folder : str, Path or Enclosed
+        Where the drive file is looked for.
+    form : str
+        ``"toml"`` or ``"json"``.
+    name : str
+        What messages call the text.
+    catalogues : sequence of str or Path
+        Catalogue files beside those that the drive file names.
+
+    Raises
+    ------
+    InputError
+        Every problem at once.
+    """
+    top = Table(given=parsed(text, form, name))
+    if top.whole("format") != FORMAT and isinstance(top.given.get("format"), int):
+        top.refuse(
+            "format",
+            _("{value} is not known; this program reads {format}").format(value=top.given["format"], format=FORMAT),
+        )
+    drive, known = _drive(top, folder_of(folder), catalogues)
+    seed = top.whole("seed", 0)
+    axes = [axis for k, one in enumerate(top.tables("vary")) if (axis := _axis(one, drive, seed + k)) is not None]
+    reduce = list(_reduces(top))
+    constraints = _constraints(top)
+    engine = top.table("engine")
+    workers = engine.whole("workers", 0) or None
+    if workers is not None and workers < 1:
+        engine.refuse("workers", _("{given} given; at least one is needed").format(given=workers))
+    chunk = engine.whole("chunk_rows", 0) or None
+    if chunk is not None and chunk < 1:
+        engine.refuse("chunk_rows", _("{given} given; at least one is needed").format(given=chunk))
+    made: dict[str, Any] = {
+        "engine": engine.text("kind", "in-process", choices=ENGINES),
+        "scheduler": engine.text("scheduler", ""),
+        "device": engine.text("device", "cpu", choices=("cpu", "gpu")),
+    }
+    engine.finish()
+    parts = {key: top.table(key).given for key in KEYS if top.has(key)}
+    ask = top.texts("ask") if top.has("ask") else []
+    if not ask and isinstance(top.given.get("ask", []), list):
+        top.refuse("ask", _("nothing is asked"))
+    made |= {"title": top.text("title", ""), "rows": top.text("rows", "kept", choices=("kept", "none"))}
+    top.finish()
+    check(top.problems)
+    assert drive is not None
+    return Plan(
+        drive=drive,
+        known=known,
+        axes=tuple(axes),
+        ask=tuple(ask),
+        reduce=tuple(reduce),
+        constraints=tuple(constraints),
+        seed=seed,
+        chunk=chunk,
+        workers=workers,
+        parts=parts,
+        **made,
+    )
+
+
+def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]) -> tuple[Drive | None, Any]:
+    given = top.text("drive")
+    if not given:
+        return None, None
+    where = folder / given
+    try:
+        drive = load(where, catalogues=catalogues)
+        return drive, known_to(drive, Path(str(where)).parent, catalogues)
+    except InputError as error:
+        top.problems += [Problem(f"drive: {one.field}", one.message, one.code) for one in error.problems]
+        return None, None
+
+
+def _axis(one: Table, drive: Drive | None, seed: int) -> Axis | None:
+    """Return an axis, None where something is wrong with it."""
+    before = len(one.problems)
+    try:
+        if one.has("design"):
+            made: Axis | None = _drawn(one, drive, seed)
+        elif one.has("rows"):
+            made = _rows(one)
+        else:
+            made = _single(one, drive)
+    except InputError as error:
+        one.follow("", error)
+        return None
+    one.finish()
+    return made if len(one.problems) == before else None
+
+
+def _single(one: Table, drive: Drive | None) -> Axis | None:
+    key = one.text("key")
+    if one.has("values"):
+        values = one.items("values")
+        return listed(drive, key, values) if drive is not None else None
+    start, stop, count = one.number("from"), one.number("to"), one.whole("count")
+    return Spaced(field=key, start=start, stop=stop, count=count) if key and count else None
+
+
+def _rows(one: Table) -> Axis | None:
+    name = one.text("name")
+    facts = one.texts("facts")
+    rows = [dict(row.given) for row in one.tables("rows", required=True)]
+    keys = list(rows[0]) if rows else []
+    for k, row in enumerate(rows):
+        for key in {*keys, *row} - ({*keys} & {*row}):
+            one.refuse(f"rows[{k}]", _("{key}: every row gives the same keys").format(key=key))
+    if not rows or any(set(row) != set(keys) for row in rows):
+        return None
+    fields: list[str] = []
+    columns: list[list[Any]] = []
+    for key in keys:
+        paths, parts = spread_out(key, [row[key] for row in rows])
+        fields += [name if key == "name" else path for path in paths]
+        columns += [list(column) for column in zip(*parts, strict=True)]
+    unknown = [fact for fact in facts if fact not in keys]
+    if unknown:
+        one.refuse("facts", _("no row gives {names}").format(names=", ".join(unknown)))
+    said = tuple(
+        name if fact == "name" else fact for fact in dict.fromkeys([*facts, *(["name"] if "name" in keys else [])])
+    )
+    return Listed(fields=tuple(fields), rows=tuple(zip(*columns, strict=True)), name=name, facts=said)
+
+
+def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
+    method = one.text("design", choices=METHODS)
+    name, count, own = one.text("name", "draw"), one.whole("count"), one.whole("seed", seed)
+    distributions: dict[str, Distribution] = {}
+    for spot in one.tables("fields", required=True):
+        found = _distribution(spot, drive)
+        if found is not None:
+            if found[0] in distributions:
+                spot.refuse("key", _("varies twice"))
+            distributions[found[0]] = found[1]
+    correlations = []
+    for k, row in enumerate(one.items("correlations")):
+        if isinstance(row, list) and len(row) == 3 and isinstance(row[2], int | float):
+            correlations.append((str(row[0]), str(row[1]), float(row[2])))
+        else:
+            one.refuse(f"correlations[{k}]", _('is no correlation; write ["one key", "another key", 0.5]'))
+    if one.problems or not distributions:
+        return None
+    return Drawn(
+        distributions=distributions,
+        count=count,
+        seed=own,
+        method=method,  # type: ignore[arg-type]
+        correlations=tuple(correlations),
+        name=name,
+    )
+
+
+def _distribution(spot: Table, drive: Drive | None) -> tuple[str, Distribution] | None:
+    """Return the path of a field and its distribution; a mean not given is the drive's own value."""
+    key, kind = spot.text("key"), spot.text("distribution", choices=tuple(DISTRIBUTIONS))
+    cls = DISTRIBUTIONS.get(kind)
+    here: float | None = None
+    if key and drive is not None:
+        try:
+            here = present(drive, key)
+        except InputError as error:
+            spot.follow("key", error)
+            return None
+    if cls is None:
+        return None
+    values: dict[str, float] = {}
+    if spot.has("plus_minus"):
+        width = spot.number("plus_minus")
+        if here is None:
+            spot.refuse("plus_minus", _("the drive has no value there; give low and high"))
+        else:
+            values = {"low": here - width, "high": here + width}
+    for name in cls.__dataclass_fields__:
+        if name in values:
+            continue
+        middle = here if name in ("mean", "mode") else None
+        values[name] = spot.number(name, middle)
+    spot.finish()
+    try:
+        return key, cls(**values)
+    except InputError as error:
+        spot.follow("", error)
+        return None
+
+
+def _reduces(top: Table) -> list[Reduce]:
+    found = []
+    for k, given in enumerate(top.items("reduce")):
+        try:
+            if isinstance(given, str):
+                found.append(reduce_of(given))
+            elif isinstance(given, dict):
+                found.append(_reduce(Table(given=given, path=f"reduce[{k}]", problems=top.problems)))
+            else:
+                raise refuse("", _("a text or a table is needed"))
+        except InputError as error:
+            top.follow(f"reduce[{k}]", error)
+    return found
+
+
+def _reduce(one: Table) -> Reduce:
+    kind = one.text("kind", choices=KINDS)
+    ends = {key: one.number(key) if one.has(key) else None for key in ("low", "high")}
+    made = Reduce(
+        kind=kind,
+        of=one.text("of", ""),
+        by=tuple(one.texts("by")),
+        where=tuple(limit_of(text) for text in one.texts("where")),
+        percent=one.number("percent", 50.0),
+        bins=one.whole("bins", BINS),
+        name=one.text("name", ""),
+        **ends,
+    )
+    one.finish()
+    return made
+
+
+def _constraints(top: Table) -> list[str]:
+    kept = []
+    for k, text in enumerate(top.texts("constraints")):
+        try:
+            limit_of(text)
+            kept.append(text)
+        except InputError as error:
+            top.problems += [Problem(f"constraints[{k}]", one.message, one.code) for one in error.problems]
+    return kept
