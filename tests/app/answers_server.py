@@ -9,12 +9,16 @@ from nicegui import app, ui
 
 from cardan.app import page
 from cardan.app.parts.answers import Answers
+from cardan.app.parts.diagnosis import Diagnosis
 from cardan.app.parts.verdicts import Verdicts
 from cardan.app.state.choices import Choices
 from cardan.app.state.jobs import Jobs
+from cardan.app.state.recordings import DIAGNOSIS
 from cardan.app.state.session import Session
 from cardan.app.state.workspace import Workspace
+from cardan.figures import Figure
 from cardan.io import edit, example_text
+from cardan.report.block import Page
 
 jobs = Jobs(1)
 
@@ -28,6 +32,10 @@ def shown(example: str = "truck-power-unit", language: str = "en", theme: str = 
     ui.query("body").classes("cardan")
     path = ui.label("").props("id=selected")
     taken = ui.label("").props("id=taken")
+
+    def take(thing: Figure | Page) -> None:
+        taken.set_text(thing.name)
+
     session.listen("selection", lambda: path.set_text(session.selected))
     edits = {
         "turn": lambda: session.change(lambda text: edit(text, {"shafts[1].yoke_angle_deg": 33.0})),
@@ -40,7 +48,8 @@ def shown(example: str = "truck-power-unit", language: str = "en", theme: str = 
             ui.button(name, on_click=made).props(f"id={name}")
     with session.speaking(), ui.element("main").classes("desk").style("height: 640px"):
         with ui.element("section").classes("pane answers").style("grid-row: 1 / 3"):
-            Answers(session, jobs, export=lambda thing: taken.set_text(thing.name))
+            answers = Answers(session, jobs, export=take)
+            answers.add(DIAGNOSIS, "Diagnosis", lambda: Diagnosis(session, jobs, take))
         with ui.element("section").classes("pane verdicts"):
             Verdicts(session, jobs, compare=lambda: taken.set_text("compare"))
 

@@ -174,3 +174,28 @@ def test_two_users_and_a_dark_page_in_russian(page, page_of, address):
     other.click("#turn")
     other.wait_for_timeout(300)
     assert said(page).inner_text() == here
+
+
+def test_a_recording_is_judged_a_broken_one_refused_and_nobody_else_sees_it(page_of, address):
+    page = page_of(f"{address}?example=truck-supports")
+    page.click(mark("tab-diagnosis"))
+    sheet = page.locator(mark("sheet-diagnosis"))
+    sheet.locator(mark("recording-hint")).wait_for()
+    page.click(mark("recording-open"))
+    page.click(mark("recording-truck-worn-spline"))
+    sheet.locator(mark("answer")).filter(has_text="spline worn").wait_for()
+    assert sheet.locator("button[aria-label='save this figure']").count() >= 5
+    sheet.locator(mark("save-page")).click()
+    page.wait_for_function("() => document.querySelector('#taken').textContent === 'diagnosis'")
+    page.click(mark("recording-send"))
+    sent = {"name": "photo.wav", "mimeType": "audio/wav", "buffer": b"\x89PNG\r\n\x1a\n"}
+    page.locator("input[type=file]").set_input_files(sent)
+    sheet.locator(".progress .wrong").filter(has_text="photo.wav").wait_for()
+    assert sheet.locator(mark("recording-name")).inner_text() == "photo.wav"
+    assert sheet.locator(mark("answer")).inner_text() == ""
+    page.click(mark("tab-motion"))
+    said(page).wait_for()
+    other = page_of(f"{address}?example=truck-supports")
+    other.click(mark("tab-diagnosis"))
+    other.locator(mark("recording-hint")).wait_for()
+    assert other.locator(mark("recording-name")).inner_text() == ""

@@ -17,7 +17,7 @@ from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
 from cardan.texts import _
 
 from .answers import Sheet
-from .blocks import Export
+from .blocks import Export, PageView
 from .dialogs import asking
 
 MOST_PULSES = 10_000
@@ -39,6 +39,7 @@ class Diagnosis(Sheet):
 
     def __init__(self, session: Session, jobs: Jobs, export: Export | None) -> None:
         super().__init__(DIAGNOSIS, session, jobs, export)
+        self._export = export
         self._sensors: tuple[Sensor, ...] = ()
         self._tacho = ""
         with self.body:
@@ -117,6 +118,9 @@ class Diagnosis(Sheet):
                 ui.notify(str(error), type="negative", position="top", multi_line=True, timeout=8000)
                 return
             self._sensors, self._tacho = (), ""
+            self.view.element.delete()  # what it shows is of another recording
+            with self.body:
+                self.view = PageView(self._export)
             self._offer_recordings()
             self._offer_channels()
             self.begin()
