@@ -114,7 +114,7 @@ def test_housings_that_are_off_strain_what_is_held_too_much():
     assert mobility(off).misfit == 0.0
 
 
-def test_marks_are_those_by_which_forces_are_reckoned():
+def test_marks_are_those_by_which_forces_are_calculated():
     drive = Drive.from_angles([0.3, 0.5], plane_twists=[0.7], yoke_angles=[0.4], start_phase=0.2)
     place = geometry(drive)
     driving, driven = marks(drive, place, 1.1)

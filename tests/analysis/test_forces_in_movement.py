@@ -26,7 +26,7 @@ def test_the_turns_are_those_of_the_movement_and_the_forces_those_of_their_insta
     some = [0, 17, 400, found.times.size - 1]  # of several blocks
     alone = forces(PTO, angle=PTO.duty.speed * found.times[some], movement=[SWING])
     scale = float(np.max(found.reaction_size))
-    # Each position is reckoned by itself, so blocks change nothing but rounding.
+    # Each position is calculated by itself, so blocks change nothing but rounding.
     np.testing.assert_allclose(found.forces.reaction[:, some], alone.reaction, atol=1e-9 * scale)
     np.testing.assert_allclose(found.forces.shaft_torque[:, some], alone.shaft_torque, rtol=1e-9)
     np.testing.assert_allclose(found.forces.journals.load[:, some], alone.journals.load, atol=1e-9 * scale)

@@ -149,7 +149,7 @@ def everything():
 
 @pytest.mark.parametrize("drive", [hand_drive(), everything()], ids=["two joints", "in space"])
 def test_strength_and_checks_agree(drive):
-    """The same limits, reckoned a second time for many drives at once."""
+    """The same limits, calculated a second time for many drives at once."""
     found = strength(drive)
     names = tuple(dict.fromkeys(one.check for one in found.uses))
     verdicts = check(drive, only=names)

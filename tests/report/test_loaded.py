@@ -108,7 +108,7 @@ def test_a_stiffness_that_bending_asks_for_does_not_ask_for_assembly():
     centre = replace(drive.supports[2], stiffness=2.5e5)
     text = page(replace(drive, supports=(centre,), duty=replace(drive.duty, torque=None)))
     assert "assembly" not in parsed(text).ids
-    assert "not reckoned" not in text
+    assert "not calculated" not in text
 
 
 def test_shared_forces_are_called_so():
@@ -250,14 +250,14 @@ def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
     assert 'class="judgement good"' in page(slow)
 
 
-def test_what_could_not_be_reckoned_is_told_on_the_first_page():
+def test_what_could_not_be_calculated_is_told_on_the_first_page():
     drive = example("truck-supports")
-    assert "Forces not reckoned" not in front(drive)
+    assert "Forces not calculated" not in front(drive)
     rigid = example("overconstrained-pump")
     supports = tuple(replace(one, stiffness=None, axial_stiffness=None) for one in rigid.supports)
     text = front(replace(rigid, supports=supports))
     assert "more than statics can tell" in text
-    assert "Assembly not reckoned: supports[0].stiffness" in text
+    assert "Assembly not calculated: supports[0].stiffness" in text
 
 
 def test_a_moving_drive_tells_its_forces_over_the_movement():

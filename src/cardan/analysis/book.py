@@ -224,7 +224,7 @@ class BookComparison:
     irregularity_mean_phases : array (...)
         The same with mean phases, independent of the start position.
     irregularity_without_theta : array (...)
-        The same without Θ, as the book reckons in (90).
+        The same without Θ, as the book works in (90).
     bend : array (...) [rad]
         Equivalent angle, exact.
     rule_of_practice : array (...) [rad]

@@ -29,7 +29,7 @@ MOST_TURNS = 240
 """More turns than this are not all looked at, but so many of them, evenly spread over the movement."""
 
 AT_ONCE = 12
-"""Turns reckoned between two tellings of the share done."""
+"""Turns calculated between two tellings of the share done."""
 
 AMOUNTS = (
     "angle",

@@ -15,7 +15,7 @@ from cardan.units import DIMENSIONS, label
 from .writer import whole
 
 MOST = 12
-"""Significant digits that count: 20° and 20° reckoned otherwise are the same."""
+"""Significant digits that count: 20° and 20° calculated otherwise are the same."""
 
 LONG = 7
 """Letters of a number above which a unit is looked for that makes it shorter."""

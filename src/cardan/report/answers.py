@@ -103,7 +103,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     >>> answered("motion", subject(Drive.from_angles([20 * deg, 20 * deg]))).title
     'Motion'
     >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:49]
-    'To be told, it needs more in the drive file: duty'
+    'This answer needs more in the drive file: duty'
     """
     asked = ANSWERS[name]
     missing = asked.lacking(on)

@@ -53,10 +53,10 @@ def _small(value: float) -> str:
 def refused(name: str, title: str, error: InputError) -> Page:
     """Return the page of a question that the drive file does not answer, with what is missing."""
     left = [f"{one.field}: {one.message}" for one in error.problems]
-    alarm = _("{part} not reckoned: {first}").format(part=title, first=left[0])
-    answer = _("Not reckoned; the drive file leaves open:")
+    alarm = _("{part} not calculated: {first}").format(part=title, first=left[0])
+    answer = _("Not calculated; the drive file leaves open:")
     if all(one.code == "unknown_kind" for one in error.problems):
-        answer = _("Not reckoned for joints of these kinds:")
+        answer = _("Not calculated for joints of these kinds:")
     return Page(
         name=name,
         title=title,

@@ -57,7 +57,7 @@ class Content:
     note : str
         What its file says about it.
     version : str
-        Version of cardan that reckoned it.
+        Version of cardan that calculated it.
     date : str
         Day of the report, as in 2026-01-31.
     judgement : Words
@@ -105,7 +105,7 @@ class Excerpt:
     page : Page
         The page.
     version : str
-        Version of cardan that reckoned it.
+        Version of cardan that calculated it.
     date : str
         Day of the excerpt, as in 2026-01-31.
     """
@@ -136,7 +136,7 @@ def content(
     source_text : str, optional
         Text of the drive file, shown in full at the end.
     progress : function, optional
-        Called with the share done; answering "stop" leaves out what is still to be reckoned.
+        Called with the share done; answering "stop" leaves out what is still to be calculated.
     known : Catalogue, optional
         Norms, types and sizes that it is judged by; the shipped ones when not given.
     """

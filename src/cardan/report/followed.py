@@ -217,5 +217,5 @@ def method_by_laws(on: Followed, source_text: str | None) -> Page:
     ]
     if source_text is not None:
         blocks.append(Listing(title=_("Input file"), text=source_text))
-    answer = _("Reckoned by cardan {version}.").format(version=__version__)
+    answer = _("Calculated by cardan {version}.").format(version=__version__)
     return Page(name="method", title=_("Method and evidence"), answer=answer, blocks=blocks)

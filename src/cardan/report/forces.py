@@ -81,7 +81,7 @@ def _moving(drive: Drive) -> tuple[list[Block], list[list[Cell]]]:
     try:
         found = moving_forces(drive)
     except InputError as error:
-        text = _("Forces while the drive moves are not reckoned: {first}")
+        text = _("Forces while the drive moves are not calculated: {first}")
         problem = error.problems[0]
         return [Words(text=text.format(first=f"{problem.field}: {problem.message}"), tone="warning")], []
     most = found.extreme(found.reaction_size)

@@ -32,11 +32,11 @@ def told(lacking: Lacking) -> str:
     Examples
     --------
     >>> told((("duty.torque",), ("joints[0].friction", "supports[0].friction")))
-    'To be told, it needs more in the drive file: duty.torque_Nm; joints[0].friction or supports[0].friction.'
+    'This answer needs more in the drive file: duty.torque_Nm; joints[0].friction or supports[0].friction.'
     """
     either = _(" or ")
     keys = "; ".join(either.join(map(key_of, some)) for some in lacking)
-    return _("To be told, it needs more in the drive file: {keys}.").format(keys=keys)
+    return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
 
 
 def of_forces(drive: Drive) -> Lacking:

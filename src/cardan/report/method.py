@@ -1,4 +1,4 @@
-"""Last page: how it was reckoned, and why to believe it."""
+"""Last page: how it was calculated, and why to believe it."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def method(on: Subject, source_text: str | None) -> Page:
         blocks.append(Listing(title=_("Input file"), text=source_text))
     passed = all(check.passed for check in on.checks)
     answer = (
-        _("Reckoned by cardan {version}; all self-checks leave nothing but rounding.")
+        _("Calculated by cardan {version}; all self-checks leave nothing but rounding.")
         if passed
-        else _("Reckoned by cardan {version}; a self-check leaves more than rounding.")
+        else _("Calculated by cardan {version}; a self-check leaves more than rounding.")
     )
     return Page(name="method", title=_("Method and evidence"), answer=answer.format(version=__version__), blocks=blocks)
 
@@ -87,7 +87,7 @@ def _equations(on: Subject) -> Table:
 
 
 def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
-    """Yield what is reckoned, its equation, the same with numbers, and its source."""
+    """Yield what is calculated, its equation, the same with numbers, and its source."""
     a, b = (float(abs(part)) for part in on.whole.pair)
     if on.even:
         b = 0.0

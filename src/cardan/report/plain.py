@@ -20,7 +20,7 @@ from .content import Content
 from .paper import headed
 
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
-"""Words that begin so would be reckoned by a spreadsheet that opens the file."""
+"""Words that begin so would be calculated by a spreadsheet that opens the file."""
 
 ABOVE = ("judgement", "warnings", "lights", "cures", "figures", "changes")
 """Parts of a report before its pages."""
@@ -186,7 +186,7 @@ def _csv(sections: Any) -> str:
 
 
 def _safe(value: float | str) -> str:
-    """Return a cell of a CSV; words that a spreadsheet would reckon begin with an apostrophe."""
+    """Return a cell of a CSV; words that a spreadsheet would calculate begin with an apostrophe."""
     if isinstance(value, str):
         return f"'{value}" if value.startswith(BEGINNINGS) else value
     return repr(float(value))

@@ -45,7 +45,7 @@ def report(
     interactive : bool
         Draw figures to point at, zoom and turn, at the price of some megabytes; only in HTML.
     progress : function, optional
-        Called with the share done; answering "stop" leaves out what is still to be reckoned.
+        Called with the share done; answering "stop" leaves out what is still to be calculated.
     known : Catalogue, optional
         Norms, types and sizes that it is judged by; the shipped ones when not given.
     units : mapping of str to str, optional

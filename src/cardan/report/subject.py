@@ -34,7 +34,7 @@ ALONE = 12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """A drive and the answers to all questions about it, each reckoned when it is read first.
+    """A drive and the answers to all questions about it, each calculated when it is read first.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class Subject:
 
     @cached_property
     def moved(self) -> Articulation | InputError | None:
-        """What its movement does to it, or why that was not reckoned; None where there is none to tell."""
+        """What its movement does to it, or why that was not calculated; None where there is none to tell."""
         if not self.drive.movements or not self.complete:
             return None
         try:
@@ -150,7 +150,7 @@ class Subject:
 
     @property
     def unmoved(self) -> InputError | None:
-        """Why its movement was not reckoned."""
+        """Why its movement was not calculated."""
         return self.moved if isinstance(self.moved, InputError) else None
 
     @property

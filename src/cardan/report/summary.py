@@ -159,7 +159,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         failed = {flag.message for one in on.moving.splines for flag in one.flags}
         yield from (Words(text=text, tone="failed" if text in failed else "warning") for text in on.moving.warnings)
     if not on.complete:
-        yield Words(text=_("Stopped by the reader: what was not reckoned by then is left out."), tone="warning")
+        yield Words(text=_("Stopped by the reader: what was not calculated by then is left out."), tone="warning")
     if not all(check.passed for check in on.checks):
         yield Words(text=_("A self-check failed; see the last part."), tone="failed")
 

@@ -107,7 +107,7 @@ def _compared(on: Subject) -> Table:
         ],
         row(_("series, first order"), _("Book (80), exact phase angles"), float(seen.irregularity_80)),
         row(_("series, mean phases"), _("first order, start position left out"), float(seen.irregularity_mean_phases)),
-        row(_("series without Θ"), _("as reckoned in Book (90)"), float(seen.irregularity_without_theta)),
+        row(_("series without Θ"), _("as calculated in Book (90)"), float(seen.irregularity_without_theta)),
     )
     return Table(
         title=_("Irregularity by the classical approximations"),

@@ -322,7 +322,9 @@ class Progress:
                 ui.button(_("cancel"), on_click=cancel).props("flat dense no-caps size=sm").props('data-mark="cancel"')
             )
             self._again = (
-                ui.button(_("reckon it"), on_click=begin).props("flat dense no-caps size=sm").props('data-mark="again"')
+                ui.button(_("calculate it"), on_click=begin)
+                .props("flat dense no-caps size=sm")
+                .props('data-mark="again"')
             )
         self.hide()
 
@@ -389,7 +391,7 @@ def _told(job: Job) -> str:
         return _("Waiting for its turn …")
     left = job.left
     if left is None:
-        return _("Reckoning …")
+        return _("Calculating …")
     if left < 60.0:
-        return _("Reckoning, about {count} s left").format(count=max(1, round(left)))
-    return _("Reckoning, about {count} min left").format(count=round(left / 60.0))
+        return _("Calculating, about {count} s left").format(count=max(1, round(left)))
+    return _("Calculating, about {count} min left").format(count=round(left / 60.0))

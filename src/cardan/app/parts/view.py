@@ -31,7 +31,7 @@ LOADED = ("forces", "couples")
 """Groups that need the forces of the drive."""
 
 QUIET = 0.35
-"""Seconds without an edit after which utilisations, forces and mode shapes are reckoned anew."""
+"""Seconds without an edit after which utilisations, forces and mode shapes are calculated anew."""
 
 SOON = 0.02
 """Seconds by which the view follows the form."""
