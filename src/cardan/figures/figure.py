@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from cardan.maths.arrays import Array
 from cardan.units import spoken
 
@@ -152,7 +154,35 @@ class Band:
     opacity: float = 0.12
 
 
-Series: TypeAlias = Curve | Bars | Shape | Mesh | Note | Rule | Band
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Cells:
+    """A grid of rectangles, each the darker the greater its value.
+
+    Parameters
+    ----------
+    x, y : array (m + 1,), (k + 1,)
+        Edges of the columns and of the rows, rising.
+    values : array (k, m)
+        One for each cell; nan leaves it empty.
+    low, high : float
+        Values of the palest and of the darkest cell.
+    """
+
+    x: Array
+    y: Array
+    values: Array
+    low: float
+    high: float
+
+    @property
+    def share(self) -> Array:
+        """Where the values stand between palest and darkest, array (k, m)."""
+        span = self.high - self.low
+        found: Array = np.clip((self.values - self.low) / (span or 1.0), 0.0, 1.0)
+        return found
+
+
+Series: TypeAlias = Curve | Bars | Shape | Mesh | Note | Rule | Band | Cells
 
 
 @dataclass(frozen=True, kw_only=True)

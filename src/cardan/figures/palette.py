@@ -25,6 +25,9 @@ ROLES = {
 }
 """Role -> colour, beside the shafts."""
 
+SCALE = ("#eef3fa", "#b7cde7", "#6c9bcd", "#1f4e8c", "#0c2342")
+"""From little to much: one hue, evenly darker, so that it prints in grey as well."""
+
 DARK = {
     "#3b4252": "#b9c2d3",
     "#0072b2": "#4fa8e0",
@@ -66,12 +69,27 @@ def colour(role: str) -> str:
 
     Examples
     --------
-    >>> colour("shaft 2"), colour("failed")
-    ('#0072b2', '#b3261e')
+    >>> colour("shaft 2"), colour("failed"), colour("scale 0.75")
+    ('#0072b2', '#b3261e', '#1f4e8c')
     """
+    if role.startswith("scale "):
+        return scale(float(role[6:]))
     if role.startswith("shaft "):
         return SHAFTS[(int(role[6:]) - 1) % len(SHAFTS)]
     return ROLES[role]
+
+
+def scale(share: float) -> str:
+    """Return the colour of a share between the least, 0, and the greatest, 1.
+
+    Examples
+    --------
+    >>> scale(0.0), scale(0.75), scale(1.0)
+    ('#eef3fa', '#1f4e8c', '#0c2342')
+    """
+    place = min(max(share, 0.0), 1.0) * (len(SCALE) - 1)
+    low = min(int(place), len(SCALE) - 2)
+    return mixed(SCALE[low], SCALE[low + 1], place - low)
 
 
 def dash_of(number: int) -> str:

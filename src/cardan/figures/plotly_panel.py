@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from . import palette
-from .figure import Axis, Band, Bars, Curve, Mesh, Note, Panel, Rule, Series, Shape
+from .figure import Axis, Band, Bars, Cells, Curve, Mesh, Note, Panel, Rule, Series, Shape
 from .page import Box, Page
 from .plotly_scene import in_space, reach, scene
 from .projection import facets, onto
@@ -107,6 +107,8 @@ class PanelWriter:
                 hoverinfo="skip",
                 **self._named(item.label),
             )
+        elif isinstance(item, Cells):
+            self._cells(item)
         elif isinstance(item, Note):
             self._note(item)
         elif isinstance(item, Rule):
@@ -186,6 +188,19 @@ class PanelWriter:
             marker={"color": [palette.colour(item.roles[k % len(item.roles)]) for k in range(len(at))]},
             hovertemplate="%{x:.8g}" if item.lying else "%{y:.8g}",
             **self._named(item.label),
+        )
+
+    def _cells(self, item: Cells) -> None:
+        self._add(
+            type="heatmap",
+            x=_list(item.x),
+            y=_list(item.y),
+            z=[_list(row) for row in item.values],
+            zmin=float(item.low),
+            zmax=float(item.high) if item.high > item.low else float(item.low) + 1.0,
+            colorscale=[[k / 16.0, palette.scale(k / 16.0)] for k in range(17)],
+            showscale=False,
+            hovertemplate="%{z:.8g} @ %{x:.6g}, %{y:.6g}<extra></extra>",
         )
 
     def _log(self, item: Bars) -> bool:

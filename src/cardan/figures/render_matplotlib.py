@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
 
 from . import palette
-from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
+from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges
 from .projection import facets, onto
 
@@ -241,6 +241,8 @@ def _series(axes: Axes, panel: Panel, item: Series, order: float) -> None:
         axes.fill(item.x, item.y, facecolor=tint, alpha=item.opacity, linewidth=0.0, zorder=order)
         if item.outline:
             axes.plot([*item.x, item.x[0]], [*item.y, item.y[0]], color=tint, linewidth=item.outline, zorder=order)
+    elif isinstance(item, Cells):
+        _cells(axes, item, order)
     elif isinstance(item, Rule):
         _rule(axes, item)
     elif isinstance(item, Band):
@@ -325,6 +327,15 @@ def _bars(axes: Axes, item: Bars, order: float) -> None:
             path_effects=_rim(),
             zorder=6.0,
         )
+
+
+def _cells(axes: Axes, item: Cells, order: float) -> None:
+    import numpy as np
+    from matplotlib.colors import ListedColormap
+
+    shades = ListedColormap([palette.scale(k / 255.0) for k in range(256)])
+    shares = np.ma.masked_invalid(item.share)
+    axes.pcolormesh(item.x, item.y, shares, cmap=shades, vmin=0.0, vmax=1.0, zorder=order)
 
 
 def _rule(axes: Axes, item: Rule) -> None:

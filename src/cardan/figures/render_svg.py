@@ -11,7 +11,7 @@ import numpy as np
 from cardan.maths.arrays import Array
 
 from . import palette
-from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
+from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges, share
 from .projection import facets, onto
 
@@ -22,7 +22,7 @@ INCH, POINT = 7200.0, 100.0
 """Inch and point in the unit of the drawing."""
 
 FAR = 1e6
-"""Nothing is drawn farther away than this; a viewer reckons with some seven digits."""
+"""Nothing is drawn farther away than this; a viewer works with some seven digits."""
 
 RIM = "paint-order:stroke;stroke:#fff;stroke-width:240px;stroke-linejoin:round"
 """Style of words over lines."""
@@ -34,6 +34,9 @@ ANCHORS = {"left": "", "centre": ' text-anchor="middle"', "right": ' text-anchor
 
 LEVELS = {"top": 0.76, "middle": 0.26, "bottom": -0.24, "line": 0.38}
 """How far below its place the line of a word stands, over its size; ``line`` has capitals in the middle."""
+
+SHADES = 48
+"""Colours that cells are drawn in."""
 
 HEAD = (2.8, 1.4)
 """Length and half width of an arrowhead [pt]."""
@@ -264,6 +267,8 @@ class _Plot:
             yield _polygon(x, y, f'fill="{palette.colour(item.role)}" fill-opacity="{item.opacity:g}"')
             if item.outline:
                 yield _polygon(x, y, _pen(item.role, item.outline))
+        elif isinstance(item, Cells):
+            yield from self._cells(item)
         elif isinstance(item, Bars):
             for k, (at, size) in enumerate(zip(item.at, item.size, strict=True)):
                 how = f'fill="{palette.colour(item.roles[k % len(item.roles)])}"'
@@ -274,6 +279,24 @@ class _Plot:
                     yield _rectangle(start, edge, stop - start, other - edge, how)
                 else:
                     yield _rectangle(edge, start, other - edge, stop - start, how)
+
+    def _cells(self, item: Cells) -> Iterator[str]:
+        """Yield one path for each shade; cells of one shade side by side are one rectangle."""
+        x, y = (
+            line(np.asarray(edges, dtype=float)).round().astype(int)
+            for line, edges in ((self.x, item.x), (self.y, item.y))
+        )
+        shade = np.where(np.isfinite(item.values), np.rint(np.nan_to_num(item.share) * (SHADES - 1)), -1).astype(int)
+        paths: dict[int, list[str]] = {}
+        for k, row in enumerate(shade):
+            ends = np.flatnonzero(np.diff(row)) + 1
+            for first, last in zip([0, *ends], [*ends, len(row)], strict=True):
+                if row[first] >= 0:
+                    wide, high = x[last] - x[first], y[k + 1] - y[k]
+                    paths.setdefault(int(row[first]), []).append(f"M{x[first]} {y[k]}h{wide}v{high}h{-wide}z")
+        for place, parts in sorted(paths.items()):
+            tint = palette.scale(place / (SHADES - 1))
+            yield f'<path d="{"".join(parts)}" fill="{tint}" shape-rendering="crispEdges"/>'
 
     def _line(self, item: Band | Rule) -> str:
         along = self.x if item.upright else self.y
