@@ -11,7 +11,7 @@ from cardan.analysis.equivalence import after_each_joint, largest_acceleration
 from cardan.catalogue.rows import AngleNorm
 from cardan.drive.chain import Chain
 from cardan.maths import mobius
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, namespace
 from cardan.texts import _, mark
 
 from .case import Case
@@ -62,12 +62,14 @@ def swings(chain: Chain) -> Array:
     chain : Chain (..., n)
         k is 3, or 1 where there is one joint and no shaft inside.
     """
-    each, n = after_each_joint(chain).max_acceleration, chain.joints
+    each: Array = after_each_joint(chain).max_acceleration
+    n = chain.joints
     if n == 1:
         return each
     coast = [largest_acceleration(mobius.bend(Case(chain=chain).between(i, n))) for i in range(1, n)]
-    inside = np.max(each[..., :-1], axis=-1), np.max(np.stack(coast, axis=-1), axis=-1)
-    return np.stack((each[..., -1], *inside), axis=-1)
+    xp = namespace(each)
+    inside = xp.max(each[..., :-1], axis=-1), xp.max(xp.stack(coast, axis=-1), axis=-1)
+    return xp.stack((each[..., -1], *inside), axis=-1)
 
 
 CHECK = Check(
