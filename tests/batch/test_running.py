@@ -125,6 +125,7 @@ def test_stopped_processes_are_gone(tmp_path):
 INTERRUPTED = """
 import sys
 from pathlib import Path
+from cardan.batch.cluster import Cluster
 from cardan.batch.engines import Processes
 from cardan.batch.running import run
 from tests.batch.works import Numbers, Trouble
@@ -132,15 +133,19 @@ from tests.batch.works import Numbers, Trouble
 if __name__ == "__main__":
     run(
         Numbers(size=1003, trouble=Trouble("slow", seconds=0.05)),
-        engine=Processes(2), chunk=25, into=sys.argv[1], progress=lambda share: print(share, flush=True),
+        engine=ENGINE(workers=2), chunk=25, into=sys.argv[1], progress=lambda share: print(share, flush=True),
     )
 """
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL], ids=["ctrl-C", "killed"])
-def test_an_interrupted_program_leaves_nobody_and_can_go_on(how, tmp_path):
+@pytest.mark.parametrize(
+    ("engine", "how"),
+    [("Processes", signal.SIGINT), ("Processes", signal.SIGKILL), ("Cluster", signal.SIGINT)],
+    ids=["ctrl-C", "killed", "ctrl-C on a cluster"],
+)
+def test_an_interrupted_program_leaves_nobody_and_can_go_on(engine, how, tmp_path):
     script = tmp_path / "script.py"
-    script.write_text(INTERRUPTED)
+    script.write_text(INTERRUPTED.replace("ENGINE", engine))
     out = tmp_path / "out"
     program = subprocess.Popen(
         [sys.executable, script, out],

@@ -175,7 +175,7 @@ class Processes:
         idle: list[_Worker] = []
         busy: dict[Connection, tuple[_Worker, _Held]] = {}
         most = self.workers or processors()
-        stillborn = 0
+        unborn = 0
         try:
             while True:
                 while len(busy) < most and (held := _next(again, waiting)) is not None:
@@ -188,7 +188,7 @@ class Processes:
                     worker, held = busy[line]  # type: ignore[index]
                     answer = worker.heard()
                     if answer == READY:
-                        stillborn = 0
+                        unborn = 0
                         continue
                     del busy[worker.line]
                     if answer is not None:
@@ -197,14 +197,14 @@ class Processes:
                         continue
                     worker.end()
                     if not worker.ready:
-                        stillborn += 1
+                        unborn += 1
                         again.append(held)
-                        if stillborn > most + self.retries:
-                            raise EngineLostError(_stillborn(worker.why))
+                        if unborn > most + self.retries:
+                            raise EngineLostError(stillborn(worker.why))
                     elif held.deaths < self.retries:
                         again.append(_Held(held.chunk, held.deaths + 1))
                     else:
-                        yield Done(held.chunk, failure=_died(held.deaths + 1))
+                        yield Done(held.chunk, failure=died(held.deaths + 1))
         finally:
             for worker in [*idle, *(worker for worker, _held in busy.values())]:
                 worker.end()
@@ -225,13 +225,15 @@ def _next(again: deque[_Held], waiting: Iterator[Chunk]) -> _Held | None:
     return None if chunk is None else _Held(chunk)
 
 
-def _died(count: int) -> str:
+def died(count: int) -> str:
+    """Return that a chunk took its process along, so many times."""
     return plural(
         "the process that worked on it died {count} time", "the process that worked on it died {count} times", count
     ).format(count=count)
 
 
-def _stillborn(why: str) -> str:
+def stillborn(why: str) -> str:
+    """Return why no process could begin."""
     if why:
         return _("processes cannot begin: {why}").format(why=why)
     return _(

@@ -1,0 +1,181 @@
+"""A real Dask cluster gives what one process gives, whatever of it dies; what is gone for good is told."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import pytest
+
+from cardan.batch import cluster
+from cardan.batch.cluster import Cluster
+from cardan.batch.running import run
+from cardan.errors import InputError, MissingExtraError
+from tests.batch.truth import undisturbed
+from tests.batch.works import Numbers, Trouble
+
+WORK = Numbers(size=1003)
+CHUNK = 50
+
+
+class Outside:
+    """A scheduler and workers in processes of their own, as on machines of others."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.file = folder / "scheduler.json"
+        self.scheduler = None
+        self.workers = []
+
+    def start(self, *arguments):
+        return subprocess.Popen(
+            [sys.executable, "-m", *arguments],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            cwd=self.folder,
+            env=os.environ | {"PYTHONPATH": os.getcwd()},
+        )
+
+    def open(self, port=0):
+        self.file.unlink(missing_ok=True)
+        told = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--scheduler-file", str(self.file))
+        self.scheduler = self.start("distributed.cli.dask_scheduler", *told)
+        while not self.file.exists() or not self.file.read_text().rstrip().endswith("}"):
+            assert self.scheduler.poll() is None
+            time.sleep(0.02)
+        self.address = json.loads(self.file.read_text())["address"]
+
+    def work(self):
+        told = ("--nthreads", "1", "--no-dashboard", "--no-nanny", "--local-directory", str(self.folder))
+        self.workers.append(self.start("distributed.cli.dask_worker", self.address, *told))
+
+    def close(self):
+        for process in (*self.workers, self.scheduler):
+            if process is not None:
+                process.kill()
+                process.wait()
+        self.workers = []
+
+
+@pytest.fixture
+def outside(tmp_path):
+    found = Outside(tmp_path)
+    found.open()
+    yield found
+    found.close()
+
+
+def test_a_cluster_of_this_machine_outlives_a_killed_worker(tmp_path):
+    (tmp_path / "marks").mkdir()
+    work = replace(WORK, trouble=Trouble("kill", row=555, marks=str(tmp_path / "marks")))
+    sweep = run(work, engine=Cluster(workers=2), chunk=CHUNK, into=tmp_path / "out")
+    assert len(list((tmp_path / "marks").iterdir())) == 1
+    undisturbed(sweep, WORK, CHUNK)
+    assert not multiprocessing.active_children()
+
+
+def test_a_scheduler_that_is_started_anew(outside, tmp_path):
+    outside.work()
+    killed = []
+
+    def progress(share):
+        if share > 0.3 and not killed:
+            killed.append(share)
+            outside.close()
+            outside.open(outside.address.rpartition(":")[2])
+            outside.work()
+
+    work = replace(WORK, trouble=Trouble("slow", seconds=0.05))
+    sweep = run(work, engine=Cluster(outside.address), chunk=CHUNK, into=tmp_path / "out", progress=progress)
+    assert killed
+    undisturbed(sweep, WORK, CHUNK)
+    failing = replace(WORK, trouble=Trouble("raise", row=1002))
+    sweep = run(failing, engine=Cluster(outside.address), chunk=CHUNK, rows="none", into=tmp_path / "none")
+    assert sweep.missing == ((1000, 1003, "ValueError: row of trouble"),)
+    undisturbed(run(WORK, rows="none", into=tmp_path / "none"), WORK, CHUNK, "none")
+
+
+def test_a_cluster_that_is_gone_or_other_is_told(outside, tmp_path, monkeypatch):
+    outside.work()
+    wait_for_worker(outside)
+    with monkeypatch.context() as patch:
+        patch.setattr(cluster, "__version__", "0.0.9")
+        with pytest.raises(InputError) as refused:
+            run(WORK, engine=Cluster(outside.address))
+        assert str(refused.value).startswith("scheduler: worker tcp://127.0.0.1:")
+        assert "here is cardan 0.0.9, Python 3." in str(refused.value)
+
+    def progress(share):
+        if share > 0.3:
+            outside.close()
+
+    work = replace(WORK, trouble=Trouble("slow", seconds=0.02))
+    engine = Cluster(outside.address, patience=0.5)
+    sweep = run(work, engine=engine, chunk=CHUNK, into=tmp_path / "out", progress=progress)
+    assert sweep.status == "incomplete"
+    assert {one.why for one in sweep.missing} == {
+        f"the scheduler {outside.address} is gone and did not come back within 0.5 s"
+    }
+    assert 0 < sum(one.stop - one.start for one in sweep.missing) < WORK.size
+    undisturbed(run(WORK, into=tmp_path / "out"), WORK, CHUNK)
+
+
+def wait_for_worker(outside):
+    from distributed import Client
+
+    with Client(outside.address, set_as_default=False) as client:
+        client.wait_for_workers(1, timeout=30)
+
+
+def test_a_scheduler_without_workers_is_told(outside):
+    sweep = run(WORK, engine=Cluster(outside.address, patience=0.3), chunk=CHUNK)
+    assert sweep.missing == ((0, WORK.size, f"the scheduler {outside.address} has had no worker for 0.3 s"),)
+
+
+@pytest.mark.parametrize(
+    ("address", "told"),
+    [
+        ("tcp://127.0.0.1:9", "scheduler: no Dask scheduler answers at tcp://127.0.0.1:9"),
+        ("pigeon://a:1", "scheduler: pigeon://a:1 is no address of a Dask scheduler: "),
+    ],
+)
+def test_a_wrong_address_is_one_message(address, told, monkeypatch):
+    monkeypatch.setattr(cluster, "FIRST", 0.5)
+    with pytest.raises(InputError) as refused:
+        run(WORK, engine=Cluster(address))
+    assert str(refused.value).startswith(told)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_worker_of_another_version_that_comes_late_does_nothing(monkeypatch):
+    import pickle
+
+    from cardan.batch.chunks import Chunks
+    from tests.batch.works import size_of
+
+    (chunk,) = Chunks("a sweep", 3, 3)
+    assert cluster._work(pickle.dumps((size_of, "en", cluster.__version__)), chunk) == (3, None)
+    value, failure = cluster._work(pickle.dumps((size_of, "en", "0.0.9")), chunk)
+    assert value is None
+    assert "has cardan" in failure
+
+
+def test_what_makes_no_sense_is_refused():
+    with pytest.raises(InputError, match="a cluster that is running has the workers that it has"):
+        Cluster("tcp://127.0.0.1:9", workers=2)
+    with pytest.raises(InputError, match="0 is not at least 1"):
+        Cluster(workers=0)
+    assert Cluster().writes
+    assert not Cluster("tcp://127.0.0.1:9").writes
+    assert Cluster("tcp://127.0.0.1:9", shared=True).writes
+
+
+def test_a_missing_library_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(MissingExtraError, match=r"pip install 'cardan\[cluster\]'"):
+        run(WORK, engine=Cluster())
