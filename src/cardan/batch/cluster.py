@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import logging
+import multiprocessing
 import pickle
 import sys
 import tempfile
@@ -343,6 +344,8 @@ def _named(facts: tuple[tuple[int, ...], str]) -> str:
 @contextmanager
 def _local(workers: int) -> Iterator[str]:
     """Start a cluster on this machine, and end it whatever it does."""
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise RuntimeError(stillborn(""))  # a script without a guard, which a worker of ours imports as it begins
     with tempfile.TemporaryDirectory(prefix="cardan-") as folder:
         try:
             cluster = library().LocalCluster(
@@ -351,12 +354,14 @@ def _local(workers: int) -> Iterator[str]:
                 processes=True,
                 host="127.0.0.1",
                 scheduler_port=0,
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
+                worker_dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
                 local_directory=folder,
                 silence_logs=logging.CRITICAL,
             )
-        except RuntimeError as error:  # its processes ended before they began
-            raise EngineLostError(stillborn(str(error.__cause__ or ""))) from None
+        except RuntimeError:  # its processes ended before they began
+            raise EngineLostError(stillborn("")) from None
         try:
             yield str(cluster.scheduler_address)
         finally:
