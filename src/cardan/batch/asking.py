@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -30,6 +30,12 @@ COMPILED = 20_000
 """Points of a whole sweep that are worth the kernel; of the whole, so that every part of it is computed alike."""
 
 _FAILURES = (CardanError, ArithmeticError, np.linalg.LinAlgError)
+
+
+@cache
+def _named(names: tuple[str, ...]) -> tuple[Question, ...]:
+    """Return questions by their names; they hold functions, which no other process could be sent."""
+    return asked(names)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,9 +64,9 @@ class Asked:
     device: Device = "cpu"
     many_points: bool = False
 
-    @cached_property
+    @property
     def _asked(self) -> tuple[Question, ...]:
-        return asked(self.questions)
+        return _named(self.questions)
 
     @property
     def points(self) -> tuple[Column, ...]:

@@ -270,13 +270,15 @@ class Drawn:
 
     def _shares(self, index: Array) -> Array:
         """Return shares in (0, 1) of places, array (k, fields); each is drawn once however often it is asked for."""
-        if len(index) and index[-1] - index[0] == len(index) - 1 and np.all(np.diff(index) == 1):
+        if not len(index):
+            return np.empty((0, len(self.distributions)))
+        if index[-1] - index[0] == len(index) - 1 and np.all(np.diff(index) == 1):
             return self._run(int(index[0]), int(index[-1]) + 1)
         places, back = np.unique(index, return_inverse=True)
         cuts = np.flatnonzero(np.diff(places) != 1) + 1
         ends = [0, *cuts.tolist(), len(places)]
         parts = [self._run(int(places[a]), int(places[b - 1]) + 1) for a, b in pairwise(ends)]
-        return np.concatenate(parts)[back] if parts else np.empty((0, len(self.distributions)))
+        return np.concatenate(parts)[back]
 
     def _run(self, start: int, stop: int) -> Array:
         return uniforms(self.method, len(self.distributions), self.seed, start, stop, self.count)

@@ -1,0 +1,139 @@
+"""A whole sweep: its rows are the same however they are cut, its name says all that decides them."""
+
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+from cardan import Drawn, Drive, InputError, Listed, Spaced, Uniform, equivalent_joint, example, sweep
+from cardan.batch import plan as plan_module
+from cardan.batch.plan import work_of
+from cardan.batch.work import Reduction, Work
+from cardan.drive.paths import with_values
+from cardan.io import loads
+
+DRIVE = Drive.from_angles([0.3, 0.2, 0.25], yoke_angles=[0.1, 0.2])
+AXES = (
+    Spaced(field="joints[0].bend_deg", start=0, stop=20, count=21),
+    Drawn(distributions={"shafts[1].yoke_angle_deg": Uniform(low=0, high=90)}, count=300, method="sobol", seed=4),
+    Listed(fields=("make", "joints[2].bend_deg"), rows=(("a", 10.0), ("b", 95.0)), name="make", facts=("make",)),
+)
+
+
+def work(**settings):
+    told = {
+        "reduce": [
+            "max irregularity by joints[0].bend_deg",
+            "p90 alpha_eq_deg",
+            "mean irregularity",
+            "argmax irregularity",
+        ],
+        "constraints": ["alpha_eq_deg <= 15"],
+    }
+    return work_of(DRIVE, AXES, ["irregularity", "alpha_eq"], **(told | settings))
+
+
+def test_it_is_what_engines_and_readers_agreed_on():
+    one = work()
+    assert isinstance(one, Work)
+    assert all(isinstance(reduction, Reduction) for reduction in one.reductions)
+    assert [column.role for column in one.columns] == ["point"] * 4 + ["answer"] * 2 + ["status"] * 2
+    assert list(one.evaluate(0, 1)) == [column.name for column in one.columns]
+
+
+def test_rows_are_those_of_each_drive_made_anew():
+    one = work()
+    rows = one.evaluate(0, one.size)
+    for row in (0, 8, 5_000, one.size - 2):
+        given = {name: rows[name][row] for name in ("joints[0].bend_deg", "shafts[1].yoke_angle_deg")}
+        drive = with_values(DRIVE, {**{k: float(v) for k, v in given.items()}, "joints[2].bend_deg": 10.0})
+        assert rows["irregularity"][row] == pytest.approx(float(equivalent_joint(drive).irregularity), rel=1e-9)
+    bad = rows["make"] == "b"
+    assert np.all(rows["status"][bad] == 1)
+    assert not np.any(rows["feasible"][bad])
+    assert np.array_equal(rows["feasible"][~bad], rows["alpha_eq_deg"][~bad] <= 15)
+
+
+def test_rows_are_the_same_bit_for_bit_however_they_are_cut(monkeypatch):
+    monkeypatch.setattr(plan_module, "BLOCK", 512)
+    one = pickle.loads(pickle.dumps(work()))
+    whole = one.evaluate(0, one.size)
+    for start, stop in ((0, 100), (511, 1537), (12_000, one.size), (5, 5)):
+        part = one.evaluate(start, stop)
+        for name, values in part.items():
+            assert values.dtype.kind == whole[name].dtype.kind
+            assert np.array_equal(values, whole[name][start:stop], equal_nan=values.dtype.kind == "f")
+
+
+def test_reducing_without_rows_tells_what_reducing_them_tells(monkeypatch):
+    monkeypatch.setattr(plan_module, "BLOCK", 256)
+    monkeypatch.setattr(plan_module, "GATHERED", 1024)
+    one = work()
+    rows = one.evaluate(0, one.size)
+    for reduction, state in zip(one.reductions, one.reduced(0, one.size), strict=True):
+        plain = reduction.result(reduction.add(reduction.empty(), rows, 0))
+        found = reduction.result(json.loads(json.dumps(state)))
+        if plain["kind"] == "mean":  # sums of parts round differently
+            assert found["value"] == pytest.approx(plain["value"], rel=1e-13)
+        else:
+            assert found == plain
+
+
+def test_points_are_counted_by_how_they_went():
+    one = work()
+    (state, *_rest) = one.reduced(0, one.size)
+    told = one.reductions[0].result(state)
+    assert told["answered"] == told["no_drive"] == one.size // 2
+    assert told["first"] == {"no_drive": 1}
+    assert told["feasible"] == np.count_nonzero(one.evaluate(0, one.size)["feasible"])
+    assert one.why(1)[0].field == "joints[2].bend_deg"
+    assert one.why(0) == ()
+
+
+def test_the_name_tells_sweeps_apart_and_the_same_ones_alike():
+    names = {work().name, work(constraints=[]).name, work(reduce=[]).name, work(title="other").name}
+    names |= {work_of(with_values(DRIVE, {"joints[1].bend_deg": 11.0}), AXES, ["irregularity"]).name}
+    assert len(names) == 5
+    assert work().name == pickle.loads(pickle.dumps(work())).name
+
+
+def test_the_provenance_holds_the_drive_and_goes_through_json():
+    drive = example("truck-duty-cycle")
+    one = work_of(drive, {"duty.shock_factor": [1.0, 1.5]}, ["life"])
+    told = json.loads(json.dumps(one.provenance))
+    assert loads(json.dumps(told["drive"]), form="json") == drive
+    assert told["vary"] == [{"key": "duty.shock_factor", "values": [1.0, 1.5]}]
+    assert told["units"]["life_h"] == "h"
+
+
+def test_vectors_vary_by_their_numbers():
+    drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
+    found = sweep(drive, {"joints[0].centre_mm": [[300, 0, 0], [300, 0, 50]]}, ["bend"]).table()
+    assert found["joints[0].centre_mm[2]"].tolist() == [0, 50]
+    assert found["bend_deg[0]"][0] != found["bend_deg[0]"][1]
+
+
+def test_a_drive_as_it_is_is_one_point():
+    found = sweep(DRIVE, {}, ["irregularity"])
+    assert found.size == 1
+    assert found.table()["irregularity"][0] == pytest.approx(float(equivalent_joint(DRIVE).irregularity))
+
+
+def test_everything_wrong_is_told_at_once():
+    with pytest.raises(InputError) as error:
+        work_of(
+            DRIVE,
+            {"joints[7].bend_deg": [1.0], "joints[0].bend_deg": 3, "joints[1].bend_deg": []},
+            ["iregularity"],
+            reduce=["most x"],
+            constraints=["x is 3"],
+        )
+    text = str(error.value)
+    for part in ("no index 7", "a list of values", "empty list", "iregularity", "most x", "x is 3"):
+        assert part in text
+
+
+def test_constraints_are_on_columns():
+    with pytest.raises(InputError, match="irregularity"):
+        work_of(DRIVE, AXES, ["irregularity"], constraints=["irregularit <= 3"])
