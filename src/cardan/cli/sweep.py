@@ -10,7 +10,7 @@ import typer
 
 from cardan.texts import _
 
-from .options import AsCsv, AsJson, MoreRows
+from .options import AsCsv, AsJson, MoreRows, Plot
 
 if TYPE_CHECKING:
     from cardan.batch.engines import Engine
@@ -83,16 +83,26 @@ def sweep(
         bool,
         typer.Option("--resume", help=_("Go on with the sweep of FOLDER, and begin none."), show_default=False),
     ] = False,
+    design: Annotated[
+        str | None,
+        typer.Option(
+            "--design",
+            metavar="search|sensitivity|boundary",
+            help=_("Let the design of this name in the plan choose its points, instead of all of them."),
+            show_default=False,
+        ),
+    ] = None,
     catalogue: MoreRows = None,
     json: AsJson = False,
     csv: AsCsv = False,
+    plot: Plot = None,
 ) -> int:
     """Ask questions of a drive at every point of a plan."""
     from .failure import about
     from .show import check_common, show
     from .torsion_parts import ended, keeping
 
-    check_common(json=json, csv=csv)
+    check_common(json=json, csv=csv, plot=plot)
     _check(into, resume, engine, scheduler, device)
 
     from cardan.batch.running import run
@@ -100,13 +110,19 @@ def sweep(
 
     with about(str(plan)):
         read = read_plan(plan, catalogues=catalogue or ())
+        chosen = _design(read, design, plot)
+    if chosen:
+        from .sweep_design import designed
+
+        return designed(read, plan, chosen, json=json, csv=csv, plot=plot)
+    with about(str(plan)):
         work = read.work(device=device)  # type: ignore[arg-type]
         keeps = read.rows == "kept" and (into is not None or csv or work.size <= HELD)
-    chosen = _engine(read, engine, workers, scheduler)
+    where = _engine(read, engine, workers, scheduler)
     with keeping(_("answering points"), count=work.size) as progress:
         found = run(
             work,
-            engine=chosen,
+            engine=where,
             into=into,
             rows="kept" if keeps else "none",
             chunk=read.chunk,
@@ -139,6 +155,19 @@ def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str |
         from cardan.batch.swept import read_sweep
 
         read_sweep(into)
+
+
+def _design(read: Plan, design: str | None, plot: Path | None) -> str:
+    """Return the design that is to choose the points: the one asked for, or the only one where nothing else varies."""
+    from cardan.errors import refuse
+
+    if design is not None and design not in read.parts:
+        given = ", ".join(read.parts) or _("none")
+        raise refuse("--design", _("the plan has no [{name}]; it has: {given}").format(name=design, given=given))
+    chosen = design or (next(iter(read.parts)) if len(read.parts) == 1 and not read.axes else "")
+    if plot is not None and not chosen:
+        raise refuse("--plot", _("a table is drawn by cardan sweep show FOLDER --plot; here designs are"))
+    return chosen
 
 
 def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str | None) -> Engine:

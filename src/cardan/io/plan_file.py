@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -221,16 +221,17 @@ def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]
 def _axis(one: Table, drive: Drive | None, seed: int) -> Axis | None:
     """Return an axis, None where something is wrong with it."""
     before = len(one.problems)
+    made: Axis | None
     try:
         if one.has("design"):
-            made: Axis | None = _drawn(one, drive, seed)
+            made = _drawn(one, drive, seed)
         elif one.has("rows"):
             made = _rows(one)
         else:
             made = _single(one, drive)
     except InputError as error:
         one.follow("", error)
-        return None
+        made = None
     one.finish()
     return made if len(one.problems) == before else None
 
@@ -317,7 +318,7 @@ def _distribution(spot: Table, drive: Drive | None) -> tuple[str, Distribution] 
             spot.refuse("plus_minus", _("the drive has no value there; give low and high"))
         else:
             values = {"low": here - width, "high": here + width}
-    for name in cls.__dataclass_fields__:
+    for name in (one.name for one in fields(cls)):
         if name in values:
             continue
         middle = here if name in ("mean", "mode") else None

@@ -1,0 +1,132 @@
+"""``cardan sweep``: a plan is worked on, told, kept, gone on with, refused."""
+
+import csv
+import io
+import json
+
+import pytest
+
+from tests.cli.conftest import EXAMPLES
+
+PLAN = EXAMPLES / "sweeps" / "truck-suspension.toml"
+
+SMALL = """
+format = 1
+drive = "DRIVE"
+ask = ["irregularity", "alpha_eq"]
+[[vary]]
+key = "joints[0].bend_deg"
+values = [10, 20, 95]
+"""
+
+
+@pytest.fixture
+def small(tmp_path):
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL.replace("DRIVE", (EXAMPLES / "single-20deg.toml").as_posix()), "utf8")
+    return path
+
+
+def test_a_plan_tells_what_was_asked_of_all_points(cardan):
+    done = cardan("sweep", PLAN)
+    assert done.code == 0
+    assert done.out.startswith("suspension travel of a truck: all 1\u202f056 points are answered.")
+    assert "argmax irregularity" in done.out
+    assert "--into truck-suspension" in done.out
+
+
+def test_without_reductions_the_first_rows_are_shown(cardan, small):
+    done = cardan("sweep", small)
+    assert done.code == 0
+    assert "of 3 points 2 are answered" in done.out
+    assert "1 points make no drive, the first of them in row 2: joints[0].bend_deg" in " ".join(done.out.split())
+    assert "16.119" not in done.out
+    assert "20.000" in done.out
+
+
+def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
+    content = cardan("sweep", small, "--json").content
+    assert content["status"] == "done"
+    assert content["table"]["status"] == [0, 0, 1]
+    assert content["table"]["alpha_eq_deg"][:2] == pytest.approx([10.0, 20.0])
+    assert content["reductions"]["points"]["no_drive"] == 1
+    assert content["provenance"]["drive"]["joints"][0]["bend_deg"] == 20
+
+
+def test_csv_holds_every_row(cardan, small):
+    rows = list(csv.DictReader(io.StringIO(cardan("sweep", small, "--csv").out)))
+    assert [float(row["joints[0].bend_deg"]) for row in rows] == [10, 20, 95]
+    assert rows[2]["status"] == "1"
+
+
+def test_a_folder_keeps_the_table_and_is_gone_on_with(cardan, small, tmp_path):
+    pytest.importorskip("pyarrow")
+    folder = tmp_path / "kept"
+    first = cardan("sweep", small, "--into", folder, "--json").content
+    assert first["folder"] == str(folder)
+    assert "table" not in first
+    again = cardan("sweep", small, "--into", folder, "--resume", "--engine", "in-process")
+    assert again.code == 0
+    assert f"cardan sweep show {folder}" in " ".join(again.out.split())
+
+
+def test_resuming_needs_a_folder_with_a_sweep(cardan, small, tmp_path):
+    assert cardan("sweep", small, "--resume", "--json").complaint["problems"][0]["field"] == "--resume"
+    done = cardan("sweep", small, "--resume", "--into", tmp_path, "--json")
+    assert done.code == 2
+    assert "holds no sweep" in done.complaint["problems"][0]["message"]
+
+
+def test_options_that_are_none_are_refused_together(cardan, small):
+    done = cardan("sweep", small, "--engine", "abacus", "--device", "tpu", "--scheduler", "tcp://a", "--json")
+    assert done.code == 2
+    assert [one["field"] for one in done.complaint["problems"]] == ["--engine", "--device", "--scheduler"]
+
+
+def test_everything_wrong_with_a_plan_is_told_with_its_file(cardan, small):
+    small.write_text(small.read_text("utf8").replace("alpha_eq", "alpha_ex").replace("values", "valeus"), "utf8")
+    done = cardan("sweep", small, "--json")
+    assert done.code == 2
+    assert done.complaint["file"] == str(small)
+    assert {one["field"] for one in done.complaint["problems"]} >= {"vary[0].valeus", "vary[0].from"}
+
+
+def test_a_plan_that_is_no_file_is_refused(cardan):
+    done = cardan("sweep", "nothing.toml")
+    assert done.code == 2
+    assert "nothing.toml" in done.err
+
+
+def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, tmp_path, monkeypatch):
+    pytest.importorskip("pyarrow")
+    from cardan.cli import torsion_parts
+
+    folder = tmp_path / "kept"
+    text = small.read_text("utf8") + '[[vary]]\nkey = "input.start_phase_deg"\nfrom = 0\nto = 90\ncount = 40\n'
+    small.write_text(text + "[engine]\nchunk_rows = 10\n", "utf8")
+    real = torsion_parts.keeping
+
+    class Stopping:
+        stopped = False
+
+        def __call__(self, share):
+            self.stopped = self.stopped or share > 0.0
+            return "stop" if self.stopped else None
+
+    from contextlib import contextmanager
+
+    @contextmanager
+    def stopped(_what, *, count=0):
+        assert count == 120
+        yield Stopping()
+
+    monkeypatch.setattr("cardan.batch.running.OFTEN", 0.0)
+    monkeypatch.setattr(torsion_parts, "keeping", stopped)
+    done = cardan("sweep", small, "--into", folder)
+    assert done.code == 130
+    assert "Missing: rows" in done.out
+    assert f"--into {folder} --resume" in " ".join(done.out.split())
+    monkeypatch.setattr(torsion_parts, "keeping", real)
+    whole = cardan("sweep", small, "--into", folder, "--resume", "--json").content
+    assert (whole["status"], whole["missing"]) == ("done", [])
+    assert json.loads(json.dumps(whole["reductions"]["points"]))["answered"] == 80

@@ -1,0 +1,181 @@
+"""Plan files: what they say arrives, and everything wrong with one is told at once with its path."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cardan import Drawn, InputError, Listed, Normal, Spaced, Uniform
+from cardan.batch.reductions import Reduce
+from cardan.io.plan_file import plan_of, read_plan
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+HEAD = 'format = 1\ndrive = "truck-rear-axle.toml"\nask = ["irregularity"]\n'
+
+
+def read(text):
+    return plan_of(text, folder=EXAMPLES)
+
+
+def wrong(text):
+    with pytest.raises(InputError) as error:
+        read(text)
+    return {problem.field: problem.message for problem in error.value.problems}
+
+
+def test_every_form_of_an_axis_arrives():
+    plan = read(
+        HEAD
+        + """
+seed = 7
+[[vary]]
+key = "duty.speed_rpm"
+from = 1000
+to = 2000
+count = 3
+[[vary]]
+key = "limits.spline_overlap_mm"
+values = [50, 60.5]
+[[vary]]
+name = "make"
+facts = ["price_eur"]
+rows = [
+  { name = "A", price_eur = 90, "joints[0].centre_mm" = [0, 0, 0], "shafts[1].yoke_angle_deg" = 0 },
+  { name = "B", price_eur = 70, "joints[0].centre_mm" = [0, 0, 5], "shafts[1].yoke_angle_deg" = 3 },
+]
+[[vary]]
+design = "lhs"
+name = "fit"
+count = 16
+fields = [
+  { key = "output.point_mm[1]", distribution = "normal", std = 0.5 },
+  { key = "output.point_mm[2]", distribution = "uniform", plus_minus = 2 },
+]
+correlations = [["output.point_mm[1]", "output.point_mm[2]", 0.5]]
+"""
+    )
+    speeds, overlaps, makes, fits = plan.axes
+    assert speeds == Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=3)
+    assert overlaps == Listed(fields=("limits.spline_overlap_mm",), rows=((50,), (60.5,)))
+    assert makes.facts == ("price_eur", "make")
+    assert makes.values(np.asarray([1])) == {
+        "make": "B",
+        "price_eur": 70.0,
+        "joints[0].centre_mm[0]": 0.0,
+        "joints[0].centre_mm[1]": 0.0,
+        "joints[0].centre_mm[2]": 5.0,
+        "shafts[1].yoke_angle_deg": 3.0,
+    }
+    assert isinstance(fits, Drawn)
+    assert fits.seed == 10  # of the plan, and another one for each axis
+    assert fits.distributions == {
+        "output.point_mm[1]": Normal(mean=45.0, std=0.5),
+        "output.point_mm[2]": Uniform(low=-302.0, high=-298.0),
+    }
+    assert plan.work().size == 3 * 2 * 2 * 16
+
+
+def test_what_is_told_of_all_points_arrives():
+    plan = read(
+        HEAD
+        + """
+constraints = ["irregularity <= 0.01"]
+rows = "none"
+title = "a title"
+reduce = ["max irregularity", { kind = "histogram", of = "irregularity", bins = 5, low = 0, high = 1 }]
+[engine]
+kind = "processes"
+workers = 3
+chunk_rows = 100
+"""
+    )
+    assert plan.reduce == (
+        Reduce(kind="max", of="irregularity"),
+        Reduce(kind="histogram", of="irregularity", bins=5, low=0.0, high=1.0),
+    )
+    assert (plan.engine, plan.workers, plan.chunk, plan.rows, plan.title) == ("processes", 3, 100, "none", "a title")
+    assert plan.constraints == ("irregularity <= 0.01",)
+
+
+def test_axes_written_as_the_plan_file_has_them_read_alike():
+    given = read_plan(EXAMPLES / "sweeps" / "truck-suspension.toml")
+    tree = {"format": 1, "drive": "truck-rear-axle.toml", "ask": ["bend"], "vary": [axis.told() for axis in given.axes]}
+    tree["reduce"] = [one.told() for one in given.reduce]
+    again = plan_of(json.dumps(tree), folder=EXAMPLES, form="json")
+    assert (again.axes, again.reduce) == (given.axes, given.reduce)
+
+
+def test_everything_wrong_is_told_at_once_with_its_path():
+    found = wrong(
+        """
+format = 2
+drive = "truck-rear-axle.toml"
+ask = []
+sead = 3
+rows = "some"
+constraints = ["irregularity about 3"]
+reduce = ["most irregularity", 3]
+[[vary]]
+key = "duty.speed_rpm"
+from = 1000
+count = "3"
+[[vary]]
+key = "duty.speed_rpm"
+values = 3
+stop = 4
+[[vary]]
+design = "sobel"
+count = 3
+fields = [{ key = "duty.sped_rpm", distribution = "normal" }, { key = "duty.speed_rpm", distribution = "uniform" }]
+[engine]
+kind = "abacus"
+workers = -1
+"""
+    )
+    for path in (
+        "format",
+        "ask",
+        "sead",
+        "rows",
+        "constraints[0]",
+        "reduce[0]: reduce",
+        "reduce[1]",
+        "vary[0].to",
+        "vary[0].count",
+        "vary[1].values",
+        "vary[1].stop",
+        "vary[2].design",
+        "vary[2].fields[0].key: duty.sped_rpm",
+        "vary[2].fields[1].low",
+        "vary[2].fields[1].high",
+        "engine.kind",
+        "engine.workers",
+    ):
+        assert path in found, (path, found)
+    assert "seed" in found["sead"]
+
+
+def test_rows_give_the_same_keys():
+    rows = 'rows = [{ name = "A", "duty.speed_rpm" = 1 }, { name = "B" }]\n'
+    assert "vary[0].rows[1]" in wrong(HEAD + '[[vary]]\nname = "make"\n' + rows)
+
+
+def test_what_is_wrong_with_the_drive_file_is_told():
+    found = wrong('format = 1\ndrive = "no-such.toml"\nask = ["irregularity"]\n')
+    assert any(field.startswith("drive") for field in found)
+
+
+def test_what_the_plan_asks_of_the_drive_is_told_when_it_becomes_work():
+    plan = read(HEAD + '[[vary]]\nkey = "joints[5].centre_mm[0]"\nfrom = 0\nto = 1\ncount = 2\n')
+    with pytest.raises(InputError, match="no index 5"):
+        plan.work()
+
+
+@pytest.mark.parametrize("path", sorted((EXAMPLES / "sweeps").glob("*.toml")), ids=lambda path: path.stem)
+def test_shipped_plans_become_work(path):
+    plan = read_plan(path)
+    work = plan.work()
+    rows = work.evaluate(0, 1)
+    assert rows["status"].tolist() == [0]
