@@ -13,7 +13,7 @@ from cardan.app.parts.diagnosis import Diagnosis
 from cardan.app.parts.verdicts import Verdicts
 from cardan.app.state.choices import Choices
 from cardan.app.state.jobs import Jobs
-from cardan.app.state.recordings import DIAGNOSIS
+from cardan.app.state.recordings import DIAGNOSIS, close_all
 from cardan.app.state.session import Session
 from cardan.app.state.workspace import Workspace
 from cardan.figures import Figure
@@ -56,5 +56,6 @@ def shown(example: str = "truck-power-unit", language: str = "en", theme: str = 
 
 if __name__ == "__main__":
     app.on_shutdown(jobs.close)
+    app.on_shutdown(close_all)
     page.serve_files(app)
     ui.run(port=int(sys.argv[1]), reload=False, show=False, show_welcome_message=False, reconnect_timeout=60)

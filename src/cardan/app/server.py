@@ -78,6 +78,7 @@ def start(how: Start) -> None:
         raise MissingExtraError(_("the app needs NiceGUI: pip install 'cardan[app]'")) from None
     from . import page
     from .state.jobs import Jobs
+    from .state.recordings import close_all
 
     if not how.folder.is_dir():
         raise refuse(str(how.folder), _("is no folder"))
@@ -86,6 +87,7 @@ def start(how: Start) -> None:
     port, token = _port(how), secrets.token_urlsafe(24) if how.shared else ""
     jobs = Jobs()
     app.on_shutdown(jobs.close)
+    app.on_shutdown(close_all)
     page.serve_files(app)
 
     @ui.page("/", title="cardan", favicon=page.ICON, response_timeout=20)

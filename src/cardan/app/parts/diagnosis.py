@@ -42,6 +42,7 @@ class Diagnosis(Sheet):
         self._export = export
         self._sensors: tuple[Sensor, ...] = ()
         self._tacho = ""
+        self._unfolded = False
         with self.body:
             self._source = ui.element("div").classes("recording")
             self._channels = ui.element("div").classes("recording")
@@ -103,7 +104,7 @@ class Diagnosis(Sheet):
 
             def refused() -> None:
                 text = _("The file is larger than {size} MB.").format(size=MAX_RECORDING // 10**6)
-                ui.notify(text, type="negative", position="top")
+                refused(text)
 
             ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_RECORDING, auto_upload=True).props(
                 f"accept={','.join(SUFFIXES)} flat bordered"
@@ -115,7 +116,7 @@ class Diagnosis(Sheet):
             try:
                 opening()
             except InputError as error:
-                ui.notify(str(error), type="negative", position="top", multi_line=True, timeout=8000)
+                refused(error)
                 return
             self._sensors, self._tacho = (), ""
             self.view.element.delete()  # what it shows is of another recording
@@ -166,9 +167,13 @@ class Diagnosis(Sheet):
             pulses = ui.number(_("pulses per turn"), value=said.pulses_per_turn, min=0, max=MOST_PULSES)
             pulses.props('dense outlined debounce=600 data-mark="pulses"').classes("choice narrow")
             pulses.on_value_change(lambda event: self._say(pulses_per_turn=float(event.value or 1.0)))
-            more = ui.expansion(_("What the file does not tell")).props('dense data-mark="recording-more"')
-            with more.classes("wide"), ui.element("div").classes("recording"):
+            more = ui.expansion(_("What the file does not tell"), value=self._unfolded, on_value_change=self._fold)
+            more.classes("wide").props('dense data-mark="recording-more"')
+            with more, ui.element("div").classes("recording"):
                 self._more()
+
+    def _fold(self, event: events.ValueChangeEventArguments[Any]) -> None:
+        self._unfolded = bool(event.value)
 
     def _more(self) -> None:
         opened, drive = self.session.recordings.opened, self.session.drive

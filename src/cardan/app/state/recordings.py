@@ -9,7 +9,7 @@ from pathlib import Path
 from shutil import rmtree
 from tempfile import mkdtemp
 from typing import Any
-from weakref import finalize
+from weakref import WeakSet, finalize
 
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
@@ -70,6 +70,7 @@ class Recordings:
         self.opened: Recording | None = None
         self._delete_sent: Callable[[], object] = _nothing
         self._delete_coming: Callable[[], object] = _nothing
+        _ALL.add(self)
 
     def names(self) -> tuple[str, ...]:
         """Return the recordings of the folder, the one changed last first."""
@@ -148,6 +149,15 @@ class Recordings:
         except OSError as error:
             raise refuse(name, refusal(error)) from None
         self.opened = Recording(name=name, path=path, stamp=(told.st_mtime_ns, told.st_size))
+
+
+_ALL: WeakSet[Recordings] = WeakSet()
+
+
+def close_all() -> None:
+    """Close the recordings of all users: the server ends, however it is made to."""
+    for one in tuple(_ALL):
+        one.close()
 
 
 def _nothing() -> None:
