@@ -52,6 +52,11 @@ _MAKERS = {
     "cardan.diagnosis.torsional.TorsionalVibration": "diagnosis_motion.torsional_figures",
     "cardan.diagnosis.examination.Examination": "examination.examination_figures",
     "cardan.diagnosis.expected.Expected": "expected.expected_figures",
+    "cardan.batch.sobol.Sensitivity": "sweep_designs.sensitivity_figures",
+    "cardan.batch.sobol.Swings": "sweep_designs.swings_figures",
+    "cardan.batch.boundary.Boundary": "sweep_designs.boundary_figure",
+    "cardan.batch.pareto.ParetoSet": "sweep_designs.pareto_set_figure",
+    "cardan.batch.optimise.Optimum": "sweep_designs.optimum_figure",
 }
 """Result -> file and function of this folder that make its figures."""
 
