@@ -17,12 +17,12 @@ import numpy as np
 import pytest
 
 from cardan.batch import parquet, running
-from cardan.batch.chunks import Chunks
+from cardan.batch.chunks import UNKNOWN, Chunks, rows_for
 from cardan.batch.engines import Done, EngineLostError, InProcess, Processes
 from cardan.batch.running import read_sweep, run
 from cardan.errors import InputError
 from tests.batch.truth import same_tables, undisturbed
-from tests.batch.works import Numbers, Trouble
+from tests.batch.works import Numbers, Summed, Trouble
 
 WORK = Numbers(size=1003)
 CHUNK = 100
@@ -49,6 +49,13 @@ def test_the_order_of_the_chunks_changes_nothing(engine, rows, into, tmp_path):
     undisturbed(sweep, WORK, CHUNK, rows)
     if rows == "none":
         assert not sum(len(part["k"]) for _start, part in sweep.parts())
+
+
+@pytest.mark.parametrize("engine", [InProcess(), Backwards(writes=False)], ids=["in", "sent"])
+def test_rows_that_nobody_keeps_are_not_held(engine, tmp_path):
+    undisturbed(run(Summed(WORK.size), engine=engine, rows="none", chunk=CHUNK, into=tmp_path), WORK, CHUNK, "none")
+    assert rows_for(Summed(WORK.size), keeps=False) > UNKNOWN
+    assert rows_for(Numbers(0)) == 1
 
 
 def test_processes_give_the_same(tmp_path):
@@ -128,7 +135,7 @@ from pathlib import Path
 from cardan.batch.cluster import Cluster
 from cardan.batch.engines import Processes
 from cardan.batch.running import run
-from tests.batch.works import Numbers, Trouble
+from tests.batch.works import Numbers, Summed, Trouble
 
 if __name__ == "__main__":
     run(

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import overload
 
-from .work import Work
+from .work import Rows, State, Work
 
 TARGET = 0.5
 """Seconds that a chunk should take: long against handing it over, short against being stopped or killed."""
@@ -100,7 +100,27 @@ class Chunks(Sequence[Chunk]):
         return Chunk(k, start, stop, f"{start:012d}-{digest[:16]}")
 
 
-def chunks_of(work: Work, rows: int | None = None) -> Chunks:
+def made(work: Work, start: int, stop: int, *, keeps: bool) -> tuple[Rows | None, list[State]]:
+    """Return rows ``start`` to ``stop``, and what each reduction has seen in them.
+
+    Parameters
+    ----------
+    work : Work
+        The sweep.
+    start, stop : int
+        Which rows.
+    keeps : bool
+        Whether the rows are wanted; without them, a work with a method ``reduced`` sums up without holding them.
+    """
+    reduced = getattr(work, "reduced", None)
+    if not keeps and reduced is not None:
+        return None, list(reduced(start, stop))
+    rows = work.evaluate(start, stop)
+    states = [one.add(one.empty(), rows, start) for one in work.reductions]
+    return rows if keeps else None, states
+
+
+def chunks_of(work: Work, rows: int | None = None, *, keeps: bool = True) -> Chunks:
     """Return the chunks of a sweep.
 
     Parameters
@@ -109,21 +129,25 @@ def chunks_of(work: Work, rows: int | None = None) -> Chunks:
         The sweep.
     rows : int, optional
         Rows of a chunk; measured by `rows_for` by default.
+    keeps : bool
+        Whether rows are kept.
 
     Returns
     -------
     Chunks
     """
-    return Chunks(work.name, work.size, rows if rows is not None else rows_for(work))
+    return Chunks(work.name, work.size, rows if rows is not None else rows_for(work, keeps=keeps))
 
 
-def rows_for(work: Work, *, target: float = TARGET, room: int = ROOM) -> int:
+def rows_for(work: Work, *, keeps: bool = True, target: float = TARGET, room: int = ROOM) -> int:
     """Return how many rows make a chunk that takes about ``target`` seconds and at most ``room`` bytes, measured.
 
     Parameters
     ----------
     work : Work
         The sweep; a few rows from its middle are evaluated.
+    keeps : bool
+        Whether rows are kept.
     target : float [s]
         Time a chunk should take.
     room : int
@@ -139,48 +163,48 @@ def rows_for(work: Work, *, target: float = TARGET, room: int = ROOM) -> int:
     Memory is the slope of the traced peak between one row and many: what is allocated once does not count a row. Rows
     that cannot be evaluated tell nothing; their chunks will say why.
     """
+    if not work.size:
+        return 1
     try:
-        rows = _measured(work, target, room)
+        rows = _measured(work, keeps, target, room)
     except Exception:
         rows = max(float(UNKNOWN), work.size / MOST)
     return int(2 ** max(0, round(math.log2(max(rows, 1.0)))))
 
 
-def _measured(work: Work, target: float, room: int) -> float:
-    _seen(work, 1)  # what is loaded or compiled at first is no cost of a row
-    count, seconds = 1, _seconds(work, 1)
+def _measured(work: Work, keeps: bool, target: float, room: int) -> float:
+    _seen(work, keeps, 1)  # what is loaded or compiled at first is no cost of a row
+    count, seconds = 1, _seconds(work, keeps, 1)
     while seconds < min(ENOUGH, target) and count < work.size:
         count = min(work.size, count * (8 if seconds < 0.2 * ENOUGH else 2))
-        seconds = _seconds(work, count)
+        seconds = _seconds(work, keeps, count)
     rows = max(count * target / max(seconds, 1e-9), work.size / MOST)
     if rows > 1.5 and work.size > 1:
         count = max(count, 2)
-        slope = (_peak(work, count) - _peak(work, 1)) / (count - 1)
+        slope = (_peak(work, keeps, count) - _peak(work, keeps, 1)) / (count - 1)
         rows = min(rows, room / max(slope, 1.0))
     return rows
 
 
-def _seen(work: Work, count: int) -> None:
+def _seen(work: Work, keeps: bool, count: int) -> None:
     start = (work.size - count) // 2
-    rows = work.evaluate(start, start + count)
-    for reduction in work.reductions:
-        reduction.add(reduction.empty(), rows, start)
+    made(work, start, start + count, keeps=keeps)
 
 
-def _seconds(work: Work, count: int) -> float:
+def _seconds(work: Work, keeps: bool, count: int) -> float:
     begin = time.perf_counter()
-    _seen(work, count)
+    _seen(work, keeps, count)
     return time.perf_counter() - begin
 
 
-def _peak(work: Work, count: int) -> int:
+def _peak(work: Work, keeps: bool, count: int) -> int:
     ours = not tracemalloc.is_tracing()
     if ours:
         tracemalloc.start(1)
     try:
         tracemalloc.reset_peak()
         before = tracemalloc.get_traced_memory()[0]
-        _seen(work, count)
+        _seen(work, keeps, count)
         return tracemalloc.get_traced_memory()[1] - before
     finally:
         if ours:

@@ -88,7 +88,7 @@ def library() -> Any:
     return pyarrow.parquet
 
 
-def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows, states: Sequence[State]) -> None:
+def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, states: Sequence[State]) -> None:
     """Write a chunk as a whole or not at all.
 
     Parameters
@@ -99,8 +99,8 @@ def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows, states: Sequ
         Which chunk it is.
     label : Label
         Of the sweep.
-    rows : dict of str to array (n,)
-        Rows of the chunk; they are left out where the sweep keeps none.
+    rows : dict of str to array (n,), or None
+        Rows of the chunk; none where the sweep keeps none.
     states : sequence
         One for each reduction, as JSON can hold it.
 
@@ -110,7 +110,7 @@ def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows, states: Sequ
         The file cannot be written; nothing of it is left.
     """
     about, told = label.about(chunk), json.dumps(list(states)).encode()
-    table = _table(label, rows if label.keeps else {name: array[:0] for name, array in rows.items()})
+    table = _table(label, rows if rows is not None else {column.name: np.empty(0) for column in label.columns})
     table = table.replace_schema_metadata({ABOUT: about, STATES: told, CHECK: _digest(about, told)})
 
     def write(stream: IO[bytes]) -> None:

@@ -14,7 +14,7 @@ from cardan.errors import refuse
 from cardan.files import refusal
 from cardan.texts import _
 
-from .chunks import Chunk, Chunks, chunks_of, rows_for
+from .chunks import Chunk, Chunks, chunks_of, made, rows_for
 from .engines import Engine, EngineLostError, InProcess, reason
 from .store import Folder, Store, opened
 from .swept import Ending, Missing, Sweep, ranges, read_sweep
@@ -79,7 +79,7 @@ def run(
     keeps = rows == "kept"
     if into is not None:
         heard = _Told(work.size, progress)
-        cut = (lambda: chunk) if chunk is not None else (lambda: rows_for(work))
+        cut = (lambda: chunk) if chunk is not None else (lambda: rows_for(work, keeps=keeps))
         with opened(Path(into), work, keeps=keeps, cut=cut, heard=lambda: heard(0)) as store:
             return _Running(work, engine, store.chunks, store=store, keeps=keeps, told=heard).result()
     if keeps and work.size * len(work.columns) * NUMBER > HELD:
@@ -90,7 +90,9 @@ def run(
             ),
             "out_of_range",
         )
-    return _Running(work, engine, chunks_of(work, chunk), keeps=keeps, told=_Told(work.size, progress)).result()
+    return _Running(
+        work, engine, chunks_of(work, chunk, keeps=keeps), keeps=keeps, told=_Told(work.size, progress)
+    ).result()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,25 +122,22 @@ class Making:
     ----------
     work : Work
         The sweep.
+    keeps : bool
+        Whether rows are kept; without them the work sums up as it goes, where it can.
     folder : Folder or None
-        Where to write.
-    sends : {"all", "none", "kinds"}
-        Which rows are sent: where they are to be written elsewhere, but not kept, their kinds of numbers are enough.
+        Where to write; None where rows are sent.
     """
 
     work: Work
+    keeps: bool
     folder: Folder | None = None
-    sends: Literal["all", "none", "kinds"] = "none"
 
     def __call__(self, chunk: Chunk) -> Made:
         """Return what a chunk holds."""
-        rows = self.work.evaluate(chunk.start, chunk.stop)
-        states = [one.add(one.empty(), rows, chunk.start) for one in self.work.reductions]
+        rows, states = made(self.work, chunk.start, chunk.stop, keeps=self.keeps)
         told = json.dumps(states)
         if self.folder is None:
-            if self.sends == "kinds":
-                rows = {name: array[:0] for name, array in rows.items()}
-            return Made(states=told, rows=None if self.sends == "none" else rows)
+            return Made(states=told, rows=rows)
         if not self.folder.seen():
             return Made(states=told, refused=_("a worker does not see the folder {path}").format(path=self.folder.path))
         try:
@@ -243,9 +242,7 @@ class _Running:
         if self.told(self.rows, now=True) == "stop":
             return ""
         folder = self.store.folder if self.store is not None and self.engine.writes else None
-        here = folder is not None
-        sends: Literal["all", "none", "kinds"] = "all" if self.keeps else "none" if self.store is None else "kinds"
-        task = Making(work=self.work, folder=folder, sends="none" if here else sends)
+        task = Making(work=self.work, keeps=self.keeps, folder=folder)
         todo = (chunk for chunk in self.chunks if chunk.index not in self.done)
         try:
             with closing(self.engine.run(task, todo, heard=lambda: self.told(self.rows))) as running:
@@ -253,7 +250,7 @@ class _Running:
                     if one.value is None:
                         self.failed[one.chunk.index] = one.failure or ""
                         self.merged.take(one.chunk.index, None)
-                    elif refused := self._take(one.chunk, one.value, here):
+                    elif refused := self._take(one.chunk, one.value, folder is not None):
                         return refused
                     if self.told(self.rows, now=len(self.done) == len(self.chunks)) == "stop":
                         break
@@ -261,18 +258,18 @@ class _Running:
             return reason(error)
         return ""
 
-    def _take(self, chunk: Chunk, made: Made, here: bool) -> str:
+    def _take(self, chunk: Chunk, got: Made, here: bool) -> str:
         """Take what was made of a chunk; return why it cannot be kept."""
-        if made.refused:
-            return made.refused
-        states: list[State] = json.loads(made.states)
+        if got.refused:
+            return got.refused
+        states: list[State] = json.loads(got.states)
         if self.store is not None and not here:
             try:
-                self.store.folder.put(chunk, made.rows or {}, states)
+                self.store.folder.put(chunk, got.rows, states)
             except OSError as error:
                 return _refused(self.store.folder, error)
-        elif made.rows is not None:
-            self.held[chunk.index] = made.rows
+        elif got.rows is not None:
+            self.held[chunk.index] = got.rows
         self.merged.take(chunk.index, states)
         self.done.add(chunk.index)
         self.rows += chunk.size

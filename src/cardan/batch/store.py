@@ -49,7 +49,7 @@ class Folder:
         """Return the file of a chunk."""
         return self.path / f"{chunk.name}{SUFFIX}"
 
-    def put(self, chunk: Chunk, rows: Rows, states: Sequence[State]) -> None:
+    def put(self, chunk: Chunk, rows: Rows | None, states: Sequence[State]) -> None:
         """Write a chunk.
 
         Raises
