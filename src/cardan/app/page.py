@@ -112,7 +112,7 @@ def build(session: Session, jobs: Jobs) -> None:
         ui.run_javascript(f"document.cookie='{CHOSEN}={kept}; path=/; max-age={YEAR}; samesite=strict'")
 
     ui.context.client.on_delete(session.recordings.close)
-    session.listen("choices", chosen)
+    session.listen("choices", chosen, lasting=True)
     whole = ui.element("div").classes("page")
 
     def filled() -> None:

@@ -20,6 +20,7 @@ from cardan.report.block import Page
 from cardan.report.preferred import in_choice, names_in
 from cardan.texts import _, speaking
 
+from . import toasts
 from .blocks import Export, PageView
 from .timers import Timer
 
@@ -366,9 +367,9 @@ def applied(session: Session, change: Applicable) -> None:
     try:
         session.change(lambda text: edit(text, change.values, folder=session.workspace.enclosed))
     except InputError as error:
-        ui.notify(str(error), type="negative", multi_line=True, close_button=_("Close"))
+        toasts.refused(error)
     else:
-        ui.notify(_("{change}: applied").format(change=change.label), type="positive", timeout=1500)
+        toasts.done(_("{change}: applied").format(change=change.label))
 
 
 def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:

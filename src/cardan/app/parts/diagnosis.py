@@ -16,6 +16,7 @@ from cardan.report.preferred import in_choice, names_in
 from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
 from cardan.texts import _
 
+from . import toasts
 from .answers import Sheet
 from .blocks import Export, PageView
 from .dialogs import asking
@@ -104,7 +105,7 @@ class Diagnosis(Sheet):
 
             def refused() -> None:
                 text = _("The file is larger than {size} MB.").format(size=MAX_RECORDING // 10**6)
-                refused(text)
+                toasts.refused(text)
 
             ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_RECORDING, auto_upload=True).props(
                 f"accept={','.join(SUFFIXES)} flat bordered"
@@ -116,7 +117,7 @@ class Diagnosis(Sheet):
             try:
                 opening()
             except InputError as error:
-                refused(error)
+                toasts.refused(error)
                 return
             self._sensors, self._tacho = (), ""
             self.view.element.delete()  # what it shows is of another recording

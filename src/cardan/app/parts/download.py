@@ -16,6 +16,7 @@ from cardan.report.block import Page
 from cardan.report.exports import Exported, kinds
 from cardan.texts import _
 
+from . import toasts
 from .dialogs import asking
 from .making import Making
 
@@ -106,7 +107,7 @@ class ReportMenu:
             seen = await self.snapshot()
         except TimeoutError:
             with self.session.speaking():
-                ui.notify(_("The view gave no picture; try again."), type="negative", position="top")
+                toasts.refused(_("The view gave no picture; try again."))
             return
         ui.download.content(seen, f"{self._name()}.png", "image/png")
 
@@ -156,4 +157,4 @@ def given(made: Exported) -> None:
 
 
 def _no_drive() -> None:
-    ui.notify(_("There is no drive without mistakes yet."), type="negative", position="top")
+    toasts.refused(_("There is no drive without mistakes yet."))

@@ -14,6 +14,8 @@ from cardan.io.amend import amend
 from cardan.texts import _
 from cardan.units import label
 
+from . import toasts
+
 AXES = ("x", "y", "z")
 
 TYPED = "(value) => emit(value?.target ? value.target.value : value)"
@@ -189,4 +191,4 @@ def attempt(session: Session, change: Callable[[str], str], *, gesture: str = ""
     try:
         session.change(change, gesture=gesture)
     except InputError as error:
-        ui.notify(str(error), type="negative", position="top")
+        toasts.refused(error)

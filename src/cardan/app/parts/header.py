@@ -13,6 +13,7 @@ from cardan.errors import InputError
 from cardan.io import starter
 from cardan.texts import _
 
+from . import toasts
 from .dialogs import asking
 from .download import ReportMenu
 from .settings import SettingsMenu
@@ -117,11 +118,7 @@ class Header:
                     self._leave(lambda: self._receive(event.file.name, content))
 
             def refused() -> None:
-                ui.notify(
-                    _("The file is larger than {size} MB.").format(size=MAX_UPLOAD // 10**6),
-                    type="negative",
-                    position="top",
-                )
+                toasts.refused(_("The file is larger than {size} MB.").format(size=MAX_UPLOAD // 10**6))
 
             ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_UPLOAD, auto_upload=True).props(
                 "accept=.toml,.json flat bordered"
@@ -136,7 +133,7 @@ class Header:
         if not self.session.name:
             self.save_as()
         elif self._try(self.session.save):
-            ui.notify(_("{name} is saved.").format(name=self.session.name), type="positive", position="top")
+            toasts.done(_("{name} is saved.").format(name=self.session.name))
 
     def save_as(self) -> None:
         """Ask for a name and write the file."""
@@ -161,7 +158,7 @@ class Header:
             try:
                 act()
             except InputError as error:
-                ui.notify(str(error), type="negative", position="top", multi_line=True, timeout=8000)
+                toasts.refused(error)
                 return False
         return True
 

@@ -8,6 +8,8 @@ from cardan.app.state.session import Session
 from cardan.errors import InputError
 from cardan.texts import _
 
+from . import toasts
+
 PRESSED = """if (!window.cardanKeys) {
   window.cardanKeys = true;
   addEventListener('keydown', (event) => {
@@ -56,6 +58,6 @@ class Keys:
         with self.session.speaking():
             try:
                 self.session.save(self.session.name or "drive.toml")
-                ui.notify(_("{name} is saved.").format(name=self.session.name), type="positive", position="top")
+                toasts.done(_("{name} is saved.").format(name=self.session.name))
             except InputError as error:
-                ui.notify(str(error), type="negative", position="top")
+                toasts.refused(error)

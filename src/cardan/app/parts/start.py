@@ -9,6 +9,8 @@ from cardan.errors import InputError
 from cardan.io import example, example_names, example_text, starter
 from cardan.texts import _
 
+from . import toasts
+
 FIRST = ("truck-printed-angles", "car-propshaft", "two-piece-rear-drive", "pto-drive", "mill-spindle", "truck-supports")
 """Examples shown first."""
 
@@ -53,4 +55,4 @@ class Start:
             try:
                 self.session.open(self.session.workspace.read(name), name)
             except InputError as error:
-                ui.notify(str(error), type="negative", position="top")
+                toasts.refused(error)

@@ -15,6 +15,7 @@ from cardan.errors import InputError
 from cardan.report.block import Page
 from cardan.texts import _
 
+from . import toasts
 from .blocks import PageView
 from .dialogs import asking
 from .download import Exports
@@ -50,7 +51,7 @@ class VariantsMenu:
         """Ask for a name and keep the drive as it is."""
         session = self.session
         if not session.document.valid or session.drive is None:
-            _refused(_("Only a drive without mistakes can be kept as a variant."))
+            toasts.refused(_("Only a drive without mistakes can be kept as a variant."))
             return
         text, drive = session.document.text, session.drive
         self._ask(
@@ -175,7 +176,7 @@ class VariantsMenu:
                 label = name.removesuffix(".toml")[:LONGEST]
                 session.keep(session.variants.keeping(label, found.text, found.drive))
             except InputError as error:
-                _refused(str(error))
+                toasts.refused(str(error))
 
     def _ask(self, title: str, proposed: str, act: str, named: Callable[[str], object]) -> None:
         """Ask for a name."""
@@ -190,7 +191,7 @@ class VariantsMenu:
                     try:
                         named(str(name.value or ""))
                     except InputError as error:
-                        _refused(str(error))
+                        toasts.refused(str(error))
                         return
                     dialog.close()
 
@@ -223,10 +224,6 @@ class VariantsMenu:
             with ui.element("div").classes("body"):
                 view = PageView(Exports(self.session, self._jobs))
             view.show(page)
-
-
-def _refused(text: str) -> None:
-    ui.notify(text, type="negative", position="top", multi_line=True, timeout=8000)
 
 
 def _quoted(text: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias
@@ -76,9 +76,10 @@ class Session:
         self.later: Callable[[Listener], None] = _at_once
         self._listeners: dict[Change, list[Listener]] = {}
         self._first: dict[Change, list[Listener]] = {}
+        self._lasting: dict[Change, list[Listener]] = {}
         self._behind: tuple[Change, ...] = ()
 
-    def listen(self, change: Change, listener: Listener, *, first: bool = False) -> None:
+    def listen(self, change: Change, listener: Listener, *, first: bool = False, lasting: bool = False) -> None:
         """Have a function called after every change of a sort.
 
         Parameters
@@ -89,19 +90,23 @@ class Session:
             What is called.
         first : bool
             Of an edit it is told before all others and at once: it shows what the user waits for.
+        lasting : bool
+            It stays when the parts of the page are built anew.
         """
-        (self._first if first else self._listeners).setdefault(change, []).append(listener)
+        kept = self._lasting if lasting else self._first if first else self._listeners
+        kept.setdefault(change, []).append(listener)
 
     def forget_parts(self) -> None:
-        """Forget all listeners but those of the page itself, before its parts are built anew."""
-        self._first = {}
-        self._listeners = {
-            change: listeners[:1] for change, listeners in self._listeners.items() if change == "choices"
-        }
+        """Forget all listeners but the lasting ones, before the parts of the page are built anew."""
+        self._first, self._listeners = {}, {}
 
     def tell(self, change: Change) -> None:
         """Call all who want to know of a change, in the user's language; one that fails keeps it from no other."""
-        self._call([*self._first.get(change, ()), *self._listeners.get(change, ())])
+        self._call(self._heard(change, self._lasting, self._first, self._listeners))
+
+    @staticmethod
+    def _heard(change: Change, *kept: Mapping[Change, Sequence[Listener]]) -> list[Listener]:
+        return [listener for some in kept for listener in some.get(change, ())]
 
     def _call(self, listeners: Iterable[Listener]) -> None:
         failed: Exception | None = None
@@ -247,7 +252,7 @@ class Session:
             changes = ("text", "drive", "file")
         waiting, self._behind = bool(self._behind), max(changes, self._behind, key=len)
         try:
-            self._call([listener for change in changes for listener in self._first.get(change, ())])
+            self._call(one for change in changes for one in self._heard(change, self._first))
         finally:
             if not waiting:
                 self.later(self._follow)
@@ -255,7 +260,7 @@ class Session:
     def _follow(self) -> None:
         """Tell all who could wait."""
         changes, self._behind = self._behind, ()
-        self._call([listener for change in changes for listener in self._listeners.get(change, ())])
+        self._call(one for change in changes for one in self._heard(change, self._lasting, self._listeners))
 
 
 def _nothing() -> None:
