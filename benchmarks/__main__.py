@@ -20,6 +20,7 @@ NAMES = (
     "mathieu_map",
     "speed_sweep",
     "floquet_map",
+    "sweep",
     "start_up",
     "app_latency",
     "app_frames",
