@@ -55,6 +55,8 @@ _HOMES = {
     "MonteCarlo": "analysis.sampling",
     "MovingForces": "analysis.moving_forces",
     "moving_forces": "analysis.moving_forces",
+    "RotorResponse": "analysis.rotor_response",
+    "rotor_response": "analysis.rotor_response",
     "Balance": "analysis.shaft_balance",
     "balance": "analysis.shaft_balance",
     "Strength": "analysis.strength",
@@ -228,6 +230,8 @@ if TYPE_CHECKING:
     from .analysis.release import release as release
     from .analysis.repair import Repair as Repair
     from .analysis.repair import repairs as repairs
+    from .analysis.rotor_response import RotorResponse as RotorResponse
+    from .analysis.rotor_response import rotor_response as rotor_response
     from .analysis.sampling import MonteCarlo as MonteCarlo
     from .analysis.shaft_balance import Balance as Balance
     from .analysis.shaft_balance import balance as balance

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from cardan import Drive
 from cardan.catalogue import completed, material
 from cardan.drive.body import Lump
+from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Vehicle
 from cardan.drive.joint_parts import Rating
@@ -99,6 +100,7 @@ WAYS: dict[Any, Callable[[type], st.SearchStrategy[Any]]] = {
     Rating: lambda cls: (
         things(cls, torque=st.none(), convention=st.just("Tc")) | things(cls, torque=st.floats(1.0, 1e5))
     ),
+    ShaftCrack: lambda cls: things(cls, losses=st.tuples(*[st.floats(0.0, 0.9)] * 2), depth_ratio=st.none()),
     Vehicle: lambda cls: (
         things(cls, engine_torque=st.none()) | things(cls, engine_power=st.none(), engine_speed=st.none())
     ),

@@ -12,6 +12,7 @@ from cardan.texts import _
 from cardan.units import mm, rpm
 
 from .body import body_problems
+from .crack import crack_problems
 from .joints import Joint
 from .shaft import Shaft
 from .support import Support
@@ -33,6 +34,7 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
             path = f"shafts[{shaft.number - 1}]"
             yield from _body(shaft, path)
             yield from body_problems(shaft, length.get(shaft.number), path)
+            yield from crack_problems(shaft, path)
             for k, lump in enumerate(shaft.masses):
                 yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
             yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from cardan.units import plain, quantity
 
 from .body import Lump, Segment
+from .crack import ShaftCrack
 from .material import Material
 
 
@@ -166,6 +167,7 @@ class Shaft:
     layup: Layup | None = plain(None, doc="plies of a tube of fibre composite, in place of its material")
     unbalance: tuple[Unbalance, ...] = plain((), doc="unbalances measured or allowed on the shaft")
     runout: float | None = quantity("length", None, doc="run-out of the tube", low=0.0)
+    crack: ShaftCrack | None = plain(None, doc="crack across the shaft")
 
     @property
     def has_body(self) -> bool:

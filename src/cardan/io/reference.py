@@ -8,6 +8,7 @@ from typing import Any, get_args, get_origin
 
 from cardan.drive.accuracy import Cost, Error, Tolerance
 from cardan.drive.body import Lump, Segment
+from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
@@ -54,6 +55,7 @@ SECTIONS: tuple[tuple[str, type], ...] = (
     ("`layup` of a shaft", Layup),
     ("`ply` of a layup", Ply),
     ("`unbalance` of a shaft", Unbalance),
+    ("`crack` of a shaft", ShaftCrack),
     ("`[[supports]]`", Support),
     ("`[[stations]]`", Station),
     ("`to_next` of a station", ToNext),
