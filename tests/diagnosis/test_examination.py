@@ -92,3 +92,9 @@ def test_progress_rises_to_the_end(recording, drive):
     examine(recording, drive, progress=told.append)
     assert told == sorted(told)
     assert told[-1] == 1.0
+
+
+def test_one_that_is_stopped_tells_what_it_knows_by_then(recording, drive):
+    found = examine(recording, drive, progress=lambda share: "stop" if share > 0.1 else None)
+    assert "stopped before" in found.cautions[-1]
+    assert found.confidence < examine(recording, drive).confidence

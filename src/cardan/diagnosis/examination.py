@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -22,6 +22,7 @@ from .signal import Channel, Signal
 from .spectra import integrated
 from .torsional import KEPT, LEAST_TEETH, TorsionalVibration, torsional_vibration
 from .turning import Rotation
+from .watching import Progress, Watch
 
 SHAKING = ("acceleration", "velocity", "displacement")
 """Quantities whose orders are shown, the best first."""
@@ -31,6 +32,9 @@ FOLLOWED = (1.0, 2.0, 3.0)
 
 SLOWEST = 0.4
 """Share of the least speed of the shaft below which integrated channels are cut off."""
+
+JUDGED, LOOKED_AT, MAPPED = 0.6, 0.8, 0.9
+"""Shares of the work, about: causes, spectra, the map; orders followed are the rest."""
 
 ALONG = ("axial", "torsion")
 """Directions in which no sensor looks across a shaft."""
@@ -102,7 +106,7 @@ def examine(
     channel: str | None = None,
     speed_range: tuple[float, float] | None = None,
     known: Catalogue | None = None,
-    progress: Callable[[float], object] | None = None,
+    progress: Progress | None = None,
 ) -> Examination:
     """Return what a recording tells of a drive: `diagnose`, and the orders that it looks at.
 
@@ -119,7 +123,8 @@ def examine(
     known : Catalogue, optional
         With the table of faults; the shipped one when not given.
     progress : function, optional
-        Told the share done.
+        Told the share done; when it answers "stop" channels not yet looked at are left out, which a caution says, and
+        the pictures end where the channels were read to.
 
     Returns
     -------
@@ -139,16 +144,13 @@ def examine(
     >>> found.findings[0].cause, found.channel.name, round(found.spectrum.peaks()[0][0], 2)
     ('F21', 'centre radial', 2.0)
     """
-    told = progress or (lambda _share: None)
+    watch = Watch(progress, 1)
     asked = None if channel is None else signal.channel(channel)
-    told(0.05)
-    seen = features(signal, drive, speed_range=speed_range)
-    told(0.6)
+    seen = features(signal, drive, speed_range=speed_range, progress=_part(watch, 0.0, JUDGED))
     findings = weighed(seen, known=known)
     shaft = seen.rotation
-    spectra = tuple(_spectra(signal, shaft))
+    spectra = tuple(_spectra(signal, shaft, watch))
     shown = asked or _loudest(signal, spectra)
-    told(0.75)
     own = next((one for one in spectra if one.name == shown.name), None)
     found = Examination(
         signal=signal,
@@ -159,23 +161,28 @@ def examine(
         channel=shown,
         spectra=spectra,
         spectrum=own if own is not None else order_spectrum(shown, shaft),
-        map=order_map(shown, shaft),
-        tracks=tracked_orders(shown, shaft, FOLLOWED),
+        map=order_map(shown, shaft, progress=_part(watch, LOOKED_AT, MAPPED)),
+        tracks=tracked_orders(shown, shaft, FOLLOWED, progress=_part(watch, MAPPED, 1.0)),
         orbit=_orbit(signal, shaft),
         swing=_swing(signal),
         expected=_expected(drive, findings[0].cause),
     )
-    told(1.0)
+    watch(1.0)
     return found
 
 
-def _spectra(signal: Signal, shaft: Rotation) -> Iterator[OrderSpectrum]:
+def _part(watch: Watch, begin: float, end: float) -> Progress:
+    """Return who is told of a part of the work as the share of that part."""
+    return lambda share: watch(begin + (end - begin) * share)
+
+
+def _spectra(signal: Signal, shaft: Rotation, watch: Watch) -> Iterator[OrderSpectrum]:
     """Yield the order spectra of all channels that shake and cover turns enough."""
-    for one in signal.measured:
-        if one.quantity not in SHAKING:
-            continue
+    shaking = [one for one in signal.measured if one.quantity in SHAKING]
+    marks = [JUDGED + (LOOKED_AT - JUDGED) * k / max(len(shaking), 1) for k in range(len(shaking) + 1)]
+    for k, one in enumerate(shaking):
         try:
-            yield order_spectrum(one, shaft)
+            yield order_spectrum(one, shaft, progress=_part(watch, marks[k], marks[k + 1]))
         except InputError:
             continue
 
