@@ -13,6 +13,7 @@ from cardan.batch.goals import Goal, Limit
 from cardan.batch.optimise import Global, optimise
 from cardan.batch.pareto import pareto, pareto_search
 from cardan.batch.sobol import sensitivity, swings
+from cardan.batch.views import Ranks
 from cardan.figures.figure import Bars, Cells, Curve, Note, Rule
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
@@ -113,6 +114,16 @@ def test_one_field_at_a_time():
     np.testing.assert_array_equal(low.size, [0.0, -1.0, -3.0])
     np.testing.assert_array_equal(high.size, [0.0, 1.0, 3.0])
     assert figure.sentence == "x moves it farthest, from −3.00 to 3.00."
+
+
+def test_what_an_answer_goes_with():
+    found = Ranks(answer=BEND, fields=(HEIGHT, SPEED), correlation=np.asarray([-0.9, 0.2]), points=99)
+    (figure,) = (drawn(one) for one in figures.for_result(found))
+    (bars,) = of(figure, Bars)
+    assert bars.size.tolist() == [0.2, -0.9]
+    assert figure.sentence == "It falls most steadily with joints[1].centre_mm[2]."
+    none = Ranks(answer=BEND, fields=(), correlation=np.empty(0), points=9)
+    assert "No field" in drawn(figures.for_result(none)[0]).sentence
 
 
 def test_a_boundary_is_drawn_with_what_was_asked():

@@ -133,6 +133,12 @@ class Results:
         ended = "" if limit is None else f" LIMIT {max(0, int(limit))}"
         return f"SELECT {names} FROM {TABLE}{condition(where)}{ordered}{ended}"
 
+    def pieces(self, columns: Sequence[str] = (), *, where: str = "") -> Iterator[Rows]:
+        """Return rows piece by piece, in the order of the points; see `table`."""
+        sql = self.select(columns, where=where)
+        for part in self.parts:
+            yield self._answered(sql, (part,))
+
     def best(self, goal: Goal, *, limits: Sequence[Limit] = (), where: str = "", count: int = 1) -> Rows:
         """Return the best rows that were answered and keep the limits, the best first.
 

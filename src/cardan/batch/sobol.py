@@ -13,6 +13,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import nearest
 
+from .designs import uniforms
 from .distributions import Distribution
 from .goals import Evaluator
 from .pieces import Progress, answered
@@ -204,12 +205,8 @@ def _chosen(
 
 def _design(spread: Sequence[Distribution], samples: int, seed: int) -> Array:
     """Return the points A, B and A with one field from B each, array (d + 2, samples, d)."""
-    from scipy.stats import qmc
-
     d = len(spread)
-    room = 1 << max(samples - 1, 1).bit_length()
-    share = qmc.Sobol(2 * d, scramble=True, rng=seed).random(room)[:samples]
-    share = np.clip(share, 2.0**-53, 1.0 - 2.0**-53)  # some distributions have no end
+    share = uniforms("sobol", 2 * d, seed, 0, samples, samples)
     one, two = (np.stack([spread[k].at(part[:, k]) for k in range(d)], axis=1) for part in (share[:, :d], share[:, d:]))
     points = np.stack([one, two, *[one] * d])
     for k in range(d):
@@ -224,7 +221,8 @@ def _indices(values: Array, weight: Array) -> tuple[Array, Array]:
 
     def mean(of: Array) -> Array:
         """Return weighted means (r, ...) of arrays (..., n)."""
-        found: Array = np.moveaxis(of @ weight.T, -1, 0) / count.reshape(-1, *[1] * (of.ndim - 1))
+        sums = (of.reshape(-1, of.shape[-1]) @ weight.T).reshape(*of.shape[:-1], -1)
+        found: Array = np.moveaxis(sums, -1, 0) / count.reshape(-1, *[1] * (of.ndim - 1))
         return found
 
     ends = values[:, :2]

@@ -54,6 +54,7 @@ _MAKERS = {
     "cardan.diagnosis.expected.Expected": "expected.expected_figures",
     "cardan.batch.sobol.Sensitivity": "sweep_designs.sensitivity_figures",
     "cardan.batch.sobol.Swings": "sweep_designs.swings_figures",
+    "cardan.batch.views.Ranks": "sweep_designs.ranks_figure",
     "cardan.batch.boundary.Boundary": "sweep_designs.boundary_figure",
     "cardan.batch.pareto.ParetoSet": "sweep_designs.pareto_set_figure",
     "cardan.batch.optimise.Optimum": "sweep_designs.optimum_figure",

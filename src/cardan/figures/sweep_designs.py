@@ -10,6 +10,7 @@ from cardan.batch.boundary import Boundary
 from cardan.batch.optimise import Optimum
 from cardan.batch.pareto import ParetoSet
 from cardan.batch.sobol import Sensitivity, Swings
+from cardan.batch.views import Ranks
 from cardan.batch.work import Column
 from cardan.maths.arrays import Array
 from cardan.texts import _, plural
@@ -149,6 +150,43 @@ def swings_figure(found: Swings, answer: int = 0) -> Figure:
         ),
         source=_("all other fields as they are"),
         rows=(Row(panels=(panel,), height=0.3 * max(len(order), 2) + 0.2),),
+    )
+
+
+def ranks_figure(found: Ranks) -> Figure:
+    """Return how an answer rises and falls with each field, the weightiest on top.
+
+    Parameters
+    ----------
+    found : Ranks
+        Of the table of a sweep.
+    """
+    order = list(range(len(found.fields)))[:BARS][::-1]
+    at = np.arange(len(order), dtype=float)
+    weight = found.correlation[order]
+    bars = Bars(at=at, size=weight, lying=True, roles=tuple("accent" if w > 0.0 else "cross" for w in weight))
+    panel = Panel(
+        series=(bars, Rule(value=0.0, upright=True, role="ink", dash="solid")),
+        x=axis(
+            _("rank correlation: 1 rises always, −1 falls always"), "", [], include=(-1.0, 1.0), margin=0.02, count=8
+        ),
+        y=_fields(found.fields, order),
+        title=" ",
+    )
+    said = _("No field that varies goes with it.")
+    if order:
+        weightiest = name_of(found.fields[0])
+        text = (
+            _("It rises most steadily with {field}.") if weight[-1] > 0.0 else _("It falls most steadily with {field}.")
+        )
+        said = text.format(field=weightiest)
+    return Figure(
+        name="ranks",
+        title=_("What it goes with: {name}").format(name=name_of(found.answer)),
+        sentence=said,
+        source=_("rank correlations (Spearman) of {count} points").format(count=counted(found.points)),
+        rows=(Row(panels=(panel,), height=0.3 * max(len(order), 2) + 0.2),),
+        legend=False,
     )
 
 
