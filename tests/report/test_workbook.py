@@ -23,7 +23,7 @@ from cardan.figures.figure import Axis, Bars, Curve, Figure, Note, Panel, Row, R
 from cardan.io import example, example_text
 from cardan.io.book import sheet_name
 from cardan.report import paper, renderer
-from cardan.report.amounts import amount
+from cardan.report.amounts import amount, read
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
 from cardan.report.charts import split
 from cardan.report.content import Content, content
@@ -129,6 +129,19 @@ def test_every_table_stands_there_with_its_numbers_in_full(name: str) -> None:
                     assert cell.fill.fill_type == "solid"
                     assert wanted.sign in f"{cell.value} {cell.number_format}"
     assert seen > 20
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_number_behind_a_cell_is_the_one_it_says(name: str) -> None:
+    seen = 0
+    for _k, table in tables(said(name)):
+        for row in table.rows:
+            for cell in row:
+                text = read(cell.text)
+                if text is not None and cell.full:
+                    seen += 1  # a cell shows two digits at the least, or two behind the point
+                    assert float(cell.full) == pytest.approx(text, rel=0.06, abs=0.0051), (table.title, row[0].text)
+    assert seen > 10
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -39,15 +39,15 @@ def _worst(found: Articulation) -> Table:
     rows: list[list[Cell]] = []
     for one in found.worst:
         if one.what == "bend":
-            text, unit = fixed(one.value / deg), "°"
+            cell, unit = number(fixed(one.value / deg), one.value / deg), "°"
         elif one.what.startswith("length"):
-            text, unit = fixed(one.value / mm, 1), "mm"
+            cell, unit = number(fixed(one.value / mm, 1), one.value / mm), "mm"
         elif one.what == "acceleration":
-            text, unit = significant(one.value), "rad/s²"
+            cell, unit = number(significant(one.value), one.value), "rad/s²"
         else:
-            text, unit = percent(one.value).removesuffix(" %"), "%"
+            cell, unit = number(percent(one.value).removesuffix(" %"), 100.0 * one.value), "%"
         name = names.get(one.what, one.what).format(number=one.number)
-        rows.append([words(name), number(text, one.value), words(unit), number(significant(one.time, 3), one.time)])
+        rows.append([words(name), cell, words(unit), number(significant(one.time, 3), one.time)])
     return Table(
         title=_("Worst instants"),
         columns=(
