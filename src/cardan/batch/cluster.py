@@ -9,7 +9,9 @@ from __future__ import annotations
 import itertools
 import logging
 import multiprocessing
+import os
 import pickle
+import signal
 import sys
 import tempfile
 import time
@@ -28,7 +30,7 @@ from cardan.maths.compiled.threads import processors
 from cardan.texts import _, language, speaking
 
 from .chunks import Chunk
-from .engines import OFTEN, Done, EngineLostError, Heard, died, reason, stillborn
+from .engines import OFTEN, Done, EngineLostError, Heard, deaf, died, reason, stillborn
 
 if TYPE_CHECKING:
     from distributed import Client, Future, LocalCluster
@@ -46,6 +48,9 @@ TRY = 2.0
 
 GONE = ("cancelled", "lost")
 """What Dask calls work that it will not give back."""
+
+PART = 5.0
+"""Seconds that a cluster of ours has to end."""
 
 FIRST = 10.0
 """Seconds that a scheduler has to answer at first."""
@@ -348,18 +353,19 @@ def _local(workers: int) -> Iterator[str]:
         raise RuntimeError(stillborn(""))  # a script without a guard, which a worker of ours imports as it begins
     with tempfile.TemporaryDirectory(prefix="cardan-") as folder:
         try:
-            cluster = library().LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                processes=True,
-                host="127.0.0.1",
-                scheduler_port=0,
-                dashboard_address="127.0.0.1:0",
-                worker_dashboard_address="127.0.0.1:0",
-                scheduler_kwargs={"dashboard": False},
-                local_directory=folder,
-                silence_logs=logging.CRITICAL,
-            )
+            with deaf():  # threads that start workers, now or later, inherit it
+                cluster = library().LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    host="127.0.0.1",
+                    scheduler_port=0,
+                    dashboard_address="127.0.0.1:0",
+                    worker_dashboard_address="127.0.0.1:0",
+                    scheduler_kwargs={"dashboard": False},
+                    local_directory=folder,
+                    silence_logs=logging.CRITICAL,
+                )
         except RuntimeError:  # its processes ended before they began
             raise EngineLostError(stillborn("")) from None
         try:
@@ -370,16 +376,17 @@ def _local(workers: int) -> Iterator[str]:
 
 def _end(cluster: LocalCluster) -> None:
     """End a cluster of ours at once: a chunk that is worked on is worth nothing any more."""
-    import os
-    import signal
-
-    for nanny in list(cluster.workers.values()):
-        nanny.auto_restart = False
-        if nanny.pid:
-            with suppress(ProcessLookupError):
-                os.kill(nanny.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
-    with suppress(TimeoutError):
-        cluster.close(timeout=10.0)
+    for _attempt in range(2):  # one may just have been about to be started
+        for nanny in list(cluster.workers.values()):
+            nanny.auto_restart = False
+            if nanny.pid:
+                with suppress(ProcessLookupError):
+                    os.kill(nanny.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
+        try:
+            cluster.close(timeout=PART)
+        except TimeoutError:
+            continue
+        return
 
 
 @contextmanager

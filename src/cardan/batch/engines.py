@@ -262,7 +262,7 @@ class _Worker:
         self.line, far = context.Pipe()
         self.process = context.Process(target=_serve, args=(far,), daemon=True, name="cardan-sweep")
         try:
-            with _deaf():
+            with deaf():
                 self.process.start()
         except OSError as error:
             raise EngineLostError(_("processes cannot begin: {why}").format(why=refusal(error))) from None
@@ -305,7 +305,7 @@ class _Worker:
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
+def deaf() -> Iterator[None]:
     """Start processes that ctrl-C does not reach: it is for this one, which ends them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
