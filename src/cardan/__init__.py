@@ -168,6 +168,7 @@ _HOMES = {
     "Uniform": "batch.distributions",
     "InProcess": "batch.engines",
     "Processes": "batch.engines",
+    "Cluster": "batch.cluster",
     "Sweep": "batch.swept",
     "read_sweep": "batch.swept",
     "sweep": "batch.sweep",
@@ -257,6 +258,7 @@ if TYPE_CHECKING:
     from .batch.axes import Drawn as Drawn
     from .batch.axes import Listed as Listed
     from .batch.axes import Spaced as Spaced
+    from .batch.cluster import Cluster as Cluster
     from .batch.distributions import Normal as Normal
     from .batch.distributions import Triangular as Triangular
     from .batch.distributions import Truncated as Truncated

@@ -8,12 +8,8 @@ from __future__ import annotations
 
 import itertools
 import logging
-import multiprocessing
-import os
 import pickle
-import signal
 import sys
-import tempfile
 import time
 import uuid
 from collections import deque
@@ -25,15 +21,16 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from cardan import __version__
-from cardan.errors import InputError, MissingExtraError, refuse
+from cardan.errors import InputError, refuse
 from cardan.maths.compiled.threads import processors
 from cardan.texts import _, language, speaking
 
 from .chunks import Chunk
-from .engines import OFTEN, Done, EngineLostError, Heard, deaf, died, reason, stillborn
+from .cluster_here import library, local_cluster
+from .engines import OFTEN, Done, EngineLostError, Heard, died, reason
 
 if TYPE_CHECKING:
-    from distributed import Client, Future, LocalCluster
+    from distributed import Client, Future
 
 T = TypeVar("T")
 
@@ -48,9 +45,6 @@ TRY = 2.0
 
 GONE = ("cancelled", "lost")
 """What Dask calls work that it will not give back."""
-
-PART = 5.0
-"""Seconds that a cluster of ours has to end."""
 
 FIRST = 10.0
 """Seconds that a scheduler has to answer at first."""
@@ -106,24 +100,9 @@ class Cluster:
         """
         library()
         with _quiet(), ExitStack() as stack:
-            address = self.scheduler or stack.enter_context(_local(self.workers or processors()))
+            address = self.scheduler or stack.enter_context(local_cluster(self.workers or processors()))
             link = stack.enter_context(_Link(address, self.patience, heard or (lambda: None)))
             yield from _worked(link, task, iter(chunks))
-
-
-def library() -> Any:
-    """Return ``distributed``.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not installed.
-    """
-    try:
-        import distributed
-    except ImportError:
-        raise MissingExtraError(_("a cluster needs dask.distributed: pip install 'cardan[cluster]'")) from None
-    return distributed
 
 
 def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -> Generator[Done[T], None, None]:
@@ -344,49 +323,6 @@ def _odd(where: str, told: Any, here: tuple[tuple[int, ...], str]) -> str:
 
 def _named(facts: tuple[tuple[int, ...], str]) -> str:
     return f"cardan {facts[1]}, Python {'.'.join(map(str, facts[0]))}"
-
-
-@contextmanager
-def _local(workers: int) -> Iterator[str]:
-    """Start a cluster on this machine, and end it whatever it does."""
-    if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise RuntimeError(stillborn(""))  # a script without a guard, which a worker of ours imports as it begins
-    with tempfile.TemporaryDirectory(prefix="cardan-") as folder:
-        try:
-            with deaf():  # threads that start workers, now or later, inherit it
-                cluster = library().LocalCluster(
-                    n_workers=workers,
-                    threads_per_worker=1,
-                    processes=True,
-                    host="127.0.0.1",
-                    scheduler_port=0,
-                    dashboard_address="127.0.0.1:0",
-                    worker_dashboard_address="127.0.0.1:0",
-                    scheduler_kwargs={"dashboard": False},
-                    local_directory=folder,
-                    silence_logs=logging.CRITICAL,
-                )
-        except RuntimeError:  # its processes ended before they began
-            raise EngineLostError(stillborn("")) from None
-        try:
-            yield str(cluster.scheduler_address)
-        finally:
-            _end(cluster)
-
-
-def _end(cluster: LocalCluster) -> None:
-    """End a cluster of ours at once: a chunk that is worked on is worth nothing any more."""
-    for _attempt in range(2):  # one may just have been about to be started
-        for nanny in list(cluster.workers.values()):
-            nanny.auto_restart = False
-            if nanny.pid:
-                with suppress(ProcessLookupError):
-                    os.kill(nanny.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
-        try:
-            cluster.close(timeout=PART)
-        except TimeoutError:
-            continue
-        return
 
 
 @contextmanager
