@@ -20,6 +20,7 @@ NAMES = (
     "mathieu_map",
     "speed_sweep",
     "floquet_map",
+    "recordings",
     "sweep",
     "start_up",
     "app_latency",
