@@ -23,6 +23,7 @@ def write(folder: Path) -> None:
         "commands.md": commands(),
         "names.md": names(),
         "checks.md": checks(),
+        "questions.md": questions(),
         "examples.md": examples(),
         "catalogue.md": rows(),
         "joint-types.md": joint_types(),
@@ -180,6 +181,19 @@ def checks() -> str:
     return "\n".join([*rows, *(f"| `{name}` | {one.doc} |" for name, one in CHECKS.items())]) + "\n"
 
 
+def questions() -> str:
+    """Return the table of all questions of a sweep with the columns of their answers, for a drive of two joints."""
+    from cardan import Drive
+    from cardan.batch.questions import questions as known
+
+    drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0), (1.5, 0, 0)])
+    rows = ["| question | answers | columns |", "|---|---|---|"]
+    for name, one in known().items():
+        told = ", ".join(f"`{told.name}`" for told in one.told(drive))
+        rows.append(f"| `{name}` | {one.doc} | {told} |")
+    return "\n".join(rows) + "\n"
+
+
 def commands() -> str:
     """Return one section for each command."""
     import typer.main
@@ -200,20 +214,25 @@ def _commands(group: Any, path: str) -> Iterator[str]:
         if hasattr(command, "list_commands"):
             yield from _commands(command, f"{path} {name}")
             continue
-        yield f"## `{path} {name}`\n\n{_plain(command.help)}\n"
-        inner = typer.Context(command, info_name=f"{path} {name}")
-        usage = " ".join(command.collect_usage_pieces(inner))
-        yield f"```text\n{path} {name} {usage}\n```\n"
-        rows = ["| argument or option | meaning | default |", "|---|---|---|"]
-        for parameter in command.params:
-            if getattr(parameter, "hidden", False) or not getattr(parameter, "help", None):
-                continue
-            rows.append(f"| {_spelling(parameter)} | {_plain(parameter.help)} | {_given(parameter)} |")
-        if len(rows) > 2:
-            yield "\n".join(rows) + "\n"
-        if command.epilog:
-            lines = [line.strip() for line in _plain(command.epilog).splitlines() if line.strip()]
-            yield "```text\n" + "\n".join(line for line in lines if line.lstrip("$ ").startswith("cardan")) + "\n```\n"
+        yield from _command(command, f"{path} {name}")
+
+
+def _command(command: Any, path: str) -> Iterator[str]:
+    import typer
+
+    yield f"## `{path}`\n\n{_plain(command.help)}\n"
+    usage = " ".join(command.collect_usage_pieces(typer.Context(command, info_name=path)))
+    yield f"```text\n{path} {usage}\n```\n"
+    rows = ["| argument or option | meaning | default |", "|---|---|---|"]
+    for parameter in command.params:
+        if getattr(parameter, "hidden", False) or not getattr(parameter, "help", None):
+            continue
+        rows.append(f"| {_spelling(parameter)} | {_plain(parameter.help)} | {_given(parameter)} |")
+    if len(rows) > 2:
+        yield "\n".join(rows) + "\n"
+    if command.epilog:
+        lines = [line.strip() for line in _plain(command.epilog).splitlines() if line.strip()]
+        yield "```text\n" + "\n".join(line for line in lines if line.lstrip("$ ").startswith("cardan")) + "\n```\n"
 
 
 def _plain(text: str | None) -> str:
