@@ -50,6 +50,7 @@ class Diagnosis(Sheet):
         self._source.move(target_index=0)
         self._channels.move(target_index=1)
         self._offer_recordings()
+        self._offer_channels()
 
     @property
     def quick(self) -> bool:

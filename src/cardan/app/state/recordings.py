@@ -76,7 +76,7 @@ class Recordings:
         """Return the recordings of the folder, the one changed last first."""
         found = [
             path
-            for path in self.workspace.folder.iterdir()
+            for path in self.workspace.folder.glob("*")
             if path.suffix.lower() in SIGNAL_FORMATS and path.is_file() and not path.name.startswith(".")
         ]
         found.sort(key=lambda path: -path.stat().st_mtime)
