@@ -38,7 +38,7 @@ def test_the_key_figure_has_its_limit():
         "critical speed, shaft 3 bows",
         "7\u202f095",
         "rpm",
-        "6\u202f240",
+        "≥ 6\u202f240",
         "0.88",
     ]
     assert row[-1].tone == "good"

@@ -93,7 +93,7 @@ def _keys(found: CriticalSpeeds) -> Iterator[list[Cell]]:
         words(name),
         number(significant(actual / rpm), actual / rpm),
         words(_("rpm")),
-        number(significant(limit / rpm), limit / rpm),
+        number(f"≥ {significant(limit / rpm)}", limit / rpm),
         number(fixed(use, 2), use),
         words(verdict, tone),
     ]

@@ -205,7 +205,7 @@ def _bend(on: Subject) -> list[Cell]:
         words(name.format(k=joint)),
         number(significant(bend), bend),
         words("°"),
-        number(f"{limit:g}"),
+        number(f"≤ {limit:g}", limit),
         number(fixed(use, 2), use),
         words(verdict, tone),
     ]
@@ -260,7 +260,7 @@ def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> li
         words(name),
         number(fixed(value / mm, 1), value / mm),
         words(_("mm")),
-        words("–") if limit is None else number(f"{limit / mm:g}"),
+        words("–") if limit is None else number(f"≥ {limit / mm:g}", limit / mm),
         words("–") if use is None else number(fixed(use, 2), use),
         words(verdict, tone),
     ]
