@@ -12,7 +12,7 @@ import pytest
 from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.drive.shaft import Shaft
 from cardan.figures.wording import significant
-from cardan.report.block import Page
+from cardan.report.block import Page, Table
 from cardan.report.torsion import twisting
 
 
@@ -63,3 +63,12 @@ def test_what_is_missing_is_told() -> None:
 def test_every_check_passes(name: str) -> None:
     table = of(example(name)).blocks[-1]
     assert {row[-1].tone for row in table.rows} == {"good"}
+
+
+def test_torques_that_are_only_rounding_are_nought() -> None:
+    table = next(
+        one for one in of(example("pto-flywheel-absorber")).blocks if isinstance(one, Table) and "Torques" in one.title
+    )
+    ring = next(row for row in table.rows if "absorber" in row[0].text)
+    assert ring[1].text == "0"
+    assert abs(float(ring[1].full)) < 1e-9 * float(ring[3].full)

@@ -291,14 +291,11 @@ def _torque_table(runs: TorsionResponse) -> Table:
     rows = [
         [
             words(name),
-            *(
-                number(significant(float(one), 3), float(one))
-                for one in (
-                    runs.steady.torque.mean[e],
-                    runs.torque_lowest[e],
-                    runs.torque_highest[e],
-                    runs.steady.torque.amplitude[e, second],
-                )
+            *_torques(
+                runs.steady.torque.mean[e],
+                runs.torque_lowest[e],
+                runs.torque_highest[e],
+                runs.steady.torque.amplitude[e, second],
             ),
         ]
         for e, name in enumerate(runs.train.element_names)
@@ -314,6 +311,12 @@ def _torque_table(runs: TorsionResponse) -> Table:
         ),
         rows=rows,
     )
+
+
+def _torques(*values: float) -> list[Cell]:
+    """Return the cells of a part's torques; what is only rounding beside the greatest of them is nought."""
+    least = 1e-9 * max(map(abs, values))
+    return [number("0" if abs(one) <= least else significant(float(one), 3), float(one)) for one in values]
 
 
 def _assumed(modes: TorsionModes) -> Iterator[str]:
