@@ -12,7 +12,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Hooke
 from cardan.figures.figure import Bars, Curve
-from cardan.figures.losses import SHOWN, heat_figure, heat_parts, map_figure
+from cardan.figures.losses import LONG, SHOWN, heat_figure, heat_parts, map_figure
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import example
@@ -94,3 +94,11 @@ def test_parts_are_called_by_their_names():
     assert "support 3 centre bearing" in names
     assert names[0] == "joint 2 centre"
     assert [row[1:] for row in heat_parts(found, TRUCK)] == [row[1:] for row in heat_parts(found)]
+
+
+def test_long_names_are_cut_in_the_figure_alone():
+    drive = example("instrument-joint")
+    found = losses(drive)
+    assert "support 1 handwheel side, outer" in [name for name, _heat, _role in heat_parts(found, drive)]
+    (axis,) = [panel.y for panel in heat_figure(found, drive).panels if any(isinstance(s, Bars) for s in panel.series)]
+    assert max(map(len, axis.texts)) == LONG

@@ -61,7 +61,7 @@ def heat_parts(found: Losses, drive: Drive | None = None) -> list[tuple[str, flo
         *((_("spline of shaft {number}"), 2, k, heat, shaft(k)) for k, heat in enumerate(found.splines, start=1)),
     ]
     warm = [
-        (_short(" ".join((text.format(number=k), *names[kind][k - 1 : k])).strip()), float(heat), role)
+        (" ".join((text.format(number=k), *names[kind][k - 1 : k])).strip(), float(heat), role)
         for text, kind, k, heat, role in rows
         if heat > 0.0
     ]
@@ -87,6 +87,7 @@ def heat_figure(found: Losses, drive: Drive | None = None) -> Figure:
         rest = parts[SHOWN - 1 :]
         name = _("{count} other parts").format(count=len(rest))
         parts = [*parts[: SHOWN - 1], (name, sum(heat for _name, heat, _role in rest), "muted")]
+    parts = [(_short(name), heat, role) for name, heat, role in parts]
     rows = [Row(panels=(_bars(parts),), height=0.25 * max(len(parts), 1) + 0.2)]
     course = np.asarray(found.joint_power)
     if np.all(np.isfinite(course)) and float(np.max(course, initial=0.0)) > 0.0:
