@@ -91,11 +91,11 @@ def test_a_scheduler_that_is_started_anew(outside, tmp_path):
             outside.work()
 
     work = replace(WORK, trouble=Trouble("slow", seconds=0.05))
-    sweep = run(work, engine=Cluster(outside.address), chunk=CHUNK, into=tmp_path / "out", progress=progress)
+    sweep = run(work, engine=Cluster(scheduler=outside.address), chunk=CHUNK, into=tmp_path / "out", progress=progress)
     assert killed
     undisturbed(sweep, WORK, CHUNK)
     failing = replace(WORK, trouble=Trouble("raise", row=1002))
-    sweep = run(failing, engine=Cluster(outside.address), chunk=CHUNK, rows="none", into=tmp_path / "none")
+    sweep = run(failing, engine=Cluster(scheduler=outside.address), chunk=CHUNK, rows="none", into=tmp_path / "none")
     assert sweep.missing == ((1000, 1003, "ValueError: row of trouble"),)
     undisturbed(run(WORK, rows="none", into=tmp_path / "none"), WORK, CHUNK, "none")
 
@@ -106,7 +106,7 @@ def test_a_cluster_that_is_gone_or_other_is_told(outside, tmp_path, monkeypatch)
     with monkeypatch.context() as patch:
         patch.setattr(cluster, "__version__", "0.0.9")
         with pytest.raises(InputError) as refused:
-            run(WORK, engine=Cluster(outside.address))
+            run(WORK, engine=Cluster(scheduler=outside.address))
         assert str(refused.value).startswith("scheduler: worker tcp://127.0.0.1:")
         assert "here is cardan 0.0.9, Python 3." in str(refused.value)
 
@@ -115,7 +115,7 @@ def test_a_cluster_that_is_gone_or_other_is_told(outside, tmp_path, monkeypatch)
             outside.close()
 
     work = replace(WORK, trouble=Trouble("slow", seconds=0.02))
-    engine = Cluster(outside.address, patience=0.5)
+    engine = Cluster(scheduler=outside.address, patience=0.5)
     sweep = run(work, engine=engine, chunk=CHUNK, into=tmp_path / "out", progress=progress)
     assert sweep.status == "incomplete"
     assert {one.why for one in sweep.missing} == {
@@ -133,7 +133,7 @@ def wait_for_worker(outside):
 
 
 def test_a_scheduler_without_workers_is_told(outside):
-    sweep = run(WORK, engine=Cluster(outside.address, patience=0.3), chunk=CHUNK)
+    sweep = run(WORK, engine=Cluster(scheduler=outside.address, patience=0.3), chunk=CHUNK)
     assert sweep.missing == ((0, WORK.size, f"the scheduler {outside.address} has had no worker for 0.3 s"),)
 
 
@@ -147,7 +147,7 @@ def test_a_scheduler_without_workers_is_told(outside):
 def test_a_wrong_address_is_one_message(address, told, monkeypatch):
     monkeypatch.setattr(cluster, "FIRST", 0.5)
     with pytest.raises(InputError) as refused:
-        run(WORK, engine=Cluster(address))
+        run(WORK, engine=Cluster(scheduler=address))
     assert str(refused.value).startswith(told)
     assert "\n" not in str(refused.value)
 
@@ -167,12 +167,12 @@ def test_a_worker_of_another_version_that_comes_late_does_nothing(monkeypatch):
 
 def test_what_makes_no_sense_is_refused():
     with pytest.raises(InputError, match="a cluster that is running has the workers that it has"):
-        Cluster("tcp://127.0.0.1:9", workers=2)
+        Cluster(scheduler="tcp://127.0.0.1:9", workers=2)
     with pytest.raises(InputError, match="0 is not at least 1"):
         Cluster(workers=0)
     assert Cluster().writes
-    assert not Cluster("tcp://127.0.0.1:9").writes
-    assert Cluster("tcp://127.0.0.1:9", shared=True).writes
+    assert not Cluster(scheduler="tcp://127.0.0.1:9").writes
+    assert Cluster(scheduler="tcp://127.0.0.1:9", shared=True).writes
 
 
 def test_a_missing_library_is_named(monkeypatch):

@@ -35,7 +35,7 @@ def results(engine, task, chunks=CHUNKS):
     return {done.chunk.index: (done.value, done.failure) for done in engine.run(task, chunks)}
 
 
-@pytest.mark.parametrize("engine", [InProcess(), Processes(2)], ids=["in process", "processes"])
+@pytest.mark.parametrize("engine", [InProcess(), Processes(workers=2)], ids=["in process", "processes"])
 def test_every_chunk_comes_once_and_a_failure_is_told(engine):
     found = results(engine, works.Rowwise(works.Trouble("raise", row=9)))
     assert found == {
@@ -45,7 +45,7 @@ def test_every_chunk_comes_once_and_a_failure_is_told(engine):
 
 
 def test_the_chunk_of_a_killed_process_is_done_again(tmp_path):
-    found = results(Processes(2), works.Rowwise(works.Trouble("kill", row=9, marks=str(tmp_path), times=2)))
+    found = results(Processes(workers=2), works.Rowwise(works.Trouble("kill", row=9, marks=str(tmp_path), times=2)))
     assert found == {k: (rows, None) for k, rows in ROWS.items()}
     struck = [int(mark.name.partition("-")[2]) for mark in tmp_path.iterdir()]
     assert len(set(struck)) == 2
@@ -53,13 +53,13 @@ def test_the_chunk_of_a_killed_process_is_done_again(tmp_path):
 
 
 def test_a_chunk_that_always_kills_is_given_up_and_the_rest_goes_on():
-    found = results(Processes(2, retries=1), works.Rowwise(works.Trouble("kill", row=9)))
+    found = results(Processes(workers=2, retries=1), works.Rowwise(works.Trouble("kill", row=9)))
     assert found.pop(2) == (None, "the process that worked on it died 2 times")
     assert found == {k: (rows, None) for k, rows in ROWS.items() if k != 2}
 
 
 def test_workers_have_one_thread_and_end():
-    found = [done.value for done in Processes(1).run(works.threads_and_process, CHUNKS)]
+    found = [done.value for done in Processes(workers=1).run(works.threads_and_process, CHUNKS)]
     assert {threads for threads, _process in found} == {1}
     (worker,) = {process for _threads, process in found}
     assert worker != os.getpid()
@@ -67,18 +67,22 @@ def test_workers_have_one_thread_and_end():
 
 
 def test_what_cannot_be_sent_is_told():
-    assert "pickle" in next(iter(Processes(1).run(works.unsendable, CHUNKS))).failure
+    assert "pickle" in next(iter(Processes(workers=1).run(works.unsendable, CHUNKS))).failure
 
 
 def test_processes_that_cannot_begin_say_why():
     with pytest.raises(EngineLostError, match="no module named 'tools'"):
-        results(Processes(1, retries=0), works.Unreadable())
+        results(Processes(workers=1, retries=0), works.Unreadable())
 
 
 def test_stop_is_heard_while_all_work():
     begin = time.monotonic()
     assert (
-        list(Processes(2).run(works.lasting, CHUNKS, heard=lambda: "stop" if time.monotonic() > begin + 0.5 else ""))
+        list(
+            Processes(workers=2).run(
+                works.lasting, CHUNKS, heard=lambda: "stop" if time.monotonic() > begin + 0.5 else ""
+            )
+        )
         == []
     )
     assert not multiprocessing.active_children()
@@ -86,7 +90,7 @@ def test_stop_is_heard_while_all_work():
 
 
 def test_closing_the_iterator_ends_the_processes():
-    running = Processes(2).run(works.threads_and_process, CHUNKS)
+    running = Processes(workers=2).run(works.threads_and_process, CHUNKS)
     _threads, process = next(running).value
     running.close()
     assert gone(process)
@@ -95,7 +99,7 @@ def test_closing_the_iterator_ends_the_processes():
 
 def test_the_number_of_processes_is_checked():
     with pytest.raises(InputError, match="workers: 0 is not at least 1"):
-        Processes(0)
+        Processes(workers=0)
 
 
 def test_reasons_are_one_sentence():

@@ -59,14 +59,14 @@ def test_rows_that_nobody_keeps_are_not_held(engine, tmp_path):
 
 
 def test_processes_give_the_same(tmp_path):
-    undisturbed(run(WORK, engine=Processes(2), chunk=CHUNK, into=tmp_path), WORK, CHUNK)
-    undisturbed(run(WORK, engine=Processes(1), chunk=CHUNK), WORK, CHUNK)
+    undisturbed(run(WORK, engine=Processes(workers=2), chunk=CHUNK, into=tmp_path), WORK, CHUNK)
+    undisturbed(run(WORK, engine=Processes(workers=1), chunk=CHUNK), WORK, CHUNK)
 
 
 def test_a_killed_worker_loses_and_doubles_nothing(tmp_path):
     (tmp_path / "marks").mkdir()
     work = replace(WORK, trouble=Trouble("kill", row=555, marks=str(tmp_path / "marks"), times=2))
-    sweep = run(work, engine=Processes(2), chunk=CHUNK, into=tmp_path / "out")
+    sweep = run(work, engine=Processes(workers=2), chunk=CHUNK, into=tmp_path / "out")
     assert len(list((tmp_path / "marks").iterdir())) == 2
     undisturbed(sweep, WORK, CHUNK)
 
@@ -123,7 +123,10 @@ def test_stopped_processes_are_gone(tmp_path):
     work = replace(WORK, trouble=Trouble("slow", seconds=60.0))
     begin = time.monotonic()
     sweep = run(
-        work, engine=Processes(2), chunk=CHUNK, progress=lambda _: "stop" if time.monotonic() > begin + 0.5 else None
+        work,
+        engine=Processes(workers=2),
+        chunk=CHUNK,
+        progress=lambda _: "stop" if time.monotonic() > begin + 0.5 else None,
     )
     assert (sweep.status, sweep.missing) == ("cancelled", ((0, WORK.size, "it was stopped"),))
     assert not multiprocessing.active_children()
@@ -234,7 +237,7 @@ def full(sweep, folder):
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root can mount")
-@pytest.mark.parametrize("engine", [InProcess(), Processes(2)], ids=["in process", "processes"])
+@pytest.mark.parametrize("engine", [InProcess(), Processes(workers=2)], ids=["in process", "processes"])
 def test_a_disk_that_is_really_full(engine, tmp_path):
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48k", "tmpfs", tmp_path], capture_output=True)
     if mounted.returncode:

@@ -50,7 +50,7 @@ FIRST = 10.0
 """Seconds that a scheduler has to answer at first."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Cluster:
     """Workers of ``dask.distributed``.
 

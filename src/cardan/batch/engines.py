@@ -90,7 +90,7 @@ class Engine(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True)
 class InProcess:
     """One chunk after the other, here; the kernels of a chunk use all processors.
 
@@ -133,7 +133,7 @@ def reason(error: BaseException) -> str:
     return f"{type(error).__name__}: {told}" if told else type(error).__name__
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Processes:
     """Processes of this machine, one thread each.
 

@@ -50,6 +50,9 @@ class Sweep:
         Where the table lies.
     damaged : tuple of str
         Files of an earlier run that were not whole and have been made again.
+    held : tuple of tuple of int and dict
+        The table where it lies in no folder, piece by piece: number of the first row, and rows; `parts` and `table`
+        give it in either case.
     """
 
     columns: tuple[Column, ...]
@@ -120,6 +123,16 @@ def read_sweep(folder: str | Path) -> Sweep:
     ------
     InputError
         The folder holds no sweep.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from cardan import Drive, sweep
+    >>> pair = Drive.from_angles([0.3, 0.3])
+    >>> with TemporaryDirectory() as folder:
+    ...     told = sweep(pair, {"joints[1].bend_deg": [10, 20]}, ["irregularity"], into=folder)
+    ...     read_sweep(folder).status, read_sweep(folder).size
+    ('done', 2)
     """
     path = Path(folder)
     manifest = manifest_of(path)
