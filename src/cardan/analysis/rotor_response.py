@@ -195,7 +195,7 @@ def rotor_run(
     """
     course = drive.duty.run_up
     if course is None:
-        raise refuse("duty.run_up", _("missing: from, to and duration of a change of speed"), "missing")
+        raise refuse("duty.run_up", _("missing: start, end and duration of a change of speed"), "missing")
     one = rotor(drive, shaft, damping_ratio=damping_ratio)
     found = cracked_run(
         one.mass,

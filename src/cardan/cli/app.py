@@ -123,6 +123,16 @@ COMMANDS = {
             "cardan bending truck.toml --plot shapes.svg",
         ),
     ),
+    "rotor": Entry(
+        "rotor",
+        QUESTIONS,
+        _("How a shaft whirls with its unbalance and a crack: orders, orbits, running up."),
+        (
+            "cardan rotor truck.toml",
+            "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
+            "cardan rotor truck.toml --joint 2 --speed-rpm 1500",
+        ),
+    ),
     "assembly": Entry(
         "assembly",
         QUESTIONS,

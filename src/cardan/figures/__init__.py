@@ -39,6 +39,7 @@ _MAKERS = {
     "cardan.analysis.torsion_transient.Transient": "torsion_transient.transient_figures",
     "cardan.analysis.bending.CriticalSpeeds": "bending.bending_figures",
     "cardan.analysis.speed_map.CriticalSpeedMap": "bending.speed_map_figures",
+    "cardan.analysis.rotor_response.RotorResponse": "rotor.rotor_figures",
     "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
     "cardan.synthesis.layout.Layout": "layout.layout_figures",
     "cardan.synthesis.absorber.Absorber": "calm.absorber_figures",
