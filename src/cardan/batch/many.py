@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,11 @@ from cardan.analysis.extremes import Extremes, extremes
 from cardan.analysis.swing import Evenness, Swing, swing
 from cardan.checks.acceleration import swings
 from cardan.drive.chain import Chain, given_chain, turning
+from cardan.drive.columns import Number, Vector, columns, table
 from cardan.drive.drive import Drive
 from cardan.drive.geometry import geometry, polyline
 from cardan.drive.laws import mixed, unmapped
-from cardan.drive.validity import COINCIDENT, TINY
+from cardan.drive.validity import COINCIDENT, TINY, axis_points
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Method
@@ -196,6 +197,8 @@ def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any)
         real = xp.all((bend >= 0.0) & (bend < 0.5 * xp.pi), axis=-1)
         own = np.asarray([joint.bend for joint in drive.joints])
         return _mended(bend, own, real, xp), twist, None, real
+    if xp is np:
+        return _lie_in_columns(drive, here, count)
     points, own = _points(drive, row, xp)
     apart = xp.linalg.vector_norm(points[:, 1:, :] - points[:, :-1, :], axis=-1)
     least = xp.maximum(COINCIDENT * xp.max(apart, axis=-1), xp.asarray(TINY))
@@ -207,6 +210,43 @@ def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any)
     bend = _mended(found.bend, base.bend, real, xp)
     twist = _mended(found.plane_twist, base.plane_twist, real, xp)
     return bend, twist, found.length if drive.form == "points" else None, real
+
+
+def _lie_in_columns(drive: Drive, here: Mapping[str, Array], count: int) -> tuple[Array, Array, Any, Array]:
+    """Return the same by NumPy, coordinate by coordinate."""
+    found = columns(_vectors(drive, here), count)
+    most = reduce(np.maximum, found.length)
+    least = np.maximum(COINCIDENT * most, TINY)
+    fits = [one > least for one in found.length] + [one < 0.5 * np.pi - RIGHT for one in found.bend]
+    real = np.array(np.broadcast_to(reduce(np.logical_and, fits), (count,)))
+    base = geometry(drive)
+    bend = _mended(table(found.bend, count), base.bend, real, np)
+    twist = _mended(table(found.plane_twist, count), base.plane_twist, real, np)
+    return bend, twist, table(found.length, count) if drive.form == "points" else None, real
+
+
+def _vectors(drive: Drive, here: Mapping[str, Array]) -> list[Vector]:
+    """Return the points of the axes, an array where a coordinate varies and a number where it does not."""
+    n = len(drive.joints)
+
+    def value(path: str, own: float) -> Number:
+        return here.get(path, own)
+
+    if drive.form == "points":
+        names = ["input.point", *(f"joints[{i}].centre" for i in range(n)), "output.point"]
+        own = axis_points(drive)
+        return [
+            (value(f"{name}[0]", point[0]), value(f"{name}[1]", point[1]), value(f"{name}[2]", point[2]))
+            for name, point in zip(names, own, strict=True)
+        ]
+    found: list[Vector] = [(0.0, 0.0, 0.0)]
+    for k, shaft in enumerate(drive.shafts):
+        slopes = [
+            np.tan(value(f"shafts[{k}].{name}", getattr(shaft, name) or 0.0)) for name in ("plan_slope", "side_slope")
+        ]
+        x, y, z = found[-1]
+        found.append((x + 1.0, y + slopes[0], z + slopes[1]))
+    return found
 
 
 def _mended(values: Array, own: Array, real: Array, xp: Any) -> Array:
