@@ -26,11 +26,15 @@ export class Viewer {
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.18, zoomToCursor: true, zoomSpeed: 1.2 });
     this.controls.addEventListener("change", changed);
-    this.controls.addEventListener("start", () => (this.way = null));
+    this.controls.addEventListener("start", () => {
+      this.way = null;
+      this.own = true;
+    });
     this.size = 1;
     this.width = this.height = 1;
     this.asked = null; // the projection the user asked for
     this.view = "iso";
+    this.own = false; // whether the user has turned, moved or zoomed the picture since a view was chosen
   }
 
   resize(width, height) {
@@ -121,6 +125,7 @@ export class Viewer {
 
   go(view, direction, points, smooth) {
     this.view = view;
+    this.own = false;
     this.project(this.asked ?? (STRAIGHT.has(view) ? "orthographic" : "perspective"));
     if (this.camera === this.orthographic) this.unzoom();
     const end = this.standing(direction, points);
@@ -133,6 +138,7 @@ export class Viewer {
 
   // Turn by angles [rad] about the point looked at, as the arrow keys do.
   orbit(across, up) {
+    this.own = true;
     const { target } = this.controls;
     const round = new THREE.Spherical();
     const toPole = new THREE.Quaternion().setFromUnitVectors(this.camera.up, new THREE.Vector3(0, 1, 0));
@@ -147,6 +153,7 @@ export class Viewer {
   }
 
   zoom(factor) {
+    this.own = true;
     if (this.camera === this.orthographic) {
       this.camera.zoom *= factor;
       this.camera.updateProjectionMatrix();

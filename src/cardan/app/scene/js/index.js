@@ -263,7 +263,7 @@ class View {
     this.drawnAt = null;
     this.viewer.resize(width, height);
     for (const { screen } of [this.lines, this.ground.lines, this.bodies.outline]) screen.value.set(width, height);
-    if (fit) this.look(this.viewer.view, false);
+    if (fit || !this.viewer.own) this.look(this.viewer.view, false);
     if (fit && this.scene) this.thin();
     this.render(performance.now(), this.quality.resting);
   }
