@@ -258,10 +258,8 @@ class Results:
                 connection.execute("SET enable_external_access = false")
                 connection.execute("SET lock_configuration = true")
             yield connection
-        except duckdb.IOException as error:
-            raise refuse(str(self.sweep.folder), damage(error)) from None
-        except duckdb.InvalidInputException as error:
-            if "parquet" not in str(error).lower():
+        except (duckdb.IOException, duckdb.InvalidInputException) as error:
+            if writes or (isinstance(error, duckdb.InvalidInputException) and "parquet" not in str(error).lower()):
                 raise
             raise refuse(str(self.sweep.folder), damage(error)) from None
         finally:
