@@ -22,6 +22,7 @@ NAMES = (
     "floquet_map",
     "recordings",
     "sweep",
+    "engines",
     "start_up",
     "app_latency",
     "app_frames",
