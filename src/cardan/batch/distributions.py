@@ -53,6 +53,11 @@ def _wide(std: float) -> Iterator[Problem]:
 class Uniform:
     """Every value between two bounds alike.
 
+    Parameters
+    ----------
+    low, high : float
+        In the unit of the path.
+
     Examples
     --------
     >>> Uniform(low=-1.0, high=1.0).at(np.asarray([0.25]))
@@ -78,6 +83,11 @@ class Uniform:
 @dataclass(frozen=True, kw_only=True)
 class Normal:
     """The normal distribution of a mean and a standard deviation.
+
+    Parameters
+    ----------
+    mean, std : float
+        In the unit of the path.
 
     Examples
     --------
@@ -107,6 +117,13 @@ class Normal:
 @dataclass(frozen=True, kw_only=True)
 class Truncated:
     """The normal distribution of a mean and a standard deviation, cut at two bounds.
+
+    Parameters
+    ----------
+    mean, std : float
+        Of the whole distribution, in the unit of the path.
+    low, high : float
+        Where it is cut.
 
     Examples
     --------
@@ -139,6 +156,11 @@ class Truncated:
 @dataclass(frozen=True, kw_only=True)
 class Triangular:
     """Rising in a straight line to the likeliest value and falling in one behind it.
+
+    Parameters
+    ----------
+    low, mode, high : float
+        Least, likeliest and largest value, in the unit of the path.
 
     Examples
     --------
