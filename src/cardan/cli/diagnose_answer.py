@@ -183,7 +183,7 @@ def _first(findings: Sequence[Finding]) -> Iterator[Remark]:
     for text in first.against:
         yield Remark(text=_("Against it: {text}").format(text=text))
     yield Remark(text=_("Check: {text}").format(text=_ended(first.check)))
-    yield Remark(text=_("Repair: {text}").format(text=_ended(first.repair)))
+    yield Remark(text=_("Repair, once that is proved: {text}").format(text=_ended(first.repair)))
 
 
 def _ended(text: str) -> str:

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 MICRO = 1e-6
 
+ROUNDING = 1e-9
+"""Share of the largest order below which one is none."""
+
 SHOWN = 12
 """Windows of a run in the terminal."""
 
@@ -140,10 +143,12 @@ def _peaks(found: RotorResponse) -> Table:
 
     from .answer import Column, Table
 
+    peaks = {order: found.peak(order) for order in ORDERS}
+    least = ROUNDING * max(size for _speed, size in peaks.values())
     rows: list[list[Cell]] = []
-    for order in ORDERS:
-        speed, size = found.peak(order)
-        rows.append([order_name(order), size / MICRO, speed / rpm, speed / found.rotor.critical])
+    for order, (speed, size) in peaks.items():
+        where: list[Cell] = [speed / rpm, speed / found.rotor.critical] if size > least else [None, None]
+        rows.append([order_name(order), size / MICRO if size > least else 0.0, *where])
     columns = (
         Column(key="order", heading=_("order"), left=True),
         Column(key="amplitude_um", heading=_("largest"), unit="µm", form="3"),

@@ -229,8 +229,8 @@ def _sentence(name: str, value: float, seen: Features) -> str:
 
 
 def _short(value: float) -> str:
-    """Return a number with two significant digits, written out."""
-    return f"{float(f'{value:.2g}'):.10g}"
+    """Return a number with two significant digits, written out; what is next to nothing says no more."""
+    return f"{float(f'{value:.2g}'):.10g}" if value >= 1e-3 else "<0.001"
 
 
 def _peak(name: str, times: str, seen: Features) -> str:
