@@ -80,7 +80,7 @@ class SweepWork:
     @cached_property
     def name(self) -> str:
         """Hash of all that decides rows and summaries, the version of the program among it."""
-        told = {**self.provenance, "whole drive": repr(self.ask.drive)}
+        told = {**self.provenance, "whole drive": repr(self.ask.drive), "catalogue": repr(self.ask.known)}
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
 
     @cached_property
