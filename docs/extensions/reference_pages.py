@@ -215,6 +215,9 @@ def _commands(group: Any, path: str) -> Iterator[str]:
             yield from _commands(command, f"{path} {name}")
             continue
         yield from _command(command, f"{path} {name}")
+        for further in group.entries[name].entries:
+            whole, inner, _rest = group.resolve_command(context, [name, further])
+            yield from _command(inner, f"{path} {whole}")
 
 
 def _command(command: Any, path: str) -> Iterator[str]:
