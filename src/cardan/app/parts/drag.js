@@ -81,6 +81,7 @@ export default {
       this.held.moved = true;
       if (now - this.last > 60) {
         this.last = now;
+        document.dispatchEvent(new Event("cardan-moving"));
         this.$emit("moving", { path: this.held.point.path, at });
       }
     },

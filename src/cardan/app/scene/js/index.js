@@ -22,6 +22,8 @@ import { THEMES, uniforms } from "./studio.js";
 const REST = 160; // ms without motion until the picture is drawn at its best
 const THIN = [700, 320]; // without a graphics card, moving bodies keep to their form within a pixel: this part of the whole
 const QUIET = 300; // ms without an edit until the floor follows
+const HOLD = 200; // ms at most that the picture waits for an edit to be worked on
+const EDITS = ["change", "cardan-moving"]; // what comes from fields, and from points that are dragged
 const FOLLOW = 100; // ms between two angles told to the page where every change of it costs a frame
 const HEARD = 100; // ms between two angles told to the server
 const mounted = [];
@@ -85,6 +87,8 @@ class View {
     canvas.addEventListener("webglcontextrestored", found);
     const sized = new ResizeObserver(() => this.resize());
     sized.observe(root);
+    const edited = () => this.slow && this.hold();
+    for (const name of EDITS) document.addEventListener(name, edited, true);
     const seen = new IntersectionObserver(([{ isIntersecting }]) => {
       this.hidden = !isIntersecting;
       this.draw();
@@ -95,6 +99,7 @@ class View {
       () => canvas.removeEventListener("webglcontextlost", lost),
       () => canvas.removeEventListener("webglcontextrestored", found),
       () => sized.disconnect(),
+      () => EDITS.forEach((name) => document.removeEventListener(name, edited, true)),
       () => seen.disconnect(),
     ];
   }
@@ -122,7 +127,7 @@ class View {
     else this.laying = setTimeout(() => this.relay(), QUIET);
     if (first) this.look(this.viewer.view, false);
     this.thin();
-    this.draw();
+    this.release();
     return true;
   }
 
@@ -268,14 +273,25 @@ class View {
     this.render(performance.now(), this.quality.resting);
   }
 
+  // Without a graphics card drawing takes all there is of the machine: leave it to an edit until its curves are there.
+  hold() {
+    clearTimeout(this.holding);
+    this.holding = setTimeout(() => this.release(), HOLD);
+  }
+
+  release() {
+    this.holding = clearTimeout(this.holding);
+    this.draw();
+  }
+
   // Ask for one more frame; nothing is drawn unless something asks.
   draw() {
-    if (!this.pending && !this.gone && !this.hidden) this.pending = requestAnimationFrame((now) => this.frame(now));
+    if (!this.pending && !this.gone && !this.hidden && !this.holding) this.pending = requestAnimationFrame((now) => this.frame(now));
   }
 
   frame(now) {
     this.pending = null;
-    if (this.gone || !this.sized || !this.scene) return;
+    if (this.gone || !this.sized || !this.scene || this.holding) return;
     this.restful = clearTimeout(this.restful);
     const running = this.moving;
     const passed = this.last && running ? Math.min(now - this.last, 100) : 0;
@@ -327,7 +343,6 @@ class View {
     this.toldAt = now;
     window.dispatchEvent(new CustomEvent("cardan-angle", { detail: { angle: this.angle, view: this } }));
     clearTimeout(this.late);
-    clearTimeout(this.laying);
     const send = () => {
       this.sent = performance.now();
       this.emit("angle", this.told);
@@ -351,6 +366,8 @@ class View {
     cancelAnimationFrame(this.pending);
     clearTimeout(this.restful);
     clearTimeout(this.late);
+    clearTimeout(this.laying);
+    clearTimeout(this.holding);
     this.undo.forEach((off) => off());
     this.viewer.dispose();
     for (const part of this.parts) (part.dispose ?? part.clear).call(part);
