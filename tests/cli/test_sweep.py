@@ -39,7 +39,7 @@ def test_without_reductions_the_first_rows_are_shown(cardan, small):
     done = cardan("sweep", small)
     assert done.code == 0
     assert "of 3 points 2 are answered" in done.out
-    assert "1 points make no drive, the first of them in row 2: joints[0].bend_deg" in " ".join(done.out.split())
+    assert "1 point makes no drive, row 2: joints[0].bend_deg" in " ".join(done.out.split())
     assert "16.119" not in done.out
     assert "20.000" in done.out
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cardan.texts import _
+from cardan.texts import _, plural
 
 from .options import AsCsv, AsJson, MoreRows, Plot
 
@@ -318,19 +318,29 @@ def _remarks(work: SweepWork, found: Sweep, file: Path, keeps: bool) -> Iterator
     from .answer import Remark
 
     counts = found.reductions.get("points", {})
-    for key, text in (
-        ("no_drive", _("{count} points make no drive, the first of them in row {row}: {why}")),
-        ("no_answer", _("{count} points have a question without an answer, the first of them in row {row}: {why}")),
-    ):
-        row = counts.get("first", {}).get(key)
-        if row is not None:
-            why = "; ".join(str(one) for one in work.why(int(row))[:3])
-            yield Remark(text=text.format(count=_n(int(counts[key])), row=row, why=why), tone="warning")
+    for key, row in counts.get("first", {}).items():
+        n = int(counts[key])
+        if key == "no_drive":
+            text = plural(
+                "{count} point makes no drive, row {row}: {why}",
+                "{count} points make no drive, the first of them in row {row}: {why}",
+                n,
+            )
+        else:
+            text = plural(
+                "{count} point has a question without an answer, row {row}: {why}",
+                "{count} points have a question without an answer, the first of them in row {row}: {why}",
+                n,
+            )
+        why = "; ".join(str(one) for one in work.why(int(row))[:3])
+        yield Remark(text=text.format(count=_n(n), row=row, why=why), tone="warning")
     for one in found.missing[:3]:
         text = _("Missing: rows {start} to {stop}: {why}")
         yield Remark(text=text.format(start=_n(one.start), stop=_n(one.stop - 1), why=one.why), tone="warning")
     if len(found.missing) > 3:
-        yield Remark(text=_("Missing: {count} further stretches of rows.").format(count=len(found.missing) - 3))
+        more = len(found.missing) - 3
+        text = plural("Missing: {count} further stretch of rows.", "Missing: {count} further stretches of rows.", more)
+        yield Remark(text=text.format(count=more))
     if found.damaged:
         yield Remark(text=_("Made again, because damaged: {names}").format(names=", ".join(found.damaged[:5])))
     if found.missing and found.folder is not None:
