@@ -70,7 +70,7 @@ class Cluster:
 
     scheduler: str | None = None
     workers: int | None = None
-    patience: float = 60.0
+    patience: float = 300.0
     shared: bool = False
 
     def __post_init__(self) -> None:
