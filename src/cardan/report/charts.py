@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,10 +11,10 @@ import numpy as np
 
 from cardan.figures import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
-from cardan.io.book import words
 from cardan.texts import _
 
 from .amounts import read
+from .chart_axes import SMALL, at_share, axis_of, named, plain, reach, snug, spread
 from .chart_data import ChartData, Place
 
 DASHES = {"solid": "solid", "dashed": "dash", "dotted": "round_dot", "dashdot": "dash_dot"}
@@ -29,9 +28,16 @@ INCH = 104.0
 AROUND = 84.0
 """Pixels above and below the frame of a chart: its title, axis and legend."""
 
-LABELS: dict[tuple[str, str], str] = {("centre", "top"): "below", ("left", ""): "right", ("right", ""): "left"}
+BAR = 16.0
+"""Pixels of a chart for each of its lying bars, at the least: its name has to have room."""
 
-SMALL = {"size": 9, "color": palette.colour("muted")}
+CROWD = 24
+"""Names of bars from which on they are written smaller."""
+
+TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
+"""Colour behind lying bars, up to their limit."""
+
+LABELS: dict[tuple[str, str], str] = {("centre", "top"): "below", ("left", ""): "right", ("right", ""): "left"}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -127,16 +133,23 @@ def charts(
             named = next((axis for axis in (panel.x, *below) if axis.title), panel.x)
             made = _chart(book, data, figure, replace(panel, x=replace(named, grid=panel.x.grid)))
             wide = room[0] * share / sum(row.widths)
-            drawn.append(Drawn(chart=made, width=wide, height=min(INCH * row.height + AROUND, room[1])))
+            high = max(INCH * row.height, BAR * _lying(panel)) + AROUND
+            drawn.append(Drawn(chart=made, width=wide, height=min(high, room[1])))
         yield drawn
 
 
+def _lying(panel: Panel) -> int:
+    """Return how many lying bars stand one above the other."""
+    return len(panel.y.ticks) if any(isinstance(one, Bars) and one.lying for one in panel.series) else 0
+
+
 def _chart(book: Any, data: ChartData, figure: Figure, panel: Panel) -> Any:
-    heading = data.begin(figure.title, panel.title or panel.y.label or figure.title)
+    title = panel.title or panel.y.label or figure.title
+    heading = data.begin(figure.title, title[:1].upper() + title[1:])
     bars = [one for one in panel.series if isinstance(one, Bars)]
     chart = _bar_chart(book, data, panel, bars) if bars else _curve_chart(book, data, panel)
-    title = {"size": 11, "bold": True, "color": palette.colour("ink")}
-    chart.set_title({"name": heading, "name_font": title, "overlay": False})
+    font = {"size": 11, "bold": True, "color": palette.colour("ink")}
+    chart.set_title({"name": heading, "name_font": font, "overlay": False})
     chart.set_chartarea({"border": {"color": palette.colour("faint")}})
     chart.set_plotarea({"fill": {"none": True}})
     chart.show_blanks_as("gap")
@@ -144,6 +157,7 @@ def _chart(book: Any, data: ChartData, figure: Figure, panel: Panel) -> Any:
 
 
 def _curve_chart(book: Any, data: ChartData, panel: Panel) -> Any:
+    panel = replace(panel, x=snug(panel.x, spread(panel, upright=False)), y=snug(panel.y, spread(panel, upright=True)))
     chart = book.add_chart({"type": "scatter", "subtype": "straight"})
     curves = [one for one in panel.series if isinstance(one, Curve)]
     drawn = [_curve(data, panel, one, count) for count, one in enumerate(curves, start=1)]
@@ -152,8 +166,8 @@ def _curve_chart(book: Any, data: ChartData, panel: Panel) -> Any:
         chart.add_series(one)
     unnamed = [k for k, one in enumerate(curves, start=len(marks)) if not one.label]
     _legend(chart, len(marks) + len(curves), [*range(len(marks)), *unnamed])
-    chart.set_x_axis(_axis(panel.x))
-    chart.set_y_axis(_axis(panel.y))
+    chart.set_x_axis(axis_of(panel.x))
+    chart.set_y_axis(axis_of(panel.y))
     return chart
 
 
@@ -188,7 +202,7 @@ def _mark(data: ChartData, panel: Panel, one: Series) -> Iterator[dict[str, Any]
     x, y = panel.x, panel.y
     if isinstance(one, Rule):
         along, across = (y, x) if one.upright else (x, y)
-        ends = np.asarray([_from(along)[0], _share(along, 0.94), _from(along)[1]])
+        ends = np.asarray([reach(along)[0], at_share(along, 0.94), reach(along)[1]])
         at = np.full(3, one.value)
         points: tuple[Any, Any] = (at, ends) if one.upright else (ends, at)
         line = {"color": palette.colour(one.role), "width": one.width, "dash_type": DASHES[one.dash]}
@@ -223,7 +237,7 @@ def _line(
 def _outline(panel: Panel, one: Band | Shape) -> tuple[Any, Any]:
     if isinstance(one, Shape):
         return np.asarray([*one.x, one.x[0]]), np.asarray([*one.y, one.y[0]])
-    low, high = _from(panel.y if one.upright else panel.x)
+    low, high = reach(panel.y if one.upright else panel.x)
     along = np.asarray([low, high, high, low, low])
     across = np.asarray([one.low, one.low, one.high, one.high, one.low])
     return (across, along) if one.upright else (along, across)
@@ -238,19 +252,6 @@ def _labels(texts: Sequence[str | None], role: str, where: str) -> dict[str, Any
     return {"data_labels": {"value": True, "position": where, "font": font, "custom": custom}}
 
 
-def plain(text: str) -> str:
-    """Return words for a place of a chart that takes formulas too, so that they are none.
-
-    Examples
-    --------
-    >>> plain("=A1"), plain("Sheet!A1"), plain("runs")
-    ('\u200b=A1', 'Sheet！A1', 'runs')
-    """
-    text = words(text)
-    text = text.replace("!", "！") if re.match(r"^=?[^!]+!\$?[A-Z]+\$?\d+", text) else text
-    return f"\u200b{text}" if text.startswith("=") else text
-
-
 def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -> Any:
     lying = bars[0].lying
     upon, along = (panel.y, panel.x) if lying else (panel.x, panel.y)
@@ -258,6 +259,12 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
     names = [upon.texts[k] for k in order]
     chart = book.add_chart({"type": "bar" if lying else "column"})
     kinds = data.words(upon.label or _("what"), names)
+    limit = next((_limit(one) for one in panel.series if not isinstance(one, Bars)), None)
+    alone = along.log and len(bars) == 1 and not bars[0].label  # words at the outer end of bars below 1 are at its foot
+    gap = max(60, 300 // max(1, len(order))) if not lying else 60
+    if limit is not None:
+        place = data.numbers(_("limit"), along.unit, np.full(len(names), limit))
+        chart.add_series(_series(kinds, place, fill={"color": TRACK}, border={"none": True}, gap=gap, overlap=100))
     for one in bars:
         found = _at_ticks(one, upon)
         sizes = [float(one.size[found[k]]) if k in found else math.nan for k in order]
@@ -268,22 +275,22 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             data.words(_("as written"), [text or "" for text in texts])
         tints = [palette.colour(one.roles[found[k] % len(one.roles)]) if k in found else None for k in order]
         points = [{"fill": {"color": tint}} if tint else None for tint in tints]
-        ends = _labels(texts, "ink", "outside_end")
+        at_end = {} if alone else _labels(texts, "ink", "outside_end")
         first = next((tint for tint in tints if tint), palette.colour("accent"))
-        chart.add_series(_series(kinds, place, fill={"color": first}, points=points, gap=60, **ends))
-    limit = next((_limit(one) for one in panel.series if not isinstance(one, Bars)), None)
-    if limit is not None:
-        place = data.numbers(_("limit"), along.unit, np.full(len(names), limit))
-        frame = {"color": palette.colour("muted"), "dash_type": "dash", "width": 1.0}
-        chart.add_series(_series(kinds, place, fill={"none": True}, border=frame, gap=60, overlap=100))
+        chart.add_series(_series(kinds, place, fill={"color": first}, points=points, gap=gap, **at_end))
+        if alone and any(texts):
+            above = book.add_chart({"type": "line"})
+            above.add_series(_series(kinds, place, line={"none": True}, **_labels(texts, "ink", "above")))
+            chart.combine(above)
     _legend(chart, len(bars), [k for k, one in enumerate(bars) if not one.label and limit is None])
-    kinds_axis = {**_named(upon), "num_font": SMALL, "major_tick_mark": "none", "text_axis": True}
+    font = SMALL if len(order) <= CROWD else {**SMALL, "size": 8}
+    kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:
-        values = _axis(along if along.title else replace(along, label=panel.heading))
+        values = axis_of(along if along.title else replace(along, label=panel.heading))
         chart.set_x_axis(values | {"label_position": "next_to"})
         chart.set_y_axis({**kinds_axis, "reverse": True, "crossing": "max"})
     else:
-        values = _axis(along)
+        values = axis_of(along)
         chart.set_x_axis(kinds_axis)
         chart.set_y_axis(values | ({"crossing": values["min"]} if along.log else {}))
     return chart
@@ -293,63 +300,3 @@ def _at_ticks(one: Bars, upon: Axis) -> dict[int, int]:
     """Return which bar stands at which tick."""
     ticks = np.asarray(upon.ticks, dtype=float)
     return {int(np.argmin(np.abs(ticks - float(at)))): k for k, at in enumerate(one.at)}
-
-
-def _axis(axis: Axis) -> dict[str, Any]:
-    low, high = _from(axis)
-    grid = {"visible": axis.grid, "line": {"color": palette.colour("grid"), "width": 0.75}}
-    found = {
-        **_named(axis),
-        "min": low,
-        "max": high,
-        "num_font": SMALL,
-        "num_format": "General" if axis.log and axis.low < 1.0 else _digits(axis),
-        "major_gridlines": grid,
-        "line": {"color": palette.colour("faint")},
-        "major_tick_mark": "none",
-        "label_position": "low" if axis.texts else "none",
-    }
-    step = _step(axis)
-    return found | ({"log_base": 10} if axis.log else {"major_unit": _plain(step)} if step else {})
-
-
-def _named(axis: Axis) -> dict[str, Any]:
-    return {"name": plain(axis.title), "name_font": {**SMALL, "bold": False}} if axis.title else {}
-
-
-def _digits(axis: Axis) -> str:
-    """Return the number format of the texts at the ticks."""
-    if any("·10" in text for text in axis.texts):
-        return "0E+00"
-    parts = max((len(text.replace(",", ".").partition(".")[2]) for text in axis.texts), default=0)
-    return "#,##0" + ("." + "0" * parts if parts else "")
-
-
-def _step(axis: Axis) -> float:
-    """Return the way from tick to tick; 0 where they do not stand evenly."""
-    if len(axis.ticks) < 2:
-        return 0.0
-    steps = np.diff(np.asarray(axis.ticks, dtype=float))
-    even = float(steps[0])
-    return even if np.allclose(steps, even, rtol=1e-6) else 0.0
-
-
-def _from(axis: Axis) -> tuple[float, float]:
-    """Return the range of an axis, from a value where a tick can stand: a chart counts them from there."""
-    if axis.log:
-        return 10.0 ** math.floor(math.log10(axis.low) + 1e-9), _plain(axis.high)
-    step = _step(axis)
-    low = axis.low
-    if step:
-        low = axis.ticks[0] - (step if axis.low < axis.ticks[0] - 1e-9 * step else 0.0)
-    return _plain(low), _plain(axis.high)
-
-
-def _plain(value: float) -> float:
-    """Return a value without the last digits that come from rounding."""
-    return float(f"{value:.12g}")
-
-
-def _share(axis: Axis, share: float) -> float:
-    low, high = _from(axis)
-    return float(low * (high / low) ** share) if axis.log else low + share * (high - low)
