@@ -81,7 +81,11 @@ def test_signs_alone_rank_with_little_confidence():
 
 
 def test_the_words_for_speed_and_torque():
-    assert [grows(power, amplified=False) for power in (0.0, 1.0, 1.5)] == ["constant", "in proportion", "power 1.5"]
+    assert [grows(power, amplified=False) for power in (0.0, 1.0, 1.5)] == [
+        "stays the same",
+        "in proportion",
+        "power 1.5",
+    ]
     shares = (1.0, 0.3, -0.6), (0.4, 0.0, 0.6), (1.0, 0.0, -0.8)
     assert [by_torque(share) for share in shares] == ["changes with its sense", "grows", "falls"]
 

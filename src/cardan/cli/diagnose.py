@@ -26,13 +26,13 @@ def diagnose(
     recording: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[SIGNAL]", help=_("Recording: .csv, .txt, .wav, .uff, .unv or .tdms."), show_default=False
+            metavar="SIGNAL", help=_("Recording: .csv, .txt, .wav, .uff, .unv or .tdms."), show_default=False
         ),
     ] = None,
     file: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[DRIVE]", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False
+            metavar="DRIVE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False
         ),
     ] = None,
     tacho: Tacho = None,
@@ -46,7 +46,7 @@ def diagnose(
         typer.Option(
             "--speeds",
             metavar="LOW:HIGH",
-            help=_("Least and greatest speed of the shaft [rpm], for a recording without a tacho."),
+            help=_("Least and greatest speed of the shaft in rpm, for a recording without a tacho."),
             show_default=False,
         ),
     ] = None,

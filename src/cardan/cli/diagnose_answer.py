@@ -159,17 +159,18 @@ def _orders(found: Examination) -> Table:
     """Return the highest orders of every channel that shakes."""
     from cardan.figures.diagnosis import UNITS, order_text
     from cardan.figures.wording import significant
+    from cardan.units import spoken
 
     rows: list[list[Cell]] = []
     for one in found.spectra:
         unit, size = UNITS[one.quantity]
         lines = [f"{order_text(order)}: {significant(high / size, 3)}" for order, high in one.peaks(count=LINES)]
         place = next((own.place for own in found.signal.channels if own.name == one.name), "")
-        rows.append([one.name, place or None, unit, ",  ".join(lines) or _("none")])
+        rows.append([one.name, place or None, spoken(unit), ",  ".join(lines) or _("none")])
     columns = (
         Column(key="channel", heading=_("channel"), left=True),
         Column(key="place", heading=_("sits on"), left=True),
-        Column(key="unit", heading=_("in"), left=True),
+        Column(key="unit", heading=_("unit"), left=True),
         Column(key="orders", heading=_("its highest orders"), left=True, wrap=True),
     )
     return Table(columns=columns, rows=rows)

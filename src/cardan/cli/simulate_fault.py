@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def simulate_fault(
     file: DriveFile,
     fault: Annotated[
-        str | None, typer.Argument(metavar="[FAULT]", help=_("Name of the fault, see --list."), show_default=False)
+        str | None, typer.Argument(metavar="FAULT", help=_("Name of the fault, see --list."), show_default=False)
     ] = None,
     listed: Annotated[
         bool, typer.Option("--list", help=_("List the faults, and do nothing else."), show_default=False)
@@ -214,7 +214,7 @@ def _table(found: Expected) -> Table:
     columns = (
         Column(key="place", heading=_("sits on"), left=True),
         Column(key="order", heading=_("order"), form="g"),
-        Column(key="size_m_s2", heading=_("size"), unit="m/s²", form="3"),
+        Column(key="size_m_s2", heading=_("amplitude"), unit="m/s²", form="3"),
         Column(key="with_speed", heading=_("with the speed"), left=True),
         Column(key="with_torque", heading=_("with the torque"), left=True),
     )

@@ -10,7 +10,7 @@ from cardan.analysis.cracked_run import CrackedRun
 from cardan.analysis.cracked_shafts import CrackedShafts
 from cardan.analysis.rotor_response import RotorResponse
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import rpm
 
 from .axes import axis, steps, written
@@ -27,7 +27,8 @@ LOWEST = 1e-5
 POINTS = 721
 """Points of an orbit."""
 
-MICRO = 1e-6
+MICRO, UNIT = 1e-6, mark("µm")
+"""Metres in a micrometre, and how that is written."""
 
 
 def rotor_figures(found: RotorResponse) -> tuple[Figure, ...]:
@@ -83,7 +84,7 @@ def response_figure(found: RotorResponse) -> Figure:
     panel = Panel(
         series=tuple(series),
         x=axis(_("speed"), "rpm", [speed], margin=0.0, count=8),
-        y=_decades(_("Amplitude amid the shaft"), "µm", list(shown.values()), LOWEST * top),
+        y=_decades(_("Amplitude amid the shaft"), UNIT, list(shown.values()), LOWEST * top),
     )
     return Figure(
         name="rotor",
@@ -139,7 +140,7 @@ def _way(z: Array, title: str, reach: float, *, role: str = "accent") -> Panel:
     ticks = steps(-reach, reach, 4)
 
     def along(name: str) -> Axis:
-        return Axis(label=name, unit="µm", low=-reach, high=reach, ticks=ticks, texts=written(ticks))
+        return Axis(label=name, unit=UNIT, low=-reach, high=reach, ticks=ticks, texts=written(ticks))
 
     curve = Curve(x=z.imag / MICRO, y=-z.real / MICRO, role=role, width=1.1)
     start = Curve(x=z.imag[:1] / MICRO, y=-z.real[:1] / MICRO, role="ink", width=0.0, marker=5.0)
@@ -191,7 +192,7 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
     course = Panel(
         series=(Curve(x=found.speed / rpm, y=away, role="accent", width=0.7),),
         x=axis(_("speed"), "rpm", [found.speed / rpm], margin=0.0, count=8),
-        y=axis(_("Distance from its place at rest"), "µm", [away], include=(0.0,)),
+        y=axis(_("Distance from its place at rest"), UNIT, [away], include=(0.0,)),
     )
     curves = tuple(
         Curve(
@@ -206,7 +207,7 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
     orders = Panel(
         series=curves,
         x=axis(_("speed"), "rpm", [found.speed / rpm], margin=0.0, count=8),
-        y=axis(_("Amplitudes of its orders"), "µm", [one.y for one in curves], include=(0.0,)),
+        y=axis(_("Amplitudes of its orders"), UNIT, [one.y for one in curves], include=(0.0,)),
     )
     text = _("From {start} to {end} rpm shaft {number} goes {size} µm from its place, at {speed} rpm.")
     return Figure(

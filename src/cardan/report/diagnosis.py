@@ -222,9 +222,9 @@ def grows(power: float, *, amplified: bool) -> str:
     Examples
     --------
     >>> grows(2.0, amplified=False), grows(0.0, amplified=True)
-    ('square', 'constant, amplified near the critical speed')
+    ('square', 'stays the same, amplified near the critical speed')
     """
-    plain = {0.0: _("constant"), 1.0: _("in proportion"), 2.0: _("square")}
+    plain = {0.0: _("stays the same"), 1.0: _("in proportion"), 2.0: _("square")}
     said = plain.get(power, _("power {power:g}").format(power=power))
     return _("{said}, amplified near the critical speed").format(said=said) if amplified else said
 
@@ -240,13 +240,13 @@ def by_torque(share: tuple[float, float, float]) -> str:
     Examples
     --------
     >>> by_torque((1.0, 0.0, 0.0)), by_torque((0.0, 0.0, 1.0)), by_torque((0.2, 0.9, 0.0))
-    ('none', 'in proportion', 'changes with its sense')
+    ('stays the same', 'in proportion', 'changes with its sense')
     """
     still, signed, sized = share
     if signed:
         return _("changes with its sense")
     if not sized:
-        return _("none")
+        return _("stays the same")
     if not still:
         return _("in proportion")
     return _("grows") if sized > 0.0 else _("falls")
