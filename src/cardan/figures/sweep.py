@@ -12,7 +12,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 
 from .figure import Axis, Curve, Figure, Note, Panel, Row, Series
-from .sweep_words import amount, axis_of, counted, ends, levels, name_of, title_of
+from .sweep_words import amount, axis_of, counted, ends, levels, name_of, shortened, title_of
 
 FINER = (0.4, 0.65, 0.8, 0.9, 0.96, 1.0)
 """Shares of the lines below each shade, from the worst to the best: few are dark."""
@@ -25,6 +25,10 @@ BEST = 0.1
 
 MOST_COLUMNS = 9
 """Columns that a figure of lines has room for."""
+
+
+LETTERS = 200
+"""Letters of two lines of names across the figure."""
 
 
 def parallel_figure(
@@ -55,7 +59,7 @@ def parallel_figure(
         series.append(Curve(x=across, y=lines.ravel(), role=role, width=width))
     for k, (column, (values, words)) in enumerate(zip(shown, table, strict=True)):
         series.append(Curve(x=np.full(2, float(k)), y=np.asarray([0.0, 1.0]), role="ink", width=0.9))
-        series += _scale_notes(k, column, values, words, last=k + 1 == len(shown))
+        series += _scale_notes(k, column, values, words, len(shown))
     panel = Panel(
         series=tuple(series),
         x=Axis(low=-0.12, high=max(len(shown) - 1, 1) + 0.12, grid=False),
@@ -106,11 +110,11 @@ def _spread(values: Array) -> Array:
     return found
 
 
-def _scale_notes(k: int, column: Column, values: Array, words: Sequence[str], *, last: bool) -> list[Series]:
+def _scale_notes(k: int, column: Column, values: Array, words: Sequence[str], count: int) -> list[Series]:
     """Return name, unit and ends of an upright axis; names stand in two lines in turn."""
-    side = "left" if k == 0 else "right" if last else "centre"
+    side = "left" if k == 0 else "right" if k + 1 == count else "centre"
     level = 1.13 + 0.1 * (k % 2)
-    name = title_of(column)
+    name = shortened(title_of(column), max(14, LETTERS // count))
     notes: list[Series] = [Note(text=name, x=float(k), y=level, side=side, size=7.6, bold=True)]  # type: ignore[arg-type]
     if words and len(words) < 8:
         at = np.linspace(0.0, 1.0, len(words)) if len(words) > 1 else [0.5]
