@@ -79,6 +79,16 @@ def test_a_cluster_of_this_machine_outlives_a_killed_worker(tmp_path):
     assert not multiprocessing.active_children()
 
 
+def test_a_chunk_that_always_kills_is_told_from_its_neighbours(tmp_path):
+    import dask
+
+    work = replace(WORK, trouble=Trouble("kill", row=55))
+    with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
+        sweep = run(work, engine=Cluster(workers=1), chunk=CHUNK, into=tmp_path)
+    assert sweep.missing == ((50, 100, "the process that worked on it died 1 time"),)
+    undisturbed(run(WORK, into=tmp_path), WORK, CHUNK)
+
+
 def test_a_scheduler_that_is_started_anew(outside, tmp_path):
     outside.work()
     killed = []

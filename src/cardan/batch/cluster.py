@@ -106,9 +106,14 @@ class Cluster:
 
 
 def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -> Generator[Done[T], None, None]:
-    """Give chunks away and take what comes back, until all are done or nobody wants them any more."""
+    """Give chunks away and take what comes back, until all are done or nobody wants them any more.
+
+    Chunks over which workers died are tried once more at the end, each alone: then it is known which one kills.
+    """
     told = pickle.dumps((task, language(), __version__))
     again: deque[Chunk] = deque()
+    suspects: deque[Chunk] = deque()
+    alone: Chunk | None = None
     out: dict[str, tuple[Chunk, Future]] = {}
     ready: SimpleQueue[str] = SimpleQueue()
     link.connect()
@@ -122,6 +127,8 @@ def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -
                 return
         while len(out) < AHEAD * max(1, link.threads()):
             chunk = again.popleft() if again else next(waiting, None)
+            if chunk is None and not out and suspects:
+                chunk = alone = suspects.popleft()
             if chunk is None:
                 break
             future = link.give(told, chunk)
@@ -136,7 +143,14 @@ def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -
             return
         for key in _those(ready):
             chunk, future = out[key]
-            done = link.taken(chunk, future)
+            try:
+                done = link.taken(chunk, future)
+            except _KilledError as killed:
+                done = Done(chunk, failure=died(killed.deaths))
+                if chunk is not alone:  # whatever a dead worker had in hand is blamed for its death
+                    del out[key]
+                    suspects.append(chunk)
+                    continue
             if done is not None:
                 del out[key]
                 yield done
@@ -155,6 +169,14 @@ def _those(ready: SimpleQueue[str]) -> Iterator[str]:
             yield ready.get_nowait()
 
 
+class _KilledError(Exception):
+    """Workers died over a chunk, or over its neighbour."""
+
+    def __init__(self, deaths: int) -> None:
+        self.deaths = deaths
+        super().__init__(deaths)
+
+
 class _Link:
     """The line to a scheduler."""
 
@@ -163,7 +185,7 @@ class _Link:
         self.client: Client | None = None
         self.stopped = False
         self._threads, self._looked = 0, float("-inf")
-        self._alone = time.monotonic()
+        self._alone: float | None = None
         self._keys = (f"cardan-{uuid.uuid4().hex}-{count}" for count in itertools.count())
 
     def __enter__(self) -> _Link:
@@ -195,7 +217,7 @@ class _Link:
             try:
                 self.client = library().Client(self.address, timeout=TRY if again else FIRST, set_as_default=False)
                 self._like_us()
-                self._alone, self._looked = time.monotonic(), float("-inf")
+                self._alone, self._looked = None, float("-inf")
                 return
             except (OSError, ValueError, TypeError, ImportError) as error:
                 self._close()
@@ -237,10 +259,9 @@ class _Link:
         if now - self._looked >= LOOK and self.client is not None and self.up():
             with suppress(Exception):  # a scheduler that is busy or gone tells nothing; the line will show which
                 self._threads = sum(self.client.sync(self.client.scheduler.ncores, callback_timeout=TRY).values())
+                self._alone = None if self._threads else self._alone or now
             self._looked = time.monotonic()
-            if self._threads:
-                self._alone = self._looked
-        if now - self._alone > self.patience:
+        if self._alone is not None and now - self._alone > self.patience:
             raise EngineLostError(_workless(self.address, self.patience))
         return self._threads
 
@@ -254,7 +275,13 @@ class _Link:
             return None
 
     def taken(self, chunk: Chunk, future: Future) -> Done[Any] | None:
-        """Return what became of a chunk; None where it has to be waited for once more, or done again."""
+        """Return what became of a chunk; None where it has to be waited for once more, or done again.
+
+        Raises
+        ------
+        _KilledError
+            Workers died.
+        """
         from concurrent.futures import CancelledError
 
         from distributed import KilledWorker
@@ -264,17 +291,12 @@ class _Link:
         try:
             value, failure = future.result(timeout=self.patience)
         except KilledWorker as error:
-            return Done(chunk, failure=died(_deaths(error)))
+            raise _KilledError(int(getattr(error, "allowed_failures", 0)) + 1) from None
         except (CancelledError, TimeoutError, OSError):
             return None
         except Exception as error:  # what went wrong there is not for us to know beforehand
             return None if not self.up() else Done(chunk, failure=reason(error))
         return Done(chunk, value, failure)
-
-
-def _deaths(error: Any) -> int:
-    """Return how many workers died over a task, from what Dask says."""
-    return int(getattr(error, "allowed_failures", 0)) + 1
 
 
 @lru_cache(maxsize=4)
