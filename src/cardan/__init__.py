@@ -172,6 +172,24 @@ _HOMES = {
     "Sweep": "batch.swept",
     "read_sweep": "batch.swept",
     "sweep": "batch.sweep",
+    "Asked": "batch.asking",
+    "ask_of": "batch.asking",
+    "Goal": "batch.goals",
+    "Limit": "batch.goals",
+    "Boundary": "batch.boundary",
+    "boundary": "batch.boundary",
+    "Global": "batch.optimise",
+    "Local": "batch.optimise",
+    "Optimum": "batch.optimise",
+    "optimise": "batch.optimise",
+    "ParetoSet": "batch.pareto",
+    "pareto_search": "batch.pareto",
+    "Results": "batch.results",
+    "results": "batch.results",
+    "Sensitivity": "batch.sobol",
+    "sensitivity": "batch.sobol",
+    "Swings": "batch.sobol",
+    "swings": "batch.sobol",
     "example": "io.examples",
     "example_mechanism": "io.examples",
     "load": "io.drive_file",
@@ -255,9 +273,13 @@ if TYPE_CHECKING:
     from .analysis.traces import Traces as Traces
     from .analysis.traces import traces as traces
     from .analysis.transient import Adaptive as Adaptive
+    from .batch.asking import Asked as Asked
+    from .batch.asking import ask_of as ask_of
     from .batch.axes import Drawn as Drawn
     from .batch.axes import Listed as Listed
     from .batch.axes import Spaced as Spaced
+    from .batch.boundary import Boundary as Boundary
+    from .batch.boundary import boundary as boundary
     from .batch.cluster import Cluster as Cluster
     from .batch.distributions import Normal as Normal
     from .batch.distributions import Triangular as Triangular
@@ -265,6 +287,20 @@ if TYPE_CHECKING:
     from .batch.distributions import Uniform as Uniform
     from .batch.engines import InProcess as InProcess
     from .batch.engines import Processes as Processes
+    from .batch.goals import Goal as Goal
+    from .batch.goals import Limit as Limit
+    from .batch.optimise import Global as Global
+    from .batch.optimise import Local as Local
+    from .batch.optimise import Optimum as Optimum
+    from .batch.optimise import optimise as optimise
+    from .batch.pareto import ParetoSet as ParetoSet
+    from .batch.pareto import pareto_search as pareto_search
+    from .batch.results import Results as Results
+    from .batch.results import results as results
+    from .batch.sobol import Sensitivity as Sensitivity
+    from .batch.sobol import Swings as Swings
+    from .batch.sobol import sensitivity as sensitivity
+    from .batch.sobol import swings as swings
     from .batch.sweep import sweep as sweep
     from .batch.swept import Sweep as Sweep
     from .batch.swept import read_sweep as read_sweep

@@ -218,6 +218,11 @@ def ask_of(
     size : int
         How many points will be asked in all.
 
+    Returns
+    -------
+    Asked
+        points (n, d) in the units of the paths -> arrays (n,) of answers and the status.
+
     Raises
     ------
     InputError
