@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.analysis.cracked_rotor import GRAVITY
 from cardan.maths.arrays import Array
+from cardan.texts import mark
 from cardan.units import deg
 
 from .plant import Housing, Plant
@@ -35,11 +36,13 @@ LOSSES = (0.45, 0.1)
 ARM = 0.2
 """Arm on which a swinging torque is taken up by a housing [m]."""
 
-BOOK, SECONDARY = "Book (253)-(260)", "Book (66)-(74); secondary couple T tan α"
+BOOK, COUPLES, SPLINES = mark("Book (253)-(260)"), mark("Book (66)-(74)"), mark("Book p. 228")
+SECONDARY = f"{COUPLES}; {mark('secondary couple T tan α')}"
 GRADES = "ISO 21940-11"
-PAPER = "paper on cracked shafts with a joint; first order in the losses of stiffness"
-TRADE = "usual practice of the trade"
-UNEVEN = "equivalent joint of the drive: amplitude |τ| of order 2"
+PAPER = f"{mark('paper on cracked shafts with a joint')}; {mark('first order in the losses of stiffness')}"
+TRADE, LOOSE = mark("usual practice of the trade"), mark("usual practice of the trade: looseness")
+FRICTION = mark("square wave of a friction couple")
+UNEVEN = mark("equivalent joint of the drive: amplitude |τ| of order 2")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,7 +226,7 @@ def _tight(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]
             {chosen: share * couple},
             order=order,
             power=0.0,
-            source=f"square wave of a friction couple; {TRADE}",
+            source=f"{FRICTION}; {TRADE}",
             axial=0.2,
             torque=(0.8, 0.0, 0.2),
         )
@@ -262,7 +265,7 @@ def _worn_spline(base: Plant, severity: float, chosen: int) -> Iterator[Expected
         _ends(chosen, force),
         order=1.0,
         power=2.0,
-        source=f"Book p. 228; {TRADE}",
+        source=f"{SPLINES}; {TRADE}",
         axial=0.5,
         torque=(0.2, 0.9, 0.0),
     )
@@ -273,7 +276,7 @@ def _centre(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder
     for order, share in ((0.5, 0.5), (1.0, 0.5), (1.5, 0.35), (2.0, 0.5), (3.0, 0.3)):
         for house in base.housings:
             near = 1.0 if house.kind == "centre" else 0.1
-            yield _line(house, "radial", order, near * share * force / house.mass, 1.5, f"{TRADE}: looseness")
+            yield _line(house, "radial", order, near * share * force / house.mass, 1.5, LOOSE)
 
 
 MAKERS = {

@@ -12,7 +12,7 @@ from cardan.diagnosis.order_tracks import TrackedOrders
 from cardan.diagnosis.orders import OrderMap, OrderSpectrum
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import deg, rpm
+from cardan.units import deg, rpm, spoken
 
 from .axes import axis, steps, written
 from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
@@ -159,7 +159,7 @@ def _peak_sentence(found: OrderSpectrum, peaks: Sequence[tuple[float, float]], u
         high=significant(high, 3),
         order=order_text(peaks[0][0]),
         amplitude=significant(peaks[0][1] / size, 3),
-        unit=unit,
+        unit=spoken(unit),
     )
 
 
@@ -209,7 +209,7 @@ def map_figure(
     return Figure(
         name="order-map",
         title=_("Orders of {name} over the speed").format(name=found.name),
-        sentence=told(text.format(amplitude=significant(top, 3), unit=unit), found.confidence),
+        sentence=told(text.format(amplitude=significant(top, 3), unit=spoken(unit)), found.confidence),
         source=_("read at even angles of the shaft; windows of {turns} turns").format(turns=found.turns),
         rows=(Row(panels=(panel,), height=4.2),),
         legend=bool(len(critical_speeds)),
@@ -299,7 +299,7 @@ def tracks_figure(found: TrackedOrders) -> Figure:
             text.format(
                 order=f"{found.orders[at[0]]:g}",
                 amplitude=significant(float(level[at]), 3),
-                unit=unit,
+                unit=spoken(unit),
                 speed=significant(float(found.speed[pick[at[1]]]) / rpm, 3),
             ),
             found.confidence,

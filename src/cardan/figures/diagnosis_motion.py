@@ -10,7 +10,7 @@ from cardan.diagnosis.orbit import Orbit
 from cardan.diagnosis.torsional import TorsionalVibration
 from cardan.diagnosis.turning import Rotation
 from cardan.texts import _
-from cardan.units import deg, rpm
+from cardan.units import deg, rpm, spoken
 
 from .axes import axis, steps, written
 from .diagnosis import UNITS, order_text, quantity_word, told
@@ -144,7 +144,7 @@ def _orbit_sentence(found: Orbit, unit: str, size: float) -> str:
         order=f"{first.order:g}",
         major=significant(first.major / size, 3),
         minor=significant(abs(first.minor) / size, 3),
-        unit=unit,
+        unit=spoken(unit),
         way=way,
     )
 

@@ -21,10 +21,10 @@ MOST = 6
 """Causes in the table."""
 
 EXPLAINED = 3
-"""Causes with their evidence."""
+"""Causes with their evidence, at most."""
 
-SMALL = 0.02
-"""Share of belief below which a cause is not worth a line."""
+SMALL, SERIOUS = 0.02, 0.1
+"""Shares of belief below which a cause is not worth a line, and not worth its evidence."""
 
 SURE = 0.6
 """Confidence below which the reader is warned."""
@@ -145,7 +145,7 @@ def evidence(findings: Sequence[Finding]) -> Iterator[Points]:
         By falling score.
     """
     for k, one in enumerate(findings[:EXPLAINED]):
-        if k and one.score < SMALL:
+        if k and one.score < SERIOUS:
             continue
         if one.evidence:
             yield Points(title=_("What speaks for: {fault}").format(fault=one.fault), items=one.evidence)
@@ -190,7 +190,7 @@ def should_appear(expected: Expected, found: Examination) -> Table:
                 number(significant(seen, 3), seen) if isfinite(seen) else words("–"),
                 words(grows(strongest.speed_power, amplified=strongest.amplified)),
                 words(by_torque(strongest.torque)),
-                words(strongest.source),
+                words("; ".join(_(part) for part in strongest.source.split("; "))),
             ]
         )
     note = _("At the top speed of {speed} rpm and the torque of the duty; sizes are good to a factor, shapes to more.")
@@ -202,7 +202,7 @@ def should_appear(expected: Expected, found: Examination) -> Table:
             Column(heading=_("mean of the recording"), unit=unit),
             Column(heading=_("with the speed"), left=True),
             Column(heading=_("with the torque"), left=True),
-            Column(heading=_("after"), left=True),
+            Column(heading=_("source"), left=True),
         ),
         rows=rows,
         note=note.format(speed=significant(top / rpm)),
@@ -284,7 +284,7 @@ def channels(found: Examination) -> Table:
             Column(heading=_("sits on"), left=True),
             Column(heading=_("looks"), left=True),
             Column(heading=_("rate"), unit="Hz"),
-            Column(heading=_("lasts"), unit="s"),
+            Column(heading=_("duration"), unit="s"),
             Column(heading=_("trust"), unit="%"),
             Column(heading="", left=True),
         ),
