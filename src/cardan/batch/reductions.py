@@ -15,13 +15,11 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import summaries
 from .axes import Axis, Points
 from .goals import Limit, limit_of
+from .kinds import KINDS, Kind, Part
+from .summaries import BINS as MOST_BINS
 from .work import FEASIBLE, STATUS, Column, Rows, State, Status
-
-KINDS = ("max", "min", "argmax", "argmin", "mean", "std", "percentile", "histogram", "count", "share")
-"""What may be told of a column; count and share are of the rows that keep a condition."""
 
 GROUPS = 10_000
 """More groups than this are refused: a table of the rows is what is wanted then."""
@@ -76,12 +74,9 @@ class Reduce:
         if self.name:
             return self.name
         words = [f"p{self.percent:g}" if self.kind == "percentile" else self.kind]
-        if self.kind in ("count", "share"):
-            words += [" and ".join(str(one) for one in self.where)] if self.where else []
-        else:
-            words.append(self.of)
-            words += ["where " + " and ".join(str(one) for one in self.where)] if self.where else []
-        return " ".join(words) + (" by " + ", ".join(self.by) if self.by else "")
+        limits = " and ".join(str(one) for one in self.where)
+        words += [self.of, f"where {limits}" if limits else ""] if self.of else [limits]
+        return " ".join(word for word in words if word) + (" by " + ", ".join(self.by) if self.by else "")
 
     def told(self) -> dict[str, Any]:
         """Return it as the table of a plan file."""
@@ -125,7 +120,7 @@ def reduce_of(text: str) -> Reduce:
     if kind not in KINDS or kind == "percentile" or not rest.strip():
         message = _("{text} is no reduction; write “max irregularity”, “p95 life_h by supplier” or “share x <= 2”")
         raise refuse("reduce", message.format(text=repr(text)))
-    if kind in ("count", "share"):
+    if not KINDS[kind].columned:
         limits = tuple(limit_of(one) for one in rest.split(" and "))
         return Reduce(kind=kind, where=limits, by=groups)
     return Reduce(kind=kind, of=rest.strip(), by=groups)
@@ -162,58 +157,28 @@ class Told:
 
     def empty(self) -> State:
         """Return the state that has seen nothing."""
-        what = self.what
-        if what.kind in ("mean", "std"):
-            return summaries.moment_empty(self.count)
-        if what.kind in ("count", "share"):
-            return summaries.count_empty(self.count)
-        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
-            return summaries.rank_empty(self.count)
-        return (
-            summaries.histogram_empty(self.count, what.bins)
-            if what.kind == "histogram"
-            else summaries.extreme_empty(self.count)
-        )
+        return self._kind.empty(self.what, self.count)
 
     def add(self, state: State, rows: Rows, start: int) -> State:
         """Return the state that has also seen rows ``start`` and following."""
-        what = self.what
-        answered = rows[STATUS] == 0
-        held = answered.copy() if what.where else answered
-        for limit in what.where:
-            held &= limit.excess(rows) <= 0.0
-        if what.kind in ("count", "share"):
-            groups = self._groups(start, len(answered))
-            return summaries.count_add(state, held[answered], None if groups is None else groups[answered])
-        values = np.asarray(rows[what.of], dtype=float)
-        held = held & ~np.isnan(values)
-        groups = self._groups(start, len(values))
-        every = bool(held.all())
-        values = values if every else values[held]
-        groups = groups if every or groups is None else groups[held]
-        if what.kind in ("mean", "std"):
-            return summaries.moment_add(state, values, groups)
-        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
-            return summaries.rank_add(state, values, groups)
-        if what.kind == "histogram":
-            assert what.low is not None
-            assert what.high is not None
-            return summaries.histogram_add(state, values, groups, low=what.low, high=what.high)
-        numbers = np.arange(start, start + len(held)) if every else start + np.flatnonzero(held)
-        return summaries.extreme_add(state, values, numbers, groups, largest=self._largest)
+        held = rows[STATUS] == 0
+        count = len(held)
+        kept = held if not self.what.where else np.ones(count, dtype=bool)
+        for limit in self.what.where:
+            kept = kept & (limit.excess(rows) <= 0.0)
+        if self._kind.columned:
+            values = np.asarray(rows[self.what.of], dtype=float)
+            held = held & kept & ~np.isnan(values)
+        else:
+            values = kept
+        numbers, groups = np.arange(start, start + count), self._groups(start, count)
+        if not held.all():
+            values, numbers, groups = values[held], numbers[held], None if groups is None else groups[held]
+        return self._kind.add(self.what, state, Part(values=values, rows=numbers, groups=groups))
 
     def merge(self, one: State, other: State) -> State:
         """Return the state that has seen what either has seen."""
-        what = self.what
-        if what.kind in ("mean", "std"):
-            return summaries.moment_merge(one, other)
-        if what.kind in ("count", "share"):
-            return summaries.count_merge(one, other)
-        if what.kind == "percentile" or (what.kind == "histogram" and what.low is None):
-            return summaries.rank_merge(one, other)
-        if what.kind == "histogram":
-            return summaries.histogram_merge(one, other)
-        return summaries.extreme_merge(one, other, largest=self._largest)
+        return self._kind.merge(self.what, one, other)
 
     def result(self, state: State) -> dict[str, Any]:
         """Return what is told: kind, column and unit, and the value, or groups with a value each.
@@ -225,52 +190,14 @@ class Told:
         head: dict[str, Any] = {"kind": what.kind, "of": what.of, "unit": self.unit}
         if what.kind == "percentile":
             head["percent"] = what.percent
-        values = [self._value(state, k) for k in range(self.count)]
+        values = [self._kind.value(what, state, k, self._point) for k in range(self.count)]
         if not self.axes:
             return {**head, **values[0]}
         return {**head, "by": list(what.by), "groups": [self._group(k) for k in range(self.count)], "values": values}
 
     @property
-    def _largest(self) -> bool:
-        return self.what.kind in ("max", "argmax")
-
-    def _value(self, state: State, k: int) -> dict[str, Any]:
-        what = self.what
-        if what.kind in ("count", "share"):
-            n, of = state["n"][k], state["of"][k]
-            return {"value": n if what.kind == "count" else (n / of if of else None), "rows": of}
-        if what.kind in ("mean", "std"):
-            n = state["n"][k]
-            spread = math.sqrt(state["square"][k] / (n - 1)) if n > 1 else None
-            return {"value": (state["mean"][k] if n else None) if what.kind == "mean" else spread, "rows": n}
-        if what.kind == "percentile":
-            value, bound = summaries.rank_result(state[k], 0.01 * what.percent)
-            return {"value": None if math.isnan(value) else value, "bound": bound}
-        if what.kind == "histogram":
-            return self._histogram(state, k)
-        best, row = state["best"][k], state["row"][k]
-        if what.kind in ("max", "min") or best is None:
-            return {"value": best}
-        return {"value": best, "row": row, "point": self._point(row)}
-
-    def _histogram(self, state: State, k: int) -> dict[str, Any]:
-        what = self.what
-        if what.low is not None and what.high is not None:
-            edges = np.linspace(what.low, what.high, what.bins + 1).tolist()
-            return {
-                "edges": edges,
-                "counts": state["counts"][k],
-                "below": state["below"][k],
-                "above": state["above"][k],
-            }
-        seen = state[k]
-        exponent, first, counts = seen["exponent"], seen["first"], seen["counts"]
-        raw = [np.asarray(seen["kept"], dtype=float)] if seen["kept"] else []
-        if not raw and exponent is None:
-            return {"edges": [], "counts": [], "below": seen["least"], "above": seen["most"]}
-        exponent, first, counts = summaries.binned(raw, [] if raw else [seen], what.bins)
-        edges = [(first + j) * math.ldexp(1.0, exponent) for j in range(len(counts) + 1)]
-        return {"edges": edges, "counts": counts, "below": seen["least"], "above": seen["most"]}
+    def _kind(self) -> Kind:
+        return KINDS[self.what.kind]
 
     def _groups(self, start: int, count: int) -> Array | None:
         """Return the group of each row, None where there is one."""
@@ -374,7 +301,7 @@ def _problems(one: Reduce, path: str, units: dict[str, str]) -> Iterator[Problem
         text = _("{value} is none of {choices}")
         yield Problem(f"{path}.kind", text.format(value=repr(one.kind), choices=", ".join(KINDS)))
         return
-    wanted = [] if one.kind in ("count", "share") else [("of", one.of)]
+    wanted = [("of", one.of)] if KINDS[one.kind].columned else []
     for key, name in [*wanted, *(("where", limit.name) for limit in one.where)]:
         if name not in units:
             close = nearest(name, units)
@@ -384,13 +311,13 @@ def _problems(one: Reduce, path: str, units: dict[str, str]) -> Iterator[Problem
                 else _("there is no such column; known: {all}")
             )
             yield Problem(f"{path}.{key}", f"{name}: " + text.format(near=close, all=", ".join(units)))
-    if one.kind in ("count", "share") and not one.where:
+    if not KINDS[one.kind].columned and not one.where:
         yield Problem(f"{path}.where", _("missing; a condition such as “irregularity <= 0.02”"))
     if not 0.0 <= one.percent <= 100.0:
         yield Problem(f"{path}.percent", _("{value} does not lie between 0 and 100").format(value=one.percent))
-    if not 1 <= one.bins <= summaries.BINS:
+    if not 1 <= one.bins <= MOST_BINS:
         text = _("{value} does not lie between {low} and {high}")
-        yield Problem(f"{path}.bins", text.format(value=one.bins, low=1, high=summaries.BINS))
+        yield Problem(f"{path}.bins", text.format(value=one.bins, low=1, high=MOST_BINS))
     if (one.low is None) != (one.high is None):
         yield Problem(f"{path}.low", _("a histogram has both ends or none"))
     elif one.low is not None and one.high is not None and not one.low < one.high:

@@ -13,8 +13,9 @@ from cardan.batch.designs import METHODS
 from cardan.batch.distributions import DISTRIBUTIONS, Distribution
 from cardan.batch.fields import present, spread_out
 from cardan.batch.goals import limit_of
+from cardan.batch.kinds import KINDS
 from cardan.batch.plan import SweepWork, listed, work_of
-from cardan.batch.reductions import BINS, KINDS, Reduce, reduce_of
+from cardan.batch.reductions import BINS, Reduce, reduce_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse
@@ -347,7 +348,7 @@ def _reduces(top: Table) -> list[Reduce]:
 
 
 def _reduce(one: Table) -> Reduce:
-    kind = one.text("kind", choices=KINDS)
+    kind = one.text("kind", choices=tuple(KINDS))
     ends = {key: one.number(key) if one.has(key) else None for key in ("low", "high")}
     made = Reduce(
         kind=kind,
