@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import multiprocessing
 import os
@@ -21,6 +22,18 @@ from tests.batch.works import Numbers, Trouble
 
 WORK = Numbers(size=1003)
 CHUNK = 50
+
+# Dask leaves sockets behind of schedulers that die; they are collected here, not in the tests of others.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
+    pytest.mark.filterwarnings("ignore::ResourceWarning"),
+]
+
+
+@pytest.fixture(autouse=True)
+def collected():
+    yield
+    gc.collect()
 
 
 class Outside:
