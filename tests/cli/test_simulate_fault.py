@@ -40,7 +40,7 @@ def test_it_stands_within_80_columns(cardan):
         assert widest("\n".join(lines)) <= 80
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".wav"])
+@pytest.mark.parametrize("suffix", [".csv", ".wav", ".uff", ".tdms"])
 def test_the_recording_is_that_of_the_library(cardan, tmp_path, suffix):
     said = cardan("simulate-fault", DRIVE, "crack", "-o", f"run{suffix}", "--seed", 3, *SHORT, "--json").content
     made = simulate_fault(load(DRIVE), "crack", seed=3, runs=Runs(run_up=3.0, hold=1.0, rate=1000.0))
@@ -81,7 +81,7 @@ def test_the_figure_shows_every_order(cardan, tmp_path):
         ((), "FAULT: missing: one of healthy"),
         (("klunk",), "'klunk' is none of"),
         (("worn_splin",), "the nearest is worn_spline"),
-        (("bent", "-o", "run.mp3"), "should end in one of .csv, .wav"),
+        (("bent", "-o", "run.mp3"), "should end in one of .csv, .wav, .uff"),
         (("bent", "--seed", -1), "-1 is negative"),
         (("bent", "--severity", 0), "--severity: 0 given"),
         (("bent", "--shaft", 9), "--shaft: shaft 9 lies not between two joints"),

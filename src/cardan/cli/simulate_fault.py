@@ -34,7 +34,7 @@ def simulate_fault(
             "--out",
             "-o",
             metavar="PATH",
-            help=_("Write a recording of it into PATH: .csv or .wav."),
+            help=_("Write a recording of it into PATH: .csv, .wav, .uff, .unv or .tdms."),
             show_default=False,
         ),
     ] = None,
@@ -276,7 +276,7 @@ def _remarks(file: Path, found: Expected, made: Signal | None, out: Path | None)
         return
     text = _("Recording written: {path}, {count} channels, {span} s.")
     yield Remark(text=text.format(path=out, count=len(made.channels), span=significant(made.duration, 3)))
-    if out.suffix.lower() == ".csv":
+    if out.suffix.lower() != ".wav":
         command = ("cardan", "diagnose", str(out), str(file))
         yield Remark(text=_("What is wrong with it:"), command=command, tone="next")
 

@@ -169,7 +169,8 @@ def save(thing: Any, path: str | Path) -> None:
     ----------
     thing : Drive, Mechanism, Signal or result
         A drive or a mechanism is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where
-        there are none yet; a recording as ``.csv`` or ``.wav``; a result in one of the formats of `cardan.io.formats`.
+        there are none yet; a recording as ``.csv``, ``.wav``, ``.uff`` or ``.tdms``; a result in one of the formats of
+        `cardan.io.formats`.
     path : str or Path
         Replaced as a whole or not at all.
 

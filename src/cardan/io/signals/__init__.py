@@ -22,7 +22,7 @@ from .raw import MOST_VALUES, Asked, Column, Raw
 SIGNAL_FORMATS = {csv.suffix: csv, ".txt": csv, wav.suffix: wav, uff.suffix: uff, ".unv": uff, tdms.suffix: tdms}
 """Suffix -> module that reads such files."""
 
-WRITERS = {csv.suffix: csv, wav.suffix: wav}
+WRITERS = {csv.suffix: csv, wav.suffix: wav, uff.suffix: uff, ".unv": uff, tdms.suffix: tdms}
 """Suffix -> module that writes such files."""
 
 MARKS = ((b"RIFF", ".wav"), (b"TDSm", ".tdms"), (b"    -1", ".uff"))
@@ -283,12 +283,14 @@ def _chosen(channels: Sequence[Channel], wanted: str | None, cautions: list[str]
 
 
 def write(recording: Signal, path: Path) -> None:
-    """Write a recording as CSV, in SI with a column of times, or as WAV, 32-bit floating numbers in SI.
+    """Write a recording in SI: as CSV with a column of times, WAV of 32-bit floating numbers, universal file or TDMS.
 
     Raises
     ------
     InputError
-        The suffix is neither, the channels have different times, or the file cannot be written.
+        The suffix is none of these, the channels of a CSV or WAV have different times, or the file cannot be written.
+    MissingExtraError
+        What writes universal files or TDMS is not installed.
     """
     module = WRITERS.get(path.suffix.lower())
     if module is None:

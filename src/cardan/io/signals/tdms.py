@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from cardan.diagnosis.signal import Signal
 from cardan.errors import InputError, MissingExtraError, refuse
 from cardan.texts import _
 
+from .columns import title_of
 from .raw import Asked, Column, Raw, content
 
 suffix = ".tdms"
@@ -69,3 +71,32 @@ def read(path: Path, asked: Asked) -> Raw:
     if not columns:
         raise refuse(name, _("is cut off before its numbers") if cut else _("holds no channel of numbers"), "empty")
     return Raw(columns=columns, cautions=tuple(cautions))
+
+
+def content_of(signal: Signal) -> bytes:
+    """Return a recording as the bytes of a TDMS file, in SI, each channel with its own rate.
+
+    Raises
+    ------
+    MissingExtraError
+        What writes such files is not installed.
+    """
+    try:
+        from nptdms import ChannelObject, TdmsWriter
+    except ImportError:
+        text = _("TDMS files need the extra `signals`: pip install 'cardan[signals]'")
+        raise MissingExtraError(text) from None
+    stream = io.BytesIO()
+    with TdmsWriter(stream) as writer:
+        writer.write_segment(
+            [
+                ChannelObject(
+                    "recording",
+                    title_of(one.name, one.quantity, one.place, one.direction),
+                    one.values,
+                    properties={"wf_increment": 1.0 / one.rate, "wf_start_offset": one.start},
+                )
+                for one in signal.channels
+            ]
+        )
+    return stream.getvalue()

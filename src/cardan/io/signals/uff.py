@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import warnings
 from pathlib import Path
 from typing import Any
@@ -9,15 +10,20 @@ from typing import Any
 import numpy as np
 
 from cardan.diagnosis.quality import evened
-from cardan.errors import MissingExtraError, refuse
+from cardan.diagnosis.signal import Signal
+from cardan.errors import MissingExtraError, Problem, check, refuse
 from cardan.texts import _
 
+from .columns import title_of
 from .raw import Asked, Column, Raw, content
 
 suffix = ".uff"
 
 MAX_BYTES = 400_000_000
 """Larger files are refused."""
+
+MOST_LETTERS = 80
+"""Of a line of text in a data set."""
 
 TIME_RESPONSES = (0, 1)
 """Types of functions that run over time: general ones and time responses."""
@@ -93,3 +99,48 @@ def _column(one: dict[str, Any], k: int, cautions: list[str]) -> Column:
         direction=DIRECTION_OF.get(abs(way), ""),
         trust=trust,
     )
+
+
+def content_of(signal: Signal) -> bytes:
+    """Return a recording as the bytes of a universal file, a data set 58 for each channel, in SI.
+
+    Raises
+    ------
+    InputError
+        A channel has a title longer than a line of such a file.
+    MissingExtraError
+        What writes such files is not installed.
+    """
+    try:
+        import pyuff
+    except ImportError:
+        text = _("universal files need the extra `signals`: pip install 'cardan[signals]'")
+        raise MissingExtraError(text) from None
+    titles = [title_of(one.name, one.quantity, one.place, one.direction) for one in signal.channels]
+    text = _("is longer than the {most} letters of a line of a universal file")
+    check(Problem(one, text.format(most=MOST_LETTERS), "out_of_range") for one in titles if len(one) > MOST_LETTERS)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "recording.uff"
+        pyuff.UFF(str(path)).write_sets(
+            [
+                pyuff.prepare_58(
+                    func_type=1,
+                    rsp_node=k + 1,
+                    rsp_dir=0,
+                    ref_node=0,
+                    ref_dir=0,
+                    x=one.time,
+                    data=one.values,
+                    id1=title,
+                    abscissa_spacing=1,
+                    abscissa_min=one.start,
+                    abscissa_inc=1.0 / one.rate,
+                    abscissa_spec_data_type=17,
+                    ordinate_spec_data_type=0,
+                    orddenom_spec_data_type=0,
+                )
+                for k, (one, title) in enumerate(zip(signal.channels, titles, strict=True))
+            ],
+            mode="overwrite",
+        )
+        return path.read_bytes()
