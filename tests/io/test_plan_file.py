@@ -167,9 +167,16 @@ def test_what_is_wrong_with_the_drive_file_is_told():
     assert any(field.startswith("drive") for field in found)
 
 
-def test_what_the_plan_asks_of_the_drive_is_told_when_it_becomes_work():
-    plan = read(HEAD + '[[vary]]\nkey = "joints[5].centre_mm[0]"\nfrom = 0\nto = 1\ncount = 2\n')
-    with pytest.raises(InputError, match="no index 5"):
+def test_questions_and_paths_are_held_against_the_drive():
+    text = HEAD.replace('"irregularity"', '"irregularty"')
+    found = wrong(text + '[[vary]]\nkey = "joints[5].centre_mm[0]"\nfrom = 0\nto = 1\ncount = 2\n')
+    assert "no index 5" in found["vary[0]: joints[5].centre_mm[0]"]
+    assert "irregularity" in found["ask"]
+
+
+def test_what_constraints_need_is_told_when_the_plan_becomes_work():
+    plan = read(HEAD.replace("ask", 'constraints = ["life_h >= 3"]\nask'))
+    with pytest.raises(InputError, match="life_h"):
         plan.work()
 
 

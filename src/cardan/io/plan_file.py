@@ -11,10 +11,11 @@ from cardan.batch.asking import Device
 from cardan.batch.axes import Axis, Drawn, Listed, Spaced
 from cardan.batch.designs import METHODS
 from cardan.batch.distributions import DISTRIBUTIONS, Distribution
-from cardan.batch.fields import present, spread_out
+from cardan.batch.fields import present, spots_of, spread_out
 from cardan.batch.goals import limit_of
 from cardan.batch.kinds import KINDS
 from cardan.batch.plan import SweepWork, listed, work_of
+from cardan.batch.questions import asked
 from cardan.batch.reductions import BINS, Reduce, reduce_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
@@ -167,7 +168,8 @@ def plan_of(
         )
     drive, known = _drive(top, folder_of(folder), catalogues)
     seed = top.whole("seed", 0)
-    axes = [axis for k, one in enumerate(top.tables("vary")) if (axis := _axis(one, drive, seed + k)) is not None]
+    found = [_axis(one, drive, seed + k) for k, one in enumerate(top.tables("vary"))]
+    axes = [axis for axis in found if axis is not None]
     reduce = list(_reduces(top))
     constraints = _constraints(top)
     engine = top.table("engine")
@@ -185,10 +187,12 @@ def plan_of(
     engine.finish()
     parts = {key: top.table(key).given for key in KEYS if top.has(key)}
     ask = top.texts("ask") if top.has("ask") else []
-    if not ask and isinstance(top.given.get("ask", []), list):
-        top.refuse("ask", _("nothing is asked"))
+    _asks(top, ask)
     made |= {"title": top.text("title", ""), "rows": top.text("rows", "kept", choices=("kept", "none"))}
     top.finish()
+    for k, axis in enumerate(found):
+        if drive is not None and axis is not None:
+            _leads(top, f"vary[{k}]", drive, axis)
     check(top.problems)
     assert drive is not None
     return Plan(
@@ -204,6 +208,24 @@ def plan_of(
         parts=parts,
         **made,
     )
+
+
+def _asks(top: Table, ask: Sequence[str]) -> None:
+    """Note names that are no question."""
+    if not isinstance(top.given.get("ask", []), list):
+        return
+    try:
+        asked(ask)
+    except InputError as error:
+        top.problems += error.problems
+
+
+def _leads(top: Table, path: str, drive: Drive, axis: Axis) -> None:
+    """Note paths of an axis that lead nowhere in the drive."""
+    try:
+        spots_of(drive, [one for one in axis.fields if one not in axis.facts])
+    except InputError as error:
+        top.problems += [Problem(f"{path}: {one.field}", one.message, one.code) for one in error.problems]
 
 
 def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]) -> tuple[Drive | None, Any]:
