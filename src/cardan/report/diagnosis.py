@@ -8,6 +8,7 @@ from math import isfinite
 from cardan.diagnosis.examination import Examination
 from cardan.diagnosis.expected import Expected
 from cardan.diagnosis.findings import Finding
+from cardan.diagnosis.plant import plant
 from cardan.figures.diagnosis import UNITS, quantity_word, spectrum_figure, tracks_figure
 from cardan.figures.diagnosis_motion import orbit_figure, rotation_figure, torsional_figure
 from cardan.figures.examination import LIKELY, causes_figure, examined_map, verdict
@@ -171,10 +172,10 @@ def should_appear(expected: Expected, found: Examination) -> Table:
     """
     unit, size = UNITS[found.channel.quantity]
     top = expected.speed[1]
-    where = found.channel.place
+    base = plant(found.drive)
+    kind = (base.housing_at(found.channel.place) or base.housings[-1]).kind
     direction = "axial" if found.channel.direction in ("axial", "x") else "radial"
-    near = [one for one in expected.orders if one.direction == direction]
-    lines = [one for one in near if one.place == where] or [one for one in near if one.kind == "output"]
+    lines = [one for one in expected.orders if one.direction == direction and one.kind == kind]
     rows = []
     for order in sorted({one.order for one in lines}):
         own = [one for one in lines if one.order == order]
