@@ -21,9 +21,11 @@ def folder(tmp_path_factory):
     return stored(tmp_path_factory.mktemp("sweep") / "it's here").folder
 
 
-@pytest.fixture(scope="module", params=["folder", "memory"])
-def found(request, folder):
-    return results(folder if request.param == "folder" else run(Suspension(), chunk=50))
+@pytest.fixture(scope="module", params=["folder", "one file", "memory"])
+def found(request, folder, tmp_path_factory):
+    if request.param == "memory":
+        return results(run(Suspension(), chunk=50))
+    return results(folder if request.param == "folder" else stored(tmp_path_factory.mktemp("one") / "out", 999).folder)
 
 
 def same(rows, expected):

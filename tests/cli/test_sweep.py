@@ -67,7 +67,7 @@ def test_a_folder_keeps_the_table_and_is_gone_on_with(cardan, small, tmp_path):
     assert "table" not in first
     again = cardan("sweep", small, "--into", folder, "--resume", "--engine", "in-process")
     assert again.code == 0
-    assert f"cardan sweep show {folder}" in " ".join(again.out.split())
+    assert "cardan sweep show kept" in again.out  # as it is written from here
 
 
 def test_resuming_needs_a_folder_with_a_sweep(cardan, small, tmp_path):

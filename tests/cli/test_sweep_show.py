@@ -55,6 +55,10 @@ def test_the_best_points(cardan, folder):
     assert "none of 210 points was answered and keeps the limits" in none.out
 
 
+def test_a_table_without_any_answer(cardan, folder):
+    assert "10 points, none of them answered" in show(cardan, folder, "--where", "status > 0").out
+
+
 def test_a_choice_between_goals(cardan, folder):
     said = show(cardan, folder, *GOALS, "--json").content
     chosen = pareto(TABLE, [sweep_asked.Goal(name="irregularity"), sweep_asked.Goal(name="bend_deg[1]")])

@@ -252,6 +252,8 @@ class Results:
             for k, rows in enumerate(held):
                 connection.register(f"held_{k}", arrow(rows))
                 sources.append(f"SELECT {shown} FROM held_{k}")
+            # Least and greatest as a file tells them of a column leave nan out: nothing is to be concluded from them.
+            connection.execute("SET disabled_optimizers = 'statistics_propagation'")
             connection.execute(f"CREATE VIEW {TABLE} AS {' UNION ALL '.join(sources)}")
             if not writes:
                 connection.execute(f"SET allowed_paths = {listed(files)}")

@@ -52,7 +52,7 @@ def condition(where: str) -> str:
 def cell(column: Column) -> str:
     """Return a column with NULL for nan: SQL would take that for the greatest of all numbers."""
     name = quoted(column.name)
-    return f"nullif({name}, 'nan'::DOUBLE) AS {name}" if column.role == "answer" else name
+    return f"CASE WHEN isnan({name}) THEN NULL ELSE {name} END AS {name}" if column.role == "answer" else name
 
 
 def listed(files: Sequence[str]) -> str:

@@ -344,13 +344,19 @@ def _remarks(work: SweepWork, found: Sweep, file: Path, keeps: bool) -> Iterator
     if found.damaged:
         yield Remark(text=_("Made again, because damaged: {names}").format(names=", ".join(found.damaged[:5])))
     if found.missing and found.folder is not None:
-        command = ("cardan", "sweep", _plan(file), "--into", str(found.folder), "--resume")
+        command = ("cardan", "sweep", _plan(file), "--into", _near(found.folder), "--resume")
         yield Remark(text=_("To go on:"), command=command, tone="next")
     elif found.folder is not None and keeps:
-        yield Remark(text=_("To look at it:"), command=("cardan", "sweep", "show", str(found.folder)), tone="next")
+        yield Remark(text=_("To look at it:"), command=("cardan", "sweep", "show", _near(found.folder)), tone="next")
     elif found.folder is None:
         keeping = ("cardan", "sweep", _plan(file), "--into", file.stem)
         yield Remark(text=_("No table was kept. To keep one:"), command=keeping, tone="next")
+
+
+def _near(folder: Path) -> str:
+    """Return a folder as it is written from here."""
+    here = Path.cwd()
+    return str(folder.relative_to(here) if folder.is_relative_to(here) and folder != here else folder)
 
 
 def _plan(file: Path) -> str:

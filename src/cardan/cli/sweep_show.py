@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cardan.texts import _
+from cardan.texts import _, plural
 
 from .options import AsCsv, AsJson, Plot
 
@@ -182,13 +182,16 @@ def _sentence(asked: Asked) -> str:
 
     name = asked.name
     if asked.query:
-        return _("{name}: {count} rows answer this.").format(name=name, count=_n(asked.length))
+        text = plural("{name}: {count} row answers this.", "{name}: {count} rows answer this.", asked.length)
+        return text.format(name=name, count=_n(asked.length))
     all_points = asked.results.count(asked.where)
     if not asked.goals:
         answer = asked.answer
         if answer is None or not all_points:
             return _("{name}: {count} points.").format(name=name, count=_n(all_points))
         span = asked.spans[answer.name]
+        if span["most"] != span["most"]:
+            return _("{name}: {count} points, none of them answered.").format(name=name, count=_n(all_points))
         text = _("{name}: {count} points; {answer} lies between {low} and {high}.")
         return text.format(
             name=name,
@@ -293,13 +296,18 @@ def _remarks(asked: Asked, exported: tuple[Path, int] | None) -> Iterator[Remark
         text = _("The first {count} of {all} rows are shown; --csv and --export give all.")
         yield Remark(text=text.format(count=SHOWN, all=_n(asked.length)))
     if shown and len(shown) < len(asked.rows):
-        text = _("{count} further columns are in --csv, --json and --export.")
-        yield Remark(text=text.format(count=len(asked.rows) - len(shown)))
+        more = len(asked.rows) - len(shown)
+        text = plural(
+            "{count} further column is in --csv, --json and --export.",
+            "{count} further columns are in --csv, --json and --export.",
+            more,
+        )
+        yield Remark(text=text.format(count=more))
     for one in asked.results.sweep.missing[:3]:
         text = _("Missing: rows {start} to {stop}: {why}")
         yield Remark(text=text.format(start=_n(one.start), stop=_n(one.stop - 1), why=one.why), tone="warning")
     if exported is not None:
-        text = _("{count} rows written: {path}")
+        text = plural("{count} row written: {path}", "{count} rows written: {path}", exported[1])
         yield Remark(text=text.format(count=_n(exported[1]), path=exported[0]))
     answer = asked.answer
     if not asked.goals and not asked.query and answer is not None:
