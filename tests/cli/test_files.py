@@ -66,15 +66,18 @@ def test_a_file_is_overwritten_only_when_told(cardan, tmp_path):
 
 def test_examples_are_listed_and_copied(cardan, tmp_path):
     listed = cardan("example", "--json").content["examples"]
-    assert [row["name"] for row in listed] == [*files.example_names(), *files.mechanism_names()]
+    names = [*files.example_names(), *files.mechanism_names(), *files.recording_names()]
+    assert [row["name"] for row in listed] == names
     assert all(row["shows"] for row in listed)
     out = cardan("example").out
-    assert all(name in out for name in (*files.example_names(), *files.mechanism_names()))
+    assert all(name in out for name in names)
     assert max(map(len, out.splitlines())) <= 80
     assert cardan("example", "single-20deg").code == 0
     assert (tmp_path / "single-20deg.toml").read_text() == files.example_text("single-20deg")
     assert cardan("example", "single-20deg", "-").out == files.example_text("single-20deg")
     assert "cardan mobility maize-drive.toml" in cardan("example", "maize-drive").out
+    assert "cardan diagnose truck-crack.csv truck-supports.toml" in cardan("example", "truck-crack").out
+    assert (tmp_path / "truck-crack.csv").read_text() == files.example_text("truck-crack")
 
 
 def test_an_unknown_example_names_the_nearest(cardan):
