@@ -186,3 +186,29 @@ def test_shipped_plans_become_work(path):
     work = plan.work()
     rows = work.evaluate(0, 1)
     assert rows["status"].tolist() == [0]
+
+
+BIG = "1" + 400 * "0"
+
+
+@pytest.mark.parametrize(
+    ("table", "field"),
+    [
+        ('key = "duty.speed_rpm"\nvalues = [' + BIG + "]\n", "vary[0]: duty.speed_rpm[0]"),
+        ('key = "joints[0].centre_mm"\nvalues = [[0, 0, 0], 3]\n', "vary[0]: joints[0].centre_mm"),
+        ('key = "duty.speed_rpm"\nvalues = [{ a = 1 }]\n', "vary[0]: duty.speed_rpm[0]"),
+        ('key = "duty.speed_rpm"\nfrom = -1e308\nto = 1e308\ncount = 3\n', "vary[0]: duty.speed_rpm: to"),
+        ('key = "duty.speed_rpm"\nfrom = 1\nto = 3\ncount = ' + BIG + "\n", "vary"),
+        ('design = "random"\ncount = 3\nseed = -1\nfields = []\n', "vary[0].fields"),
+        ('name = "make"\nrows = []\n', "vary[0].rows"),
+    ],
+)
+def test_odd_values_of_an_axis_are_refused(table, field):
+    text = HEAD + "[[vary]]\n" + table
+    with pytest.raises(InputError) as error:
+        read(text).work()
+    assert field in {problem.field for problem in error.value.problems}
+
+
+def test_a_drive_file_without_a_name_is_refused():
+    assert "names no file" in wrong(HEAD.replace("truck-rear-axle.toml", ""))["drive"]

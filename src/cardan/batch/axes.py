@@ -25,6 +25,9 @@ from .distributions import Distribution, correlated
 MOST = 10**12
 """More points than this are refused: at ten million a second they would take a day."""
 
+WIDEST = 1000
+"""Fields that a design draws at most."""
+
 LISTED = 1_000_000
 """Longest list of values; what is longer is a grid or a design."""
 
@@ -97,6 +100,8 @@ class Spaced:
         if self.count < 1:
             text = _("{given} given; at least one is needed")
             check([Problem(f"{self.field}: count", text.format(given=self.count))])
+        if not math.isfinite(self.stop - self.start):
+            check([Problem(f"{self.field}: to", _("is too far from the first value"))])
 
     @property
     def name(self) -> str:
@@ -171,6 +176,11 @@ class Listed:
             if len(row) != len(self.fields):
                 text = _("{given} values given, {wanted} needed")
                 problems.append(Problem(f"{self.name}[{k}]", text.format(given=len(row), wanted=len(self.fields))))
+            problems += [
+                Problem(f"{self.name}[{k}]", _("{value} is no number, flag or word").format(value=repr(one)[:40]))
+                for one in row
+                if not _holds(one)
+            ]
         check(problems)
 
     @property
@@ -237,10 +247,13 @@ class Drawn:
             problems.append(Problem("fields", _("an empty list has no values to vary over")))
         if self.count < 1:
             problems.append(Problem("count", _("{given} given; at least one is needed").format(given=self.count)))
-        elif self.method == "sobol" and self.count > 2**30:
+        if len(self.distributions) > WIDEST:
+            text = _("{count} fields given; the limit of a design is {limit}")
+            problems.append(Problem("fields", text.format(count=len(self.distributions), limit=WIDEST)))
+        if self.method == "sobol" and self.count > 2**30:
             problems.append(Problem("count", _("Sobol' points end at 2^30; take random ones")))
-        if self.seed < 0:
-            problems.append(Problem("seed", _("{value} is negative").format(value=self.seed)))
+        if not 0 <= self.seed < 2**63:
+            problems.append(Problem("seed", _("{value} does not lie between 0 and 2^63").format(value=self.seed)))
         check(problems)
         object.__setattr__(self, "_factor", correlated(tuple(self.distributions), self.correlations))
 
@@ -320,7 +333,7 @@ class Points:
                 seen.add(one)
         if self.size > MOST:
             text = _("the sweep has {count:.3g} points; the limit is {limit:.0e}")
-            problems.append(Problem("vary", text.format(count=float(self.size), limit=float(MOST))))
+            problems.append(Problem("vary", text.format(count=float(min(self.size, 10**300)), limit=float(MOST))))
         check(problems)
 
     @property
@@ -348,6 +361,11 @@ class Points:
         for axis, place in zip(self.axes, self.places(start, stop), strict=True):
             found.update(axis.values(place))
         return found
+
+
+def _holds(value: object) -> bool:
+    """Tell whether a column can hold a value."""
+    return isinstance(value, str | float) or (isinstance(value, int) and abs(value) < 2**1000)
 
 
 def column(values: Sequence[Value]) -> Array:

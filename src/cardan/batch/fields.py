@@ -131,7 +131,7 @@ def spread_out(path: str, values: Sequence[Any]) -> tuple[tuple[str, ...], list[
     if not any(isinstance(one, list | tuple) for one in values):
         return (path,), [(one,) for one in values]
     sizes = {len(one) if isinstance(one, list | tuple) else 0 for one in values}
-    if len(sizes) != 1:
+    if len(sizes) != 1 or 0 in sizes:
         check([Problem(path, _("its values are lists of different lengths"))])
     return tuple(f"{path}[{k}]" for k in range(sizes.pop())), [tuple(one) for one in values]
 

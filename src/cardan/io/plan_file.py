@@ -231,6 +231,8 @@ def _leads(top: Table, path: str, drive: Drive, axis: Axis) -> None:
 def _drive(top: Table, folder: Path | Enclosed, catalogues: Sequence[str | Path]) -> tuple[Drive | None, Any]:
     given = top.text("drive")
     if not given:
+        if given == top.given.get("drive"):
+            top.refuse("drive", _("names no file"))
         return None, None
     where = folder / given
     try:
@@ -272,6 +274,7 @@ def _rows(one: Table) -> Axis | None:
     name = one.text("name")
     facts = one.texts("facts")
     rows = [dict(row.given) for row in one.tables("rows", required=True)]
+    _some(one, "rows")
     keys = list(rows[0]) if rows else []
     for k, row in enumerate(rows):
         for key in {*keys, *row} - ({*keys} & {*row}):
@@ -303,9 +306,10 @@ def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
             if found[0] in distributions:
                 spot.refuse("key", _("varies twice"))
             distributions[found[0]] = found[1]
+    _some(one, "fields")
     correlations = []
     for k, row in enumerate(one.items("correlations")):
-        if isinstance(row, list) and len(row) == 3 and isinstance(row[2], int | float):
+        if isinstance(row, list) and len(row) == 3 and isinstance(row[2], int | float) and abs(row[2]) <= 1:
             correlations.append((str(row[0]), str(row[1]), float(row[2])))
         else:
             one.refuse(f"correlations[{k}]", _('is no correlation; write ["one key", "another key", 0.5]'))
@@ -319,6 +323,12 @@ def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
         correlations=tuple(correlations),
         name=name,
     )
+
+
+def _some(one: Table, key: str) -> None:
+    """Note an empty list."""
+    if one.given.get(key) == []:
+        one.refuse(key, _("an empty list has no values to vary over"))
 
 
 def _distribution(spot: Table, drive: Drive | None) -> tuple[str, Distribution] | None:

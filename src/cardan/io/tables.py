@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -63,8 +63,8 @@ class Table:
     def number(self, key: str, default: float | None = None) -> float:
         """Return the finite number of a key; required when there is no default."""
         value = self._taken(key, default, NUMBER, _("a number"))
-        if isinstance(value, bool) or (isinstance(value, float) and not math.isfinite(value)):
-            self.refuse(key, _("{value} is not a finite number").format(value=value))
+        if isinstance(value, bool) or (value is not None and not abs(value) <= sys.float_info.max):
+            self.refuse(key, _("{value} is not a finite number").format(value=repr(value)[:40]))
             return 0.0
         return float(value or 0.0)
 
