@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
@@ -56,6 +56,21 @@ def test_slow_rows_make_small_chunks():
     # sleep lasts at least as long as asked for: 0.16 s hold 8 rows of 0.02 s, or fewer where the machine is busy
     assert 1 <= rows_for(Costly(1000, seconds=0.02), target=0.16) <= 8
     assert rows_for(Costly(3, seconds=0.1), target=0.05) == 1
+    assert rows_for(Costly(100, seconds=0.1), target=0.05) == 1
+
+
+def test_a_small_sweep_is_not_tried_for_long():
+    @dataclass(frozen=True)
+    class Counted(Costly):
+        calls: list = field(default_factory=list)
+
+        def evaluate(self, start, stop):
+            self.calls.append(stop - start)
+            return super().evaluate(start, stop)
+
+    assert rows_for(slow := Counted(20, seconds=0.06)) == 1
+    assert rows_for(fast := Counted(20), target=60.0) >= 20
+    assert slow.calls == fast.calls == [1]
 
 
 def test_large_rows_make_small_chunks():
@@ -69,6 +84,6 @@ def test_many_slow_rows_do_not_make_too_many_files():
 
 
 def test_rows_that_fail_make_chunks_all_the_same():
-    work = Numbers(1000, trouble=Trouble("raise", row=500))
+    work = Numbers(1000, trouble=Trouble("raise", row=499))
     assert rows_for(work) == UNKNOWN
     assert len(chunks_of(work, rows=300)) == 4

@@ -6,17 +6,22 @@ import gc
 import json
 import multiprocessing
 import os
+import pickle
 import subprocess
 import sys
 import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from cardan.batch import cluster
+from cardan.batch.chunks import Chunks
 from cardan.batch.cluster import Cluster
+from cardan.batch.engines import Done
 from cardan.batch.running import run
 from cardan.errors import InputError, MissingExtraError
+from tests.batch import works
 from tests.batch.truth import undisturbed
 from tests.batch.works import Numbers, Trouble
 
@@ -175,15 +180,71 @@ def test_a_wrong_address_is_one_message(address, told, monkeypatch):
     assert "\n" not in str(refused.value)
 
 
+class Line:
+    """A scheduler that a test speaks for: chunks come back in the order of their giving."""
+
+    stopped = False
+
+    def __init__(self, fates):
+        self.fates, self.given, self.most, self.breaks = dict(fates), [], 0, 0
+
+    def connect(self, again=False):
+        self.broken = False
+        self.breaks += again
+
+    def up(self):
+        return not self.broken
+
+    def threads(self):
+        return 3
+
+    def stop(self):
+        return False
+
+    def give(self, told, chunk):
+        future = SimpleNamespace(key=len(self.given), status="finished", add_done_callback=lambda call: call(future))
+        self.given.append(chunk)
+        return future
+
+    def taken(self, chunk, future):
+        fate = self.fates.get(chunk.index, [])
+        match fate.pop(0) if fate else "done":
+            case "broken":
+                self.broken = True
+                return None
+            case "cancelled":
+                future.status = "cancelled"
+                return None
+            case "killed":
+                raise cluster._KilledError(4)
+        return Done(chunk, chunk.index)
+
+
+def test_chunks_come_back_once_whatever_becomes_of_them_on_the_way():
+    chunks = Chunks("a sweep", 40, 1)
+    taken = 0
+
+    def counted():
+        nonlocal taken
+        for chunk in chunks:
+            taken += 1
+            yield chunk
+
+    line = Line({3: ["broken"], 5: ["cancelled"], 8: ["killed"], 9: ["killed", "killed"], 20: ["broken", "broken"]})
+    found = {}
+    for done in cluster._worked(line, works.size_of, counted()):
+        assert done.chunk.index not in found
+        found[done.chunk.index] = (done.value, done.failure)
+        assert taken <= len(found) + cluster.AHEAD * 3 + 2  # those in hand, and two that are blamed and wait
+    died = (None, "the process that worked on it died 4 times")
+    assert found == {k: (k, None) if k != 9 else died for k in range(40)}
+    assert line.breaks == 3
+
+
 def test_a_worker_of_another_version_that_comes_late_does_nothing(monkeypatch):
-    import pickle
-
-    from cardan.batch.chunks import Chunks
-    from tests.batch.works import size_of
-
     (chunk,) = Chunks("a sweep", 3, 3)
-    assert cluster._work(pickle.dumps((size_of, "en", cluster.__version__)), chunk) == (3, None)
-    value, failure = cluster._work(pickle.dumps((size_of, "en", "0.0.9")), chunk)
+    assert cluster._work(pickle.dumps((works.size_of, "en", cluster.__version__)), chunk) == (3, None)
+    value, failure = cluster._work(pickle.dumps((works.size_of, "en", "0.0.9")), chunk)
     assert value is None
     assert "has cardan" in failure
 

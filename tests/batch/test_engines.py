@@ -89,6 +89,19 @@ def test_stop_is_heard_while_all_work():
     assert list(InProcess().run(works.size_of, CHUNKS, heard=lambda: "stop")) == []
 
 
+def test_no_more_chunks_are_taken_than_are_worked_on():
+    taken = 0
+
+    def counted():
+        nonlocal taken
+        for chunk in CHUNKS:
+            taken += 1
+            yield chunk
+
+    for done, _one in enumerate(Processes(workers=2).run(works.size_of, counted())):
+        assert taken <= done + 2
+
+
 def test_closing_the_iterator_ends_the_processes():
     running = Processes(workers=2).run(works.threads_and_process, CHUNKS)
     _threads, process = next(running).value

@@ -94,6 +94,13 @@ def test_only_what_is_missing_is_done_again(tmp_path):
     assert shares == sorted(shares)
 
 
+def test_nothing_is_started_where_nothing_is_missing(tmp_path):
+    run(WORK, chunk=CHUNK, into=tmp_path)
+    shares = []
+    undisturbed(run(WORK, engine=Backwards(lost_after=0), into=tmp_path, progress=shares.append), WORK, CHUNK)
+    assert shares[-1] == 1.0
+
+
 def test_lost_machines_leave_what_was_done(tmp_path):
     sweep = run(WORK, engine=Backwards(lost_after=4), chunk=CHUNK, into=tmp_path)
     assert sweep.status == "incomplete"

@@ -24,6 +24,9 @@ MOST = 20_000
 ENOUGH = 0.05
 """Seconds that a trial has to last to be believed."""
 
+SMALL = 64
+"""A sweep of so few points that take long has each in a chunk of its own: trying others would be half the work."""
+
 UNKNOWN = 256
 """Rows of a chunk where none could be evaluated to see how long they take."""
 
@@ -173,7 +176,11 @@ def rows_for(work: Work, *, keeps: bool = True, target: float = TARGET, room: in
 
 
 def _measured(work: Work, keeps: bool, target: float, room: int) -> float:
-    _seen(work, keeps, 1)  # what is loaded or compiled at first is no cost of a row
+    first = _seconds(work, keeps, 1)  # with what is loaded or compiled at first, which is no cost of a row
+    if first * work.size <= target:
+        return 2.0 * work.size
+    if first >= ENOUGH and work.size <= SMALL:
+        return 1.0
     count, seconds = 1, _seconds(work, keeps, 1)
     while seconds < min(ENOUGH, target) and count < work.size:
         count = min(work.size, count * (8 if seconds < 0.2 * ENOUGH else 2))

@@ -239,7 +239,7 @@ class _Running:
 
     def _run(self) -> str:
         """Do all that is to be done; return why the rest of it is not."""
-        if self.told(self.rows, now=True) == "stop":
+        if self.told(self.rows, now=True) == "stop" or len(self.done) == len(self.chunks):
             return ""
         folder = self.store.folder if self.store is not None and self.engine.writes else None
         task = Making(work=self.work, keeps=self.keeps, folder=folder)
