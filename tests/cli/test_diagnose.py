@@ -109,7 +109,7 @@ def test_orders_and_symptoms_alone_rank_with_little_confidence(cardan):
         ((RUN, DRIVE, "--place", "front=supports[9]:up"), "there is no channel 'front'"),
         ((RUN, DRIVE, "--tacho", "tachi"), "did you mean tacho"),
         ((RUN, DRIVE, "--channel", "centre"), "there is no channel 'centre'"),
-        ((RUN, DRIVE, "--title", "left"), "is not CHANNEL="),
+        ((RUN, DRIVE, "--title", "left"), "is not NAME="),
         ((RUN, DRIVE, "--report", "d.odt"), "should end in one of .html"),
         ((RUN, DRIVE, "--speeds", "100"), "write LOW:HIGH"),
         ((RUN, DRIVE, "--pulses-per-turn", "0"), "--pulses-per-turn: 0 given"),

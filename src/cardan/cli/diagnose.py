@@ -71,7 +71,7 @@ def diagnose(
     torque_sensitive: Annotated[
         bool | None,
         typer.Option(
-            "--with-torque/--not-with-torque",
+            "--with-torque/--no-torque",
             help=_("With --orders or --symptom: whether it changes with the torque."),
             show_default=False,
         ),

@@ -42,7 +42,7 @@ Titles: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--title",
-        metavar="CHANNEL=TITLE",
+        metavar="NAME=TITLE",
         help=_("What a channel measures, as left=tacho or right=acceleration_front_z_g; may be repeated."),
         show_default=False,
     ),
@@ -51,7 +51,7 @@ Places: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--place",
-        metavar="CHANNEL=PLACE[:WAY]",
+        metavar="NAME=PLACE",
         help=_("Where a sensor sits and looks, as front=supports[0]:axial; may be repeated."),
         show_default=False,
     ),
@@ -171,7 +171,7 @@ def _pairs(given: Sequence[str], option: str) -> dict[str, str]:
     from cardan.errors import InputError, Problem
 
     split = [one.partition("=") for one in given]
-    text = _("{text} is not CHANNEL=…")
+    text = _("{text} is not NAME=…, with the name of a channel")
     bad = [
         Problem(option, text.format(text=repr(one)))
         for one, (name, _sign, value) in zip(given, split, strict=True)
