@@ -69,3 +69,10 @@ def test_lying_bars_have_room_and_stand_before_the_track_up_to_their_limit() -> 
     assert [one.text for one in share.find(f"{CHART}val").iter(f"{CHART}v")] == ["0.5"] * count
     (drawn,) = opened(data).worksheets[0]._charts
     assert drawn.anchor.to.row - drawn.anchor._from.row >= count * 16 // 21
+
+
+def test_curves_of_one_name_stand_in_the_legend_once() -> None:
+    curves = [Curve(x=np.arange(3.0), y=np.arange(3.0) + k, label=name) for k, name in enumerate(("a", "b", "b", "b"))]
+    chart = chart_of(Panel(series=curves))
+    gone = [int(one.find(f"{CHART}idx").get("val")) for one in chart.iter(f"{CHART}legendEntry")]
+    assert gone == [2, 3]

@@ -177,6 +177,17 @@ def ranges(book: Any, chart: ElementTree.Element, kind: str) -> Iterator[tuple[l
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_the_first_page_leads_to_every_other_with_its_answer(name: str) -> None:
+    book, told = opened(file_of(name)), said(name)
+    sheet = book["Summary"]
+    assert "Key figures" in {cell.value for cell in sheet["A"]}
+    rows = {cell.hyperlink.location: cell.row for cell in sheet["A"] if cell.hyperlink}
+    for page, other in zip(told.pages, book.worksheets[1:], strict=False):
+        row = rows[f"'{other.title}'!A1"]
+        assert (sheet.cell(row, 1).value, sheet.cell(row, 2).value) == (page.title, page.answer)
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_charts_find_their_numbers(name: str) -> None:
     data = file_of(name)
     book = opened(data)
@@ -209,9 +220,9 @@ def test_a_chart_shows_the_curves_of_its_figure_in_their_colours() -> None:
     panel = motion.panels[0]
     curves = [one for one in panel.series if isinstance(one, Curve)]
     for curve in curves:
-        (found,) = [one for one in columns if one[2] == curve.label and one[4] == pytest.approx(float(curve.y[0]))][:1]
-        np.testing.assert_allclose([one for one in found[4:] if one is not None], curve.y, rtol=1e-15)
-    assert columns[0][:4] == [motion.title, panel.y.label, motion.panels[-1].x.label, "[°]"]
+        (found,) = [one for one in columns if one[4] == curve.label and one[6] == pytest.approx(float(curve.y[0]))][:1]
+        np.testing.assert_allclose([one for one in found[6:] if one is not None], curve.y, rtol=1e-15)
+    assert columns[0][2:6] == [motion.title, panel.y.label, motion.panels[-1].x.label, "[°]"]
     chart = parts(file_of("car-propshaft"), "xl/charts/chart1.xml")["xl/charts/chart1.xml"]
     assert panel.y.title in chart
     assert {"3B4252", "0072B2"} <= set(re.findall(r'srgbClr val="(\w+)"', chart))
@@ -299,7 +310,7 @@ def test_what_is_not_a_number_is_a_word() -> None:
     figure = Figure(name="gap", title="gap", sentence="", source="", rows=(Row(panels=(panel,)),))
     page = Page(name="gap", title="gap", answer="", blocks=[Picture(figure=figure)])
     data = written(replace(said("tracta-steered-axle"), pages=(page,)))
-    values = [row[1] for row in opened(data)["gap data"].iter_rows(min_row=5, values_only=True)]
+    values = [row[1] for row in opened(data)["gap data"].iter_rows(min_row=7, values_only=True)]
     assert values == [0, None, None, 3]
 
 
@@ -319,6 +330,9 @@ def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
         assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) in ((1, 0), (None, 0))
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
         assert sheet.freeze_panes
+        data = sheet.title.endswith(" data")  # what is too much to be printed says so
+        assert bool(sheet.print_area) == data
+        assert not data or sheet["A2"].hyperlink.location == f"'{sheet.title.removesuffix(' data')}'!A1"
         assert said(name).title in sheet.oddHeader.left.text
         assert sheet.max_row > 1
 

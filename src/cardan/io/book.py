@@ -92,6 +92,25 @@ def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> N
         sheet.write_string(row, column, words(str(value)), form)
 
 
+def leads_to(sheet: Any, row: int, column: int, text: str, other: str, form: Any) -> None:
+    """Write words that lead to another sheet.
+
+    Parameters
+    ----------
+    sheet : worksheet
+        Where they stand.
+    row, column : int
+        From 0.
+    text : str
+        The words.
+    other : str
+        Name of the sheet that they lead to.
+    form : format
+        How they look.
+    """
+    sheet.write_url(row, column, "internal:'" + other.replace("'", "''") + "'!A1", form, words(text))
+
+
 def words(text: str) -> str:
     """Return a text as a cell can hold it: cut to its length, without marks of control and halves of letters.
 

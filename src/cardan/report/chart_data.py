@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from cardan.io.book import put
+from cardan.io.book import leads_to, put
 from cardan.maths.arrays import Array
+from cardan.texts import _
 
 from .looks import Looks
 
-HEAD = 4
-"""Rows above the numbers: figure, panel, name, unit."""
+HEAD = 6
+"""Rows above the numbers: title, what stands here, figure, panel, name, unit."""
 
 WIDTH = 13
 """Of a column, in letters."""
+
+DIGITS = 6
+"""Of the largest number of a column."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,16 +61,23 @@ class ChartData:
         An empty one.
     looks : Looks
         Formats of the workbook.
+    page : str
+        Name of the sheet that has the charts.
     """
 
-    def __init__(self, sheet: Any, looks: Looks) -> None:
+    def __init__(self, sheet: Any, looks: Looks, page: str) -> None:
         self.sheet = sheet
         self._looks = looks
         self._column = 0
         self._known: dict[tuple[str, bytes], Place] = {}
         sheet.freeze_panes(HEAD, 0)
-        sheet.repeat_rows(0, HEAD - 1)
+        sheet.print_area(0, 0, 1, 9)
         sheet.set_row_pixels(HEAD - 2, 64)
+        put(sheet, 0, 0, sheet.get_name(), looks(bold=True, font_size=16, color="accent"))
+        told = _(
+            "Numbers of the charts on the sheet {name}, too many to be printed: clear the print area if you want them."
+        )
+        leads_to(sheet, 1, 0, told.format(name=page), page, looks(color="muted"))
 
     def begin(self, figure: str, panel: str) -> list[Any]:
         """Begin the columns of a panel and return the cell with its heading."""
@@ -73,9 +85,9 @@ class ChartData:
             self.sheet.set_column(self._column, self._column, 2)
             self._column += 1
         self._known.clear()
-        put(self.sheet, 0, self._column, figure, self._looks(bold=True))
-        put(self.sheet, 1, self._column, panel, self._looks(color="muted"))
-        return [self.sheet.get_name(), 1, self._column]
+        put(self.sheet, HEAD - 4, self._column, figure, self._looks(bold=True))
+        put(self.sheet, HEAD - 3, self._column, panel, self._looks(color="muted"))
+        return [self.sheet.get_name(), HEAD - 3, self._column]
 
     def numbers(self, name: str, unit: str, values: Array | Sequence[float]) -> Place:
         """Write a column of numbers, or find it where this panel has the same one already."""
@@ -98,9 +110,40 @@ class ChartData:
         put(
             self.sheet, HEAD - 1, column, f"[{unit}]" if unit else "", self._looks(color="muted", bottom=1, align=align)
         )
+        look = self._looks(**apart) if left else self._looks(num_format=digits([v for v in values if v is not None]))
         for row, value in enumerate(values, start=HEAD):
-            put(self.sheet, row, column, value, self._looks(**apart) if left else None)
+            put(self.sheet, row, column, value, None if value is None else look)  # a blank with looks would count as 0
         widest = max(map(len, map(str, values)), default=0) if left else 0
         self.sheet.set_column(column, column, min(max(WIDTH, widest), 48))
         self._column += 1
         return Place(sheet=self.sheet.get_name(), column=column, count=len(values))
+
+
+def digits(values: Sequence[Any]) -> str:
+    """Return the number format of a column: as many digits as its largest number has, none that are always nought.
+
+    Parameters
+    ----------
+    values : sequence of float
+        All finite.
+
+    Examples
+    --------
+    >>> digits([0.0, 90.0]), digits([0.998765432, 1.0]), digits([2e-9, 1.5e-9])
+    ('0', '0.00000', '0.0E+00')
+    """
+    sizes = np.abs(np.asarray(values, dtype=float))
+    top = float(np.max(sizes, initial=0.0))
+    if not top:
+        return "0"
+    power = math.floor(math.log10(top))
+    small = not -4 <= power <= 9
+    parts = DIGITS - 1 if small else max(0, DIGITS - 1 - power)
+    scaled = sizes / 10.0**power if small else sizes
+    least = next(
+        k
+        for k in range(parts + 1)
+        if k == parts or np.allclose(np.round(scaled, k), scaled, rtol=0.0, atol=1e-12 * max(1.0, top))
+    )
+    form = "0." + "0" * least if least else "0"
+    return f"{form}E+00" if small else form

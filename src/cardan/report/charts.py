@@ -164,7 +164,8 @@ def _curve_chart(book: Any, data: ChartData, panel: Panel) -> Any:
     marks = [mark for one in panel.series for mark in _mark(data, panel, one)]
     for one in (*marks, *drawn):
         chart.add_series(one)
-    unnamed = [k for k, one in enumerate(curves, start=len(marks)) if not one.label]
+    named_before = {one.label: k for k, one in reversed([*enumerate(curves, start=len(marks))])}
+    unnamed = [k for k, one in enumerate(curves, start=len(marks)) if not one.label or named_before[one.label] != k]
     _legend(chart, len(marks) + len(curves), [*range(len(marks)), *unnamed])
     chart.set_x_axis(axis_of(panel.x))
     chart.set_y_axis(axis_of(panel.y))
@@ -283,7 +284,7 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             above.add_series(_series(kinds, place, line={"none": True}, **_labels(texts, "ink", "above")))
             chart.combine(above)
     _legend(chart, len(bars), [k for k, one in enumerate(bars) if not one.label and limit is None])
-    font = SMALL if len(order) <= CROWD else {**SMALL, "size": 8}
+    font = {**SMALL, "size": 9 if len(order) <= CROWD else 8 if len(order) <= 1.25 * CROWD else 7}
     kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:
         values = axis_of(along if along.title else replace(along, label=panel.heading))

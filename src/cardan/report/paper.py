@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import textwrap
 from collections.abc import Sequence
 from itertools import accumulate
@@ -10,16 +11,16 @@ from typing import Any
 
 from cardan.figures import Figure
 from cardan.figures.page import laid_out
-from cardan.io.book import put, words
+from cardan.io.book import leads_to, put, words
 
 from .amounts import amount
 from .block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 from .chart_data import ChartData
-from .charts import charts, split
+from .charts import Drawn, charts, split
 from .looks import Looks
 
-NARROW, WIDE = 9, 44
-"""Letters of the narrowest column and of the widest."""
+NARROW, SHORT, WIDE = 9, 24, 44
+"""Letters of the narrowest column, of a word or two and of the widest column."""
 
 ACROSS = 118
 """Letters of a line of words, and of a page that has no wider table."""
@@ -27,11 +28,12 @@ ACROSS = 118
 MOST = 170
 """Letters of a page up to which words go all the way across its tables."""
 
-LETTER, MARGIN, LINE = 7, 5, 20
-"""Pixels of a digit, of the margin of a cell, and of a line of words."""
+LETTER, MARGIN, LINE = 7, 5, 21
+"""Pixels of a digit, of the margin of a cell, and of a line of words: rows of no stated height, as those of 20 pixels
+are written, every spreadsheet makes as high as it likes."""
 
-DENSE = 1.12
-"""Letters in the width of a digit, at the least."""
+DENSE, DENSER = 1.12, 1.16
+"""Letters in the width of a digit, at the least; in a long line they are more."""
 
 PAPER = (10.69 * 96.0, 6.6 * 96.0)
 """Pixels of a printed page within its margins, in natural size."""
@@ -41,6 +43,12 @@ INCH, DPI = 100.0, 150.0
 
 WIDEST_CHART = 900.0
 """Pixels."""
+
+HIGHEST_ROW = 545.0
+"""Pixels."""
+
+SQUEEZED = 0.72
+"""Share of its height to which a picture or a chart shrinks to stay on a page with what is above it."""
 
 
 HEAD: dict[str, Any] = {"bold": True, "text_wrap": True, "valign": "bottom", "bottom": 1, "bg_color": "#eef1f5"}
@@ -97,9 +105,18 @@ class Paper:
             self._below = 0.0
 
     def _next(self, pixels: float = LINE) -> None:
-        """Go to the next row."""
+        """Go to the next row, this one being so high; it begins a printed page where it has no room on the last."""
+        self._sheet.set_row_pixels(self.row, pixels)
+        if self._below + pixels > self._page:
+            self._breaks.append(self.row)
+            self._below = 0.0
         self.row += 1
-        self._below = (self._below + pixels) if self._below + pixels <= self._page else pixels
+        self._below += pixels
+
+    def _high(self, wanted: float, words: float) -> float:
+        """Return how high a picture becomes, with room for words about it: lower if it then stays on this page."""
+        room = math.floor(self._page - self._below - words)
+        return room if SQUEEZED * wanted <= room < wanted else min(wanted, self._page - words)
 
     def head(self, title: str, answer: str) -> None:
         """Write what stands still at the top: the title and the answer."""
@@ -110,29 +127,45 @@ class Paper:
         self._sheet.freeze_panes(self.row, 0)
         self.space()
 
-    def line(self, text: str, *, link: str = "", **how: Any) -> None:
+    def line(self, text: str, **how: Any) -> None:
         """Write words across the page, as many lines high as they need.
 
         Parameters
         ----------
         text : str
             The words.
-        link : str
-            Name of the sheet that they lead to.
         **how
             Properties of their format.
         """
         form = self._looks(text_wrap=True, **how)
-        size = float(how.get("font_size", 11))
-        high = float(LINE * _lines(text, self._letters * 11.0 / size)) * max(1.0, size / 11.0) + 4.0
+        high = self._high_of(text, self._letters, float(how.get("font_size", 11)))
         self._sheet.merge_range(self.row, 0, self.row, self._span - 1, "", form)
-        if link:
-            place = "internal:'" + link.replace("'", "''") + "'!A1"
-            self._sheet.write_url(self.row, 0, place, form, words(text))
-        else:
-            put(self._sheet, self.row, 0, text, form)
-        self._sheet.set_row_pixels(self.row, min(545.0, high))
+        put(self._sheet, self.row, 0, text, form)
         self._next(high)
+
+    def entry(self, title: str, text: str, sheet: str) -> None:
+        """Write a line of contents: the title leads to a sheet, words lie beside it.
+
+        Parameters
+        ----------
+        title, text : str
+            The words.
+        sheet : str
+            Name of the sheet.
+        """
+        leads_to(self._sheet, self.row, 0, title, sheet, self._looks(color="accent", underline=1, text_wrap=True))
+        form = self._looks(text_wrap=True, indent=1)
+        if self._span > 2:
+            self._sheet.merge_range(self.row, 1, self.row, self._span - 1, "", form)
+        put(self._sheet, self.row, 1, text, form)
+        first = self._widths[0]
+        self._next(max(self._high_of(title, first), self._high_of(text, self._letters - first - 1)))
+
+    @staticmethod
+    def _high_of(text: str, letters: float, size: float = 11.0) -> float:
+        """Return the height of a row with words across so many letters."""
+        lines = _lines(text, letters * 11.0 / size)
+        return min(HIGHEST_ROW, lines * LINE * max(1.0, size / 11.0) + (4.0 if lines > 1 else 2.0))
 
     def space(self) -> None:
         """Leave a row free."""
@@ -145,7 +178,8 @@ class Paper:
         elif isinstance(block, Words):
             self._words(block)
         elif isinstance(block, Points):
-            self._heading(block.title)
+            self._keep(LINE * 4)
+            self.heading(block.title)
             for item in block.items:
                 self.line(f"• {item}")
         elif isinstance(block, Picture):
@@ -158,7 +192,7 @@ class Paper:
         """Write words in the colour of their tone, with its sign."""
         self.line(f"{remark.sign}  {remark.text}", tone=remark.tone, bold=True)
 
-    def _heading(self, text: str) -> None:
+    def heading(self, text: str) -> None:
         """Write a heading, unless it is that of the sheet."""
         if text and text != self._title:
             put(self._sheet, self.row, 0, text, self._looks(bold=True, font_size=12, color="ink"))
@@ -168,33 +202,42 @@ class Paper:
         if block.tone != "plain":
             self.line(f"{block.sign}  {block.text}", tone=block.tone)
             return
-        self._heading(block.title)
+        self._keep(LINE + self._high_of(block.text, self._letters))
+        self.heading(block.title)
         self.line(block.text)
 
     def _table(self, table: Table) -> None:
-        heads = [_lines(headed(column), width) for column, width in zip(table.columns, self._widths, strict=False)]
-        rows = [self._lines_of(row) for row in table.rows]
-        whole = LINE * (3 + max(heads) + sum(rows))
-        self._keep(whole if whole < self._page else LINE * 6)
-        self._heading(table.title)
+        high = LINE * max(
+            _lines(headed(column), width) for column, width in zip(table.columns, self._widths, strict=False)
+        )
+        rows = [LINE * self._lines_of(table, row) for row in table.rows]
+        whole = LINE * 2 + high + sum(rows)
+        self._keep(whole if whole < self._page else LINE + high + sum(rows[:3]))
+        self.heading(table.title)
         for k, column in enumerate(table.columns):
-            put(self._sheet, self.row, k, headed(column), self._looks(**HEAD, **_side(k, column)))
-        self._sheet.set_row_pixels(self.row, LINE * max(heads) + 2)
-        self._next(LINE * max(heads))
-        for row, lines in zip(table.rows, rows, strict=True):
+            self._put(table, k, headed(column), self._looks(**HEAD, **_side(k, column)))
+        self._next(high + 2)
+        for row, pixels in zip(table.rows, rows, strict=True):
             for k, (column, cell) in enumerate(zip(table.columns, row, strict=True)):
-                self._cell(k, column, cell)
-            if lines > 1:
-                self._sheet.set_row_pixels(self.row, LINE * lines + 1)
-            self._next(LINE * lines)
+                self._cell(table, k, column, cell)
+            self._next(pixels)
         if table.note:
             self.line(table.note, font_size=9, color="muted")
 
-    def _lines_of(self, row: Sequence[Cell]) -> int:
-        return max(_lines(cell.text, width - 2) for cell, width in zip(row, self._widths, strict=False))
+    def _put(self, table: Table, k: int, value: object, form: Any) -> None:
+        """Write into a column of a table; words at its end lie across the columns that it leaves free."""
+        if _at_end(table, k) and k < self._span - 1:
+            self._sheet.merge_range(self.row, k, self.row, self._span - 1, "", form)
+        put(self._sheet, self.row, k, value, form)
 
-    def _cell(self, k: int, column: Column, cell: Cell) -> None:
-        chip = {"left": 5, "left_color": cell.chip} if cell.chip else {}
+    def _lines_of(self, table: Table, row: Sequence[Cell]) -> int:
+        widths = list(self._widths[: len(row)])
+        if _at_end(table, len(row) - 1) and len(row) < self._span:
+            widths[-1] = sum(self._widths[len(row) - 1 : self._span])
+        return max(_lines(cell.text, width - 1) for cell, width in zip(row, widths, strict=True))
+
+    def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
+        chip: dict[str, Any] = {"left": 5, "left_color": cell.chip, "indent": 1} if cell.chip else {}
         how: dict[str, Any] = {**_side(k, column), "valign": "vcenter", "bottom": 4, "bottom_color": "#d5dae2", **chip}
         found = amount(cell, column)
         if found is not None:
@@ -202,52 +245,54 @@ class Paper:
             put(self._sheet, self.row, k, found.value, look)
         else:
             text = f"{cell.sign} {cell.text}".strip()
-            put(self._sheet, self.row, k, text, self._looks(tone=cell.tone, text_wrap=True, **how))
+            self._put(table, k, text, self._looks(tone=cell.tone, text_wrap=True, **how))
 
     def _picture(self, figure: Figure) -> None:
         native, others = split(figure)
-        room = self._page - 8 * LINE
-        drawings = []
+        drawings: list[list[Drawn]] = []
         if self._data is not None:
-            drawings = list(charts(self._book, self._data, figure, native, (WIDEST_CHART, room)))
-        first = drawings[0][0].height if drawings else INCH * laid_out(figure, words=False).height
-        self._keep(first + 6 * LINE)
-        self._heading(figure.title)
+            drawings = list(charts(self._book, self._data, figure, native, (WIDEST_CHART, self._page - 4 * LINE)))
+        heights = [max(one.height for one in drawn) for drawn in drawings]
+        wanted = heights[0] if heights else INCH * laid_out(figure, words=False).height
+        about = 7 * LINE if wanted < self._page - 9 * LINE else 4 * LINE  # what fills a page leaves its words the next
+        first = self._high(wanted, about)
+        self._keep(first + about)
+        self.heading(figure.title)
         for k, drawn in enumerate(drawings):
-            if k:
-                self._keep(max(one.height for one in drawn) + 3 * LINE)
+            high = self._high(heights[k], 6 * LINE) if k else first
+            self._keep(high + 3 * LINE)
             left = 0.0
             for one in drawn:
-                one.chart.set_size({"width": one.width, "height": one.height})
+                one.chart.set_size({"width": one.width, "height": high})
                 told = {"description": words(f"{figure.title}. {figure.sentence}"), "object_position": 2}
                 self._sheet.insert_chart(self.row, 0, one.chart, {"x_offset": left, "y_offset": 4, **told})
                 left += one.width
-            self._down(max(one.height for one in drawn))
+            self._down(high)
         if others is not None:
-            self.image(others, keep=bool(drawings))
+            self.image(others)
         self.line(figure.sentence)
         self.line(figure.source, font_size=9, color="muted")
 
-    def image(self, figure: Figure, *, keep: bool = True) -> None:
-        """Insert a picture of a figure, without its words; ``keep`` it from being cut in print."""
+    def image(self, figure: Figure, *, most: float = math.inf) -> None:
+        """Insert a picture of a figure, without its words, at most so many pixels high."""
         from cardan.figures.render_matplotlib import render
 
         page = laid_out(figure, words=False)
-        inch = min(INCH, (self._page - 8 * LINE) / page.height)
-        if keep:
-            self._keep(inch * page.height + LINE)
+        high = self._high(min(most, INCH * page.height), 6 * LINE)
+        self._keep(high + 3 * LINE)
         stream = io.BytesIO()
         render(figure, stream, "png", dpi=DPI, words=False)
+        scale = high / page.height / 96.0
         options = {
             "image_data": stream,
-            "x_scale": inch / 96.0,
-            "y_scale": inch / 96.0,
+            "x_scale": scale,
+            "y_scale": scale,
             "y_offset": 4,
             "object_position": 2,
             "description": words(f"{figure.title}. {figure.sentence}"),
         }
         self._sheet.insert_image(self.row, 0, f"{figure.name}.png", options)
-        self._down(inch * page.height)
+        self._down(high)
 
     def _down(self, pixels: float) -> None:
         """Go below what is so high."""
@@ -266,21 +311,41 @@ def _side(k: int, column: Column) -> dict[str, Any]:
 
 
 def _lines(text: str, digits: float) -> int:
-    letters = max(1, int(DENSE * digits))
+    letters = max(1, int((DENSE if digits < WIDE else DENSER) * digits))
     return sum(max(1, len(textwrap.wrap(part, letters))) for part in text.splitlines() or [""])
 
 
 def _widths(tables: Sequence[Table]) -> list[int]:
-    """Return how wide columns have to be for tables below each other, and for words across them."""
+    """Return how wide columns have to be for tables below each other, and for words across them.
+
+    Words at the end of a table lie across the columns that it leaves free; the last one widens where they lack room.
+    """
     found: list[int] = []
     for table in tables:
         for k, column in enumerate(table.columns):
-            need = max((len(word) for word in headed(column).split()), default=0) + 1
-            for row in table.rows:
-                need = max(need, len(row[k].text) + 2 * bool(row[k].sign))
-            if len(found) == k:
+            while len(found) <= k:
                 found.append(NARROW)
-            found[k] = max(found[k], min(need + 2, WIDE))
+            if not _at_end(table, k):
+                found[k] = max(found[k], _need(table, k, column))
+    while sum(found) < ACROSS - WIDE:
+        found.append(NARROW)
+    for table in tables:
+        k = len(table.columns) - 1
+        if _at_end(table, k):
+            found[-1] += max(0, _need(table, k, table.columns[k]) - sum(found[k:]))
     while sum(found) < ACROSS:
         found.append(NARROW)
     return found
+
+
+def _at_end(table: Table, k: int) -> bool:
+    """Tell whether a column is the last one of a table and holds words, more than one or two."""
+    return k == len(table.columns) - 1 and table.columns[k].left and _need(table, k, table.columns[k]) > SHORT
+
+
+def _need(table: Table, k: int, column: Column) -> int:
+    """Return the letters that a column needs."""
+    heads = max((len(word) for word in headed(column).split()), default=0) + 1
+    heads = max(heads, len(headed(column)) // 3 + 1)
+    cells = (len(row[k].text) + 2 * bool(row[k].sign) for row in table.rows)
+    return min(max(heads, *cells, 0) + 2, WIDE)

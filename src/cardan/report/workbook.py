@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import io
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, words
@@ -18,6 +19,9 @@ from .paper import Paper
 
 if TYPE_CHECKING:
     from .content import Content, Excerpt
+
+SKETCH = 260.0
+"""Pixels of the drive on the first page, from top to bottom."""
 
 HEADER = 90
 """Letters of the drive's name above a printed page."""
@@ -86,7 +90,7 @@ class Sheets:
         sheet.fit_to_pages(1, 0)
         sheet.ignore_errors({"number_stored_as_text": "A1:XFD1048576"})  # numbers of shafts, lines of a file
         sheet.set_margins(left=0.5, right=0.5, top=0.75, bottom=0.75)
-        sheet.set_header(f"&L {_printed(self._title)}&R {_printed(title)}")
+        sheet.set_header(f"&L {_printed(self._title)}&R {_printed(title)}{_printed(ending)}")
         sheet.set_footer(f"&L {_printed(self._foot)}&R&P / &N")
         if colour:
             sheet.set_tab_color(colour)
@@ -109,7 +113,7 @@ class Sheets:
             data = None
             if native:
                 ending = " " + _("data")
-                data = ChartData(self.new(page.title, ending=ending, colour="#9aa3b2"), self.looks)
+                data = ChartData(self.new(page.title, ending=ending, colour="#9aa3b2"), self.looks, sheet.get_name())
             tables = [one for one in page.blocks if isinstance(one, Table)]
             paper = Paper(self._book, sheet, self.looks, tables, data)
             paper.head(page.title, page.answer)
@@ -133,12 +137,14 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     for block in (content.lights, content.cures):
         if block is not None:
             paper.block(block)
-    paper.image(content.sketch)
+    paper.image(content.sketch, most=SKETCH)
     paper.space()
-    paper.block(content.figures)
+    figures = content.figures
+    paper.block(figures if figures.title else replace(figures, title=_("Key figures")))
     paper.block(content.changes)
+    paper.heading(_("Contents"))
     for page, name in zip(content.pages, names, strict=True):
-        paper.line(page.title, link=name, color="accent", underline=1)
+        paper.entry(page.title, page.answer, name)
     paper.space()
     paper.line(f"cardan {content.version} · {content.date}", font_size=9, color="muted")
     paper.close()
