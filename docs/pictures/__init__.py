@@ -22,6 +22,7 @@ MODULES = (
     "torsion",
     "transient",
     "stability",
+    "sweeps",
     "bending",
     "gallery",
 )

@@ -28,7 +28,7 @@ MOST_COLUMNS = 9
 
 
 LETTERS = 200
-"""Letters of two lines of names across the figure."""
+"""Letters of the names in three lines across the figure, about; those at the ends have half the room."""
 
 
 def parallel_figure(
@@ -63,7 +63,7 @@ def parallel_figure(
     panel = Panel(
         series=tuple(series),
         x=Axis(low=-0.12, high=max(len(shown) - 1, 1) + 0.12, grid=False),
-        y=Axis(low=-0.09, high=1.3, grid=False),
+        y=Axis(low=-0.09, high=1.36, grid=False),
         bare=True,
     )
     text = plural("{count} point", "{count} points", count)
@@ -111,9 +111,9 @@ def _spread(values: Array) -> Array:
 
 
 def _scale_notes(k: int, column: Column, values: Array, words: Sequence[str], count: int) -> list[Series]:
-    """Return name, unit and ends of an upright axis; names stand in two lines in turn."""
+    """Return name, unit and ends of an upright axis; names stand in lines in turn."""
     side = "left" if k == 0 else "right" if k + 1 == count else "centre"
-    level = 1.13 + 0.1 * (k % 2)
+    level = 1.13 + 0.09 * (k % (3 if count > 4 else 2))
     name = shortened(title_of(column), max(14, LETTERS // count))
     notes: list[Series] = [Note(text=name, x=float(k), y=level, side=side, size=7.6, bold=True)]  # type: ignore[arg-type]
     if words and len(words) < 8:
