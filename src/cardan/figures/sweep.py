@@ -27,7 +27,7 @@ MOST_COLUMNS = 9
 """Columns that a figure of lines has room for."""
 
 
-LETTERS = 200
+LETTERS = 240
 """Letters of the names in three lines across the figure, about; those at the ends have half the room."""
 
 

@@ -35,14 +35,16 @@ def name_of(column: Column) -> str:
 
 
 def shortened(text: str, most: int = LONG) -> str:
-    """Return a text that is not too long, its end kept.
+    """Return a text that is not too long: of words the first, of a path the last.
 
     Examples
     --------
-    >>> shortened("shafts[1].spline.mean_diameter_mm", 20)
-    '…an_diameter_mm'
+    >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("irregularity of the output", 20)
+    ('…ne.mean_diameter_mm', 'irregularity of the…')
     """
-    return text if len(text) <= most else "…" + text[-(most - 6) :]
+    if len(text) <= most:
+        return text
+    return text[: most - 1].rstrip() + "…" if " " in text else "…" + text[1 - most :]
 
 
 def unit_of(column: Column) -> str:
