@@ -12,12 +12,25 @@ from .forces import carrying
 from .life import lasting
 from .losses import rubbing
 from .mobility import binding
+from .rotor import whirling_cracked
 from .run_up import running_up
 from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
-PAGES = (carrying, rubbing, bearing_up, lasting, erring, binding, straining, twisting, running_up, whirling)
+PAGES = (
+    carrying,
+    rubbing,
+    bearing_up,
+    lasting,
+    erring,
+    binding,
+    straining,
+    twisting,
+    running_up,
+    whirling,
+    whirling_cracked,
+)
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
