@@ -134,7 +134,7 @@ class Asked:
     def _on_gpu(self, si: Mapping[str, Array], count: int) -> tuple[list[tuple[str, Array]], Array]:
         from .gpu import answered
 
-        return answered(self.drive, si, count, self._told)
+        return answered(self.drive, self.questions, si, count)
 
     def _told(self, found: Many) -> Iterator[tuple[str, Array]]:
         """Yield the columns of questions about motion."""

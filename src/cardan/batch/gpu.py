@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,14 @@ from cardan.errors import MissingExtraError
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .many import Many, many
+from .many import many
+from .questions import Told, asked
 
-PIECE = 2**20
-"""Points that the device is given at a time; a short last piece is filled up, so that one program serves all."""
+PIECES = (2**10, 2**15, 2**20)
+"""Points that the device is given at a time: the least of these that holds them, filled up.
+
+Each size is compiled once, which takes seconds; a piece of the largest takes about a gigabyte.
+"""
 
 
 def jax_numpy() -> tuple[Any, Any]:
@@ -38,7 +43,7 @@ def jax_numpy() -> tuple[Any, Any]:
 
 
 def answered(
-    drive: Drive, si: Mapping[str, Array], count: int, told: Callable[[Many], Iterable[tuple[str, Array]]]
+    drive: Drive, questions: tuple[str, ...], si: Mapping[str, Array], count: int
 ) -> tuple[list[tuple[str, Array]], Array]:
     """Return answers to questions about motion, and which points are drives.
 
@@ -46,35 +51,50 @@ def answered(
     ----------
     drive : Drive
         The drive in which places and angles vary.
+    questions : tuple of str
+        Names of questions about motion.
     si : mapping of str to array (count,)
         Path without unit -> values in SI.
     count : int
-    told : function
-        Many drives -> names and arrays of the answers.
 
     Returns
     -------
     list of (str, array (count,)), array of bool (count,)
         In NumPy.
     """
-    jax, xp = jax_numpy()
-    piece = min(PIECE, 1 << max(0, count - 1).bit_length())
-
-    def program(values: dict[str, Array]) -> tuple[dict[str, Array], Array]:
-        found, real = many(drive, values, piece, xp=xp)
-        return {name: xp.broadcast_to(column, (piece,)) for name, column in told(found)}, real
-
-    run = program if mixed(drive.joints) else jax.jit(program)  # other kinds look at what they compute
+    _jax, xp = jax_numpy()
+    piece = next((size for size in PIECES if size >= count), PIECES[-1])
+    run = _program(drive, questions, piece)
     parts: dict[str, list[Array]] = {}
     reals: list[Array] = []
     for start in range(0, count, piece):
         rows = slice(start, min(start + piece, count))
         held = rows.stop - start
-        values = {
+        filled = {
             path: np.concatenate((one[rows], np.repeat(one[rows][-1:], piece - held))) for path, one in si.items()
         }
-        columns, real = run({path: xp.asarray(one) for path, one in values.items()})
+        columns, real = run({path: xp.asarray(one) for path, one in filled.items()})
         for name, column in columns.items():
             parts.setdefault(name, []).append(np.asarray(column)[:held])
         reals.append(np.asarray(real)[:held])
+    if not count:
+        return [(told.name, np.empty(0)) for told in _told(drive, questions)], np.empty(0, dtype=bool)
     return [(name, np.concatenate(column)) for name, column in parts.items()], np.concatenate(reals)
+
+
+@lru_cache(maxsize=16)
+def _program(drive: Drive, questions: tuple[str, ...], piece: int) -> Callable[[dict[str, Array]], Any]:
+    """Return what answers so many points at once, compiled where it does not look at what it computes."""
+    jax, xp = jax_numpy()
+
+    def program(values: dict[str, Array]) -> tuple[dict[str, Array], Array]:
+        found, real = many(drive, values, piece, xp=xp)
+        answers = (column for one in asked(questions) if one.of_many for column in one.of_many(found))
+        pairs = zip(_told(drive, questions), answers, strict=True)
+        return {told.name: xp.broadcast_to(column / told.factor, (piece,)) for told, column in pairs}, real
+
+    return program if mixed(drive.joints) else jax.jit(program)
+
+
+def _told(drive: Drive, questions: tuple[str, ...]) -> list[Told]:
+    return [told for one in asked(questions) for told in one.told(drive)]
