@@ -10,6 +10,8 @@ from matplotlib.image import imread
 
 from cardan.figures import palette
 from cardan.figures.axes import axis
+from cardan.figures.conversion import Conversion
+from cardan.figures.converted import converted
 from cardan.figures.figure import Cells, Figure, Panel, Row
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
@@ -63,3 +65,11 @@ def test_the_scale_grows_darker(share):
 
     assert light(palette.scale(share)) >= light(palette.scale(share + 0.1))
     assert palette.colour(f"scale {share}") == palette.scale(share)
+
+
+def test_in_other_units_the_cells_stand_where_they_did():
+    panel = Panel(series=(CELLS,), x=axis("place", "mm", [CELLS.x]), y=axis("y", "", [CELLS.y]))
+    figure = Figure(name="c", title="C", sentence="C.", source="s", rows=(Row(panels=(panel,)),))
+    (cells,) = converted(figure, Conversion(units={"length": "in"})).panels[0].series
+    np.testing.assert_allclose(cells.x, CELLS.x / 25.4)
+    np.testing.assert_array_equal(cells.values, VALUES)

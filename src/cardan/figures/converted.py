@@ -14,7 +14,7 @@ from cardan.units import spoken
 
 from .axes import steps, written
 from .conversion import ALONE, Conversion
-from .figure import Axis, Band, Bars, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
+from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 
 HEADED = re.compile(r"\[([^\[\]]+)\]\s*$")
 """The unit at the end of a panel's heading."""
@@ -144,6 +144,8 @@ def _series(one: Series, scale: _Scale, how: Conversion) -> Series:
         text = how.number(one.text, scale.notes) if bare else how.sentence(one.text)
         z = None if one.z is None else one.z * scale.x
         return replace(one, x=one.x * scale.x, y=one.y * scale.y, z=z, text=text)
+    if isinstance(one, Cells):  # what they are worth stands on no axis of the panel: it stays
+        return replace(one, x=_times(one.x, scale.x), y=_times(one.y, scale.y))
     ratio = scale.x if one.upright else scale.y
     if isinstance(one, Rule):
         return replace(one, value=one.value * ratio, text=how.sentence(one.text))
