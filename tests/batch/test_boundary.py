@@ -6,12 +6,18 @@ import numpy as np
 import pytest
 from scipy.special import mathieu_a, mathieu_b
 
+from cardan.analysis.stability import Verdict
+from cardan.analysis.torsion_stability import stability
+from cardan.batch.asking import ask_of
 from cardan.batch.boundary import boundary
 from cardan.batch.evaluators import Formula
 from cardan.batch.goals import Limit
+from cardan.drive.paths import with_values
 from cardan.errors import InputError
+from cardan.io import example
 from cardan.maths.stability_map import stability_map
 
+LIMIT = [Limit(name="growth_rate", high=0.0)]
 BOX = [(-2.0, 2.0), (-2.0, 2.0)]
 DISC = Formula.of(["x", "y"], {"r2": lambda x, y: x * x + y * y, "x": lambda x, y: x})
 HOLE = Formula.of(["x", "y"], {"r": lambda x, y: np.where(x * x + y * y < 1.0, 0.5, np.nan)})
@@ -96,6 +102,21 @@ def test_the_zones_of_mathieus_equation(accuracy):
         near = np.abs(q - 1.0) < 0.05
         assert np.min(np.abs(a[near] - curve)) < cell
     assert found.evaluations < found.grid / 2
+
+
+def test_a_drive_that_swings_itself_up():
+    """The places asked and those of the map of stability agree; the line lies between them."""
+    drive = example("unstable-drive")
+    fields = "duty.speed_rpm", "joints[0].bend_deg"
+    box = [(1280.0, 1400.0), (10.0, 26.0)]
+    found = boundary(ask_of(drive, fields, ["stability"]), box, LIMIT, coarse=(6, 2), halvings=0, accuracy=0.1)
+    speeds, bends = np.linspace(*box[0], 7), np.linspace(*box[1], 3)
+    verdict = stability(drive, over=dict(zip(fields, (speeds, bends), strict=True))).verdict
+    np.testing.assert_array_equal(found.kept, (verdict == Verdict.STABLE).ravel())
+    edge = np.concatenate(found.lines)[1:-1]
+    rates = [float(stability(with_values(drive, dict(zip(fields, one, strict=True)))).growth_rate) for one in edge]
+    # The rate rises to 3/s within the zone; a tenth of a cell of 20 rpm is left of it.
+    assert np.max(np.abs(rates)) < 0.5
 
 
 def test_it_may_be_stopped_and_gives_what_it_has():
