@@ -114,8 +114,8 @@ def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -
     again: deque[Chunk] = deque()
     suspects: deque[Chunk] = deque()
     alone: Chunk | None = None
-    out: dict[str, tuple[Chunk, Future]] = {}
-    ready: SimpleQueue[str] = SimpleQueue()
+    out: dict[Any, tuple[Chunk, Future]] = {}
+    ready: SimpleQueue[Any] = SimpleQueue()
     link.connect()
     while True:
         if not link.up():
@@ -161,7 +161,7 @@ def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -
                 future.add_done_callback(lambda one, ready=ready: ready.put(one.key))
 
 
-def _those(ready: SimpleQueue[str]) -> Iterator[str]:
+def _those(ready: SimpleQueue[Any]) -> Iterator[Any]:
     """Yield what is ready now, waiting a little for the first."""
     with suppress(Empty):
         yield ready.get(timeout=OFTEN)
