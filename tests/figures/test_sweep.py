@@ -67,6 +67,8 @@ def test_the_choice_between_goals(goals):
     dots = [one for one in of(figure, Curve) if one.marker > 4.0]
     assert sum(len(one.x) for one in dots) == np.count_nonzero(chosen)
     assert f"{np.count_nonzero(chosen)} choices, from irregularity of the output 0.001" in figure.sentence
+    one = {name: column[:1] for name, column in ROWS.items()}
+    assert drawn(pareto_figure(COLUMNS, goals, one)).sentence.startswith("One choice: irregularity of the output 0.01")
     none = {name: column[:0] for name, column in ROWS.items()}
     assert "No point" in drawn(pareto_figure(COLUMNS, goals, none)).sentence
 

@@ -223,10 +223,12 @@ def _choice(across: Column, up: Column, goals: Sequence[Goal], x: Array, y: Arra
         return _("No point keeps the limits.")
     one, two = (int(np.argmin(goal.cost({goal.name: v}))) for goal, v in zip(goals[:2], (x, y), strict=True))
     text = plural(
-        "{count} choice: {name} {first}, {other} {second}.",
+        "{count} choice, from {name} {first} with {other} {second} to {name} {third} with {other} {fourth}.",
         "{count} choices, from {name} {first} with {other} {second} to {name} {third} with {other} {fourth}.",
         len(x),
     )
+    if len(x) == 1:
+        text = _("One choice: {name} {first}, {other} {second}.")
     return text.format(
         count=counted(len(x)),
         name=name_of(across),
