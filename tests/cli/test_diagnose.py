@@ -64,7 +64,12 @@ def test_it_says_what_to_check_and_to_do_within_80_columns(cardan):
     assert (done.code, done.err) == (1, "")
     lines = [one for one in done.out.splitlines() if not one.startswith("    cardan")]
     assert widest("\n".join(lines)) <= 80
-    for words in ("For it: ", "Check: turn shaft and slip yoke", "Repair, once that is proved: replace both", "Confidence in the"):
+    for words in (
+        "For it: ",
+        "Check: turn shaft and slip yoke",
+        "Repair, once that is proved: replace both",
+        "Confidence in the",
+    ):
         assert words in done.out
 
 
