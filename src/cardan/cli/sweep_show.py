@@ -77,8 +77,8 @@ def sweep_show(
         list[str] | None,
         typer.Option(
             "--kind",
-            metavar="|".join(KINDS),
-            help=_("What --plot draws; may be repeated. By default what suits the table."),
+            metavar="KIND",
+            help=_("What --plot draws: lines, pareto, map, histogram or tornado; may be repeated; else what suits."),
             show_default=False,
         ),
     ] = None,
