@@ -94,13 +94,17 @@ def _copied(name: str, text: str, place: Path) -> Answer:
     from .answer import Answer, Remark
 
     command = ["cardan", "mobility" if name in mechanism_names() else "report", str(place)]
+    first = []
     if name in recording_names():
         command = ["cardan", "diagnose", str(place), "truck-supports.toml"]
+        needed = ("cardan", "example", "truck-supports")
+        first = [Remark(text=_("The drive that it is of:"), command=needed, tone="next")]
     return Answer(
         sentence=_("{path}: example {name} copied.").format(path=place, name=name),
         tone="good",
         remarks=(
             Remark(text=about(text)),
+            *first,
             Remark(text=_("Look at it:"), command=tuple(command), tone="next"),
         ),
         content=lambda: {"example": name, "file": str(place), "shows": about(text)},
