@@ -51,4 +51,4 @@ def test_its_fault_is_found_first(script: dict[str, Any], fault: str) -> None:
     drive = example(script["DRIVE"])
     found = diagnose(signal(FOLDER / script["file_name"](fault)), drive)
     assert found[0].cause == (FAULTS[fault] or "healthy")
-    assert found[0].score > 0.5
+    assert found[0].score > 2.0 * found[1].score
