@@ -31,6 +31,7 @@ MIXED = loads(
     'format = 1\n[[joints]]\nbend_deg = 12\n[[joints]]\nkind = "constant_velocity"\nbend_deg = 20\n[[joints]]\n'
     "bend_deg = 9\n[duty]\nspeed_rpm = 2000\n"
 )
+PAIR = replace(Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0.1), (1.5, 0, 0)], yoke_angles=[0.3]), duty=RUNNING)
 NAMES = [one.name for one in MOTION if one.name != "length"]
 CASES = {
     "angles": (
@@ -42,6 +43,7 @@ CASES = {
         POINTS,
         {"joints[1].centre_mm[2]": (-400, 400), "output.point_m[0]": (1.9, 3.0), "input.start_phase_deg": (0, 180)},
     ),
+    "pair": (PAIR, {"joints[1].centre_mm[2]": (-500, 900), "shafts[1].yoke_angle_deg": (0, 90)}),
     "slopes": (SLOPES, {"shafts[1].side_slope_deg": (-60, 60), "shafts[2].plan_slope_deg": (-80, 80)}),
     "mixed": (
         MIXED,
@@ -75,7 +77,7 @@ def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
         assert np.array_equal(np.isnan(found[column.name]), ~answered)
 
 
-@pytest.mark.parametrize(("case", "names"), [("points", NAMES), ("mixed", ["irregularity"])])
+@pytest.mark.parametrize(("case", "names"), [("pair", NAMES), ("mixed", ["irregularity"])])
 def test_jax_tells_what_numpy_tells(case, names):
     pytest.importorskip("jax")
     drive, paths, points = drawn(case, 33)
