@@ -7,6 +7,7 @@ import pytest
 
 from cardan import Drive, InputError, equivalent_joint, example, life, losses
 from cardan.batch.asking import ask_of
+from cardan.batch.many import many
 from cardan.batch.motion_questions import MOTION
 from cardan.batch.questions import questions
 from cardan.batch.work import Status
@@ -203,3 +204,20 @@ def test_an_acceleration_needs_a_speed_or_varies_it():
 def test_the_gpu_answers_motion_alone():
     with pytest.raises(InputError, match="GPU"):
         ask_of(example("truck-duty-cycle"), ["duty.torque_Nm"], ["life"], device="gpu")
+
+
+@pytest.mark.parametrize("case", ["angles", "pair", "slopes", "mixed"])
+def test_the_formulas_keep_to_the_array_standard(case):
+    """Whatever library holds the arrays: nothing but the standard is asked of it."""
+    import array_api_strict as xp
+
+    drive, paths, points = drawn(case, 20)
+    ask = ask_of(drive, paths, NAMES)
+    si = {spot.bare: spot.si(points[:, k]) for k, spot in enumerate(ask.spots)}
+    here, real = many(drive, si, 20)
+    there, same = many(drive, si, 20, xp=xp)
+    assert np.array_equal(np.asarray(same), real)
+    for question in MOTION:
+        if question.name != "length":
+            for one, other in zip(question.of_many(here), question.of_many(there), strict=True):
+                assert np.allclose(np.asarray(other), one, rtol=1e-9, atol=1e-8)
