@@ -13,6 +13,7 @@ from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
+from .designs import uniforms
 from .goals import Evaluator, Goal, Limit, check_names, excess
 from .pieces import Progress
 from .work import STATUS, Column, Rows
@@ -278,15 +279,15 @@ def _evolve(search: _Search, how: Global) -> bool:
     from scipy.optimize import differential_evolution
 
     box: Any = [(0.0, 1.0)] * len(search.low)
+    count = max(5, how.population * len(search.low))
     found: Any = differential_evolution(
         search.ranked,
         box,
         maxiter=how.generations,
-        popsize=how.population,
         tol=how.spread,
         atol=how.least,
         rng=how.seed,
-        init="sobol",
+        init=uniforms("lhs", len(search.low), how.seed, 0, count, count),
         polish=False,
         updating="deferred",
         vectorized=True,
