@@ -106,3 +106,11 @@ def test_the_colour_of_a_shaft_does_not_touch_its_number() -> None:
     (cell,) = [row[0] for row in sheet.iter_rows() if row[0].value == "2 tube"]
     assert cell.border.left.style == "thick"
     assert cell.alignment.indent == 1
+
+
+def test_a_tall_figure_stays_on_the_page_of_its_title_with_its_words() -> None:
+    panel = Panel(series=(Curve(x=np.arange(3.0), y=np.arange(3.0)),))
+    rows = (Row(panels=(panel,), height=20.0),)
+    sheet = sheet_of(Picture(figure=Figure(name="f", title="tall", sentence=SENTENCE, source="source", rows=rows)))
+    assert [one.id for one in sheet.row_breaks.brk] == []
+    assert pixels(sheet, range(1, sheet.max_row + 1)) <= PAPER[1]

@@ -28,8 +28,8 @@ INCH = 104.0
 AROUND = 84.0
 """Pixels above and below the frame of a chart: its title, axis and legend."""
 
-BAR = 16.0
-"""Pixels of a chart for each of its lying bars, at the least: its name has to have room."""
+BAR, CLOSE = 16.0, 11.0
+"""Pixels of a chart for each of its lying bars, and at the least: its name has to have room."""
 
 CROWD = 24
 """Names of bars from which on they are written smaller."""
@@ -42,11 +42,12 @@ LABELS: dict[tuple[str, str], str] = {("centre", "top"): "below", ("left", ""): 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Drawn:
-    """A chart and its size in pixels."""
+    """A chart and its size in pixels; ``least`` is the height below which it lacks room for what it names."""
 
     chart: Any
     width: float
     height: float
+    least: float
 
 
 def split(figure: Figure) -> tuple[tuple[Row, ...], Figure | None]:
@@ -134,7 +135,8 @@ def charts(
             made = _chart(book, data, figure, replace(panel, x=replace(named, grid=panel.x.grid)))
             wide = room[0] * share / sum(row.widths)
             high = max(INCH * row.height, BAR * _lying(panel)) + AROUND
-            drawn.append(Drawn(chart=made, width=wide, height=min(high, room[1])))
+            least = min(CLOSE * _lying(panel) + AROUND, room[1])
+            drawn.append(Drawn(chart=made, width=wide, height=min(high, room[1]), least=least))
         yield drawn
 
 

@@ -44,6 +44,9 @@ INCH, DPI = 100.0, 150.0
 WIDEST_CHART = 900.0
 """Pixels."""
 
+TOP = 6.0 * LINE
+"""Pixels of a printed page that are no reason to begin another one: a title and what it comes to."""
+
 HIGHEST_ROW = 545.0
 """Pixels."""
 
@@ -100,7 +103,7 @@ class Paper:
 
     def _keep(self, pixels: float) -> None:
         """Begin a new page of print where what follows has no room on this one."""
-        if self._below > 6 * LINE and self._below + pixels > self._page:
+        if self._below > TOP and self._below + pixels > self._page:
             self._breaks.append(self.row)
             self._below = 0.0
 
@@ -116,7 +119,9 @@ class Paper:
     def _high(self, wanted: float, words: float) -> float:
         """Return how high a picture becomes, with room for words about it: lower if it then stays on this page."""
         room = math.floor(self._page - self._below - words)
-        return room if SQUEEZED * wanted <= room < wanted else min(wanted, self._page - words)
+        if self._below <= TOP or SQUEEZED * wanted <= room:
+            return min(wanted, room)
+        return min(wanted, self._page - words)
 
     def head(self, title: str, answer: str) -> None:
         """Write what stands still at the top: the title and the answer."""
@@ -207,10 +212,8 @@ class Paper:
         self.line(block.text)
 
     def _table(self, table: Table) -> None:
-        high = LINE * max(
-            _lines(headed(column), width) for column, width in zip(table.columns, self._widths, strict=False)
-        )
-        rows = [LINE * self._lines_of(table, row) for row in table.rows]
+        high = LINE * self._lines_of(table, [headed(column) for column in table.columns], 0)
+        rows = [LINE * self._lines_of(table, [cell.text for cell in row]) for row in table.rows]
         whole = LINE * 2 + high + sum(rows)
         self._keep(whole if whole < self._page else LINE + high + sum(rows[:3]))
         self.heading(table.title)
@@ -230,11 +233,12 @@ class Paper:
             self._sheet.merge_range(self.row, k, self.row, self._span - 1, "", form)
         put(self._sheet, self.row, k, value, form)
 
-    def _lines_of(self, table: Table, row: Sequence[Cell]) -> int:
-        widths = list(self._widths[: len(row)])
-        if _at_end(table, len(row) - 1) and len(row) < self._span:
-            widths[-1] = sum(self._widths[len(row) - 1 : self._span])
-        return max(_lines(cell.text, width - 1) for cell, width in zip(row, widths, strict=True))
+    def _lines_of(self, table: Table, texts: Sequence[str], indent: int = 1) -> int:
+        """Return how many lines high a row of a table has to be."""
+        widths = list(self._widths[: len(texts)])
+        if _at_end(table, len(texts) - 1) and len(texts) < self._span:
+            widths[-1] = sum(self._widths[len(texts) - 1 : self._span])
+        return max(_lines(text, width - indent) for text, width in zip(texts, widths, strict=True))
 
     def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
         chip: dict[str, Any] = {"left": 5, "left_color": cell.chip, "indent": 1} if cell.chip else {}
@@ -254,7 +258,9 @@ class Paper:
             drawings = list(charts(self._book, self._data, figure, native, (WIDEST_CHART, self._page - 4 * LINE)))
         heights = [max(one.height for one in drawn) for drawn in drawings]
         wanted = heights[0] if heights else INCH * laid_out(figure, words=False).height
-        about = 7 * LINE if wanted < self._page - 9 * LINE else 4 * LINE  # what fills a page leaves its words the next
+        least = max((one.least for one in drawings[0]), default=0.0) if drawings else 0.0
+        filled = self._page - self._below
+        about = 4 * LINE if filled - 7 * LINE < least <= filled - 4 * LINE else 7 * LINE  # its words on the next page
         first = self._high(wanted, about)
         self._keep(first + about)
         self.heading(figure.title)
