@@ -185,6 +185,9 @@ def test_the_first_page_leads_to_every_other_with_its_answer(name: str) -> None:
     for page, other in zip(told.pages, book.worksheets[1:], strict=False):
         row = rows[f"'{other.title}'!A1"]
         assert (sheet.cell(row, 1).value, sheet.cell(row, 2).value) == (page.title, page.answer)
+        back = {cell.hyperlink.location for cell in other[3] if cell.hyperlink}  # above what scrolls
+        data = [f"'{title}'!A1" for title in book.sheetnames if title == f"{other.title} data"]
+        assert (back, other.freeze_panes) == ({"'Summary'!A1", *data}, "A4")
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -123,14 +123,19 @@ class Paper:
             return min(wanted, room)
         return min(wanted, self._page - words)
 
-    def head(self, title: str, answer: str) -> None:
-        """Write what stands still at the top: the title and the answer."""
+    def head(self, title: str, answer: str, others: Sequence[str] = ()) -> None:
+        """Write what stands still at the top: the title, the answer and what leads to other sheets."""
         self._title = title
         self.line(title, bold=True, font_size=16, color="accent")
         if answer:
             self.line(answer, font_size=12, color="ink")
+        for column, name in enumerate(others):
+            leads_to(self._sheet, self.row, column, f"→ {name}", name, self._looks(font_size=9, color="accent"))
+        if others:
+            self._next()
         self._sheet.freeze_panes(self.row, 0)
-        self.space()
+        if not others:
+            self.space()
 
     def line(self, text: str, **how: Any) -> None:
         """Write words across the page, as many lines high as they need.

@@ -42,7 +42,7 @@ def written(content: Content) -> bytes:
     summary = sheets.new(_("Summary"))
     names = [sheets.page(page) for page in content.pages]
     _summary(Paper(book, summary, sheets.looks, _tables_of(content)), content, names)
-    sheets.fill()
+    sheets.fill(summary.get_name())
     book.close()
     return stream.getvalue()
 
@@ -103,8 +103,8 @@ class Sheets:
         name: str = sheet.get_name()
         return name
 
-    def fill(self) -> None:
-        """Write all pages, with the sheets that they need."""
+    def fill(self, *home: str) -> None:
+        """Write all pages, with the sheets that they need; they lead back to the sheets named."""
         for page, _sheet in self._pages:
             for listing in (one for one in page.blocks if isinstance(one, Listing)):
                 _listed(self.new(listing.title), listing, self.looks)
@@ -116,7 +116,7 @@ class Sheets:
                 data = ChartData(self.new(page.title, ending=ending, colour="#9aa3b2"), self.looks, sheet.get_name())
             tables = [one for one in page.blocks if isinstance(one, Table)]
             paper = Paper(self._book, sheet, self.looks, tables, data)
-            paper.head(page.title, page.answer)
+            paper.head(page.title, page.answer, (*home, *((data.sheet.get_name(),) if data else ())))
             for block in page.blocks:
                 paper.block(block)
             paper.close()
@@ -130,6 +130,7 @@ def _tables_of(content: Content) -> list[Table]:
 def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     """Write the first page: the judgement, what must not be overlooked, limits, changes, key figures, contents."""
     paper.head(content.title, content.note)
+    paper.line(f"cardan {content.version} · {content.date}", font_size=9, color="muted")
     paper.remark(content.judgement)
     for one in content.warnings:
         paper.remark(one)
@@ -145,8 +146,6 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     paper.heading(_("Contents"))
     for page, name in zip(content.pages, names, strict=True):
         paper.entry(page.title, page.answer, name)
-    paper.space()
-    paper.line(f"cardan {content.version} · {content.date}", font_size=9, color="muted")
     paper.close()
 
 
