@@ -26,10 +26,10 @@ from .goals import Limit, check_names, excess, limit_of
 from .reductions import Reduce, States, at_work, reduce_of
 from .work import FEASIBLE, STATUS, Column, Reduction, Rows, State, Status
 
-BLOCK = 2**15
-"""Points that are answered at a time: their arrays stay in the caches."""
+BLOCK = 2**13
+"""Points that are answered at a time: their arrays stay in the caches, in memory that is not given back each time."""
 
-GATHERED = 2**18
+GATHERED = 2**16
 """Points that are summed up at a time."""
 
 RUNS = 8
