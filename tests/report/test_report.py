@@ -128,7 +128,7 @@ def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once(
     drive = example("pto-hitch")
     held = "".join(parsed(page(drive)).words)
     judged = held[held.index("shortest engaged length of the spline of shaft 2") :].split()
-    assert judged[9:14] == ["189.0", "mm", "150", "0.79", "✓passed"]
+    assert judged[9:15] == ["189.0", "mm", "≥", "150", "0.79", "✓passed"]
     tight = dataclasses.replace(drive.shafts[1].spline, gap=0.003)
     shafts = (drive.shafts[0], dataclasses.replace(drive.shafts[1], spline=tight), *drive.shafts[2:])
     failed = "".join(parsed(page(dataclasses.replace(drive, shafts=shafts))).words)
