@@ -105,3 +105,11 @@ def test_a_gap_in_time_is_a_gap_in_the_values():
     assert np.sum(np.isnan(rows[0])) == pytest.approx(500, abs=2)
     assert "1 gap" in told[0]
     assert trust < 1.0
+
+
+def test_a_channel_that_stays_at_one_value_is_told():
+    loose = np.where(np.arange(WAVE.size) < 0.7 * WAVE.size, WAVE, 0.0)
+    found = sound("front", loose)
+    assert "stays at one value for 30 %" in found.cautions[0]
+    assert found.trust == pytest.approx(0.4, abs=0.01)
+    assert sound("tacho", loose, swings=False).trust == 1.0

@@ -161,7 +161,7 @@ BROKEN = {
     "empty.csv": (b"", "is empty"),
     "titles.csv": (b"time_s,tacho\n", "has 0 rows"),
     "numbers.csv": (b"0,1\n1,2\n", "begins with numbers"),
-    "latin.csv": (b"time_s,\xb0C\n1,2\n", "is not UTF-8"),
+    "bytes.csv": (b"time_s,\xb0\x00C\n1,2\n", "is not UTF-8"),
     "back.csv": (b"time_s,front_g\n0,1\n2,1\n1,1\n", "do not rise in 1 places, first at row 3"),
     "untimed.csv": (b"front_g,rear_g\n0,1\n2,1\n", "no column of times"),
     "alone.csv": (b"time_s\n0\n1\n", "no channel beside the times"),
@@ -301,3 +301,67 @@ def test_overflown_numbers_of_a_wav_are_told(tmp_path):
     found = signal(tmp_path / "run.wav", titles=["front_g"])
     assert any("overflown" in one for one in found.cautions)
     assert found.trust < 0.2
+
+
+@pytest.mark.parametrize(
+    "titles",
+    [
+        "Time [s],Tacho [V],Acceleration front z [g]",
+        "Time (ms),Tacho (V),Accel front z (g)",
+        "time,tacho,acc front z\ns,V,g",
+        "Logger 7\nDate,2024-05-06\n\n# made by hand\nt [s],tacho,acceleration_front_z [g]",
+    ],
+)
+def test_heads_as_loggers_write_them_are_read(tmp_path, titles):
+    path = table(tmp_path / "run.csv", titles)
+    found = signal(path)
+    front = found.channels[1]
+    assert (front.name, front.quantity, front.direction, front.unit) == ("front", "acceleration", "z", "g")
+    assert front.values == pytest.approx(WAVE * 9.80665)
+    assert front.rate == pytest.approx(1e6 if "ms" in titles else 1e3)
+    assert found.tacho == 0
+    assert any("titles were taken from line 5" in one for one in found.cautions) == ("Logger" in titles)
+
+
+@pytest.mark.parametrize("code", ["utf-16", "cp1252", "utf-8-sig"])
+def test_text_of_other_programs_is_read(tmp_path, code):
+    path = table(tmp_path / "run.csv", "time_s,speed [°/s],front [m/s²]")
+    path.write_bytes(path.read_text(encoding="utf-8").encode(code))
+    found = signal(path)
+    assert [one.unit for one in found.channels] == ["deg_s", "m_s2"]
+
+
+def test_a_bad_line_is_named_by_its_number_in_the_file(tmp_path):
+    path = table(tmp_path / "run.csv")
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join(["# note", "", *lines[:50], "1,2", *lines[50:]]))
+    with pytest.raises(InputError, match="line 53 has not 3 cells"):
+        signal(path)
+
+
+def test_volts_of_nothing_named_are_no_tacho(tmp_path):
+    found = signal(table(tmp_path / "run.csv", "time_s,ch1_V,ch2 [V]"))
+    assert [one.quantity for one in found.channels] == ["other", "other"]
+    assert found.tacho is None
+    assert signal(tmp_path / "run.csv", tacho="ch1").tacho == 0
+
+
+def test_whole_numbers_of_a_wav_without_a_scale_are_doubted(tmp_path):
+    with wave.open(str(tmp_path / "run.wav"), "wb") as file:
+        file.setparams((1, 2, 1000, 0, "NONE", ""))
+        file.writeframes(struct.pack("<400h", *(np.round(WAVE * 20000).astype(int))))
+    assert signal(tmp_path / "run.wav", titles=["front_g"]).trust < 0.5
+    assert signal(tmp_path / "run.wav", titles=["front_g"], full_scale=50.0).trust == 1.0
+    assert signal(tmp_path / "run.wav", titles=["tacho"]).trust == 1.0
+
+
+def test_a_universal_file_that_is_cut_off_is_told(tmp_path):
+    pytest.importorskip("pyuff")
+    channels = tuple(Channel(name=name, values=WAVE, rate=1000.0) for name in ("a", "b", "c"))
+    path = tmp_path / "run.uff"
+    cardan.save(Signal(channels=channels), path)
+    assert not any("cut off" in one for one in signal(path).cautions)
+    path.write_bytes(path.read_bytes()[:-4000])
+    found = signal(path)
+    assert len(found.channels) == 2
+    assert any("cut off" in one for one in found.cautions)

@@ -26,6 +26,9 @@ UNEVEN = 0.02
 GAP = 1.5
 """Steps from which on values are missing between two times."""
 
+STILL = 0.1
+"""Share of the recording over which a vibration may stay at one value to the last digit."""
+
 LOST = 0.5
 """Share of the values that may be missing; beyond it a channel says nothing."""
 
@@ -102,12 +105,24 @@ def sound(name: str, values: Array, *, swings: bool = True, steady: bool = False
         text = _("{name}: jumps through its whole range {count} times; its numbers have overflown.")
         told.append(text.format(name=name, count=wrapped))
         trust *= 0.1
-    flat = _flat(values) if swings else 0.0
+    still = _still(values) if swings else 0.0
+    if still > STILL:
+        text = _("{name}: stays at one value for {share:.0f} % of the recording; its cable may be loose.")
+        told.append(text.format(name=name, share=100.0 * still))
+        trust *= max(0.1, 1.0 - 2.0 * still)
+    flat = _flat(values) if swings and still <= STILL else 0.0
     if flat > 0.0 and not wrapped:
-        text = _("{name}: clipped at its limits, {share:.2g} % of its values; peaks are cut and orders made up.")
-        told.append(text.format(name=name, share=100.0 * flat))
+        text = _("{name}: clipped at its limits, {share} % of its values; peaks are cut and orders made up.")
+        told.append(text.format(name=name, share=f"{100.0 * flat:.0f}" if flat > 0.1 else f"{100.0 * flat:.2g}"))
         trust *= max(0.2, 1.0 - 10.0 * flat)
     return Sound(values=values, trust=trust, cautions=tuple(told))
+
+
+def _still(values: Array) -> float:
+    """Return the share of the longest stretch in which every value is the one before it."""
+    change = np.flatnonzero(np.diff(values))
+    ends = np.concatenate([[-1], change, [values.size - 1]])
+    return float(np.max(np.diff(ends)) / values.size)
 
 
 def _flat(values: Array) -> float:

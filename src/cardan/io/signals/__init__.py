@@ -28,6 +28,9 @@ WRITERS = {csv.suffix: csv, wav.suffix: wav, uff.suffix: uff, ".unv": uff, tdms.
 MARKS = ((b"RIFF", ".wav"), (b"TDSm", ".tdms"), (b"    -1", ".uff"))
 """How files begin -> suffix."""
 
+UNSCALED = 0.3
+"""Trust in a channel whose numbers are of an unknown size: its orders are right, its levels are not."""
+
 LEAST_VALUES = 16
 """A channel with fewer is no recording."""
 
@@ -219,7 +222,7 @@ def _made(
                 place=means.place or one.place,
                 direction=means.direction or one.direction,
                 unit=means.unit,
-                trust=judged.trust * one.trust,
+                trust=judged.trust * one.trust * (1.0 if one.scaled or quantity in ("pulses", "other") else UNSCALED),
             )
         )
     check(problems)

@@ -118,6 +118,35 @@ class Meaning:
     direction: str = ""
 
 
+BRACKETED = re.compile(r"(?P<words>.*?)[\s_]*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
+"""A title with its unit in brackets, as most loggers write it; an index as in ``supports[1]`` is a bracket too."""
+
+TIMES = {"sec": "s", "second": "s", "seconds": "s", "msec": "ms", "milliseconds": "ms", "hr": "h", "hours": "h"}
+"""Units of time as other programs write them."""
+
+
+def underlined(title: str) -> str:
+    """Return a title whose unit stands in brackets as words with lines between them; any other as it is.
+
+    Examples
+    --------
+    >>> underlined("Acceleration front [m/s²]"), underlined("Time (sec)"), underlined("velocity_shafts[1]")
+    ('Acceleration_front_m_s2', 'Time_s', 'velocity_shafts[1]')
+    """
+    found = BRACKETED.fullmatch(title)
+    if found is None or (found["square"] or "").strip().isdecimal():
+        return title
+    words = re.sub(r"\s+", "_", found["words"].strip())
+    printed = (found["square"] or found["round"] or "").strip()
+    if words.lower() in ("time", "t"):
+        unit = printed.lower()
+        return f"{words}_{TIMES.get(unit, unit)}"
+    known = suffix_of(printed)
+    if known:
+        return f"{words}_{known}"
+    return words if any(one in WORDS for one in words.lower().split("_")) else title
+
+
 def suffix_of(printed: str) -> str:
     """Return the suffix of a unit as another program writes it, "" where it is not known.
 
@@ -141,6 +170,7 @@ def meaning(title: str) -> Meaning:
     ----------
     title : str
         Words with lines between them: a quantity, a name, a place ``supports[1]``, a direction; the unit at its end.
+        Or words with blanks and the unit in brackets.
 
     Returns
     -------
@@ -159,7 +189,7 @@ def meaning(title: str) -> Meaning:
     >>> meaning("speed_rpm").quantity, meaning("tacho").quantity, meaning("front_g").name
     ('angular_speed', 'pulses', 'front')
     """
-    words = [one for one in title.strip().split("_") if one]
+    words = [one for one in underlined(title.strip()).split("_") if one]
     lower = [one.lower() for one in words]
     if words and (lower[0] == "time" or (lower[0] == "t" and "_".join(words[1:]) in DIMENSIONS["time"])):
         return _time(title, words[1:])
@@ -185,7 +215,8 @@ def meaning(title: str) -> Meaning:
 
 
 def _likeliest(fits: list[str]) -> str:
-    return next((one for one in ("acceleration", "displacement", "angular_speed", "torque") if one in fits), fits[0])
+    sure = ("acceleration", "displacement", "angular_speed", "torque", "other")
+    return next((one for one in sure if one in fits), fits[0])
 
 
 def _named(title: str, words: list[str], own: int | None, quantity: str, factor: float, unit: str) -> Meaning:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from array import array
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -26,6 +27,12 @@ MAX_BYTES = 200_000_000
 CHUNK = 50_000
 """Lines read at once."""
 
+PREAMBLE = 60
+"""Lines above the titles that a logger writes at most."""
+
+PRINTED = bytes([9, 10, 12, 13, *range(32, 256)])
+"""Bytes of text."""
+
 TOLD = 5
 """Lines of which it is told what is wrong with them."""
 
@@ -39,24 +46,75 @@ def read(path: Path, asked: Asked) -> Raw:
         It is no such file, has no times and no rate is given, or the times do not rise.
     """
     name = path.name
-    try:
-        text = content(path, name, MAX_BYTES).decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise refuse(name, _("is not UTF-8 text")) from None
-    lines = [one for one in text.splitlines() if one.strip() and not one.lstrip().startswith("#")]
+    text = _decoded(content(path, name, MAX_BYTES), name)
+    lines, numbers = [], array("L")
+    for k, one in enumerate(text.splitlines(), start=1):
+        if one.strip() and not one.lstrip().startswith("#"):
+            lines.append(one)
+            numbers.append(k)
     if not lines:
         raise refuse(name, _("is empty"), "empty")
-    mark = ";" if ";" in lines[0] else "\t" if "\t" in lines[0] else ","
-    titles = [one.strip() for one in next(csv.reader([lines[0]], delimiter=mark))]
+    first, begin, mark, titles = _headed(lines)
+    cautions = []
+    if first:
+        text = _("{name}: its titles were taken from line {line}; what stands above them was left out.")
+        cautions.append(text.format(name=name, line=numbers[first]))
     if all(_is_number(one) for one in titles):
         if not isinstance(asked.titles, Sequence) or len(asked.titles) != len(titles):
             text = _("begins with numbers: the first line is to hold titles, as time_s and acceleration_m_s2")
             raise refuse(name, text, "missing")
-        titles, body = list(asked.titles), lines
-    else:
-        body = lines[1:]
-    table, cautions = _table(name, body, mark, len(titles), asked)
-    return _timed(name, titles, table, cautions, asked)
+        titles, begin = list(asked.titles), 0
+    table, told = _table(name, lines[begin:], mark, len(titles), asked, numbers[begin:])
+    return _timed(name, titles, table, [*cautions, *told], asked)
+
+
+def _decoded(found: bytes, name: str) -> str:
+    """Return the text of a file: UTF-8, UTF-16 with its mark, or the Windows code page that older loggers write."""
+    try:
+        return found.decode("utf-16" if found.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig")
+    except UnicodeDecodeError:
+        pass
+    try:
+        if found.translate(None, delete=PRINTED) == b"":
+            return found.decode("cp1252")
+    except UnicodeDecodeError:
+        pass
+    raise refuse(name, _("is not UTF-8 text"))
+
+
+def _headed(lines: Sequence[str]) -> tuple[int, int, str, list[str]]:
+    """Return the place of the line of titles, where the numbers begin, the mark between cells and the titles.
+
+    The titles are the first line when the second one goes with it; else the first of the lines below that has as many
+    cells, more than one, as a line of numbers after it. A line of units between them is joined to the titles.
+    """
+    for k in range(min(len(lines) - 1, PREAMBLE)):
+        mark = _mark(lines[k])
+        titles, *after = (_cells(one, mark) for one in lines[k : k + 3])
+        if all(_is_number(one) for one in titles):
+            break
+        if k and len(titles) < 2:
+            continue
+        if len(after[0]) == len(titles) and _has_numbers(after[0], mark):
+            return k, k + 1, mark, titles
+        alike = len(after) == 2 and len(after[0]) == len(after[1]) == len(titles)
+        if alike and _has_numbers(after[1], mark) and not any(_is_number(one) for one in after[0]):
+            units = [one.strip("[]() ") for one in after[0]]
+            return k, k + 2, mark, [f"{a} [{b}]" if b else a for a, b in zip(titles, units, strict=True)]
+    mark = _mark(lines[0])
+    return 0, 1, mark, _cells(lines[0], mark)
+
+
+def _mark(line: str) -> str:
+    return ";" if ";" in line else "\t" if "\t" in line else ","
+
+
+def _cells(line: str, mark: str) -> list[str]:
+    return [one.strip() for one in next(csv.reader([line], delimiter=mark))]
+
+
+def _has_numbers(cells: Sequence[str], mark: str) -> bool:
+    return any(_is_number(one.replace(",", ".") if mark != "," else one) for one in cells)
 
 
 def _is_number(cell: str) -> bool:
@@ -67,7 +125,9 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _table(name: str, lines: list[str], mark: str, wide: int, asked: Asked) -> tuple[Array, list[str]]:
+def _table(
+    name: str, lines: list[str], mark: str, wide: int, asked: Asked, numbers: Sequence[int]
+) -> tuple[Array, list[str]]:
     """Return the numbers of all lines (n, c), nan for what is none."""
     parts: list[Array] = []
     cautions: list[str] = []
@@ -91,7 +151,7 @@ def _table(name: str, lines: list[str], mark: str, wide: int, asked: Asked) -> t
         cautions.append(_("The last line of {name} is cut off; it was left out.").format(name=name))
     elif broken:
         text = _("line {line} has not {count} cells as the titles")
-        told = [Problem(name, text.format(line=k + 2, count=wide), "inconsistent") for k in broken[:TOLD]]
+        told = [Problem(name, text.format(line=numbers[k], count=wide), "inconsistent") for k in broken[:TOLD]]
         if len(broken) > TOLD:
             told.append(Problem(name, _("and {count} lines more").format(count=len(broken) - TOLD), "inconsistent"))
         check(told)

@@ -33,6 +33,8 @@ class Column:
         Where the file says them in its own way; empty otherwise.
     trust : float
         From 0 to 1.
+    scaled : bool
+        Whether the values are in their unit; not so where nobody said what a number of a WAV file stands for.
     """
 
     title: str
@@ -44,6 +46,7 @@ class Column:
     place: str = ""
     direction: str = ""
     trust: float = 1.0
+    scaled: bool = True
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import warnings
 from pathlib import Path
@@ -51,7 +52,7 @@ def read(path: Path, asked: Asked) -> Raw:
         text = _("universal files need the extra `signals`: pip install 'cardan[signals]'")
         raise MissingExtraError(text) from None
     name = path.name
-    content(path, name, MAX_BYTES)
+    marks = len(re.findall(rb"^ *-1 *\r?$", content(path, name, MAX_BYTES), re.MULTILINE))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -67,7 +68,7 @@ def read(path: Path, asked: Asked) -> Raw:
         if sets:
             raise refuse(name, _("holds no function over time, but spectra or such"), "missing")
         raise refuse(name, _("holds no whole data set 58; it may be cut off"), "empty")
-    cautions: list[str] = []
+    cautions = [_("{name} is cut off: it holds less than it says.").format(name=name)] if marks % 2 else []
     return Raw(columns=[_column(one, k, cautions) for k, one in enumerate(over_time)], cautions=tuple(cautions))
 
 
