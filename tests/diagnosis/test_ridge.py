@@ -100,3 +100,13 @@ def test_a_search_that_is_stopped_has_tried_one_length_of_the_window():
     assert shares[-1] == 1.0
     assert first.speed_at(INSIDE) == pytest.approx(TRUE, rel=0.02)
     assert whole.confidence >= first.confidence - 0.2
+
+
+def test_channels_that_end_a_little_apart_are_sought_in_together():
+    time = np.arange(8000) / 2000
+    row = np.cos(2 * np.pi * (20 * time + time**2))
+    channels = [Channel(name="a", rate=2000.0, values=row[:-90]), Channel(name="b", rate=2000.0, values=row)]
+    channels.append(Channel(name="short", rate=2000.0, values=row[:400]))
+    for some in (channels, channels[::-1]):
+        found = rotation(Signal(channels=tuple(some)), order=1.0)
+        assert found.speed_at(2.0) == pytest.approx(2 * np.pi * 24, rel=0.01)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -40,6 +40,9 @@ AROUND = 16
 
 BLOCK = 1 << 20
 """Values that are transformed at once; bounds the memory."""
+
+SHORTER = 0.9
+"""Share of the longest channel that one may last and be sought in together with it."""
 
 JUMP = 4
 """Lines that the ridge may change by from step to step."""
@@ -134,15 +137,15 @@ def ridge(
     usable = [one for one in channels if one.quantity not in ("pulses", "angle") and np.ptp(one.values) > 0.0]
     if not usable:
         raise refuse("tacho", _("there is neither a tacho nor a channel in which the speed could be sought"), "missing")
-    together = [one for one in usable if one.rate == usable[0].rate and one.start == usable[0].start]
+    together = _alike(usable)
     low, high = (one / (2.0 * math.pi) for one in speed_range) if speed_range else BAND
-    low, high = min(low, high), min(max(low, high), 0.4 * usable[0].rate)
-    low = max(low, 2.0 * LEAST_TURNS / max(usable[0].duration, 1e-9))
+    low, high = min(low, high), min(max(low, high), 0.4 * together[0].rate)
+    low = max(low, 2.0 * LEAST_TURNS / max(together[0].duration, 1e-9))
     if not low < high:
         text = _(
             "lasts {given:.3g} s with {rate:.6g} values a second; that is too little to find a speed without a tacho"
         )
-        raise refuse(usable[0].name, text.format(given=usable[0].duration, rate=usable[0].rate), "out_of_range")
+        raise refuse(together[0].name, text.format(given=together[0].duration, rate=together[0].rate), "out_of_range")
     found, factor = _strongest(together, low, high, order, progress)
     shares = _shares(found, low if speed_range else BAND[0], high, order, factor)
     best = max(shares, key=lambda one: shares[one])
@@ -166,6 +169,15 @@ def ridge(
         ),
         cautions=_told(found, best, shares, tone, steady),
     )
+
+
+def _alike(usable: Sequence[Channel]) -> list[Channel]:
+    """Return the channels with the rate and the start of the first one, but much shorter ones, cut to one length."""
+    alike = [one for one in usable if one.rate == usable[0].rate and one.start == usable[0].start]
+    longest = max(one.values.size for one in alike)
+    alike = [one for one in alike if one.values.size >= SHORTER * longest]
+    shortest = min(one.values.size for one in alike)
+    return [one if one.values.size == shortest else replace(one, values=one.values[:shortest]) for one in alike]
 
 
 def _told(found: _Path, best: float, shares: dict[float, float], tone: float, steady: float) -> tuple[str, ...]:

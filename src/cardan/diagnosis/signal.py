@@ -168,8 +168,8 @@ class Signal:
 
     @property
     def trust(self) -> float:
-        """From 0 to 1: that of its worst channel."""
-        return min(one.trust for one in self.channels)
+        """From 0 to 1: that of its worst channel; dead ones say nothing, and 0 is left where all are."""
+        return min((one.trust for one in self.channels if one.trust > 0.0), default=0.0)
 
     def channel(self, name: str) -> Channel:
         """Return the channel of a name.
