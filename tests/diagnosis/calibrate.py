@@ -19,7 +19,7 @@ import numpy as np
 
 from cardan.diagnosis.expected import FAULTS
 from cardan.diagnosis.features import NAMES
-from cardan.diagnosis.findings import SURE, diagnose
+from cardan.diagnosis.findings import SURE, diagnose, relied_on
 from cardan.diagnosis.model import Model, fitted, shipped
 from cardan.diagnosis.signal import Signal
 from cardan.diagnosis.simulate import simulate_fault
@@ -66,7 +66,7 @@ def gathered(count, start):
     with ProcessPoolExecutor() as pool:
         found = list(pool.map(partial(shown, start=start), range(count), chunksize=8))
     faults = [fault for fault, _shown in found]
-    return faults, np.stack([one.value for _fault, one in found]), np.array([one.confidence for _fault, one in found])
+    return faults, np.stack([one.value for _fault, one in found]), np.array([relied_on(one) for _fault, one in found])
 
 
 def write_model(faults, value):
@@ -78,6 +78,8 @@ def write_model(faults, value):
         "causes": list(model.causes),
         "mean": np.round(model.mean, 4).tolist(),
         "spread": np.round(model.spread, 4).tolist(),
+        "least": np.round(model.least, 4).tolist(),
+        "most": np.round(model.most, 4).tolist(),
         "weight": np.round(model.weight, 4).tolist(),
     }
     rows = [f" {json.dumps(key)}: {json.dumps(one)}" for key, one in tree.items() if key != "weight"]

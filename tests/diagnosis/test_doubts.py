@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from cardan.diagnosis.doubts import FAR, MISFIT, PLACELESS, doubts
+from cardan.diagnosis.doubts import FAR, MISFIT, PLACELESS, SIZELESS, doubts
 from cardan.diagnosis.plant import plant
 from cardan.diagnosis.signal import Signal
 from cardan.diagnosis.simulate import Runs, simulate_fault
@@ -71,3 +71,10 @@ def test_supports_shafts_and_joints_belong_to_housings(base):
     assert base.housing_at("joints[0]").kind == "input"
     assert base.housing_at("") is None
     assert [base.housing_at(one.place).kind for one in base.housings] == [one.kind for one in base.housings]
+
+
+def test_sizes_that_are_assumed_leave_doubt(recording, drive):
+    bare = replace(drive, duty=replace(drive.duty, torque=None))
+    (_text, share), *rest = told(recording, plant(bare))
+    assert share == SIZELESS
+    assert rest == []

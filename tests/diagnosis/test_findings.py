@@ -10,7 +10,7 @@ from cardan.diagnosis.findings import BY_SIGNS, diagnose
 from cardan.diagnosis.match import Signs, likely_causes
 from cardan.diagnosis.model import fitted, shipped
 from cardan.diagnosis.signal import Channel, Signal
-from cardan.diagnosis.simulate import simulate_fault
+from cardan.diagnosis.simulate import Runs, simulate_fault
 from cardan.io import example
 from tests.diagnosis.calibrate import JUDGED, PAGE, RESULT, judged, named, tables
 from tests.diagnosis.recorded_faults import CALIBRATION, EVALUATION, recording
@@ -131,3 +131,60 @@ def test_who_watches_is_told_how_far_it_is_and_may_stop_it():
     assert "stopped before" in part[0].cautions[-1]
     assert part[0].confidence < whole[0].confidence
     assert not any("stopped" in one for one in whole[0].cautions)
+
+
+def shaking_as(signal, made):
+    """Return a recording whose accelerations are made of what they were."""
+    rows = (replace(one, values=made(one)) if one.quantity == "acceleration" else one for one in signal.channels)
+    return replace(signal, channels=tuple(rows))
+
+
+@pytest.fixture(scope="module")
+def short():
+    return simulate_fault(example("truck-supports"), "unbalance", seed=4, runs=Runs(run_up=4.0, hold=1.5, rate=1024.0))
+
+
+@pytest.mark.parametrize("size", [1e-3, 1e3])
+def test_what_is_like_nothing_learnt_gives_no_certainty(short, size):
+    # As where volts were read as m/s², or mm/s² as m/s².
+    found = diagnose(shaking_as(short, lambda one: size * one.values), example("truck-supports"))
+    assert found[0].score < 0.25
+    assert "beyond all that the diagnosis has learnt" in found[0].cautions[-1]
+
+
+def test_noise_alone_gives_no_certainty(short):
+    rng = np.random.default_rng(3)
+    for size in (0.3, 3.0, 30.0):
+        noise = shaking_as(short, lambda one, size=size: size * rng.normal(size=one.values.size))
+        found = diagnose(noise, example("truck-supports"))
+        assert found[0].score < 0.35
+        assert any("rises over the noise" in one for one in found[0].cautions)
+
+
+def test_a_dead_sensor_says_nothing_and_the_others_count(short):
+    drive = example("truck-supports")
+    dead = tuple(
+        replace(one, values=np.full(one.values.size, 3.3), trust=0.0) if one.name == "input radial" else one
+        for one in short.channels
+    )
+    found, whole = diagnose(replace(short, channels=dead), drive)[0], diagnose(short, drive)[0]
+    assert found.cause == whole.cause == "F01"
+    assert found.confidence > 0.9 * whole.confidence
+
+
+def test_a_torque_counted_the_other_way_round_changes_nothing(short):
+    turned = (replace(one, values=-one.values) if one.quantity == "torque" else one for one in short.channels)
+    drive = example("truck-supports")
+    found = diagnose(replace(short, channels=tuple(turned)), drive)
+    assert [one.score for one in found] == [one.score for one in diagnose(short, drive)]
+
+
+def test_a_sensor_that_came_off_breaks_nothing(short):
+    off = shaking_as(short, lambda one: np.where(np.arange(one.values.size) < 2000, one.values, 0.0))
+    assert diagnose(off, example("truck-supports"))[0].score < 0.25
+
+
+def test_without_vibration_it_is_said_what_there_is(short):
+    bare = Signal(channels=short.channels[:1], tacho=0, cautions=("A WAV file does not say what it measures.",))
+    with pytest.raises(InputError, match=r"it has tacho \(pulses\); A WAV file does not say what it measures$"):
+        diagnose(bare, example("truck-supports"))

@@ -22,9 +22,9 @@ TOO_SLOW = 0.5
 APART = 0.03
 """Share by which the mean speed of the output may differ from that of the shaft: over whole turns joints make none."""
 
-MISFIT, FAR, PLACELESS = 0.3, 0.6, 0.8
+MISFIT, FAR, PLACELESS, SIZELESS = 0.3, 0.6, 0.8, 0.6
 """What is left of the confidence: where two speeds contradict each other, where the recording lies outside of the
-running of the drive, where a sensor does not say its place."""
+running of the drive, where a sensor does not say its place, where the drive does not say what its sizes follow from."""
 
 
 def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
@@ -41,6 +41,10 @@ def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, 
     """
     yield from _speeds(shaft, base)
     yield from _other_speeds(signal, shaft)
+    if base.assumed:
+        text = _("The drive does not say {names}; the sizes to be expected are assumed.")
+        decide = any(one == "duty.torque" or one.endswith(".mass") for one in base.assumed)
+        yield text.format(names=", ".join(base.assumed)), SIZELESS if decide else 1.0
     shaking = [one for one in signal.measured if one.quantity in ("acceleration", "velocity", "displacement")]
     lost = [one for one in shaking if base.housing_at(one.place) is None]
     if lost:

@@ -59,6 +59,9 @@ DIFFERENT = 0.3
 NEAR_THIRD = 0.05
 """Share of a third of the critical speed within which a peak of order 3 counts as its."""
 
+SILENT = 0.4
+"""Share of the confidence that is left where nothing that follows the shaft rises over the noise."""
+
 BINS = 14
 """Of speed in a run-up."""
 
@@ -157,7 +160,7 @@ def features(
     shaft = rotation(signal, speed_range=speeds, progress=watch)
     radial, axial = accelerations(signal, shaft, base, watch)
     if not radial:
-        raise refuse("signal", _("the recording has no channel of vibration across the shaft"), "missing")
+        raise refuse("signal", _no_vibration(signal), "missing")
     first = radial[0].found
     torque, told = _torque(signal, first.time, base.torque)
     held = _held(first)
@@ -173,7 +176,7 @@ def features(
     watch(1.0)
     value = np.asarray([out[name] for name in NAMES])
     known = float(np.mean(np.isfinite(value)))
-    misfits = tuple(doubts(signal, shaft, base))
+    misfits = (*doubts(signal, shaft, base), *_silent(radial, high))
     return Features(
         value=value,
         speed=shaft.speeds,
@@ -186,14 +189,28 @@ def features(
             *signal.cautions,
             *shaft.cautions,
             *(text for text, _share in misfits),
-            *_unknown(out, told, low, base),
+            *_unknown(out, told, low),
             *((_("It was stopped before all channels were looked at."),) if stopped else ()),
         ),
         rotation=shaft,
     )
 
 
-def _unknown(out: dict[str, float], told: bool, low: Array, base: Plant) -> list[str]:
+def _no_vibration(signal: Signal) -> str:
+    """Return that nothing shakes, with what there is instead and what was doubtful in it."""
+    text = _("the recording has no channel of vibration across the shaft; it has {channels}")
+    there = ", ".join(f"{one.name} ({one.quantity.replace('_', ' ')})" for one in signal.channels)
+    return "; ".join((text.format(channels=there), *(one.rstrip(".") for one in signal.cautions)))
+
+
+def _silent(radial: list[Track], high: Array) -> list[tuple[str, float]]:
+    """Return the doubt of a recording in which nothing follows the shaft, with the share of confidence it leaves."""
+    if high.any() and not any(stands_out(radial, order, high) for order in (1.0, 2.0)):
+        return [(_("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it."), SILENT)]
+    return []
+
+
+def _unknown(out: dict[str, float], told: bool, low: Array) -> list[str]:
     found = []
     if not told or not low.any():
         found.append(_("The recording has no two torques at one speed: what the torque changes is not known."))
@@ -203,18 +220,16 @@ def _unknown(out: dict[str, float], told: bool, low: Array, base: Plant) -> list
         found.append(_("There is no axial sensor: a bent shaft is hard to tell from an unbalance."))
     if math.isnan(out["uneven"]):
         found.append(_("The speed of the output was not recorded: how evenly it turns is not known."))
-    if base.assumed:
-        text = _("The drive does not say {names}; the sizes to be expected are assumed.")
-        found.append(text.format(names=", ".join(base.assumed)))
     return found
 
 
 def _torque(signal: Signal, time: Array, usual: float) -> tuple[Array, bool]:
     """Return the torque of every window, and whether it was measured."""
-    at = next((one for one in signal.channels if one.quantity == "torque"), None)
+    at = next((one for one in signal.channels if one.quantity == "torque" and one.trust > 0.0), None)
     if at is None:
         return np.full(time.size, usual), False
-    return np.interp(time, at.time, running(at.values, 0.25 * at.rate)), True
+    found = np.interp(time, at.time, running(at.values, 0.25 * at.rate, ends="reflect"))
+    return (found if np.max(found) >= -np.min(found) else -found), True  # which way a sensor counts is its own
 
 
 def _held(found: TrackedOrders) -> float:
@@ -320,12 +335,13 @@ def _over_speed(
         if level.size < 4:
             at.append(math.nan)
             continue
-        out[f"peak_of_{order:.0f}"] = math.log10(float(np.percentile(level, 98)) / float(np.median(level)))
+        if np.median(level) > 0.0:
+            out[f"peak_of_{order:.0f}"] = math.log10(float(np.percentile(level, 98)) / float(np.median(level)))
         at.append(float(first.speed[inside][int(np.argmax(level))]))
     near = np.abs(3.0 * first.speed / base.critical - 1.0) < NEAR_THIRD
     rest = np.abs(3.0 * first.speed / base.critical - 1.0) > 3.0 * NEAR_THIRD
     if np.sum(moving & near) > 1 and np.any(moving & rest):
-        level = curve[-3.0]
+        level = np.maximum(curve[-3.0], 1e-300)
         out["at_third"] = math.log10(float(np.max(level[moving & near])) / float(np.median(level[moving & rest])))
     return at[0], at[1]
 
@@ -346,7 +362,7 @@ def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], hi
     shares = [
         (one.mass * mean_of(one, 1.0, high)[0], mean_of(one, 1.0, high)[0] / mean_of(across[one.kind], 1.0, high)[0])
         for one in axial
-        if one.kind in across
+        if one.kind in across and stands_out([one, across[one.kind]], 1.0, high)
     ]
     if shares:
         out["axial_share"] = math.log10(max(shares)[1])

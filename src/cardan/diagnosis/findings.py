@@ -29,6 +29,9 @@ MOST = 4
 BY_SIGNS = 0.3
 """Confidence in causes that are ranked by signs alone."""
 
+UNLIKE, MOST_UNLIKE = 0.4, 3
+"""What a feature beyond all of the calibration leaves of the confidence, and how many of them count."""
+
 SURE = 0.98
 """Largest confidence: the calibration is of simulated recordings."""
 
@@ -140,10 +143,15 @@ def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding,
     """
     rows = (known or catalogue()).rows(Fault)
     model = shipped()
-    confidence = min(SURE, seen.confidence)
+    sentences = [_sentence(name, value, seen) for name, value in zip(model.features, seen.value, strict=True)]
+    beyond = model.beyond(seen.value)
+    confidence = relied_on(seen)
     score = confidence * model.probability(seen.value) + (1.0 - confidence) / len(model.causes)
     speaks = model.speaks(seen.value)
-    sentences = [_sentence(name, value, seen) for name, value in zip(model.features, seen.value, strict=True)]
+    text = _(
+        "This is beyond all that the diagnosis has learnt of: {said} A unit, a scale or the drive file may be wrong."
+    )
+    strange = (text.format(said=" ".join(sentences[k] for k in beyond[:MOST_UNLIKE])),) if beyond else ()
     found = []
     for k in sorted(range(len(model.causes)), key=lambda k: -score[k]):
         order = np.argsort(-np.abs(speaks[k]))
@@ -156,10 +164,16 @@ def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding,
                 evidence=tuple(text for size, text in told if size > 0.0)[:MOST],
                 against=tuple(text for size, text in told if size < 0.0)[:MOST],
                 confidence=confidence,
-                cautions=seen.cautions,
+                cautions=(*seen.cautions, *strange),
             )
         )
     return tuple(found)
+
+
+def relied_on(seen: Features) -> float:
+    """Return how far a recording can be relied on, from 0 to 1: less where it shows what nobody has learnt of."""
+    beyond = len(shipped().beyond(seen.value))
+    return float(min(SURE, seen.confidence) * UNLIKE ** min(beyond, MOST_UNLIKE))
 
 
 def _finding(cause: str, row: Fault | None, **more: object) -> Finding:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -44,7 +45,8 @@ def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, 
         watch.next()
         if watch.stopped:
             break
-        if channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
+        dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
+        if dead or channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
             continue
         cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
         if cut > 0.4 * channel.rate or channel.values.size < 100:
@@ -69,8 +71,8 @@ def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, 
     return best[1.0], best[2.0]
 
 
-def running(values: Array, width: float) -> Array:
-    """Return the running mean over a width, as if there were nothing beyond the ends."""
+def running(values: Array, width: float, *, ends: Literal["constant", "reflect"] = "constant") -> Array:
+    """Return the running mean over a width, as if there were nothing beyond the ends, or with its ``reflect``ion."""
     from scipy.ndimage import uniform_filter1d
 
-    return np.asarray(uniform_filter1d(values, max(1, int(width)), mode="constant"))
+    return np.asarray(uniform_filter1d(values, max(1, int(width)), mode=ends))

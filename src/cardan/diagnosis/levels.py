@@ -52,7 +52,8 @@ def accelerations(
     for channel in signal.measured:
         if watch is not None:
             watch.next()
-        if channel.quantity not in powers or channel.direction == "torsion" or not np.any(channel.values):
+        dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
+        if channel.quantity not in powers or channel.direction == "torsion" or dead:
             continue
         if watch is not None and watch.stopped and radial:
             break
@@ -88,7 +89,7 @@ def floor_of(track: Track, order: float, which: Array) -> float:
 
 def force_on(tracks: list[Track], order: float, which: Array) -> float:
     """Return the amplitude of the forces on all housings together."""
-    return math.sqrt(sum((one.mass * mean_of(one, order, which)[0]) ** 2 for one in tracks))
+    return math.hypot(*(one.mass * mean_of(one, order, which)[0] for one in tracks))
 
 
 def stands_out(tracks: list[Track], order: float, which: Array) -> bool:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib import resources
 
 import numpy as np
 
 from cardan.maths.arrays import Array
+
+BEYOND = 1.0
+"""Standard deviations beyond all of the calibration from which on a feature is like nothing that was learnt."""
 
 FAR = 3.0
 """Standard deviations beyond which a feature counts no more."""
@@ -27,6 +30,8 @@ class Model:
         Of the features in the calibration.
     weight : array (c, 1 + 2f)
         Of 1, z, and z² − 1 of every feature, z its distance from the mean over the spread.
+    least, most : array (f,)
+        Of the features in the calibration.
     """
 
     features: tuple[str, ...]
@@ -34,6 +39,14 @@ class Model:
     mean: Array
     spread: Array
     weight: Array
+    least: Array
+    most: Array
+
+    def beyond(self, value: Array) -> tuple[int, ...]:
+        """Return the features (f,) that lie a spread or more beyond all of the calibration, the farthest first."""
+        below, above = self.least - np.asarray(value, dtype=float), np.asarray(value, dtype=float) - self.most
+        off = np.nan_to_num(np.maximum(below, above) / self.spread, nan=0.0)
+        return tuple(int(k) for k in np.argsort(-off, kind="stable") if off[k] >= BEYOND)
 
     def terms(self, value: Array) -> Array:
         """Return 1, z and z² − 1 of features, array (..., f) to array (..., 1 + 2f); what is not known adds nothing."""
@@ -71,6 +84,8 @@ def model_of(tree: dict[str, object]) -> Model:
         mean=np.asarray(tree["mean"], dtype=float),
         spread=np.asarray(tree["spread"], dtype=float),
         weight=np.asarray(tree["weight"], dtype=float),
+        least=np.asarray(tree["least"], dtype=float),
+        most=np.asarray(tree["most"], dtype=float),
     )
 
 
@@ -107,6 +122,8 @@ def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: f
         mean=np.nanmean(value, axis=0),
         spread=np.where(spread > 0.0, spread, 1.0),
         weight=np.zeros((len(names), 1 + 2 * len(features))),
+        least=np.nanmin(value, axis=0),
+        most=np.nanmax(value, axis=0),
     )
     terms = bare.terms(value)
     truth = np.eye(len(names))[[names.index(one) for one in cause]]
@@ -123,10 +140,4 @@ def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: f
         return cost, slope.ravel()
 
     best = minimize(surprise, bare.weight.ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 2000})
-    return Model(
-        features=features,
-        causes=names,
-        mean=bare.mean,
-        spread=bare.spread,
-        weight=np.asarray(best.x).reshape(bare.weight.shape),
-    )
+    return replace(bare, weight=np.asarray(best.x).reshape(bare.weight.shape))
