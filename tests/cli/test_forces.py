@@ -57,7 +57,7 @@ def test_json_is_the_forces(cardan):
     assert said["status"] == "determinate"
 
 
-def test_the_order_of_reckoning_by_hand_is_told(cardan):
+def test_the_order_of_calculating_by_hand_is_told(cardan):
     assert "the reactions follow from shaft 3, then 4, then 2, then 1." in plain(cardan("forces", TRUCK).out)
     assert cardan("forces", TRUCK, "--json").content["solving_order"] == [[3], [4], [2], [1]]
     pump = EXAMPLES / "overconstrained-pump.toml"

@@ -83,7 +83,7 @@ def test_the_table_has_the_step_asked_for(cardan):
 
 @pytest.mark.parametrize("name", ["w-arrangement", "single-20deg"])
 def test_accelerations_that_are_rounding_are_shown_as_zero(cardan, name):
-    """The output of an even drive, and a single joint at its dead points; JSON keeps what was reckoned."""
+    """The output of an even drive, and a single joint at its dead points; JSON keeps what was calculated."""
     path = EXAMPLES / f"{name}.toml"
     tables = cardan("motion", path, "--angle-deg", "0", "--angle-deg", "90").out.split("\n\n")
     turn = next(part for part in tables if part.strip().startswith("input")).splitlines()[2:]

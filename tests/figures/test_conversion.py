@@ -50,7 +50,7 @@ def test_a_number_goes_with_its_unit(text, said):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("Reckoned by cardan 0.1.0 in 2.5 s.", "Reckoned by cardan 0.1.0 in 2,5 s."),
+        ("Calculated by cardan 0.1.0 in 2.5 s.", "Calculated by cardan 0.1.0 in 2,5 s."),
         ("truck-2.5.toml at 1\u202f234.5 rpm", "truck-2.5.toml at 1\u202f234,5 rpm"),
         ("here 0.0009, 0.0012", "here 0,0009; 0,0012"),
         ("on shaft 2, 0.016 N·m", "on shaft 2, 0,016 N·m"),
