@@ -28,11 +28,11 @@ INCH = 104.0
 AROUND = 84.0
 """Pixels above and below the frame of a chart: its title, axis and legend."""
 
-BAR, CLOSE = 16.0, 11.0
-"""Pixels of a chart for each of its lying bars, and at the least: its name has to have room."""
+BAR = 16.0
+"""Pixels of a chart for each of its lying bars: its name has to have room."""
 
-CROWD = 24
-"""Names of bars from which on they are written smaller."""
+SIZES = ((24, 9, 13.5), (30, 8, 12.5), (math.inf, 7, 11.0))
+"""Up to how many bars their names have which size, and the pixels that one needs at the least."""
 
 TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
 """Colour behind lying bars, up to their limit."""
@@ -135,7 +135,7 @@ def charts(
             made = _chart(book, data, figure, replace(panel, x=replace(named, grid=panel.x.grid)))
             wide = room[0] * share / sum(row.widths)
             high = max(INCH * row.height, BAR * _lying(panel)) + AROUND
-            least = min(CLOSE * _lying(panel) + AROUND, room[1])
+            least = min(_size(_lying(panel))[1] * _lying(panel) + AROUND, room[1])
             drawn.append(Drawn(chart=made, width=wide, height=min(high, room[1]), least=least))
         yield drawn
 
@@ -143,6 +143,11 @@ def charts(
 def _lying(panel: Panel) -> int:
     """Return how many lying bars stand one above the other."""
     return len(panel.y.ticks) if any(isinstance(one, Bars) and one.lying for one in panel.series) else 0
+
+
+def _size(count: int) -> tuple[int, float]:
+    """Return the size of the names of so many bars, and the pixels that one needs at the least."""
+    return next((size, pixels) for most, size, pixels in SIZES if count <= most)
 
 
 def _chart(book: Any, data: ChartData, figure: Figure, panel: Panel) -> Any:
@@ -286,7 +291,7 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             above.add_series(_series(kinds, place, line={"none": True}, **_labels(texts, "ink", "above")))
             chart.combine(above)
     _legend(chart, len(bars), [k for k, one in enumerate(bars) if not one.label and limit is None])
-    font = {**SMALL, "size": 9 if len(order) <= CROWD else 8 if len(order) <= 1.25 * CROWD else 7}
+    font = {**SMALL, "size": _size(len(order))[0]}
     kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:
         values = axis_of(along if along.title else replace(along, label=panel.heading))

@@ -101,7 +101,7 @@ class Paper:
         """Tell where printed pages should begin; a spreadsheet that does not ask may cut pictures."""
         self._sheet.set_h_pagebreaks(self._breaks)
 
-    def _keep(self, pixels: float) -> None:
+    def keep(self, pixels: float) -> None:
         """Begin a new page of print where what follows has no room on this one."""
         if self._below > TOP and self._below + pixels > self._page:
             self._breaks.append(self.row)
@@ -188,7 +188,7 @@ class Paper:
         elif isinstance(block, Words):
             self._words(block)
         elif isinstance(block, Points):
-            self._keep(LINE * 4)
+            self.keep(LINE * 4)
             self.heading(block.title)
             for item in block.items:
                 self.line(f"• {item}")
@@ -212,7 +212,7 @@ class Paper:
         if block.tone != "plain":
             self.line(f"{block.sign}  {block.text}", tone=block.tone)
             return
-        self._keep(LINE + self._high_of(block.text, self._letters))
+        self.keep(LINE + self._high_of(block.text, self._letters))
         self.heading(block.title)
         self.line(block.text)
 
@@ -220,7 +220,7 @@ class Paper:
         high = LINE * self._lines_of(table, [headed(column) for column in table.columns], 0)
         rows = [LINE * self._lines_of(table, [cell.text for cell in row]) for row in table.rows]
         whole = LINE * 2 + high + sum(rows)
-        self._keep(whole if whole < self._page else LINE + high + sum(rows[:3]))
+        self.keep(whole if whole < self._page else LINE + high + sum(rows[:3]))
         self.heading(table.title)
         for k, column in enumerate(table.columns):
             self._put(table, k, headed(column), self._looks(**HEAD, **_side(k, column)))
@@ -234,15 +234,15 @@ class Paper:
 
     def _put(self, table: Table, k: int, value: object, form: Any) -> None:
         """Write into a column of a table; words at its end lie across the columns that it leaves free."""
-        if _at_end(table, k) and k < self._span - 1:
-            self._sheet.merge_range(self.row, k, self.row, self._span - 1, "", form)
+        if _at_end(table, k) and k < len(self._widths) - 1:
+            self._sheet.merge_range(self.row, k, self.row, len(self._widths) - 1, "", form)
         put(self._sheet, self.row, k, value, form)
 
     def _lines_of(self, table: Table, texts: Sequence[str], indent: int = 1) -> int:
         """Return how many lines high a row of a table has to be."""
         widths = list(self._widths[: len(texts)])
-        if _at_end(table, len(texts) - 1) and len(texts) < self._span:
-            widths[-1] = sum(self._widths[len(texts) - 1 : self._span])
+        if _at_end(table, len(texts) - 1):
+            widths[-1] = sum(self._widths[len(texts) - 1 :])
         return max(_lines(text, width - indent) for text, width in zip(texts, widths, strict=True))
 
     def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
@@ -267,11 +267,11 @@ class Paper:
         filled = self._page - self._below
         about = 4 * LINE if filled - 7 * LINE < least <= filled - 4 * LINE else 7 * LINE  # its words on the next page
         first = self._high(wanted, about)
-        self._keep(first + about)
+        self.keep(first + about)
         self.heading(figure.title)
         for k, drawn in enumerate(drawings):
             high = self._high(heights[k], 6 * LINE) if k else first
-            self._keep(high + 3 * LINE)
+            self.keep(high + 3 * LINE)
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": high})
@@ -290,7 +290,7 @@ class Paper:
 
         page = laid_out(figure, words=False)
         high = self._high(min(most, INCH * page.height), 6 * LINE)
-        self._keep(high + 3 * LINE)
+        self.keep(high + 3 * LINE)
         stream = io.BytesIO()
         render(figure, stream, "png", dpi=DPI, words=False)
         scale = high / page.height / 96.0

@@ -15,7 +15,7 @@ from .block import Listing, Page, Picture, Table
 from .chart_data import ChartData
 from .charts import split
 from .looks import CODE, Looks
-from .paper import Paper
+from .paper import LINE, Paper
 
 if TYPE_CHECKING:
     from .content import Content, Excerpt
@@ -143,6 +143,7 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     figures = content.figures
     paper.block(figures if figures.title else replace(figures, title=_("Key figures")))
     paper.block(content.changes)
+    paper.keep(1.5 * LINE * (1 + len(names)))
     paper.heading(_("Contents"))
     for page, name in zip(content.pages, names, strict=True):
         paper.entry(page.title, page.answer, name)
