@@ -21,6 +21,8 @@ def test_a_goal_is_told_as_it_was_written(text):
         ("a <= 0.02", Limit(name="a", high=0.02)),
         ("a>=-5e3", Limit(name="a", low=-5000.0)),
         ("-1 <= shafts[1].yoke_angle_deg <= .5", Limit(name="shafts[1].yoke_angle_deg", low=-1.0, high=0.5)),
+        ("a <= 0.0200000001", Limit(name="a", high=0.0200000001)),
+        ("a >= 1234567.25", Limit(name="a", low=1234567.25)),
     ],
 )
 def test_limits_are_read_and_told(text, limit):

@@ -94,7 +94,8 @@ def test_points_are_counted_by_how_they_went():
 def test_the_name_tells_sweeps_apart_and_the_same_ones_alike():
     names = {work().name, work(constraints=[]).name, work(reduce=[]).name, work(title="other").name}
     names |= {work_of(with_values(DRIVE, {"joints[1].bend_deg": 11.0}), AXES, ["irregularity"]).name}
-    assert len(names) == 5
+    names |= {work(constraints=["alpha_eq_deg <= 15.0000001"]).name}
+    assert len(names) == 6
     assert work().name == pickle.loads(pickle.dumps(work())).name
 
 

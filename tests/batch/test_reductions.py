@@ -10,6 +10,7 @@ import pytest
 from cardan import InputError, Listed, Spaced
 from cardan.batch import summaries
 from cardan.batch.axes import Points
+from cardan.batch.kinds import KINDS
 from cardan.batch.reductions import Reduce, at_work, reduce_of
 from cardan.batch.work import Column
 
@@ -179,3 +180,34 @@ def test_what_cannot_be_told_is_refused(what, field, expected):
 def test_texts_that_tell_nothing_are_refused(text):
     with pytest.raises(InputError):
         reduce_of(text)
+
+
+@pytest.mark.parametrize(("low", "high", "bins"), [(0.0, 1.0, 10), (0.1, 0.7, 6), (1e-3, 5e-3, 40)])
+def test_numbers_on_an_edge_count_where_the_edges_told_put_them(low, high, bins):
+    edges = np.linspace(low, high, bins + 1)
+    values = np.concatenate([edges, np.nextafter(edges, -9.0), np.nextafter(edges, 9.0), [-np.inf, np.inf]])
+    state = summaries.histogram_add(summaries.histogram_empty(1, bins), values, None, low=low, high=high)
+    assert state["counts"] == [np.histogram(values[np.isfinite(values)], edges)[0].tolist()]
+    assert state["below"] == [np.count_nonzero(values < low)]
+    assert state["above"] == [np.count_nonzero(values > high)]
+
+
+@pytest.mark.parametrize("percent", [0, 1, 12.5, 95, 99.9, 100])
+def test_percentiles_of_few_numbers_are_those_of_numpy_bit_for_bit(percent):
+    values = np.random.default_rng(1).normal(size=4999)
+    state = summaries.rank_add(summaries.rank_empty(1), values, None)
+    value = Reduce(kind="percentile", of="y_deg", percent=percent)
+    assert KINDS["percentile"].value(value, state, 0, dict)["value"] == np.percentile(values, percent)
+
+
+def test_a_mean_with_an_infinite_number_is_infinite_however_it_is_cut():
+    def seen(*values):
+        return summaries.moment_add(summaries.moment_empty(1), np.asarray(values), None)
+
+    for whole in (seen(1.0, math.inf), *(summaries.moment_merge(*two) for two in _both(seen(1.0), seen(math.inf)))):
+        assert whole["mean"] == [math.inf]
+        assert KINDS["std"].value(Reduce(kind="std"), whole, 0, dict)["value"] is None
+
+
+def _both(one, other):
+    return (one, other), (other, one)

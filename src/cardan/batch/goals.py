@@ -83,11 +83,10 @@ class Limit:
     high: float = math.inf
 
     def __str__(self) -> str:
+        low, high = _exact(self.low), _exact(self.high)
         if math.isinf(self.low):
-            return f"{self.name} <= {self.high:g}"
-        return (
-            f"{self.name} >= {self.low:g}" if math.isinf(self.high) else f"{self.low:g} <= {self.name} <= {self.high:g}"
-        )
+            return f"{self.name} <= {high}"
+        return f"{self.name} >= {low}" if math.isinf(self.high) else f"{low} <= {self.name} <= {high}"
 
     def excess(self, rows: Rows) -> Array:
         """Return how far values lie beyond the range, a share of the end passed: array (n,), negative within.
@@ -162,6 +161,12 @@ def limit_of(text: str) -> Limit:
     if low > high:
         raise refuse("limits", _("{text}: no number is so small and so great").format(text=repr(text)), "inconsistent")
     return Limit(name=found[2], low=low, high=high)
+
+
+def _exact(value: float) -> str:
+    """Return a number as short as it can be told without loss."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(value)
 
 
 def check_names(named: Iterable[Goal | Limit | str], columns: Iterable[Column]) -> None:

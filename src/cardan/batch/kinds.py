@@ -114,7 +114,9 @@ class Moment:
         """Return the value of a group."""
         n = state["n"][group]
         if self.spread:
-            return {"value": math.sqrt(state["square"][group] / (n - 1)) if n > 1 else None, "rows": n}
+            square = state["square"][group]
+            known = n > 1 and not math.isnan(square)
+            return {"value": math.sqrt(square / (n - 1)) if known else None, "rows": n}
         return {"value": state["mean"][group] if n else None, "rows": n}
 
 
@@ -163,7 +165,7 @@ class Rank:
 
     def value(self, what: Reduce, state: State, group: int, point: Callable[[int], Value]) -> Value:
         """Return the value of a group."""
-        found, bound = summaries.rank_result(state[group], 0.01 * what.percent)
+        found, bound = summaries.rank_result(state[group], what.percent / 100.0)
         return {"value": None if math.isnan(found) else found, "bound": bound}
 
 

@@ -103,11 +103,13 @@ def moment_add(state: State, values: Array, groups: Groups) -> State:
     if groups is None:
         n = np.asarray([values.size])
         mean = np.asarray([float(np.mean(values)) if values.size else 0.0])
-        square = np.asarray([float(np.sum(np.square(values - mean[0])))])
+        with np.errstate(invalid="ignore"):  # of an infinite number there is no distance
+            square = np.asarray([float(np.sum(np.square(values - mean[0])))])
     else:
         n = np.bincount(groups, minlength=count)
         mean = np.bincount(groups, values, minlength=count) / np.maximum(n, 1)
-        square = np.bincount(groups, (values - mean[groups]) ** 2, minlength=count)
+        with np.errstate(invalid="ignore"):
+            square = np.bincount(groups, (values - mean[groups]) ** 2, minlength=count)
     return moment_merge(state, {"n": n.tolist(), "mean": mean.tolist(), "square": square.tolist()})
 
 
@@ -120,6 +122,8 @@ def moment_merge(one: State, other: State) -> State:
             step = other["mean"][k] - one["mean"][k]
             merged["n"][k] = whole
             merged["mean"][k] = one["mean"][k] + step * (m / whole) if n and m else (other if m else one)["mean"][k]
+            if not math.isfinite(step):
+                merged["mean"][k] = one["mean"][k] + other["mean"][k]
             merged["square"][k] = (
                 one["square"][k] + other["square"][k] + (step * step * n * m / whole if n and m else 0.0)
             )
@@ -171,8 +175,11 @@ def histogram_add(state: State, values: Array, groups: Groups, *, low: float, hi
     {'below': [0], 'above': [1], 'counts': [[1, 2]]}
     """
     count, bins = len(state["counts"]), len(state["counts"][0])
-    place = np.floor((values - low) * (bins / (high - low)))
-    place = np.where(values == high, bins - 1, np.clip(place, -1, bins)).astype(int) + 1
+    edges = np.concatenate([[np.nan], np.linspace(low, high, bins + 1), [np.nan]])
+    place = np.clip(np.floor((values - low) * (bins / (high - low))), -1, bins).astype(int) + 1
+    place -= values < edges[place]  # next to an edge the quotient may have been rounded over it
+    place += values >= edges[place + 1]
+    place[values == high] = bins
     place += 0 if groups is None else groups * (bins + 2)
     table = np.bincount(place, minlength=count * (bins + 2)).reshape(count, bins + 2)
     found = {"below": table[:, 0].tolist(), "above": table[:, -1].tolist(), "counts": table[:, 1:-1].tolist()}
@@ -313,7 +320,8 @@ def rank_result(seen: Mapping[str, Any], share: float) -> tuple[float, float]:
     low, part = int(place), place - int(place)
     ends = [_at(seen, k - least, inner) for k in (low, min(low + 1, total - 1))]
     (a, wide), (b, _wide) = ends
-    value = a if part == 0.0 or a == b else a + part * (b - a)
+    near = part < 0.5 or math.isinf(b - a)  # from the nearer end, which rounds as NumPy does
+    value = a if part == 0.0 or a == b else a + part * (b - a) if near else b - (b - a) * (1.0 - part)
     return value, wide if seen["kept"] is None and math.isfinite(value) else 0.0
 
 

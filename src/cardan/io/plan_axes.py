@@ -46,12 +46,13 @@ def axis_of(one: Table, drive: Drive | None, seed: int) -> Axis | None:
 
 
 def _single(one: Table, drive: Drive | None) -> Axis | None:
+    before = len(one.problems)
     key = one.text("key")
     if one.has("values"):
         values = one.items("values")
         return listed(drive, key, values) if drive is not None else None
     start, stop, count = one.number("from"), one.number("to"), one.whole("count")
-    return Spaced(field=key, start=start, stop=stop, count=count) if key and count else None
+    return Spaced(field=key, start=start, stop=stop, count=count) if len(one.problems) == before else None
 
 
 def _rows(one: Table) -> Axis | None:
