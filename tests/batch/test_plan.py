@@ -135,6 +135,36 @@ def test_everything_wrong_is_told_at_once():
         assert part in text
 
 
+@pytest.mark.parametrize("values", [["steep", 2.0], [True, False]])
+def test_fields_of_numbers_take_numbers(values):
+    with pytest.raises(InputError, match="holds a number"):
+        work_of(DRIVE, {"joints[1].bend_deg": values}, ["irregularity"])
+
+
+@pytest.mark.parametrize("fact", ["irregularity", "Status", "feasible"])
+def test_no_two_columns_have_one_name(fact):
+    axes = [Listed(fields=(fact, "joints[2].bend_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
+    with pytest.raises(InputError, match="this name already"):
+        work_of(DRIVE, axes, ["irregularity"], constraints=["irregularity <= 1"])
+
+
+def test_words_are_not_compared_with_numbers():
+    with pytest.raises(InputError) as error:
+        work_of(DRIVE, AXES, ["irregularity"], constraints=["make <= 3"], reduce=["max make", "count make <= 2"])
+    assert [one.field for one in error.value.problems] == ["constraints: make <= 3", "reduce[0]", "reduce[1]"]
+
+
+def test_the_order_of_columns_is_part_of_the_name():
+    pairs = (("joints[1].bend_deg", 5.0), ("joints[2].bend_deg", 10.0))
+    names = {
+        work_of(
+            DRIVE, [Listed(fields=tuple(k for k, _v in two), rows=(tuple(v for _k, v in two),), name="two")], ["bend"]
+        ).name
+        for two in (pairs, pairs[::-1])
+    }
+    assert len(names) == 2
+
+
 def test_constraints_are_on_columns():
     with pytest.raises(InputError, match="irregularity"):
         work_of(DRIVE, AXES, ["irregularity"], constraints=["irregularit <= 3"])

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -76,6 +76,24 @@ class Spot:
         if in_range(key, low) and in_range(key, high):  # the range is an interval
             return np.ones(values.shape, dtype=bool)
         return np.asarray([in_range(key, one) for one in values.tolist()], dtype=bool)
+
+    def misfit(self, values: Array) -> Problem | None:
+        """Return why a column (n,) cannot vary this field: words where numbers stand, and the like."""
+        kind = self.there.field.type
+        for _step in range(self.there.inside):
+            kind = get_args(kind)[0]
+        wanted = {
+            float: ("f", _("a number")),
+            int: ("f", _("a whole number")),
+            bool: ("b", _("true or false")),
+            str: ("U", _("a text")),
+            WORD_OR_FLAG: ("bU", _("true, false or a word")),
+        }
+        signs, told = wanted.get(kind, ("fbU", ""))
+        if values.dtype.kind in signs:
+            return None
+        text = _("{value} does not fit this field, which holds {wanted}")
+        return Problem(self.path, text.format(value=repr(values[0].item())[:40], wanted=told))
 
     def plain(self, value: Any) -> Any:
         """Return one value of its column as the drive file would hold it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -80,7 +80,12 @@ class SweepWork:
     @cached_property
     def name(self) -> str:
         """Hash of all that decides rows and summaries, the version of the program among it."""
-        told = {**self.provenance, "whole drive": repr(self.ask.drive), "catalogue": repr(self.ask.known)}
+        told = {
+            **self.provenance,
+            "columns": [one.name for one in self.columns],
+            "whole drive": repr(self.ask.drive),
+            "catalogue": repr(self.ask.known),
+        }
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
 
     @cached_property
@@ -227,15 +232,46 @@ def work_of(
     paths = [name for axis in axes for name in axis.fields if name not in facts]
     try:
         asked = ask_of(drive, paths, ask, known=known, device=device, size=points.size)
+        problems += [] if problems else _misfits(asked, points)
         if not problems:
             bare = SweepWork(ask=asked, points=points)
             check_names(limits, bare.columns)
             with_limits = SweepWork(ask=asked, points=points, limits=tuple(limits))
+            problems += _twins(with_limits)
+            problems += _words(with_limits, reduces)
             at_work(reduces, points, with_limits.columns)
     except InputError as error:
         problems += error.problems
     check(problems)
     return SweepWork(ask=asked, points=points, limits=tuple(limits), reduce=tuple(reduces), title=title or drive.name)
+
+
+def _misfits(asked: Asked, points: Points) -> Iterator[Problem]:
+    """Yield fields that are given words where they hold numbers, and the like."""
+    first = points.values(0, 1)
+    found = (spot.misfit(first[spot.path]) for spot in asked.spots)
+    yield from (one for one in found if one is not None)
+
+
+def _twins(work: SweepWork) -> Iterator[Problem]:
+    """Yield names that two columns have, however they are written: a fact may be called like an answer."""
+    seen: set[str] = set()
+    for column in work.columns:
+        if column.name.casefold() in seen:
+            yield Problem(column.name, _("another column has this name already"))
+        seen.add(column.name.casefold())
+
+
+def _words(work: SweepWork, reduces: Sequence[Reduce]) -> Iterator[Problem]:
+    """Yield constraints on columns of words, and reductions of them."""
+    first = work.points.values(0, 1)
+    words = {name for name, values in first.items() if values.dtype.kind == "U"}
+    named = [(f"constraints: {one}", one.name) for one in work.limits]
+    for k, one in enumerate(reduces):
+        named += [(f"reduce[{k}]", one.of), *((f"reduce[{k}]", limit.name) for limit in one.where)]
+    for path, name in named:
+        if name in words:
+            yield Problem(path, _("{name} holds no numbers").format(name=name))
 
 
 def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
