@@ -49,7 +49,7 @@ function curve(across, heights, x, y) {
 export default {
   template: `<div class="cardan-chart" tabindex="0" role="img" @keydown="key">
     <div ref="plot" class="plot"></div><div ref="cursors" class="cursors" aria-hidden="true"></div></div>`,
-  props: { spec: Object, label: String, dark: Object },
+  props: { spec: Array, label: String, dark: Object }, // spec: the one description, in a list
   watch: {
     spec() {
       this.take();
@@ -114,7 +114,7 @@ export default {
     },
     // Keep what is to be drawn out of Vue's sight, which would watch every number of it.
     take() {
-      const { data, layout } = toRaw(this.spec);
+      const { data, layout } = toRaw(this.spec)[0];
       this.held = { data: [...data], layout };
       this.dress(this.label);
     },

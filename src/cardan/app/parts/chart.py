@@ -33,16 +33,17 @@ class Chart(Element, component="chart.js"):
 
     def __init__(self, figure: Figure) -> None:
         super().__init__()
-        self._props.update(dark=DARK, label=_label(figure), spec=described(figure))
+        # Within a tuple NiceGUI does not watch every number of it, which takes longer than the motion of the drive.
+        self._props.update(dark=DARK, label=_label(figure), spec=(described(figure),))
 
     def show(self, figure: Figure) -> None:
         """Show another figure in its place; what the user zoomed stays zoomed."""
         spec, label = described(figure), _label(figure)
-        change = changed(self._props["spec"], spec)
+        change = changed(self._props["spec"][0], spec)
         if not change and label == self._props["label"]:
             return
         with self._props.suspend_updates():
-            self._props.update(spec=spec, label=label)
+            self._props.update(spec=(spec,), label=label)
         self.run_method("change", json.dumps({"label": label, **change}, ensure_ascii=False, separators=(",", ":")))
 
 
