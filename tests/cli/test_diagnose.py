@@ -110,6 +110,8 @@ def test_orders_and_symptoms_alone_rank_with_little_confidence(cardan):
         ((RUN,), "DRIVE: missing"),
         ((DRIVE, RUN), "the recording stands first"),
         (("--orders", "1,two", "--symptom", "klunk"), "'two' is no order"),
+        (("--orders", "1=nan,2=3"), "'1=nan' is no order"),
+        (("--orders", "1=-3"), "'1=-3' is no order"),
         ((RUN, DRIVE, "--orders", "2"), "neither a recording nor a drive file"),
         ((RUN, DRIVE, "--place", "front=supports[9]:up"), "there is no channel 'front'"),
         ((RUN, DRIVE, "--tacho", "tachi"), "did you mean tacho"),

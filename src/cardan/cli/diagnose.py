@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -171,6 +172,8 @@ def _signs(orders: str | None, symptom: str | None, torque_sensitive: bool | Non
         try:
             found.append(float(order))
             sizes.append(float(size) if sign else 1.0)
+            if not 0.0 < sizes[-1] < math.inf:
+                raise ValueError
         except ValueError:
             text = _("{text} is no order; write them as 1,2 or 1=3.2,2=5")
             problems.append(Problem("--orders", text.format(text=repr(part.strip()))))
