@@ -124,6 +124,23 @@ def test_questions_read_this_table_alone_and_change_nothing(found, sql):
         found.query(sql)
 
 
+def test_what_is_neither_number_nor_word_is_told_in_words(found):
+    rows = found.query(
+        "SELECT [1, 2] AS a, DATE '2020-01-01' AS b, INTERVAL 1 DAY AS c, NULL::DATE AS d, 'inf'::DOUBLE AS f"
+    )
+    assert rows["a"].tolist() == ["[1 2]"]
+    assert rows["b"].tolist() == ["2020-01-01 00:00:00"]
+    assert rows["c"].tolist() == ["1 day, 0:00:00"]
+    assert rows["d"].tolist() == [None]
+    assert rows["f"].tolist() == [np.inf]
+
+
+def test_equal_ones_are_told_in_the_order_of_their_points(found):
+    equal = found.best(Goal(name="status"), count=SIZE)
+    places = list(zip(equal[HEIGHT], equal["duty.speed_rpm"], strict=True))
+    assert places == sorted(places)
+
+
 def test_a_question_that_has_no_answer_is_told_in_words(found):
     with pytest.raises(InputError, match=r"cannot be answered.*irregularitty"):
         found.query("SELECT irregularitty FROM sweep")

@@ -55,6 +55,11 @@ def test_the_best_points(cardan, folder):
     assert "none of 210 points was answered and keeps the limits" in none.out
 
 
+def test_numbers_without_end_are_told(cardan, folder):
+    done = show(cardan, folder, "--query", "SELECT 'inf'::DOUBLE AS a, -('inf'::DOUBLE) AS b, 'nan'::DOUBLE AS c")
+    assert done.out.split()[-3:] == ["∞", "-∞", "–"]
+
+
 def test_a_table_without_any_answer(cardan, folder):
     assert "10 points, none of them answered" in show(cardan, folder, "--where", "status > 0").out
 

@@ -78,6 +78,21 @@ def test_chosen_rows(found, tmp_path, suffix):
         same(pq.read_table(tmp_path / "best.parquet").to_pydict(), best)
 
 
+@pytest.mark.parametrize(
+    "where",
+    ["1 = 1) TO '{other}'; --", "(SELECT count(*) FROM read_csv('/etc/passwd')) > 0", "1 = 1; DROP VIEW sweep"],
+)
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".xlsx"])
+def test_a_condition_reaches_no_other_file(found, tmp_path, suffix, where):
+    with pytest.raises(InputError, match=r"cannot be|only one SELECT"):
+        export(found, tmp_path / f"a{suffix}", where=where.format(other=tmp_path / "other.csv"))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_condition_may_end_in_a_remark(found, tmp_path):
+    assert export(found, tmp_path / "a.csv", where="status = 0 -- answered") == 200
+
+
 def test_what_cannot_be_written_is_told_and_leaves_nothing(found, tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"should end in one of \.csv"):
         export(found, tmp_path / "a.doc")

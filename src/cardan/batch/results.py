@@ -18,7 +18,7 @@ from cardan.texts import _
 from .goals import Goal, Limit, check_names
 from .pareto import pareto
 from .parquet import SUFFIX
-from .sql import arrow, cell, condition, damage, filled, listed, quoted, sql_names, told_error
+from .sql import arrow, cell, condition, damage, filled, listed, only_select, quoted, sql_names, told_error
 from .store import manifest_of, names_in
 from .swept import Sweep, read_sweep
 from .work import STATUS, Column, Rows
@@ -140,7 +140,7 @@ class Results:
             yield self._answered(sql, (part,))
 
     def best(self, goal: Goal, *, limits: Sequence[Limit] = (), where: str = "", count: int = 1) -> Rows:
-        """Return the best rows that were answered and keep the limits, the best first.
+        """Return the best rows that were answered and keep the limits, the best first; equal ones by their points.
 
         Parameters
         ----------
@@ -155,8 +155,9 @@ class Results:
         """
         check_names([goal, *limits], self.columns)
         name = quoted(goal.name)
+        point = "".join(f", {quoted(column.name)}" for column in self.columns if column.role == "point")
         told = self._conditions(limits, where, f"{name} IS NOT NULL")
-        return self.table(where=told, order=f"{name} {'DESC' if goal.largest else 'ASC'}", limit=count)
+        return self.table(where=told, order=f"{name} {'DESC' if goal.largest else 'ASC'}{point}", limit=count)
 
     def pareto(self, goals: Sequence[Goal], *, limits: Sequence[Limit] = (), where: str = "") -> Rows:
         """Return the rows that keep the limits of which none is better in all goals, in the order of the first.
@@ -228,15 +229,15 @@ class Results:
         return self.query(f"SELECT * FROM ({inner}) USING SAMPLE reservoir({count} ROWS) REPEATABLE ({seed})")
 
     @contextmanager
-    def opened(self, parts: Sequence[Part] | None = None, *, writes: bool = False) -> Iterator[Any]:
+    def opened(self, parts: Sequence[Part] | None = None, *, writes: Path | None = None) -> Iterator[Any]:
         """Open the table for SQL; close it afterwards.
 
         Parameters
         ----------
         parts : sequence, optional
             Pieces of the table; all by default.
-        writes : bool
-            Whether files may be written; by default nothing else of the disk can be reached.
+        writes : Path, optional
+            The one file that may be written; nothing else of the disk can be reached.
         """
         import duckdb
 
@@ -255,13 +256,15 @@ class Results:
             # Least and greatest as a file tells them of a column leave nan out: nothing is to be concluded from them.
             connection.execute("SET disabled_optimizers = 'statistics_propagation'")
             connection.execute(f"CREATE VIEW {TABLE} AS {' UNION ALL '.join(sources)}")
-            if not writes:
-                connection.execute(f"SET allowed_paths = {listed(files)}")
-                connection.execute("SET enable_external_access = false")
-                connection.execute("SET lock_configuration = true")
+            allowed = [*files, *([] if writes is None else [str(writes)])]
+            connection.execute(f"SET allowed_paths = {listed(allowed)}")
+            connection.execute("SET enable_external_access = false")
+            connection.execute("SET lock_configuration = true")
             yield connection
         except (duckdb.IOException, duckdb.InvalidInputException) as error:
-            if writes or (isinstance(error, duckdb.InvalidInputException) and "parquet" not in str(error).lower()):
+            if writes is not None or (
+                isinstance(error, duckdb.InvalidInputException) and "parquet" not in str(error).lower()
+            ):
                 raise
             raise refuse(str(self.sweep.folder), damage(error)) from None
         finally:
@@ -277,10 +280,7 @@ class Results:
 
         try:
             with self.opened(parts) as connection:
-                statements = connection.extract_statements(self.named(sql))
-                if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
-                    raise refuse("query", _("only one SELECT is answered; the table itself is never changed"))
-                found = connection.execute(statements[0]).fetchnumpy()
+                found = connection.execute(only_select(connection, self.named(sql))).fetchnumpy()
         except duckdb.Error as error:
             raise refuse("query", told_error(error)) from None
         return {name: filled(column) for name, column in found.items()}

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -68,13 +69,39 @@ def arrow(rows: Rows) -> Any:
 
 
 def filled(column: Any) -> Array:
-    """Return a column with nan, or None among words, for NULL."""
+    """Return a column with nan, or None among words, for NULL; dates and lists in words."""
+    if column.dtype.kind in "mM":
+        column = column.astype(f"{column.dtype.kind}8[us]").astype(object)
+    if column.dtype.kind == "O":
+        told = np.asarray([*map(_plain, column.tolist()), None], dtype=object)[:-1]  # so that no list becomes a table
+        column = np.ma.masked_array(told, np.ma.getmaskarray(column))
     if not np.ma.isMaskedArray(column):
         return np.asarray(column)
     whole: Any = column
     if whole.dtype.kind == "O":
         return np.where(np.ma.getmaskarray(whole), None, whole.data)
     return np.asarray(whole.astype(float).filled(math.nan)) if np.any(whole.mask) else np.asarray(whole.data)
+
+
+def _plain(value: Any) -> Any:
+    """Return a word, a number, or anything else in words."""
+    return value if value is None or isinstance(value, str | int | float) else str(value)
+
+
+def only_select(connection: Any, sql: str) -> Any:
+    """Return the one statement that a question is.
+
+    Raises
+    ------
+    InputError
+        It is none, several, or one that changes something.
+    """
+    import duckdb
+
+    statements = connection.extract_statements(sql)
+    if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
+        raise refuse("query", _("only one SELECT is answered; the table itself is never changed"))
+    return statements[0]
 
 
 def told_error(error: Exception) -> str:

@@ -105,6 +105,8 @@ def significant(value: float, digits: int = 4) -> str:
     """
     if value == 0.0:
         return "0"
+    if not math.isfinite(value):
+        return "–" if math.isnan(value) else "∞" if value > 0.0 else "-∞"
     size = math.floor(math.log10(abs(value)))
     if not -4 <= size < 9:
         return f"{value:.{digits - 1}e}"

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from cardan.batch.results import Results
+from cardan.batch.sql import only_select
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.files import refusal, write_bytes
@@ -94,14 +95,15 @@ def _copied(results: Results, path: Path, wanted: Path, rows: Rows | None, where
         about = json.dumps({"columns": results.units, "provenance": dict(results.provenance)}, ensure_ascii=False)
         how = "FORMAT PARQUET, COMPRESSION ZSTD, KV_METADATA {cardan: '" + about.replace("'", "''") + "'}"
     try:
-        with results.opened(writes=True) as connection:
+        with results.opened(writes=path) as connection:
             if rows is None:
                 source = results.named(results.select(where=where))
+                only_select(connection, source)
             else:
                 connection.register("chosen", _arrow(rows))
                 source = "SELECT * FROM chosen"
             target = str(path).replace("'", "''")
-            written = connection.execute(f"COPY ({source}) TO '{target}' ({how})").fetchone()
+            written = connection.execute(f"COPY ({source}\n) TO '{target}' ({how})").fetchone()
             return int(written[0]) if written else 0
     except duckdb.Error as error:
         text = _("cannot be written: {why}").format(why=str(error).splitlines()[0])
