@@ -1,6 +1,5 @@
 """Answers and verdicts in a browser: tabs, charts in step with the view, long work, what is applied, what is wrong."""
 
-import json
 import re
 import sys
 
@@ -74,20 +73,23 @@ CURVES = """() => {
 }"""
 """The curves of the first chart as they are drawn, read back into what their axes count."""
 
-HEIGHTS = "() => document.querySelector('.cardan-chart .plot').data.map(one => [...one.y])"
+TURNED = f"""async () => {{
+  const curves = {CURVES};
+  const heights = () => document.querySelector('.cardan-chart .plot').data.map(one => [...one.y]);
+  const other = async look => {{
+    const before = JSON.stringify(look());
+    while (JSON.stringify(look()) === before) await new Promise(done => setTimeout(done, 2));
+    return look();
+  }};
+  const both = [other(curves), other(heights)];
+  document.querySelector('#turn').click();
+  return await Promise.all(both);
+}}"""
+"""Makes an edit; returns the curves as they are drawn first, and the values that plotly draws behind."""
 
 
 def test_curves_drawn_at_once_stand_where_their_values_are(page):
-    before = page.evaluate(HEIGHTS)
-    drawn = page.evaluate(CURVES)
-    page.evaluate("document.querySelector('#turn').click()")
-    page.wait_for_function(
-        "before => document.querySelector('.said').textContent !== before", arg=said(page).inner_text()
-    )
-    page.wait_for_function(f"before => JSON.stringify(({CURVES})()) !== before", arg=json.dumps(drawn))
-    sketched = page.evaluate(CURVES)
-    page.wait_for_function(f"before => JSON.stringify(({HEIGHTS})()) !== before", arg=json.dumps(before))
-    heights = page.evaluate(HEIGHTS)
+    sketched, heights = page.evaluate(TURNED)
     whole = [one for one in sketched if len(one["seen"]) == len(heights[one["place"]])]
     assert whole, "no curve was drawn before plotly drew it"
     for one in whole:
