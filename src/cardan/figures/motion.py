@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from cardan.analysis.motion import Motion
@@ -13,7 +15,7 @@ from .axes import axis
 from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .turning import across, shaft_name
-from .wording import percent, significant
+from .wording import significant
 
 NOISE = 1e-12
 """Below this a ratio's swing is rounding."""
@@ -115,4 +117,6 @@ def _sentence(found: Motion, lead: Array) -> str:
     )
     if found.followed:
         text = _("The output runs ahead and back by {lead}°, its speed between {low} and {high} of the input's.")
-    return text.format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=percent(low, 4), high=percent(high, 4))
+    places = min(max(1 - math.floor(math.log10(100.0 * (high - low))), 1), 9)  # so that the two differ in two figures
+    least, most = (f"{100.0 * ratio:.{places}f} %" for ratio in (low, high))
+    return text.format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=least, high=most)
