@@ -172,6 +172,30 @@ def test_a_manifest_that_says_nothing_is_refused(content, told, tmp_path):
         read_sweep(tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "told"),
+    [
+        ("provenance", {"seed": 2}, "has been changed"),
+        ("columns", [], "has been changed"),
+        ("chunk_rows", 0, "is no manifest"),
+        ("chunk_rows", "50", "is no manifest"),
+        ("chunk_rows", 25, "not of this sweep"),
+        ("size", 100, "another sweep"),
+        ("rows", "none", "keeps no rows"),
+    ],
+)
+def test_a_manifest_that_was_changed_costs_no_rows(key, value, told, tmp_path):
+    run(WORK, into=tmp_path, chunk=CHUNK)
+    before = (tmp_path / MANIFEST).read_text(encoding="utf-8")
+    (tmp_path / MANIFEST).write_text(json.dumps(json.loads(before) | {key: value}), encoding="utf-8")
+    with pytest.raises(InputError, match=told):
+        run(WORK, into=tmp_path)
+    (tmp_path / MANIFEST).write_text(before, encoding="utf-8")
+    found = run(WORK, into=tmp_path)
+    assert found.damaged == ()
+    undisturbed(found, WORK, CHUNK)
+
+
 def test_a_folder_that_cannot_be_made_is_refused(tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match="cannot be written: "):

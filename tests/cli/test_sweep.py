@@ -53,6 +53,13 @@ def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
     assert content["provenance"]["drive"]["joints"][0]["bend_deg"] == 20
 
 
+def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monkeypatch):
+    plan = small.with_name("none.toml")
+    plan.write_text('rows = "none"\n' + small.read_text(encoding="utf-8"), encoding="utf-8")
+    monkeypatch.setattr("cardan.batch.running.run", None)
+    assert "--csv: the plan keeps no rows" in cardan("sweep", plan, "--csv").err
+
+
 def test_csv_holds_every_row(cardan, small):
     rows = list(csv.DictReader(io.StringIO(cardan("sweep", small, "--csv").out)))
     assert [float(row["joints[0].bend_deg"]) for row in rows] == [10, 20, 95]

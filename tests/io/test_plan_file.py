@@ -211,5 +211,9 @@ def test_odd_values_of_an_axis_are_refused(table, field):
     assert field in {problem.field for problem in error.value.problems}
 
 
+def test_a_scheduler_belongs_to_a_cluster():
+    assert "only a cluster" in wrong(HEAD + '[engine]\nscheduler = "tcp://host:8786"\n')["engine.scheduler"]
+
+
 def test_a_drive_file_without_a_name_is_refused():
     assert "names no file" in wrong(HEAD.replace("truck-rear-axle.toml", ""))["drive"]

@@ -189,6 +189,8 @@ def manifest_of(path: Path) -> dict[str, Any]:
         if content["format"] != FORMAT:
             raise refuse(str(path), _("was written by another version of cardan"))
         content["columns"] = tuple(Column(**column) for column in content["columns"])
+        if not (isinstance(content["chunk_rows"], int) and content["chunk_rows"] >= 1 and int(content["size"]) >= 0):
+            raise ValueError(path)
         return {key: content[key] for key in ("work", "size", "chunk_rows", "rows", "columns", "provenance")}
     except FileNotFoundError:
         raise refuse(str(path), _("holds no sweep")) from None
@@ -215,10 +217,12 @@ def _manifest(path: Path, work: Work, keeps: bool, cut: Callable[[], int]) -> di
         }
         write_json(path / MANIFEST, new)
     found = manifest_of(path)
+    here = json.loads(json.dumps(dict(work.provenance), default=_plain))
     if found["work"] != work.name or found["size"] != work.size:
-        raise refuse(
-            str(path), _another(found["provenance"], json.loads(json.dumps(dict(work.provenance), default=_plain)))
-        )
+        raise refuse(str(path), _another(found["provenance"], here))
+    same = json.dumps(found["provenance"]) == json.dumps(here)  # as texts: nan is no other nan
+    if not same or found["columns"] != tuple(work.columns):
+        raise refuse(str(path / MANIFEST), _("has been changed; put it back as it was, or choose another folder"))
     if found["rows"] != rows:
         raise refuse(
             str(path),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -115,6 +116,10 @@ def sweep(
         from .sweep_design import designed
 
         return designed(read, plan, chosen, json=json, csv=csv, plot=plot)
+    if csv and read.rows == "none":
+        from cardan.errors import refuse
+
+        raise refuse("--csv", _("the plan keeps no rows"))
     with about(str(plan)):
         work = read.work(device=device)  # type: ignore[arg-type]
         keeps = read.rows == "kept" and (into is not None or csv or work.size <= HELD)
@@ -128,10 +133,6 @@ def sweep(
             chunk=read.chunk,
             progress=progress,
         )
-    if csv and not keeps:
-        from cardan.errors import refuse
-
-        raise refuse("--csv", _("the plan keeps no rows"))
     return ended(show(_answer(read, work, found, plan, keeps), json=json, csv=csv), progress)
 
 
@@ -301,17 +302,13 @@ def _histogram(name: str, one: Mapping[str, Any]) -> Table:
 
 
 def _rows(found: Sweep, most: int | None) -> Table:
-    """Return the rows of the table, in the units of their columns; the first of them where a limit is given."""
+    """Return the rows of the table, read piece by piece; the first of them as a list where a limit is given."""
     from .answer import Column, Table
 
     columns = tuple(Column(key=one.name, heading=one.name, form="5") for one in found.columns)
-    rows: list[list[Cell]] = []
-    for _start, part in found.parts():
-        lists = [part[one.name].tolist() for one in found.columns]
-        rows += [list(row) for row in zip(*lists, strict=True)]
-        if most is not None and len(rows) >= most:
-            break
-    return Table(columns=columns, rows=rows[:most], fixed=0)
+    parts = (part for _start, part in found.parts())
+    rows: Any = (row for part in parts for row in zip(*(part[one.name].tolist() for one in found.columns), strict=True))
+    return Table(columns=columns, rows=rows if most is None else list(islice(rows, most)), fixed=0)
 
 
 def _remarks(work: SweepWork, found: Sweep, file: Path, keeps: bool) -> Iterator[Remark]:

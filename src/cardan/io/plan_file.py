@@ -183,6 +183,8 @@ def plan_of(
         "scheduler": engine.text("scheduler", ""),
         "device": engine.text("device", "cpu", choices=("cpu", "gpu")),
     }
+    if made["scheduler"] and made["engine"] != "cluster":
+        engine.refuse("scheduler", _("only a cluster has a scheduler"))
     engine.finish()
     parts = {key: top.table(key).given for key in KEYS if top.has(key)}
     ask = top.texts("ask") if top.has("ask") else []
