@@ -37,6 +37,7 @@ LATER = 1000
 """Number of the first recording that is unlike those of the calibration."""
 
 CONDITIONS = {
+    "clean": "noise 30 to 50 dB under the signal",
     "rough": "0 dB, and sizes of lines twice as uncertain",
     "poor": "tacho and one radial sensor alone",
     "no_tacho": "no tacho, no speed of the output",
@@ -126,6 +127,8 @@ def _elsewhere(number, condition):
         drive = example(EXAMPLES[number % len(EXAMPLES)])
         if fault == "centre_bearing" and len(drive.joints) < 3:
             return None
+    if condition == "clean":
+        snr = 30.0 + 2.0 * snr
     if condition == "rough":
         with patch("cardan.diagnosis.simulate.SPREAD", 0.5):
             signal = simulate_fault(drive, fault, severity=severity, seed=seed, snr=0.0)

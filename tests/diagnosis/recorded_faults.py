@@ -20,6 +20,9 @@ from cardan.units import rpm
 CALIBRATION, EVALUATION = 100_000, 200_000
 """Where the seeds of both begin: no drive and no recording is in both."""
 
+CLEANEST = {CALIBRATION: 40.0, EVALUATION: 10.0}
+"""Largest signal-to-noise ratio [dB]; what is learnt has to hold for clean recordings too."""
+
 KINDS = ("healthy", *FAULTS)
 """In turn; healthy twice as often as every fault."""
 
@@ -65,7 +68,7 @@ def case(number, start):
     fault = KINDS[number % len(KINDS)]
     drive = random_drive(start + number // 8, 2 if fault == "centre_bearing" else None)
     severity = float(np.exp(rng.uniform(math.log(0.8), math.log(2.0))))
-    return drive, fault, severity, seed, float(rng.uniform(0.0, 10.0))
+    return drive, fault, severity, seed, float(rng.uniform(0.0, CLEANEST[start]))
 
 
 def recording(number, start):

@@ -13,7 +13,7 @@ from cardan.diagnosis.signal import Channel, Signal
 from cardan.diagnosis.simulate import Runs, simulate_fault
 from cardan.io import example
 from tests.diagnosis.calibrate import JUDGED, PAGE, RESULT, judged, named, tables
-from tests.diagnosis.recorded_faults import CALIBRATION, EVALUATION, recording
+from tests.diagnosis.recorded_faults import CALIBRATION, EVALUATION, case, recording
 
 FEW = 42
 """Recordings of the quick look, three times around the faults."""
@@ -144,6 +144,16 @@ def short():
     return simulate_fault(example("truck-supports"), "unbalance", seed=4, runs=Runs(run_up=4.0, hold=1.5, rate=1024.0))
 
 
+@pytest.mark.parametrize("snr", [10.0, 25.0, 60.0, 200.0])
+def test_a_clean_recording_is_judged_as_surely_as_a_noisy_one(snr):
+    # Levels of orders that noise hides must not tell how much noise there is.
+    drive, fault, severity, seed, _snr = case(2004, EVALUATION)
+    assert fault == "unbalance"
+    found = diagnose(simulate_fault(drive, fault, severity=severity, seed=seed, snr=snr), drive)[0]
+    assert found.cause == "F01"
+    assert found.score > 0.8
+
+
 @pytest.mark.parametrize("size", [1e-3, 1e3])
 def test_what_is_like_nothing_learnt_gives_no_certainty(short, size):
     # As where volts were read as m/s², or mm/s² as m/s².
@@ -159,6 +169,17 @@ def test_noise_alone_gives_no_certainty(short):
         found = diagnose(noise, example("truck-supports"))
         assert found[0].score < 0.35
         assert any("rises over the noise" in one for one in found[0].cautions)
+
+
+def test_twice_the_pulses_per_turn_give_no_certainty(short):
+    bare = tuple(one for one in short.channels if one.name != "output speed")
+    drive = example("truck-supports")
+    found = diagnose(replace(short, channels=bare, pulses_per_turn=2.0), drive)[0]
+    assert found.score < 0.5
+    assert any("twice the true ones" in one for one in found.cautions)
+    right = diagnose(replace(short, channels=bare), drive)[0]
+    assert right.cause == "F01"
+    assert not any("twice the true ones" in one for one in right.cautions)
 
 
 def test_a_dead_sensor_says_nothing_and_the_others_count(short):

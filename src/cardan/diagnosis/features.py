@@ -60,7 +60,10 @@ NEAR_THIRD = 0.05
 """Share of a third of the critical speed within which a peak of order 3 counts as its."""
 
 SILENT = 0.4
-"""Share of the confidence that is left where nothing that follows the shaft rises over the noise."""
+"""Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
+
+FAINT = 1e-5
+"""Share of order 1 below which an order is rounding, not vibration."""
 
 BINS = 14
 """Of speed in a run-up."""
@@ -176,7 +179,7 @@ def features(
     watch(1.0)
     value = np.asarray([out[name] for name in NAMES])
     known = float(np.mean(np.isfinite(value)))
-    misfits = (*doubts(signal, shaft, base), *_silent(radial, high))
+    misfits = (*doubts(signal, shaft, base), *_silent(radial, high, low))
     return Features(
         value=value,
         speed=shaft.speeds,
@@ -203,11 +206,16 @@ def _no_vibration(signal: Signal) -> str:
     return "; ".join((text.format(channels=there), *(one.rstrip(".") for one in signal.cautions)))
 
 
-def _silent(radial: list[Track], high: Array) -> list[tuple[str, float]]:
-    """Return the doubt of a recording in which nothing follows the shaft, with the share of confidence it leaves."""
-    if high.any() and not any(stands_out(radial, order, high) for order in (1.0, 2.0)):
-        return [(_("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it."), SILENT)]
-    return []
+def _silent(radial: list[Track], high: Array, low: Array) -> list[tuple[str, float]]:
+    """Return the doubt of a recording in which not all follows the shaft, with the share of confidence it leaves."""
+    one, two = (stands_out(radial, order, high) for order in (1.0, 2.0))
+    if one or not high.any() or (low.any() and stands_out(radial, 1.0, low)):
+        return []
+    if two:
+        text = _("Order 2 rises over the noise and order 1 does not: the pulses per turn may be twice the true ones.")
+    else:
+        text = _("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it.")
+    return [(text, SILENT)]
 
 
 def _unknown(out: dict[str, float], told: bool, low: Array) -> list[str]:
@@ -335,13 +343,13 @@ def _over_speed(
         if level.size < 4:
             at.append(math.nan)
             continue
-        if np.median(level) > 0.0:
+        if np.median(level) > FAINT * np.median(curve[-1.0][inside]):
             out[f"peak_of_{order:.0f}"] = math.log10(float(np.percentile(level, 98)) / float(np.median(level)))
         at.append(float(first.speed[inside][int(np.argmax(level))]))
     near = np.abs(3.0 * first.speed / base.critical - 1.0) < NEAR_THIRD
     rest = np.abs(3.0 * first.speed / base.critical - 1.0) > 3.0 * NEAR_THIRD
     if np.sum(moving & near) > 1 and np.any(moving & rest):
-        level = np.maximum(curve[-3.0], 1e-300)
+        level = np.maximum(curve[-3.0], FAINT * np.median(curve[-1.0]) + 1e-300)
         out["at_third"] = math.log10(float(np.max(level[moving & near])) / float(np.median(level[moving & rest])))
     return at[0], at[1]
 

@@ -32,6 +32,9 @@ BY_SIGNS = 0.3
 UNLIKE, MOST_UNLIKE = 0.4, 3
 """What a feature beyond all of the calibration leaves of the confidence, and how many of them count."""
 
+BETTER = ("order_2_unloaded", "at_centre", "axial_share", "uneven")
+"""Features that may be as small as they like."""
+
 SURE = 0.98
 """Largest confidence: the calibration is of simulated recordings."""
 
@@ -118,7 +121,7 @@ def diagnose(
     >>> drive = example("truck-supports")
     >>> first = diagnose(simulate_fault(drive, "worn_spline", seed=5), drive)[0]
     >>> first.cause, first.evidence[0]
-    ('F21', 'The noise swells once a turn, by 133 % of its mean.')
+    ('F21', 'Order 1 turns its phase or changes its size by 63 % with the torque.')
     """
     if isinstance(shown, OrderSpectrum):
         return _by_signs(Signs(orders=tuple(order for order, _size in shown.peaks())), shown.confidence, known)
@@ -144,7 +147,7 @@ def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding,
     rows = (known or catalogue()).rows(Fault)
     model = shipped()
     sentences = [_sentence(name, value, seen) for name, value in zip(model.features, seen.value, strict=True)]
-    beyond = model.beyond(seen.value)
+    beyond = _beyond(seen)
     confidence = relied_on(seen)
     score = confidence * model.probability(seen.value) + (1.0 - confidence) / len(model.causes)
     speaks = model.speaks(seen.value)
@@ -172,8 +175,14 @@ def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding,
 
 def relied_on(seen: Features) -> float:
     """Return how far a recording can be relied on, from 0 to 1: less where it shows what nobody has learnt of."""
-    beyond = len(shipped().beyond(seen.value))
-    return float(min(SURE, seen.confidence) * UNLIKE ** min(beyond, MOST_UNLIKE))
+    return float(min(SURE, seen.confidence) * UNLIKE ** min(len(_beyond(seen)), MOST_UNLIKE))
+
+
+def _beyond(seen: Features) -> tuple[int, ...]:
+    """Return the features that lie beyond all of the calibration, but those of which less is only better."""
+    model = shipped()
+    found = model.beyond(seen.value)
+    return tuple(k for k in found if model.features[k] not in BETTER or seen.value[k] > model.mean[k])
 
 
 def _finding(cause: str, row: Fault | None, **more: object) -> Finding:

@@ -27,8 +27,8 @@ TURNS = 16
 CLEAR = 2.5
 """Times what noise leaves that an order has to reach to count as seen."""
 
-HIDDEN = {0.5: -1.0, 1.5: -1.0, 3.0: -1.0, 4.0: -1.0}
-"""Largest level of an order that noise hides; 0, that of the drive in order, for orders 1 and 2."""
+LITTLE = {0.5: -1.0, 1.5: -1.0, 3.0: -1.0, 4.0: -1.0}
+"""Level below which an order of faults alone says no more, so that a quiet recording and a noisy one say the same."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -98,9 +98,11 @@ def stands_out(tracks: list[Track], order: float, which: Array) -> bool:
 
 
 def level_of(tracks: list[Track], order: float, which: Array, usual: float) -> float:
-    """Return the logarithm of an order over what is usual; what noise hides counts as not above it."""
+    """Return the logarithm of an order over what is usual; what noise hides counts as not above it, or as little."""
     value = math.log10(force_on(tracks, order, which) / usual)
-    return value if stands_out(tracks, order, which) else min(value, HIDDEN.get(order, 0.0))
+    if not stands_out(tracks, order, which):
+        return LITTLE.get(order, min(value, 0.0))
+    return max(value, LITTLE.get(order, -math.inf))
 
 
 def healthy_force(healthy: Expected, tracks: list[Track], order: float, speed: float, torque: float) -> float:
