@@ -129,7 +129,7 @@ def test_who_watches_is_told_how_far_it_is_and_may_stop_it():
     assert shares[-1] == pytest.approx(1.0)
     part = diagnose(signal, drive, progress=lambda share: "stop" if share > 0.2 else None)
     assert "stopped before" in part[0].cautions[-1]
-    assert part[0].confidence < whole[0].confidence
+    assert part[0].confidence <= 0.5 * whole[0].confidence
     assert not any("stopped" in one for one in whole[0].cautions)
 
 
@@ -203,6 +203,12 @@ def test_a_torque_counted_the_other_way_round_changes_nothing(short):
 def test_a_sensor_that_came_off_breaks_nothing(short):
     off = shaking_as(short, lambda one: np.where(np.arange(one.values.size) < 2000, one.values, 0.0))
     assert diagnose(off, example("truck-supports"))[0].score < 0.25
+
+
+def test_channels_that_share_no_turn_with_the_tacho_are_named(short):
+    late = (replace(short.channels[0], start=500.0), *short.channels[1:])
+    with pytest.raises(InputError, match="input radial: shares 0 turns with the turning of the shaft"):
+        diagnose(replace(short, channels=late), example("truck-supports"))
 
 
 def test_without_vibration_it_is_said_what_there_is(short):

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import rpm
 
+from .levels import Track, stands_out
 from .plant import Plant
 from .signal import Signal
 from .turning import Rotation
@@ -25,6 +27,9 @@ APART = 0.03
 MISFIT, FAR, PLACELESS, SIZELESS = 0.3, 0.6, 0.8, 0.6
 """What is left of the confidence: where two speeds contradict each other, where the recording lies outside of the
 running of the drive, where a sensor does not say its place, where the drive does not say what its sizes follow from."""
+
+SILENT = 0.4
+"""Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
 
 
 def doubts(signal: Signal, shaft: Rotation, base: Plant) -> Iterator[tuple[str, float]]:
@@ -89,3 +94,15 @@ def _other_speeds(signal: Signal, shaft: Rotation) -> Iterator[tuple[str, float]
                 "pulses per turn or a unit is wrong, or it is another shaft."
             )
             yield text.format(name=one.name, other=other / rpm, mean=mean / rpm), MISFIT
+
+
+def silent(radial: list[Track], high: Array, low: Array) -> list[tuple[str, float]]:
+    """Return the doubt of a recording in which not all follows the shaft, with the share of confidence it leaves."""
+    one, two = (stands_out(radial, order, high) for order in (1.0, 2.0))
+    if one or not high.any() or (low.any() and stands_out(radial, 1.0, low)):
+        return []
+    if two:
+        text = _("Order 2 rises over the noise and order 1 does not: the pulses per turn may be twice the true ones.")
+    else:
+        text = _("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it.")
+    return [(text, SILENT)]

@@ -12,14 +12,24 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
-from .doubts import doubts
+from .doubts import doubts, silent
 from .expected import Expected, expected_orders
 from .knocks import knocks, running
-from .levels import ORDERS, TURNS, Track, accelerations, force_on, healthy_force, level_of, mean_of, stands_out
+from .levels import (
+    ORDERS,
+    TURNS,
+    Track,
+    accelerations,
+    force_on,
+    healthy_force,
+    level_of,
+    mean_of,
+    no_vibration,
+    stands_out,
+)
 from .order_tracks import TrackedOrders, tracked_orders
 from .plant import Plant, plant
 from .signal import Signal
@@ -59,8 +69,8 @@ DIFFERENT = 0.3
 NEAR_THIRD = 0.05
 """Share of a third of the critical speed within which a peak of order 3 counts as its."""
 
-SILENT = 0.4
-"""Share of the confidence that is left where order 1, which every shaft has, does not rise over the noise."""
+STOPPED = 0.5
+"""Share of the confidence that is left where not all channels were looked at."""
 
 FAINT = 1e-5
 """Share of order 1 below which an order is rounding, not vibration."""
@@ -163,7 +173,7 @@ def features(
     shaft = rotation(signal, speed_range=speeds, progress=watch)
     radial, axial = accelerations(signal, shaft, base, watch)
     if not radial:
-        raise refuse("signal", _no_vibration(signal), "missing")
+        raise no_vibration(signal, shaft)
     first = radial[0].found
     torque, told = _torque(signal, first.time, base.torque)
     held = _held(first)
@@ -179,7 +189,7 @@ def features(
     watch(1.0)
     value = np.asarray([out[name] for name in NAMES])
     known = float(np.mean(np.isfinite(value)))
-    misfits = (*doubts(signal, shaft, base), *_silent(radial, high, low))
+    misfits = (*doubts(signal, shaft, base), *silent(radial, high, low))
     return Features(
         value=value,
         speed=shaft.speeds,
@@ -187,7 +197,11 @@ def features(
         peak_2=peaks[0],
         peak_3=peaks[1],
         critical=base.critical,
-        confidence=signal.trust * shaft.confidence * (0.3 + 0.7 * known) * math.prod(share for _text, share in misfits),
+        confidence=signal.trust
+        * shaft.confidence
+        * (0.3 + 0.7 * known)
+        * (STOPPED if stopped else 1.0)
+        * math.prod(share for _text, share in misfits),
         cautions=(
             *signal.cautions,
             *shaft.cautions,
@@ -197,25 +211,6 @@ def features(
         ),
         rotation=shaft,
     )
-
-
-def _no_vibration(signal: Signal) -> str:
-    """Return that nothing shakes, with what there is instead and what was doubtful in it."""
-    text = _("the recording has no channel of vibration across the shaft; it has {channels}")
-    there = ", ".join(f"{one.name} ({one.quantity.replace('_', ' ')})" for one in signal.channels)
-    return "; ".join((text.format(channels=there), *(one.rstrip(".") for one in signal.cautions)))
-
-
-def _silent(radial: list[Track], high: Array, low: Array) -> list[tuple[str, float]]:
-    """Return the doubt of a recording in which not all follows the shaft, with the share of confidence it leaves."""
-    one, two = (stands_out(radial, order, high) for order in (1.0, 2.0))
-    if one or not high.any() or (low.any() and stands_out(radial, 1.0, low)):
-        return []
-    if two:
-        text = _("Order 2 rises over the noise and order 1 does not: the pulses per turn may be twice the true ones.")
-    else:
-        text = _("Neither order 1 nor order 2 of the shaft rises over the noise: faults may hide in it.")
-    return [(text, SILENT)]
 
 
 def _unknown(out: dict[str, float], told: bool, low: Array) -> list[str]:

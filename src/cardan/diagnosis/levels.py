@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.errors import InputError
+from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
+from cardan.texts import _
 
 from .expected import Expected
 from .order_tracks import TrackedOrders, tracked_orders
 from .plant import Plant
-from .signal import Signal
+from .signal import Channel, Signal
 from .turning import Rotation
 from .watching import Watch
 
@@ -21,6 +22,12 @@ ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 
 PROBES = (0.75, 1.25, 1.75, 2.5, 3.5)
 """Orders that no fault has: what is there is noise, at about the frequency of the orders beside them."""
+
+POWERS = {"acceleration": 0, "velocity": 1, "displacement": 2}
+"""Quantity -> power of the angular speed that makes an acceleration of it."""
+
+AXIAL = ("axial", "x")
+"""Directions along the shaft."""
 
 TURNS = 16
 
@@ -42,18 +49,26 @@ class Track:
     found: TrackedOrders
 
 
+def looks_across(channel: Channel) -> bool:
+    """Tell whether a channel is of a live sensor that shakes across the shaft, or may."""
+    return _shakes(channel) and channel.direction not in AXIAL
+
+
+def _shakes(channel: Channel) -> bool:
+    dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
+    return channel.quantity in POWERS and channel.direction != "torsion" and not dead
+
+
 def accelerations(
     signal: Signal, shaft: Rotation, base: Plant, watch: Watch | None = None
 ) -> tuple[list[Track], list[Track]]:
     """Return the orders at the radial and at the axial sensors; those of the first radial one, whoever says stop."""
-    powers = {"acceleration": 0, "velocity": 1, "displacement": 2}
     radial: list[Track] = []
     axial: list[Track] = []
     for channel in signal.measured:
         if watch is not None:
             watch.next()
-        dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
-        if channel.quantity not in powers or channel.direction == "torsion" or dead:
+        if not _shakes(channel):
             continue
         if watch is not None and watch.stopped and radial:
             break
@@ -61,14 +76,28 @@ def accelerations(
             found = tracked_orders(channel, shaft, (*ORDERS, *PROBES), turns=TURNS)
         except InputError:
             continue
-        value = found.value * (np.asarray(found.orders)[:, None] * found.speed) ** powers[channel.quantity]
+        value = found.value * (np.asarray(found.orders)[:, None] * found.speed) ** POWERS[channel.quantity]
         house = base.housing_at(channel.place) or base.housings[-1]
         probes = np.sqrt(np.median(np.abs(value[len(ORDERS) :]) ** 2, axis=1) / math.log(2.0))
         noise = np.exp(np.interp(np.log(ORDERS), np.log(PROBES), np.log(np.maximum(probes, 1e-300))))
         track = Track(kind=house.kind, mass=house.mass, value=value[: len(ORDERS)], noise=noise, found=found)
-        (axial if channel.direction in ("axial", "x") else radial).append(track)
+        (axial if channel.direction in AXIAL else radial).append(track)
     same = [one for one in radial if one.value.shape == radial[0].value.shape]
     return same, [one for one in axial if same and one.value.shape == same[0].value.shape]
+
+
+def no_vibration(signal: Signal, shaft: Rotation) -> InputError:
+    """Return why a recording tells nothing: what a channel of vibration says, or what there is instead of one."""
+    for one in signal.measured:
+        if looks_across(one):
+            try:
+                tracked_orders(one, shaft, ORDERS, turns=TURNS)
+            except InputError as error:
+                return error
+    text = _("the recording has no channel of vibration across the shaft; it has {channels}")
+    there = ", ".join(f"{one.name} ({one.quantity.replace('_', ' ')})" for one in signal.channels)
+    told = (text.format(channels=there), *(one.rstrip(".") for one in signal.cautions))
+    return refuse("signal", "; ".join(told), "missing")
 
 
 def mean_of(track: Track, order: float, which: Array) -> tuple[float, complex]:
