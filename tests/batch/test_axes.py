@@ -88,6 +88,14 @@ def test_correlated_fields_are_correlated_and_keep_their_distributions():
     assert stats.kstest(found["b"], stats.norm(5, 2).cdf).statistic < 0.01
 
 
+def test_correlated_points_are_the_same_bit_for_bit_one_by_one():
+    three = {name: Normal(mean=0, std=1) for name in "abc"}
+    drawn = Drawn(distributions=three, count=200, seed=7, correlations=(("a", "b", 0.5), ("b", "c", -0.3)))
+    whole = drawn.values(np.arange(200))
+    for k in range(200):
+        assert all(whole[name][k] == one[0] for name, one in drawn.values(np.asarray([k])).items())
+
+
 def test_a_design_across_another_axis_draws_each_point_once():
     drawn = Drawn(distributions={"a": Uniform(low=0, high=1)}, count=5, seed=3)
     found = Points(axes=(drawn, Spaced(field="b", start=0, stop=2, count=3))).values(0, 15)

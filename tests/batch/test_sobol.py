@@ -110,6 +110,11 @@ def test_everything_wrong_is_told_at_once():
     assert len(refused.value.problems) == 4
 
 
+def test_more_samples_than_memory_holds_are_refused():
+    with pytest.raises(InputError, match="too many; at most 8947848 can be held"):
+        sensitivity(ISHIGAMI, [PI] * 3, samples=10**12)
+
+
 def test_one_at_a_time():
     found = swings(ISHIGAMI, [0.0, 0.0, 0.0], [-1.0, -1.0, -1.0], [1.0, 2.0, 1.0])
     np.testing.assert_allclose(found.at_high[0], [math.sin(1.0), 7.0 * math.sin(2.0) ** 2, 0.0])

@@ -278,7 +278,10 @@ class Drawn:
         if self._factor is not None:
             from scipy.special import ndtr, ndtri
 
-            share = ndtr(ndtri(share) @ self._factor.T)
+            # Term by term: how a product of matrices rounds depends on how many rows it has.
+            scores: Array = ndtri(share).T
+            mixed = [sum(weight * score for weight, score in zip(row, scores, strict=True)) for row in self._factor]
+            share = ndtr(np.stack(mixed, axis=-1))
         return {path: one.at(share[:, k]) for k, (path, one) in enumerate(self.distributions.items())}
 
     def _shares(self, index: Array) -> Array:

@@ -28,6 +28,9 @@ MOST = 2**22
 LEAST = 8
 """Samples with an answer, at least."""
 
+ROOM = 2**27
+"""Numbers that all points together may hold."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sensitivity:
@@ -196,6 +199,10 @@ def _chosen(
     if samples < LEAST:
         text = _("{given} samples are too few; at least {least} are needed")
         problems.append(Problem("samples", text.format(given=samples, least=LEAST), "out_of_range"))
+    elif samples * len(spread) * (len(spread) + 2) > ROOM:
+        text = _("{given} samples are too many; at most {most} can be held")
+        most = ROOM // (len(spread) * (len(spread) + 2))
+        problems.append(Problem("samples", text.format(given=samples, most=most), "out_of_range"))
     if not 0.0 < confidence < 1.0:
         text = _("{given} is not between 0 and 1")
         problems.append(Problem("confidence", text.format(given=confidence), "out_of_range"))
