@@ -93,7 +93,7 @@ def _headed(lines: Sequence[str]) -> tuple[int, int, str, list[str]]:
         titles, *after = (_cells(one, mark) for one in lines[k : k + 3])
         if all(_is_number(one) for one in titles):
             break
-        if k and len(titles) < 2:
+        if k and (len(titles) < 2 or any(_is_number(one) for one in titles)):
             continue
         if len(after[0]) == len(titles) and _has_numbers(after[0], mark):
             return k, k + 1, mark, titles
@@ -114,7 +114,8 @@ def _cells(line: str, mark: str) -> list[str]:
 
 
 def _has_numbers(cells: Sequence[str], mark: str) -> bool:
-    return any(_is_number(one.replace(",", ".") if mark != "," else one) for one in cells)
+    found = [_is_number(one.replace(",", ".") if mark != "," else one) for one in cells]
+    return found[0] or 2 * sum(found) > len(found)
 
 
 def _is_number(cell: str) -> bool:
