@@ -10,7 +10,7 @@ import pytest
 
 from cardan.batch.chunks import Chunks
 from cardan.batch.engines import EngineLostError, InProcess, Processes, reason
-from cardan.errors import InputError, refuse
+from cardan.errors import InputError, MissingExtraError, refuse
 from tests.batch import works
 
 CHUNKS = Chunks("a sweep", size=23, rows=4)
@@ -42,6 +42,14 @@ def test_every_chunk_comes_once_and_a_failure_is_told(engine):
         k: (rows, None) if 9 not in rows else (None, "ValueError: row of trouble") for k, rows in ROWS.items()
     }
     assert not multiprocessing.active_children()
+
+
+def test_a_library_that_is_missing_ends_the_run():
+    def task(_chunk):
+        raise MissingExtraError("needs a library")
+
+    with pytest.raises(MissingExtraError):
+        next(InProcess().run(task, CHUNKS))
 
 
 def test_the_chunk_of_a_killed_process_is_done_again(tmp_path):

@@ -1,5 +1,7 @@
 """Maps, histograms and ranks of a table, against NumPy and scipy on the table itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import spearmanr
@@ -9,7 +11,7 @@ from cardan.batch.results import results
 from cardan.batch.running import run
 from cardan.batch.views import histogram_of, map_of, ranks_of
 from cardan.errors import InputError
-from tests.batch.tables import HEIGHTS, SPEEDS, Suspension, whole
+from tests.batch.tables import HEIGHTS, SIZE, SPEEDS, Suspension, whole
 
 TABLE = whole()
 FOUND = results(run(Suspension(), chunk=50))
@@ -55,6 +57,15 @@ def test_a_histogram_counts_every_answer_once():
     same = histogram_of(FOUND, BEND, where=f"{HEIGHT} = 0", bins=3)
     assert np.sum(same.counts) == SPEEDS
     assert np.sum(histogram_of(FOUND, BEND, where=f"{HEIGHT} > 90").counts) == 0
+
+
+def test_a_histogram_leaves_out_what_has_no_end():
+    table = Suspension().evaluate(0, SIZE)
+    table[BEND][:3] = np.inf, -np.inf, np.nan
+    found = histogram_of(results(replace(FOUND.sweep, held=((0, table),))), BEND, bins=7)
+    assert np.isfinite(found.edges).all()
+    assert found.mean == pytest.approx(np.mean(table[BEND][np.isfinite(table[BEND])]))
+    assert (np.sum(found.counts), found.unknown) == (SIZE - 13, 13)
 
 
 def test_ranks_are_spearmans():

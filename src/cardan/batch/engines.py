@@ -16,7 +16,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
-from cardan.errors import CardanError, InputError, refuse
+from cardan.errors import CardanError, InputError, MissingExtraError, refuse
 from cardan.files import refusal
 from cardan.maths.compiled.threads import processors
 from cardan.texts import _, language, plural, speaking
@@ -112,6 +112,8 @@ class InProcess:
                 return
             try:
                 done = Done(chunk, task(chunk))
+            except MissingExtraError:  # no other chunk would fare better
+                raise
             except Exception as error:  # the other chunks are still worth having
                 done = Done(chunk, failure=reason(error))
             yield done

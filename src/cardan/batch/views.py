@@ -132,8 +132,9 @@ class Histogram:
     counts : array (m,)
         Points in each.
     mean : float
+        Of these.
     unknown : int
-        Points without an answer.
+        Points without an answer, or with one that is not finite.
     """
 
     column: Column
@@ -160,18 +161,19 @@ def histogram_of(results: Results, name: str, *, bins: int = 30, where: str = ""
     column = results.column(name)
     if name not in {one.name for one in results.numbers}:
         raise refuse("histogram", _("{name} holds no numbers").format(name=name))
-    span = results.spans([name], where=where)[name]
+    finite = " AND ".join([*([f"({where})"] if where else []), f"isfinite({quoted(name)})"])
+    span = results.spans([name], where=finite)[name]
     low, high = span["least"], span["most"]
     if not low < high:
         low, high = (low - 0.5, low + 0.5) if math.isfinite(low) else (0.0, 1.0)
-    width = (high - low) / bins
+    width = high / bins - low / bins
     place = f"least(floor(({quoted(name)} - {low!r}) / {width!r}), {bins - 1})"
-    rows = results.query(f"SELECT {place} AS k, count({quoted(name)}) AS n FROM {TABLE}{condition(where)} GROUP BY k")
-    known = np.isfinite(np.asarray(rows["k"], dtype=float))
+    rows = results.query(f"SELECT {place} AS k, count({quoted(name)}) AS n FROM {TABLE}{condition(finite)} GROUP BY k")
     counts = np.zeros(bins)
-    counts[np.asarray(rows["k"], dtype=float)[known].astype(int)] = np.asarray(rows["n"])[known]
+    counts[np.asarray(rows["k"], dtype=int)] = rows["n"]
     edges = low + width * np.arange(bins + 1)
-    return Histogram(column=column, edges=edges, counts=counts, mean=span["mean"], unknown=int(span["unknown"]))
+    unknown = results.count(where) - int(np.sum(counts))
+    return Histogram(column=column, edges=edges, counts=counts, mean=span["mean"], unknown=unknown)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
