@@ -9,6 +9,12 @@ def channel(name="a", **given):
     return Channel(**{"name": name, "values": np.arange(5.0), "rate": 100.0, **given})
 
 
+@pytest.mark.parametrize("values", [["a", "b"], [1j, 2.0], [None, 1.0], [[1.0], [1.0, 2.0]]])
+def test_what_are_no_real_numbers_is_refused(values):
+    with pytest.raises(InputError, match="values: one row of real numbers"):
+        channel(values=values)
+
+
 def test_a_channel_knows_its_times():
     one = channel(start=2.0)
     assert one.time == pytest.approx([2.0, 2.01, 2.02, 2.03, 2.04])

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.errors import Problem, check, refuse
-from cardan.maths.arrays import Array
+from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
 from cardan.units import nearest
 
@@ -32,6 +32,17 @@ LARGEST = 1e30
 
 TURNING = ("pulses", "angular_speed", "angle")
 """Quantities that tell how a shaft turns."""
+
+
+def _real(values: ArrayLike) -> Array:
+    """Return values as an array of real numbers, or refuse what is none: complex numbers, words, rows of two lengths."""
+    try:
+        found = np.asarray(values)
+    except ValueError:
+        found = np.asarray(None)
+    if found.dtype.kind not in "biuf":
+        raise refuse("values", _("one row of real numbers is needed"), "inconsistent")
+    return found.astype(float, copy=False)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -72,7 +83,7 @@ class Channel:
     trust: float = 1.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "values", np.asarray(self.values, dtype=float))
+        object.__setattr__(self, "values", _real(self.values))
         check(self._problems())
 
     def _problems(self) -> Iterator[Problem]:
