@@ -35,7 +35,7 @@ TURNING = ("pulses", "angular_speed", "angle")
 
 
 def _real(values: ArrayLike) -> Array:
-    """Return values as an array of real numbers, or refuse what is none: complex numbers, words, rows of two lengths."""
+    """Return values as an array of real numbers, or refuse complex numbers, words and rows of two lengths."""
     try:
         found = np.asarray(values)
     except ValueError:
