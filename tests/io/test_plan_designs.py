@@ -22,6 +22,12 @@ def read(text, name):
     return design_of(plan, name)
 
 
+def test_words_have_no_range_to_search():
+    with pytest.raises(InputError) as error:
+        read('[search]\ngoals = ["min irregularity"]\nbetween = { "joints[0].size" = [0, 1] }\n', "search")
+    assert [one.field for one in error.value.problems] == ['search.between."joints[0].size"']
+
+
 def test_a_search_for_one_goal():
     """A single joint is as even as it is straight; the constraint keeps it from that."""
     design = read(

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar
 
+import numpy as np
+
 from cardan.batch.asking import Asked, ask_of
 from cardan.batch.axes import Drawn
 from cardan.batch.boundary import Boundary, boundary
@@ -296,6 +298,8 @@ def _between(plan: Plan, table: Table) -> tuple[Asked | None, tuple[tuple[float,
             continue
         bounds.append((float(pair[0]), float(pair[1])))
     ask = _asked(plan, table, tuple(given))
+    misfits = [] if ask is None else [spot.misfit(np.zeros(1)) for spot in ask.spots]
+    table.problems += [Problem(f'{table.at("between")}."{one.field}"', one.message) for one in misfits if one]
     return (ask, tuple(bounds)) if len(bounds) == len(given) else (None, ())
 
 
