@@ -20,7 +20,10 @@ DRIVE = "truck-supports"
 RUNS = Runs(run_up=6.5, hold=2.5, rate=500.0)
 
 SEVERITY, SNR = 1.5, 12.0
-"""How bad every fault is, over a plain one, and how far the vibration stands above the noise [dB]."""
+"""How bad a fault is, over a plain one, and how far the vibration stands above the noise [dB]."""
+
+OTHERWISE = {"bends": (3.0, 12.0), "half_critical": (0.8, 20.0), "critical": (0.6, 20.0), "worn_joint": (2.0, 20.0)}
+"""Faults that this drive shows less or more plainly than others."""
 
 LEFT_OUT = "input axial"
 """A channel that these recordings do without."""
@@ -30,9 +33,9 @@ FAULTS = {
     "unbalance": (1, "an unbalance on its longest shaft"),
     "lost_weight": (1, "a balance weight lost"),
     "bent": (2, "a bent tube"),
-    "bends": (5, "joints that bend too much"),
+    "bends": (2, "joints that bend too much"),
     "phase": (1, "a spline put together some teeth off, yokes out of phase"),
-    "half_critical": (1, "a critical speed of which the joints hit the half"),
+    "half_critical": (2, "a critical speed of which the joints hit the half"),
     "tight_joint": (1, "a tight joint"),
     "critical": (1, "a critical speed too near the running speed"),
     "crack": (1, "a crack across its longest shaft"),
@@ -53,7 +56,8 @@ def rounded(channel: Channel) -> Channel:
 def recording(fault: str) -> Signal:
     """Return the recording of a fault."""
     seed, _words = FAULTS[fault]
-    found = simulate_fault(example(DRIVE), fault, severity=SEVERITY, seed=seed, snr=SNR, runs=RUNS)
+    severity, snr = OTHERWISE.get(fault, (SEVERITY, SNR))
+    found = simulate_fault(example(DRIVE), fault, severity=severity, seed=seed, snr=snr, runs=RUNS)
     kept = tuple(rounded(one) for one in found.channels if one.name != LEFT_OUT)
     return Signal(name=file_name(fault), channels=kept, tacho=0)
 
