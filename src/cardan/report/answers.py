@@ -102,7 +102,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     >>> from cardan.units import deg
     >>> answered("motion", subject(Drive.from_angles([20 * deg, 20 * deg]))).title
     'Motion'
-    >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:49]
+    >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:46]
     'This answer needs more in the drive file: duty'
     """
     asked = ANSWERS[name]
