@@ -37,7 +37,7 @@ CHOSEN = "cardan_choices"
 
 YEAR = 365 * 24 * 3600
 
-LATER = 0.03
+LATER = 0.08
 """Seconds by which the form, the text and the view in space follow the curves and the verdicts."""
 
 
