@@ -14,7 +14,7 @@ from cardan.texts import _
 
 from .goals import Evaluator, Limit, check_names, excess
 from .optimise import Bounds, check_bounds
-from .pieces import Progress, answered
+from .pieces import Progress, StoppedError, answered
 from .work import STATUS, Column
 
 MOST = 2**24
@@ -124,7 +124,7 @@ def boundary(
     try:
         cells = grid.follow()
         crossings = grid.crossings(cells, accuracy)
-    except _StoppedError:
+    except StoppedError:
         status = "cancelled"
         cells = grid.cells
         crossings = grid.crossings(cells, math.inf)
@@ -141,10 +141,6 @@ def boundary(
         grid=int(np.prod(grid.shape)),
         status=status,
     )
-
-
-class _StoppedError(Exception):
-    """The user has enough."""
 
 
 class _Grid:
@@ -182,7 +178,7 @@ class _Grid:
         """Return the excess at places (n, 2)."""
         rows = answered(self.ask, self.at(places), self.names, self.progress, begin=self.done, end=end)
         if rows is None:
-            raise _StoppedError
+            raise StoppedError
         self.count, self.done = self.count + len(places), end
         found = excess(self.limits, rows, len(places))
         return np.where(rows[STATUS] == 0, found, math.nan)

@@ -15,7 +15,7 @@ from cardan.texts import _
 
 from .designs import uniforms
 from .goals import Evaluator, Goal, Limit, check_names, excess
-from .pieces import Progress
+from .pieces import Progress, StoppedError, tell
 from .work import STATUS, Column, Rows
 
 KEPT = 1e-9
@@ -127,10 +127,6 @@ class Optimum:
         return self.excess <= KEPT
 
 
-class _StoppedError(Exception):
-    """The user has enough."""
-
-
 class _Search:
     """Asks at points of the unit box and remembers the best."""
 
@@ -166,8 +162,7 @@ class _Search:
             self.values = {column.name: float(rows[column.name][place]) for column in _numbers(self.ask, rows)}
             if not rank[0]:
                 self.history.append((float(self.count), self.values[self.goal.name]))
-        if self.progress is not None and self.progress(min(self.count / self.most, 1.0)) == "stop":
-            raise _StoppedError
+        tell(self.progress, self.count / self.most)
         return np.where(unknown, math.nan, cost), over, rows
 
     def ranked(self, shares: Array) -> Array:
@@ -255,7 +250,7 @@ def optimise(
                 start = search.point
         settled = _descend(search, finish, search.share(start), small=isinstance(how, Global))
         ended = "converged" if settled and spread_out else "not converged"
-    except _StoppedError:
+    except StoppedError:
         ended = "cancelled"
     if search.best[0] and ended != "cancelled":
         ended = "nothing found"

@@ -15,7 +15,7 @@ from cardan.texts import _
 
 from .goals import Evaluator, Goal, Limit, check_names, excess
 from .optimise import KEPT, UNANSWERED, Bounds, check_bounds
-from .pieces import Progress
+from .pieces import Progress, StoppedError, tell
 from .work import STATUS, Column, Rows
 
 WORST = 1e9
@@ -80,10 +80,6 @@ class ParetoSet:
     values: Rows
     evaluations: int
     status: str
-
-
-class _StoppedError(Exception):
-    """The user has enough."""
 
 
 def pareto_search(
@@ -155,7 +151,7 @@ def pareto_search(
     status = "done"
     try:
         _evolve(archive, population, generations, seed)
-    except _StoppedError:
+    except StoppedError:
         status = "cancelled"
     points, rows = archive.whole()
     chosen = np.flatnonzero(pareto(rows, goals, limits)) if len(points) else np.empty(0, dtype=int)
@@ -199,8 +195,7 @@ class _Archive:
         self.points.append(points)
         self.rows.append(rows)
         self.count += len(points)
-        if self.progress is not None and self.progress(min(1.0, self.count / self.most)) == "stop":
-            raise _StoppedError
+        tell(self.progress, self.count / self.most)
         unknown = np.asarray(rows[STATUS]) != 0
         costs = np.stack([goal.cost(rows) for goal in self.goals], axis=1)
         over = np.stack([*(limit.excess(rows) for limit in self.limits), np.zeros(len(points))], axis=1)

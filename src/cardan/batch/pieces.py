@@ -23,6 +23,22 @@ SECONDS = 0.25
 """How long a piece takes, about."""
 
 
+class StoppedError(Exception):
+    """The user has enough."""
+
+
+def tell(progress: Progress | None, share: float) -> None:
+    """Tell the share done.
+
+    Raises
+    ------
+    StoppedError
+        The answer is "stop".
+    """
+    if progress is not None and progress(min(share, 1.0)) == "stop":
+        raise StoppedError
+
+
 def answered(
     ask: Evaluator,
     points: Array,
