@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from nicegui import events, ui
@@ -19,7 +20,7 @@ from cardan.texts import _
 from . import toasts
 from .answers import Sheet
 from .blocks import Export, PageView
-from .dialogs import asking
+from .dialogs import sending
 
 MOST_PULSES = 10_000
 """Pulses that a tacho gives in a turn at most."""
@@ -92,26 +93,21 @@ class Diagnosis(Sheet):
 
     def send(self) -> None:
         """Take a recording from the user's disk."""
-        with self.session.speaking(), asking("send-recording") as dialog:
-            ui.label(_("A recording, at most {size} MB").format(size=MAX_RECORDING // 10**6)).classes("head")
 
-            async def taken(event: events.UploadEventArguments) -> None:
-                recordings, name = self.session.recordings, event.file.name
-                place = recordings.room(name)
-                await event.file.save(place)
-                dialog.close()
-                if not self.body.is_deleted:
-                    with self.body:
-                        self._open(lambda: recordings.take(name, place))
+        async def taken(event: events.UploadEventArguments) -> Callable[[], None]:
+            name = event.file.name
+            place = self.session.recordings.room(name)
+            await event.file.save(place)
+            return lambda: self._sent(name, place)
 
-            def refused() -> None:
-                text = _("The file is larger than {size} MB.").format(size=MAX_RECORDING // 10**6)
-                toasts.refused(text)
+        with self.session.speaking():
+            title = _("A recording, at most {size} MB").format(size=MAX_RECORDING // 10**6)
+            sending("send-recording", title, taken, upload="recording-upload", suffixes=SUFFIXES, most=MAX_RECORDING)
 
-            ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_RECORDING, auto_upload=True).props(
-                f"accept={','.join(SUFFIXES)} flat bordered"
-            ).props('data-mark="recording-upload"')
-            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+    def _sent(self, name: str, place: Path) -> None:
+        if not self.body.is_deleted:
+            with self.body:
+                self._open(lambda: self.session.recordings.take(name, place))
 
     def _open(self, opening: Callable[[], None]) -> None:
         with self.session.speaking():
@@ -162,8 +158,10 @@ class Diagnosis(Sheet):
                 tacho.props('dense options-dense outlined data-mark="tacho"').classes("choice")
                 tacho.on_value_change(lambda event: self._say(tacho=event.value or None))
                 shaking = [one.name for one in self._sensors if one.shakes]
-                shown = ui.select({"": _("the loudest"), **dict.fromkeys(shaking)}, label=_("orders shown of"))
-                shown.set_options({"": _("the loudest"), **{one: one for one in shaking}}, value=said.channel or "")
+                channels = {"": _("the loudest"), **{one: one for one in shaking}}
+                shown = ui.select(
+                    channels, value=said.channel if said.channel in channels else "", label=_("orders shown of")
+                )
                 shown.props('dense options-dense outlined data-mark="shown-channel"').classes("choice")
                 shown.on_value_change(lambda event: self._say(channel=event.value or None))
             pulses = ui.number(_("pulses per turn"), value=said.pulses_per_turn, min=0, max=MOST_PULSES)

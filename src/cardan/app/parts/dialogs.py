@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Awaitable, Callable, Iterable, Iterator
 from contextlib import contextmanager
 
-from nicegui import ui
+from nicegui import events, ui
+
+from cardan.texts import _
+
+from . import toasts
 
 
 @contextmanager
@@ -29,3 +33,42 @@ def asking(mark: str, *, names: str = "", role: str = "dialog", whole: bool = Fa
             yield dialog
         dialog.on("hide", dialog.delete)
         dialog.open()
+
+
+def sending(
+    mark: str,
+    title: str,
+    taken: Callable[[events.UploadEventArguments], Awaitable[Callable[[], object]]],
+    *,
+    upload: str,
+    suffixes: Iterable[str],
+    most: int,
+) -> None:
+    """Ask for a file from the user's disk.
+
+    Parameters
+    ----------
+    mark, upload : str
+        What tests call the dialog, and the field within it.
+    title : str
+        What is asked for.
+    taken : function
+        Takes the file in, and returns what is done with it once the dialog is closed.
+    suffixes : iterable of str
+        Ends of names that are offered.
+    most : int
+        Bytes that a file may have.
+    """
+    larger = _("The file is larger than {size} MB.").format(size=most // 10**6)
+    with asking(mark) as dialog:
+
+        async def came(event: events.UploadEventArguments) -> None:
+            then = await taken(event)
+            dialog.close()
+            then()
+
+        ui.label(title).classes("head")
+        ui.upload(
+            on_upload=came, on_rejected=lambda: toasts.refused(larger), max_file_size=most, auto_upload=True
+        ).props(f'accept={",".join(suffixes)} flat bordered data-mark="{upload}"')
+        ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")

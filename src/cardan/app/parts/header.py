@@ -14,7 +14,7 @@ from cardan.io import starter
 from cardan.texts import _
 
 from . import toasts
-from .dialogs import asking
+from .dialogs import asking, sending
 from .download import ReportMenu
 from .settings import SettingsMenu
 from .variants import VariantsMenu
@@ -108,22 +108,18 @@ class Header:
 
     def send(self) -> None:
         """Take a file from the user's disk."""
-        with self.session.speaking(), asking("send-file") as dialog:
-            ui.label(_("A drive file, at most {size} MB").format(size=MAX_UPLOAD // 10**6)).classes("head")
 
-            async def taken(event: events.UploadEventArguments) -> None:
-                content = await event.file.read()
-                dialog.close()
-                with self.session.speaking():
-                    self._leave(lambda: self._receive(event.file.name, content))
+        async def taken(event: events.UploadEventArguments) -> Callable[[], None]:
+            content = await event.file.read()
+            return lambda: self._sent(event.file.name, content)
 
-            def refused() -> None:
-                toasts.refused(_("The file is larger than {size} MB.").format(size=MAX_UPLOAD // 10**6))
+        with self.session.speaking():
+            title = _("A drive file, at most {size} MB").format(size=MAX_UPLOAD // 10**6)
+            sending("send-file", title, taken, upload="upload", suffixes=(".toml", ".json"), most=MAX_UPLOAD)
 
-            ui.upload(on_upload=taken, on_rejected=refused, max_file_size=MAX_UPLOAD, auto_upload=True).props(
-                "accept=.toml,.json flat bordered"
-            ).props('data-mark="upload"')
-            ui.button(_("Close"), on_click=dialog.close).props("flat no-caps")
+    def _sent(self, name: str, content: bytes) -> None:
+        with self.session.speaking():
+            self._leave(lambda: self._receive(name, content))
 
     def _receive(self, name: str, content: bytes) -> None:
         self._try(lambda: self.session.take(name, content))
