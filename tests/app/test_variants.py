@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +19,18 @@ Open = Callable[..., Any]
 
 
 @pytest.fixture(scope="module")
-def url(serve: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> str:
+def server(serve: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory) -> Any:
     folder = tmp_path_factory.mktemp("variants")
     (folder / "z.toml").write_text(example_text("z-arrangement"), "utf-8")
     (folder / "other.toml").write_text(example_text("w-arrangement"), "utf-8")
     (folder / "long.toml").write_text(example_text("pto-flywheel"), "utf-8")
     command = (sys.executable, "-m", "cardan", "app", str(folder / "z.toml"), "--port", "{port}", "--no-browser")
-    return str(serve(*command).url)
+    return serve(*command)
+
+
+@pytest.fixture(scope="module")
+def url(server: Any) -> str:
+    return str(server.url)
 
 
 @pytest.fixture
@@ -34,6 +43,16 @@ def page(page_of: Open, url: str) -> Any:
 
 def mark(page: Any, name: str) -> Any:
     return page.locator(f'[data-mark="{name}"]')
+
+
+@contextmanager
+def held(process: subprocess.Popen[bytes]) -> Iterator[None]:
+    """Let a process do nothing for a while."""
+    process.send_signal(signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        process.send_signal(signal.SIGCONT)
 
 
 def menu(page: Any, item: str) -> None:
@@ -124,6 +143,20 @@ def test_a_report_that_is_stopped_leaves_the_page_at_work(page: Any, url: str) -
     with page.expect_download() as saved:
         mark(page, "view-png").click()
     assert saved.value.path().read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="only a POSIX process can be held")
+def test_menus_open_and_close_while_the_server_is_busy(page: Any, server: Any) -> None:
+    page.goto(f"{server.url}/?file=other.toml")
+    mark(page, "answer").first.wait_for()
+    with held(server.process):
+        for name, item in (("variants", "variants-keep"), ("report", "drive-toml"), ("file", "file-open")):
+            mark(page, f"{name}-menu").click()
+            mark(page, item).first.wait_for()
+            page.keyboard.press("Escape")
+            mark(page, item).first.wait_for(state="hidden")
+        mark(page, "settings").click()
+        mark(page, "theme").wait_for()
 
 
 def test_answers_are_in_the_units_and_with_the_sign_that_the_user_chose(page: Any) -> None:

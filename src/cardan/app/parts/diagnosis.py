@@ -21,6 +21,7 @@ from . import toasts
 from .answers import Sheet
 from .blocks import Export, PageView
 from .dialogs import sending
+from .menus import drop_down
 
 MOST_PULSES = 10_000
 """Pulses that a tacho gives in a turn at most."""
@@ -72,8 +73,7 @@ class Diagnosis(Sheet):
         self._source.clear()
         with self._source:
             _button(_("Send a recording …"), "upload", self.send).props('data-mark="recording-send"')
-            with ui.dropdown_button(_("Open a recording"), icon="folder_open", auto_close=True) as menu:
-                menu.props('flat dense no-caps data-mark="recording-open"')
+            with drop_down(_("Open a recording"), "recording-open", icon="folder_open"):
                 recordings = self.session.recordings
                 for name in recordings.names():
                     ui.item(name, on_click=lambda name=name: self._open(lambda: recordings.open(name)))

@@ -19,6 +19,7 @@ from cardan.texts import _
 from . import toasts
 from .dialogs import asking
 from .making import Making
+from .menus import drop_down
 
 Snapshot: TypeAlias = Callable[[], Awaitable[bytes]]
 
@@ -67,7 +68,7 @@ class ReportMenu:
         self.session = session
         self._jobs = jobs
         self.snapshot: Snapshot | None = None
-        with ui.dropdown_button(_("Report"), auto_close=True).props('flat dense no-caps data-mark="report-menu"'):
+        with drop_down(_("Report"), "report-menu"):
             for form, title in _forms().items():
                 ui.item(title, on_click=lambda form=form: self.report(form)).props(f'data-mark="report-{form}"')
             ui.separator()

@@ -14,6 +14,7 @@ from cardan.io.restructure import joint_moved, with_joint, without_joint
 from cardan.texts import _
 
 from .fields import KeyField, apply, attempt
+from .menus import drop_down
 
 NEW: dict[str, Mapping[str, Any]] = {
     "supports": {"shaft": 1, "position_mm": -100},
@@ -80,11 +81,7 @@ class Form:
                 "movements": _("movement"),
                 "poses": _("pose"),
             }
-            with (
-                ui.dropdown_button(_("add"), icon="add", auto_close=True)
-                .props("flat dense no-caps")
-                .props('data-mark="add"')
-            ):
+            with drop_down(_("add"), "add", icon="add"):
                 ui.item(_("joint"), on_click=lambda: self._add_joint())
                 for name, title in names.items():
                     ui.item(title, on_click=lambda name=name: self._add(name))

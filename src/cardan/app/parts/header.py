@@ -16,6 +16,7 @@ from cardan.texts import _
 from . import toasts
 from .dialogs import asking, sending
 from .download import ReportMenu
+from .menus import drop_down
 from .settings import SettingsMenu
 from .variants import VariantsMenu
 
@@ -58,7 +59,7 @@ class Header:
         self.redo.set_enabled(bool(session.history.behind))
 
     def _files(self) -> None:
-        with ui.dropdown_button(_("File"), auto_close=True).props("flat dense no-caps").props('data-mark="file-menu"'):
+        with drop_down(_("File"), "file-menu"):
             ui.item(_("New"), on_click=lambda: self._leave(lambda: self.session.open(starter(), saved=False)))
             ui.item(_("Open …"), on_click=lambda: self.open()).props('data-mark="file-open"')
             ui.item(_("Send a file …"), on_click=lambda: self.send()).props('data-mark="file-send"')

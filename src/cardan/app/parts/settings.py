@@ -8,6 +8,8 @@ from cardan.app.state.session import Session
 from cardan.texts import LANGUAGES, _
 from cardan.units import DIMENSIONS, label
 
+from .menus import pop_up
+
 CHOSEN = ("length", "angle", "angular_speed", "torque", "force", "mass", "stress", "power")
 """Dimensions whose unit a user may want otherwise."""
 
@@ -32,7 +34,7 @@ class SettingsMenu:
         title = _("How to show it")
         with ui.button(icon="tune").props(f'flat dense round aria-label="{title}"').props('data-mark="settings"'):
             ui.tooltip(title)
-            with ui.menu().props("max-height=80vh"), ui.element("div").classes("settings"):
+            with pop_up(), ui.element("div").classes("settings"):
                 themes = {"auto": _("as the system"), "light": _("light"), "dark": _("dark")}
                 ui.label(_("Page")).classes("head")
                 ui.toggle(

@@ -20,6 +20,7 @@ from .blocks import PageView
 from .dialogs import asking
 from .download import Exports
 from .making import Making
+from .menus import drop_down
 
 
 class VariantsMenu:
@@ -37,13 +38,9 @@ class VariantsMenu:
         self.session = session
         self._jobs = jobs
         ui.add_head_html('<link rel="stylesheet" href="/cardan/variants.css">')
-        with ui.button(_("Variants"), icon="arrow_drop_down").props(
-            'flat dense no-caps icon-right=arrow_drop_down data-mark="variants-menu"'
-        ) as self._button:
-            self._button.props(remove="icon")
-            with ui.menu().props("max-height=80vh") as self._menu:
-                self._list = ui.element("div").classes("variants")
-        self._menu.on("before-show", self._filled)
+        with drop_down(_("Variants"), "variants-menu").on("before-show", self._filled) as self._button:
+            self._list = ui.element("div").classes("variants")
+        self._listed: object = None
         session.listen("variants", self._count)
         self._count()
 
@@ -74,18 +71,22 @@ class VariantsMenu:
 
     def _count(self) -> None:
         count = len(self.session.variants)
-        self._button.text = f"{_('Variants')} ({count})" if count else _("Variants")
+        self._button.props["label"] = f"{_('Variants')} ({count})" if count else _("Variants")
         self._filled()
 
     def _filled(self) -> None:
-        """Fill the menu as it opens."""
+        """Fill the menu as it opens, where it would show something else."""
         session = self.session
+        shown = session.variants.of_text(session.document.text)
+        now = [one.name for one in session.variants], shown and shown.name
+        if now == self._listed:
+            return
+        self._listed = now
         self._list.clear()
         with session.speaking(), self._list:
             self._act("bookmark_add", _("Keep this as a variant …"), self.keep, "keep")
             self._act("folder_open", _("Keep a file as a variant …"), self._keep_file, "keep-file")
             self._act("compare_arrows", _("Compare …"), self.compare, "compare")
-            shown = session.variants.of_text(session.document.text)
             if len(session.variants):
                 ui.separator()
             for one in session.variants:
@@ -105,7 +106,6 @@ class VariantsMenu:
 
     def _act(self, icon: str, title: str, act: Callable[[], None], mark: str) -> None:
         def done() -> None:
-            self._menu.close()
             with self.session.speaking():
                 act()
 
@@ -113,7 +113,6 @@ class VariantsMenu:
 
     def _small(self, icon: str, title: str, name: str, act: Callable[[str], None]) -> None:
         def done() -> None:
-            self._menu.close()
             with self.session.speaking():
                 act(name)
 
@@ -123,7 +122,6 @@ class VariantsMenu:
         )
 
     def _switch(self, name: str) -> None:
-        self._menu.close()
         with self.session.speaking():
             self.session.rewrite(self.session.variants.named(name).text)
             ui.notify(_("{name} is what you work on now; undo goes back.").format(name=name), position="top")

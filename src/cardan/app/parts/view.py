@@ -19,6 +19,7 @@ from cardan.figures.scene_words import in_words_of
 from cardan.report.preferred import names_in
 from cardan.texts import _, speaking
 
+from .menus import drop_down
 from .timers import Timer
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ class View:
             for name, title in looks.items():
                 button = ui.button(title, on_click=lambda name=name: self.scene.view(name))
                 button.props("flat dense no-caps size=sm").props(f'data-mark="look-{name}"')
-            with ui.dropdown_button(_("show")).props("flat dense no-caps size=sm").props('data-mark="show"'):
+            with drop_down(_("show"), "show", look="size=sm", closes=False):
                 self.switches = ui.element("div").classes("switches")
             colours = {"shaft": _("by shaft"), "utilisation": _("by utilisation")}
             ui.select(colours, value="shaft", on_change=lambda event: self.scene.colour_by(event.value)).props(
