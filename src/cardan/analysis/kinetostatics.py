@@ -18,6 +18,9 @@ from .motion import motion
 from .moving_chain import Spins, moving_axes
 from .swing_couple import swing_couple
 
+STILL = 1e-12
+"""Share of the speed of the shafts below which the rate of a cross against its yoke is rounding."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stand:
@@ -200,7 +203,8 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
     -----
     With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
     τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
-    the rates of the cross against the driving and of the driven yoke against the cross. Book (103), (113) are cases.
+    the rates of the cross against the driving and of the driven yoke against the cross; where one of them changes its
+    sense, the sense right after. Book (103), (113) are cases.
     """
     xp = namespace(stand.speed, load)
     n = train.joints
@@ -220,12 +224,12 @@ def couples(train: Train, stand: Stand, load: Array) -> Couples:
         swing = _cross_swing(train, stand, i, (u, v, normal))
         top = tau if swing is None else tau + swing.rate[0] * lean
         if train.drag is not None:
-            p, q = _journal_rates(stand, i, u, v, lean)
+            (p, q), (ahead, behind) = _journal_rates(stand, i, u, v, lean)
             kappa = train.drag[..., None, i]
-            t = top / (into - kappa * xp.sign(top) * xp.sign(p) * lean)
+            t = top / (into - kappa * xp.sign(top) * ahead * lean)
             rubs = kappa * xp.abs(t)
             lost = rubs * (xp.abs(p) + xp.abs(q))
-            along_u, along_v = -rubs * xp.sign(p), rubs * xp.sign(q)
+            along_u, along_v = -rubs * ahead, rubs * behind
             out = t[..., None] * normal + along_u[..., None] * u + along_v[..., None] * v
         else:
             t = top / into
@@ -294,10 +298,10 @@ def resisted(train: Train, stand: Stand, drive: Array) -> Array:
         if swing is not None:
             left = left - swing.rate[2] * out - swing.rate[1] * back
         if train.drag is not None:
-            p, q = _journal_rates(stand, i, u, v, lean)
+            ahead, behind = _journal_rates(stand, i, u, v, lean)[1]
             kappa = train.drag[..., None, i]
-            t = left / (out + kappa * xp.sign(left) * xp.sign(q) * back)
-            tau = t * into - kappa * xp.abs(t) * xp.sign(p) * lean
+            t = left / (out + kappa * xp.sign(left) * behind * back)
+            tau = t * into - kappa * xp.abs(t) * ahead * lean
         else:
             tau = left / out * into
         if swing is not None:
@@ -350,12 +354,23 @@ def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, A
     return _CrossSwing(turning, (rate[0], rate[1], rate[2]))
 
 
-def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[Array, Array]:
-    """Return the rates of cross i against its driving yoke about u and against the driven one about v [rad/s]."""
+def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[tuple[Array, Array], list[Array]]:
+    """Return the rates p, q [rad/s] of cross i against its driving yoke about u and against the driven one about v.
+
+    Also the senses of both, ±1: where one stands still for an instant, the sense right after, with the axes at rest
+    that of ṗ = ω_i ω_{i+1} (e_i×u)·e_{i+1} or q̇ = ω_i ω_{i+1} e_i·(e_{i+1}×v); 0 in a straight joint.
+    """
+    xp = namespace(stand.speed)
+    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
     if stand.axis_rate is None:
-        return stand.speed[..., i + 1] * lean, stand.speed[..., i] * frames.dot(stand.axis[..., i, :], v)
-    one, two = stand.turning(i), stand.turning(i + 1)
-    return frames.dot(two - one, u), frames.dot(one - two, v)
+        rates = stand.speed[..., i + 1] * lean, stand.speed[..., i] * frames.dot(before, v)
+    else:
+        one, two = stand.turning(i), stand.turning(i + 1)
+        rates = frames.dot(two - one, u), frames.dot(one - two, v)
+    least = STILL * xp.maximum(xp.abs(stand.speed[..., i]), xp.abs(stand.speed[..., i + 1]))
+    growth = frames.dot(frames.cross(before, u), after), frames.dot(before, frames.cross(after, v))
+    later = (xp.where(xp.abs(more) > STILL, xp.sign(more), 0.0 * more) for more in growth)
+    return rates, [xp.where(xp.abs(rate) > least, xp.sign(rate), then) for rate, then in zip(rates, later, strict=True)]
 
 
 def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
