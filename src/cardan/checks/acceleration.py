@@ -17,6 +17,7 @@ from cardan.texts import _, mark
 from .case import Case
 from .check import Check
 from .design import Design
+from .told import at_top_speed, joined
 from .verdict import Verdict
 
 
@@ -50,7 +51,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         yield made(
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             levers=(*yokes, *design.bend_levers, *design.speed_levers),
-            note=_("while the drive moves") if np.all(most > drawn) else "",
+            note=joined((at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else "")),
         )
 
 

@@ -46,12 +46,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
             )
         if between is not None:
+            nearest = np.clip(middle, between[0], design.value("duty.speed_range[1]"))
             yield made(
                 title=_("range of speeds about half the critical speed of shaft {number}").format(number=k + 1),
-                value=np.clip(np.sqrt(low * high), between[0], design.value("duty.speed_range[1]")),
+                value=nearest,
                 limit=(low, high),
                 levers=levers,
-                note=_("pass through it quickly"),
+                note=_("pass through it quickly") if np.all((nearest > low) & (nearest < high)) else "",
                 advice=True,
             )
 
