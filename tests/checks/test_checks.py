@@ -335,11 +335,50 @@ def test_what_a_movement_makes_of_bends_and_splines_counts():
     assert spline.limit == pytest.approx(0.150)
 
 
+def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
+    """The file says engaged length and gap as drawn: a pose has used some of them before it moves."""
+    drive = example("truck-rear-axle")
+    drawn = geometry(drive).length[1]
+    reach = [
+        one
+        for posed in (replace(drive, poses=()), *pose_drives(drive))
+        for one in (articulation(posed).splines[0].length_min, articulation(posed).splines[0].length_max)
+    ]
+    engaged, gap = check(drive, only=["spline_overlap"])
+    assert (engaged.value, engaged.note) == (pytest.approx(0.110 - (max(reach) - drawn)), "in the pose empty")
+    assert (gap.value, gap.note) == (pytest.approx(0.060 - (drawn - min(reach))), "in the pose full load")
+    still = check(replace(drive, movements=()), only=["spline_overlap"])
+    lengths = [float(geometry(posed).length[1]) for posed in pose_drives(drive)]
+    assert [one.value for one in still] == pytest.approx([0.110 - max(lengths) + drawn, 0.060 - drawn + min(lengths)])
+
+
+def test_advice_on_bends_is_judged_while_the_drive_moves():
+    drive = example("pto-hitch")
+    bends = articulation(drive).bend
+    assert np.max(geometry(drive).bend) == 0.0
+    found = check(drive, only=["angle_rule", "bend_at_speed", "angle_table"])
+    largest, apart, table, at_speed = found
+    assert {v.note for v in found} == {"while the drive moves"}
+    assert largest.value == at_speed.value == table.value == pytest.approx(np.max(bends), rel=1e-6)
+    assert apart.value == pytest.approx(np.max(np.abs(bends[:, 0] - bends[:, 1])), rel=1e-6)
+    speed = drive.duty.speed
+    assert table.passed == (np.max(np.abs(bends[:, 0] ** 2 - bends[:, 1] ** 2)) * speed**2 <= 400.0)
+    quick = check(replace(drive, duty=replace(drive.duty, speed=30.0 * speed)), only=["angle_table"])[0]
+    assert quick.state == "failed"
+
+
+def test_a_value_at_its_limit_but_for_rounding_keeps_it():
+    drive = Drive.from_angles([6.000000000000001 * deg, 6 * deg])
+    assert check(drive, only=["angle_rule"])[0].utilisation == 1.0
+    assert utilisation(1.0 - 1e-12, 1.0, "at_least") == 1.0
+    assert utilisation(1.0 + 1e-6, 1.0, "at_most") > 1.0
+
+
 @pytest.mark.parametrize("name", ["truck-rear-axle", "pto-hitch"])
 def test_many_drives_that_move_and_have_poses_are_judged_as_one_by_one(name):
     drive = example(name)
     drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01, output_error=0.1 * deg))
-    only = ["bend", "irregularity", "output_error", "acceleration"]
+    only = ["bend", "irregularity", "output_error", "acceleration", "angle_rule", "angle_table", "bend_at_speed"]
     for path, values in {"joints[0].centre_mm[2]": [-9.0, 6.0], "joints[1].centre_mm[2]": [-300.0, 20.0]}.items():
         many = check(drive, only=only, vary={path: values})
         for k, value in enumerate(values):

@@ -12,6 +12,7 @@ from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
+from .moving import at_its_most
 from .verdict import Verdict
 
 
@@ -26,17 +27,12 @@ def _judge(design: Design) -> Iterator[Verdict]:
         advice=True,
         levers=design.bend_levers,
     )
-    yield made(
-        title=_("largest bend, rule of thumb"),
-        value=np.max(design.bend, axis=-1),
-        limit=RULE_ANGLE,
-    )
+    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    yield made(title=_("largest bend, rule of thumb"), value=largest[..., 0], limit=RULE_ANGLE, note=note)
     if design.joints == 2:
-        yield made(
-            title=_("difference of the bends, rule of thumb"),
-            value=np.abs(design.bend[..., 0] - design.bend[..., 1]),
-            limit=RULE_DIFFERENCE,
-        )
+        apart, note = at_its_most(design, lambda bend: np.abs(bend[..., :1] - bend[..., 1:]))
+        title = _("difference of the bends, rule of thumb")
+        yield made(title=title, value=apart[..., 0], limit=RULE_DIFFERENCE, note=note)
 
 
 CHECK = Check(

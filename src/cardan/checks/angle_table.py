@@ -13,6 +13,8 @@ from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
+from .moving import at_its_most
+from .told import at_top_speed, bendable, joined
 from .verdict import Verdict
 
 SET = 1e-3
@@ -37,12 +39,19 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     if np.any(np.asarray(speed) == 0.0):
         return
-    high, low = np.max(design.bend, axis=-1), np.min(design.bend, axis=-1)
-    most: Array = angle_limits(speed, low, high, torsional=TABLE_TORSIONAL).most
+    high, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    low = np.min(design.bend, axis=-1)
+    if note:
+        # √(low² + a/ω²) is kept where high² - low² is at most a/ω²: the largest difference decides.
+        apart = at_its_most(design, lambda bend: np.abs(bend[..., :1] ** 2 - bend[..., 1:] ** 2))[0]
+        low = np.sqrt(np.maximum(high**2 - apart, 0.0))[..., 0]
+    most: Array = angle_limits(speed, low, high[..., 0], torsional=TABLE_TORSIONAL).most
+    most, said = bendable(design, most)
     yield made(
-        value=high,
+        value=high[..., 0],
         limit=most,
         levers=(*design.bend_levers, *design.speed_levers),
+        note=joined((at_top_speed(design), said, note)),
     )
 
 

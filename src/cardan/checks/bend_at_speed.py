@@ -13,6 +13,8 @@ from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
+from .moving import at_its_most
+from .told import bendable, joined
 from .verdict import Verdict
 
 
@@ -37,10 +39,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
     at = np.asarray([row.speed for row in rows])
     turning = np.maximum(np.asarray(speed, dtype=float), 1e-9)
     limit: Array = np.interp(turning, at, at * np.asarray([row.max_bend for row in rows])) / turning
+    limit, said = bendable(design, limit)
+    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
     yield made(
-        value=np.max(design.bend, axis=-1),
+        value=largest[..., 0],
         limit=limit,
         levers=(*design.bend_levers, *design.speed_levers),
+        note=joined((said, note)),
     )
 
 

@@ -50,12 +50,15 @@ class Design:
         Its norms, types and sizes.
     varied : mapping of str to array (...)
         Path without unit, as ``joints[0].cross.span`` or ``duty.torque`` -> values in SI, in place of the drive's.
+    drawn : Drive, optional
+        The drive as drawn, where this is one of its poses: engaged length and gap of a spline hold there.
     """
 
     drive: Drive
     duty: Duty
     known: Catalogue = field(default_factory=catalogue)
     varied: Mapping[str, Array] = field(default_factory=dict)
+    drawn: Drive | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...]:

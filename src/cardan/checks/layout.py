@@ -11,7 +11,7 @@ from cardan.texts import _, mark, plural
 
 from .check import Check
 from .design import Design
-from .verdict import Verdict
+from .verdict import BELOW, Verdict
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -24,7 +24,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if vehicle.wheelbase is None:
         yield made(missing=("duty.vehicle.wheelbase",))
         return
-    limits = {0: 0.0, 1: math.nextafter(ONE_SHAFT, 0.0), 2: TWO_SHAFTS}
+    limits = {0: 0.0, 1: ONE_SHAFT * BELOW, 2: TWO_SHAFTS}
     yield made(
         value=vehicle.wheelbase,
         limit=limits.get(shafts, math.inf),

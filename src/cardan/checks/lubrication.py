@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-import numpy as np
-
 from cardan.analysis.upkeep import SEVERE
 from cardan.catalogue.rows import Lubrication
 from cardan.texts import _, mark
 
 from .check import Check
 from .design import Design
-from .verdict import Verdict
+from .verdict import BELOW, Verdict
 
 COUNTERS = {"hours": ("time", "h"), "distance": ("length", "km"), "years": ("", "")}
 
@@ -43,7 +41,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 unit=unit,
                 # Due when the interval is reached, so all but a hair of it passes.
                 value=design.value(f"duty.upkeep.{name}"),
-                limit=np.nextafter(getattr(row, name) * (SEVERE if upkeep.severe else 1.0), 0.0),
+                limit=getattr(row, name) * (SEVERE if upkeep.severe else 1.0) * BELOW,
                 note=_("lubricate with {what}").format(what=row.lubricant)
                 + (_("; severe use halves the interval") if upkeep.severe else ""),
                 levers=(f"duty.upkeep.{name}",),

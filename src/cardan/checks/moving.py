@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -33,6 +33,23 @@ def largest_bend(design: Design, i: int) -> Array | float:
     return design.moving_bend[..., i] if design.drive.movements else 0.0
 
 
+def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, str]:
+    """Return the largest answers on the bends, as drawn and while the drive moves (..., k), and a word where it moves.
+
+    Parameters
+    ----------
+    design : Design
+        Of Hooke joints.
+    ask : function
+        From bends (..., n) [rad] to answers (..., k).
+    """
+    drawn = ask(design.bend)
+    moved = design.while_moving(lambda chain: ask(chain.bend))
+    if moved is None:
+        return drawn, ""
+    return np.maximum(drawn, moved), _("while the drive moves") if np.all(moved > drawn * WORSE) else ""
+
+
 def posed(design: Design) -> list[tuple[str, Design]]:
     """Return the name of every pose of a drive and the design in it; what the pose sets does not vary there."""
     found = []
@@ -43,7 +60,8 @@ def posed(design: Design) -> list[tuple[str, Design]]:
             for path, values in design.varied.items()
             if not any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in own)
         }
-        found.append((pose.name or str(k), replace(design, drive=drive, duty=drive.duty, varied=varied)))
+        other = replace(design, drive=drive, duty=drive.duty, varied=varied, drawn=design.drive)
+        found.append((pose.name or str(k), other))
     return found
 
 

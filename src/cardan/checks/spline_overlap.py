@@ -9,7 +9,6 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.parts import known_lengths
-from cardan.drive.paths import pose_drives
 from cardan.texts import _, mark
 from cardan.units import mm
 
@@ -26,7 +25,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     splined = [k for k, shaft in enumerate(design.drive.shafts) if shaft.spline is not None]
     if not splined:
         return
-    slides = _slides(design.drive)
+    slides = _slid(design)
     own = design.value("limits.spline_overlap")
     for k in splined:
         path = f"shafts[{k}].spline"
@@ -56,22 +55,27 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
 
 
+def _slid(design: Design) -> dict[int, tuple[float, float]]:
+    """Return how far each shaft grows longer and shorter than drawn, where it slides [m]; a pose may say it anew."""
+    found = _slides(design.drive, design.drawn or design.drive)
+    if design.drawn is None:
+        return found
+    shafts = zip(design.drive.shafts, design.drawn.shafts, strict=True)
+    anew = {k for k, (one, other) in enumerate(shafts) if one.spline and one.spline != other.spline}
+    own = _slides(design.drive, design.drive) if anew else {}
+    return {k: own.get(k, (0.0, 0.0)) if k in anew else ways for k, ways in found.items()}
+
+
 @lru_cache(maxsize=64)
-def _slides(drive: Drive) -> dict[int, tuple[float, float]]:
-    """Return how far each shaft grows longer and shorter than drawn while the drive moves and in its poses [m]."""
-    found: dict[int, tuple[float, float]] = {}
-    drawn = known_lengths(drive)
-    for posed in pose_drives(drive):
-        for number, length in known_lengths(posed).items():
-            if number in drawn:
-                out, back = found.get(number - 1, (0.0, 0.0))
-                found[number - 1] = max(out, length - drawn[number]), max(back, drawn[number] - length)
-    moving = movement(drive)
-    if moving is not None:
-        for one in moving.splines:
-            out, back = found.get(one.shaft - 1, (0.0, 0.0))
-            found[one.shaft - 1] = max(out, one.length_max - one.drawn), max(back, one.drawn - one.length_min)
-    return found
+def _slides(drive: Drive, drawn: Drive) -> dict[int, tuple[float, float]]:
+    """Return how far each shaft gets longer and shorter than drawn, standing and moving; none where none slides [m]."""
+    if not drive.movements and not drive.poses and drive is drawn:
+        return {}
+    zero, standing, moving = known_lengths(drawn), known_lengths(drive), movement(drive)
+    reach = {number: (length, length) for number, length in standing.items()}
+    for one in moving.splines if moving is not None else ():
+        reach[one.shaft] = (one.length_min, one.length_max)
+    return {k - 1: (high - zero[k], zero[k] - low) for k, (low, high) in reach.items() if k in zero}
 
 
 CHECK = Check(

@@ -14,6 +14,12 @@ Sense: TypeAlias = Literal["at_most", "at_least", "within", "outside"]
 AMBER = 0.9
 """Utilisation from which a check that passes is close to its limit."""
 
+ROUNDING = 1e-9
+"""A limit passed by less than this share of it is kept: rounding of figures that stand at their limit."""
+
+BELOW = 1.0 - 2.0 * ROUNDING
+"""Share of what a value must not even reach that it may be at most."""
+
 State: TypeAlias = Literal["passed", "close", "failed", "not_run"]
 
 
@@ -105,8 +111,8 @@ def utilisation(value: Array | float, limit: Array | float | tuple[float, float]
     -------
     float or array (...)
         At most: value/limit; at least: limit/value; within a…b: the larger of value/b and a/value; outside: the
-        smaller of value/a and b/value. At most 1 exactly when the value keeps the limit; what must be at least
-        something uses all of it, and more, where nothing is left.
+        smaller of value/a and b/value. At most 1 exactly when the value keeps the limit, but for `ROUNDING`; what must
+        be at least something uses all of it, and more, where nothing is left.
 
     Examples
     --------
@@ -114,6 +120,8 @@ def utilisation(value: Array | float, limit: Array | float | tuple[float, float]
     (0.8, 0.8)
     >>> utilisation(float("inf"), 4000.0, "at_least"), utilisation(3000.0, (1900.0, 2100.0), "outside")
     (0.0, 0.7)
+    >>> utilisation(6.000000000000001, 6.0, "at_most")
+    1.0
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         if sense == "at_most":
@@ -128,4 +136,5 @@ def utilisation(value: Array | float, limit: Array | float | tuple[float, float]
                 if sense == "within"
                 else np.minimum(np.divide(value, low), np.divide(high, value))
             )
+    used = np.where((used > 1.0) & (used <= 1.0 + ROUNDING), 1.0, used)
     return float(used) if np.ndim(used) == 0 else used

@@ -22,7 +22,7 @@ def moving(on: Subject) -> Page:
     blocks: list[Block] = [Picture(figure=figure) for figure in figures]
     blocks.append(_worst(found))
     if found.splines:
-        blocks.append(_sliding(found))
+        blocks.append(_sliding(found, posed=bool(on.drive.poses)))
     return Page(name="articulation", title=_("Articulation"), answer=figures[0].sentence, blocks=blocks)
 
 
@@ -60,7 +60,7 @@ def _worst(found: Articulation) -> Table:
     )
 
 
-def _sliding(found: Articulation) -> Table:
+def _sliding(found: Articulation, *, posed: bool) -> Table:
     def length(value: float | None, flagged: bool) -> Cell:
         if value is None:
             return words("–")
@@ -90,11 +90,14 @@ def _sliding(found: Articulation) -> Table:
         (_("engaged, least"), "mm"),
         (_("gap, least"), "mm"),
     )
+    note = _("Over the {span} s looked at; the slip path is the whole way back and forth.").format(
+        span=significant(float(np.ptp(found.times)), 3)
+    )
+    if posed:
+        note += " " + _("The movement starts from the drive as drawn; its poses are judged with the limits.")
     return Table(
         title=_("Sliding shafts"),
         columns=(Column(heading=_("shaft"), left=True), *(Column(heading=name, unit=unit) for name, unit in heads)),
         rows=rows,
-        note=_("Over the {span} s looked at; the slip path is the whole way back and forth.").format(
-            span=significant(float(np.ptp(found.times)), 3)
-        ),
+        note=note,
     )

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.analysis.equivalence import WARN_BEND
+from cardan.checks.checks import check
+from cardan.checks.verdict import Verdict
 from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent, significant
 from cardan.synthesis.setting import YokeSetting
@@ -241,15 +243,26 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
                 "moving_irregularity": _("largest irregularity while moving, movement counted, at {time} s"),
             }[one.what].format(time=significant(one.time, 3))
             yield key(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
-    overlap = on.drive.limits.spline_overlap
+    overlap, posed = on.drive.limits.spline_overlap, _worst_of_poses(on)
     for spline in on.moving.splines:
         failed = {flag.field.rpartition(".")[2] for flag in spline.flags}
+        path = f"shafts[{spline.shaft - 1}].spline"
         if spline.engaged_min is not None:
             name = _("shortest engaged length of the spline of shaft {k}").format(k=spline.shaft)
-            yield _travel(name, spline.engaged_min, overlap, failed="engaged" in failed)
+            worst = posed.get(f"{path}.engaged")
+            left = spline.engaged_min if worst is None else float(worst.value)
+            yield _travel(name, left, overlap, failed="engaged" in failed or (worst is not None and not worst.passed))
         if spline.gap_min is not None:
             name = _("least way left to bottoming of shaft {k}").format(k=spline.shaft)
-            yield _travel(name, spline.gap_min, None, failed="gap" in failed)
+            worst = posed.get(f"{path}.gap")
+            left = spline.gap_min if worst is None else float(worst.value)
+            yield _travel(name, left, None, failed="gap" in failed or (worst is not None and not worst.passed))
+
+
+def _worst_of_poses(on: Subject) -> dict[str, Verdict]:
+    """Return the verdicts on splines by their lever, where the drive has poses that may be worse than as drawn."""
+    found = check(on.drive, only=["spline_overlap"], known=on.known) if on.drive.poses else ()
+    return {one.levers[0]: one for one in found if one.run}
 
 
 def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> list[Cell]:
