@@ -10,7 +10,7 @@ import pytest
 
 from cardan import Drive, stability, torsion_modes, torsion_response, transient
 from cardan.analysis.transient import Adaptive
-from cardan.drive.duty import Duty
+from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Absorber, Pendulum, Station
 from cardan.figures import Figure, for_result, save
@@ -80,6 +80,30 @@ def test_the_response_shows_torques_and_orders() -> None:
     assert np.max(over.y) == pytest.approx(float(found.torque_highest[0]), rel=1e-4)
     bars = drawn(figure, Bars, 1)[0]
     assert bars.size[0] == pytest.approx(float(found.steady.torque.amplitude[0, 0]))
+
+
+def test_orders_that_do_not_repeat_with_the_turn_have_their_bar() -> None:
+    """The straight line answers them, and the swing counts them: the chart must not drop them."""
+    found = torsion_response(replace(DRIVE, duty=replace(DRIVE.duty, harmonics=(Harmonic(order=1.3, torque=20.0),))))
+    figure = response_figure(found)
+    bars, words = drawn(figure, Bars, 1)[0], figure.panels[1].x.texts
+    assert bars.size[words.index("1.3")] == pytest.approx(abs(found.apart[0].torque[0]))
+    assert "order 1.3, ±" in figure.source
+
+
+def test_no_place_is_told_in_millimetres_where_the_lengths_are_not_known() -> None:
+    free = replace(
+        DRIVE, duty=Duty(input="free", speed=40.0), stations=(Station(shaft=1, inertia=1.0), *DRIVE.stations)
+    )
+    figure = shapes_figure(torsion_modes(free))
+    assert not torsion_modes(free).train.to_scale
+    assert "mm" not in figure.sentence
+    assert "% of the way from" in figure.sentence
+    assert figure.panels[0].x.unit == ""
+    (joint,) = (one.value for one in drawn(figure, Rule) if one.upright)
+    assert joint == 1.0  # by shafts
+    known = replace(free, shafts=(replace(free.shafts[0], length=0.4), Shaft(number=2, length=0.2)))
+    assert "mm" in shapes_figure(torsion_modes(known)).sentence
 
 
 def test_a_sweep_shades_what_is_unstable() -> None:

@@ -50,6 +50,8 @@ class TorsionalTrain:
         Elements that hold pendulums: their stiffness goes with the square of the speed.
     assumed : tuple of str
         Paths of what the drive does not say and the model assumes.
+    to_scale : bool
+        Whether the positions follow from lengths that the drive gives; else some shafts are as long as others.
     """
 
     model: TorsionalModel
@@ -58,6 +60,7 @@ class TorsionalTrain:
     hangs: tuple[int | None, ...]
     pendulums: tuple[int, ...]
     assumed: tuple[str, ...]
+    to_scale: bool = True
 
     @property
     def element_names(self) -> tuple[str, ...]:
@@ -228,7 +231,9 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> Torsional
         shaft=tuple(i for i, line in enumerate(lines) for _k in line.inertia),
         names=tuple(name for line in lines for name in line.names),
     )
-    length = np.asarray(geometry(drive).length, dtype=float)
+    place = geometry(drive)
+    length = np.asarray(place.length, dtype=float)
+    drawn = [i for i, line in enumerate(lines) if i == 0 or len(line.inertia) > 1]
     begin = np.append(0.0, np.cumsum(length))
     places = [begin[i] + share * length[i] for i, line in enumerate(lines) for share in line.share]
     return TorsionalTrain(
@@ -238,6 +243,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> Torsional
         hangs=(None,) * len(driven),
         pendulums=(),
         assumed=tuple(path for line in lines for path in line.assumed),
+        to_scale=not any(f"shafts[{i}].length" in place.assumed for i in drawn),
     )
 
 

@@ -187,7 +187,11 @@ def _shape_table(found: TorsionModes) -> Table:
     from .torsion_parts import short
 
     rows: list[list[Cell]] = [
-        [short(name, 30), 1e3 * float(found.train.position[k]), *(float(one) for one in found.shape[:SHOWN, k])]
+        [
+            short(name, 30),
+            1e3 * float(found.train.position[k]) if found.train.to_scale else None,
+            *(float(one) for one in found.shape[:SHOWN, k]),
+        ]
         for k, name in enumerate(found.train.model.names)
     ]
     columns = (
@@ -228,11 +232,16 @@ def _remarks(drive: Drive, file: Path, found: TorsionModes) -> Iterator[Remark]:
         for node in nodes:
             names = found.train.model.names
             text = _("Mode {mode} stands still at {place} mm from the input end, between {one} and {two}.")
+            if not found.train.to_scale:
+                text = _("Mode {mode} stands still {share} % of the way from {one} to {two}.")
             at = node.before if node.share < 0.005 else node.behind if node.share > 0.995 else None
             if at is not None:
                 text = _("Mode {mode} stands still at {place} mm from the input end, at {one}.")
+                if not found.train.to_scale:
+                    text = _("Mode {mode} stands still at {one}.")
             one, two = names[node.before if at is None else at], names[node.behind]
-            yield Remark(text=text.format(mode=k, place=significant(1e3 * node.position, 3), one=one, two=two))
+            where = {"place": significant(1e3 * node.position, 3), "share": significant(100.0 * node.share, 2)}
+            yield Remark(text=text.format(mode=k, one=one, two=two, **where))
     if found.joint_weight.shape[-1]:
         nearest = int(np.argmin(np.abs(found.joint_weight[0]))) + 1
         text = _(

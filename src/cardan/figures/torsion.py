@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.analysis.torsion import TorsionModes
+from cardan.analysis.torsional_train import TorsionalTrain
 from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 from cardan.units import mm, rpm
@@ -16,7 +17,7 @@ from cardan.units import mm, rpm
 from .axes import axis, steps, written
 from .figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series
 from .palette import DASHES, shaft
-from .wording import significant
+from .wording import percent, significant
 
 MODES = 4
 """Modes with a curve of their own."""
@@ -32,6 +33,9 @@ LETTER = 0.0085
 
 LOW = 0.1
 """Share of the height that the ray of order 1 leaves free below it for a word."""
+
+ENDS = 0.005
+"""Share of an element within which a node counts as at its end."""
 
 POINTS = 61
 """Speeds at which natural frequencies are drawn that change with the speed."""
@@ -111,8 +115,9 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         end = min(top, 60.0 * high / order)
         ends = np.asarray([0.0, end])
         plain = order == 1.0 and not any(one == 1.0 for one, _why in orders)
-        yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.9, dash="dotted" if plain else "dashed")
-        word = _("order 1: parametric") if plain else f"{order:g}"
+        word = _("order 1: parametric") if plain else _("order {order}").format(order=f"{order:g}")
+        dash = "dotted" if plain else "dashed"
+        yield Curve(x=ends, y=order * ends / 60.0, role="muted", width=0.9, dash=dash, text=word)
         share = _clear(found, end, top, len(word)) if plain else 0.94
         yield Note(text=word, x=share * end, y=share * order * end / 60.0, role="muted", side="left", shift=(5.0, -5.0))
     speeds = np.linspace(0.0, top, POINTS if found.train.pendulums else 2)[1 if found.train.pendulums else 0 :]
@@ -125,7 +130,8 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         place = met.order * met.speed / (2.0 * math.pi)
         if met.speed / rpm <= top and met.mode <= MODES and place <= high:
             role = "failed" if met.inside else "ink"
-            yield Curve(x=_at(met.speed / rpm), y=_at(place), role=role, width=0.0, marker=5.0)
+            text = _("order {order:g} meets mode {mode}").format(order=met.order, mode=met.mode)
+            yield Curve(x=_at(met.speed / rpm), y=_at(place), role=role, width=0.0, marker=5.0, text=text)
 
 
 def _clear(found: TorsionModes, end: float, top: float, letters: int) -> float:
@@ -172,10 +178,11 @@ def shapes_figure(found: TorsionModes) -> Figure:
     """
     train = found.train
     line = list(train.line)
-    place = train.position[line] / mm
+    positions = _along(train, train.position)
+    place = positions[line]
     series: list[Series] = [Rule(value=0.0, role="muted", dash="solid")]
     for number, (_driving, driven) in enumerate(train.joints, start=1):
-        series.append(Rule(value=float(train.position[driven]) / mm, upright=True, text=str(number)))
+        series.append(Rule(value=float(positions[driven]), upright=True, text=str(number)))
     for k in range(min(MODES, len(found.omega))):
         hertz = significant(float(found.omega[k]) / (2.0 * math.pi), 3)
         series.append(
@@ -189,18 +196,24 @@ def shapes_figure(found: TorsionModes) -> Figure:
             )
         )
         for node in found.nodes[k]:
-            series.append(Curve(x=_at(node.position / mm), y=_at(0.0), role=shaft(k + 2), width=0.0, marker=7.0))
+            series.append(
+                Curve(x=_along(train, _at(node.position)), y=_at(0.0), role=shaft(k + 2), width=0.0, marker=7.0)
+            )
     for k, host in enumerate(train.hangs):
         if host is not None:
             shown = found.shape[0, k]
-            series.append(Curve(x=_at(train.position[k] / mm), y=_at(shown), role="accent", width=0.0, marker=4.0))
-            far = float(train.position[k]) / mm > 0.5 * float(place[0] + place[-1])
-            word = Note(text=_("hung"), x=float(train.position[k]) / mm, y=float(shown))
+            dot = Curve(x=_at(positions[k]), y=_at(shown), role="accent", width=0.0, marker=4.0)
+            series.append(replace(dot, text=_("hung")))
+            far = float(positions[k]) > 0.5 * float(place[0] + place[-1])
+            word = Note(text=_("hung"), x=float(positions[k]), y=float(shown))
             series.append(replace(word, side="right" if far else "left", shift=(-5.0 if far else 5.0, 0.0)))
     ticks = (-1.0, -0.5, 0.0, 0.5, 1.0)
+    along, unit = _("along the shafts from the input end; joints by their numbers"), "mm"
+    if not train.to_scale:
+        along, unit = _("shafts from the input end, not to scale; joints by their numbers"), ""
     panel = Panel(
         series=tuple(series),
-        x=axis(_("along the shafts from the input end; joints by their numbers"), "mm", [place], margin=0.04, count=8),
+        x=axis(along, unit, [place], margin=0.04, count=8),
         y=Axis(label=_("swing, largest 1"), low=-1.1, high=1.1, ticks=ticks, texts=written(ticks)),
     )
     return Figure(
@@ -212,8 +225,28 @@ def shapes_figure(found: TorsionModes) -> Figure:
     )
 
 
+def _along(train: TorsionalTrain, position: Array) -> Array:
+    """Return places along the line [mm]; where the drive does not give its lengths, by shafts of length 1."""
+    if train.to_scale:
+        return np.asarray(position) / mm
+    ends = [0.0, *(float(train.position[driven]) for _driving, driven in train.joints)]
+    last = float(np.max(train.position))
+    ends.append(last if last > ends[-1] else 2.0 * ends[-1])
+    return np.interp(position, ends, np.arange(len(ends), dtype=float))
+
+
 def _shapes_sentence(found: TorsionModes) -> str:
     if not found.nodes[0]:
         return _("All masses swing the same way in mode 1; the input stands still.")
-    text = _("Mode 1 stands still at {place} mm: a joint there excites no parametric vibration of it.")
-    return text.format(place=significant(found.nodes[0][0].position / mm, 3))
+    node, names = found.nodes[0][0], found.train.model.names
+    if found.train.to_scale:
+        text = _("Mode 1 stands still at {place} mm: a joint there excites no parametric vibration of it.")
+        return text.format(place=significant(node.position / mm, 3))
+    if node.before == node.behind or node.share < ENDS or node.share > 1.0 - ENDS:
+        text = _("Mode 1 stands still at {name}: a joint there excites no parametric vibration of it.")
+        return text.format(name=names[node.behind if node.share > 0.5 else node.before])
+    text = _(
+        "Mode 1 stands still {share} of the way from {one} to {other}: a joint there excites no parametric vibration "
+        "of it."
+    )
+    return text.format(share=percent(node.share), one=names[node.before], other=names[node.behind])

@@ -20,8 +20,11 @@ from .palette import DASHES, shaft
 from .turning import across
 from .wording import significant
 
-CURVES = 4
+CURVES = 6
 """Elements with a curve of their own, those that swing most."""
+
+ORDERS = 4
+"""Orders with a curve of their own, the strongest."""
 
 BARS = 12
 """Orders with a bar of their own."""
@@ -76,10 +79,10 @@ def response_figure(found: TorsionResponse) -> Figure:
         y=axis(_("Torque"), "N·m", [torque[:, worst]], count=5),
     )
     e = worst[0]
-    amplitude = found.steady.torque.amplitude[e]
+    order, amplitude = orders_of(found, e)
     kept = [k for k in np.argsort(-amplitude, kind="stable")[:BARS] if amplitude[k] > 1e-4 * np.max(amplitude)]
     kept = sorted(int(k) for k in kept)
-    words = tuple(f"{found.steady.order[k]:g}" for k in kept)
+    words = tuple(f"{order[k]:g}" for k in kept)
     at = np.arange(len(kept), dtype=float)
     top = float(np.max(amplitude[kept], initial=0.0)) or 1.0
     ticks = steps(0.0, top, 4)
@@ -103,8 +106,42 @@ def response_figure(found: TorsionResponse) -> Figure:
         name="torsion-response",
         title=_("Torques while it runs at {speed} rpm").format(speed=significant(abs(float(found.speed)) / rpm)),
         sentence=_response_sentence(found, e, names[e]),
-        source=_("periodic solution of the exact equations of motion"),
+        source=_("periodic solution of the exact equations of motion") + _left_out(found, worst) + _beside(found),
         rows=(Row(panels=(over,), height=2.0), Row(panels=(bars,), height=1.2)),
+    )
+
+
+def orders_of(found: TorsionResponse, e: int) -> tuple[Array, Array]:
+    """Return the orders of the torque in an element with their amplitudes (..., K) [N·m].
+
+    Those of torques that no two turns hold a whole number of times are among them, by their size.
+    """
+    more = [one for one in found.apart if not np.any(np.isclose(found.steady.order, one.order))]
+    order = np.append(found.steady.order, [one.order for one in more])
+    own = [np.abs(one.torque)[..., e, None] for one in more]
+    amplitude = np.concatenate([found.steady.torque.amplitude[..., e, :], *own], axis=-1)
+    sorting = np.argsort(order, kind="stable")
+    return order[sorting], amplitude[..., sorting]
+
+
+def _left_out(found: TorsionResponse, shown: Sequence[int]) -> str:
+    """Return how many torques are drawn, where not all of them are."""
+    every = len(found.train.element_names)
+    if len(shown) == every:
+        return ""
+    return _("; of {all} torques the {shown} that swing most").format(all=every, shown=len(shown))
+
+
+def _beside(found: TorsionResponse) -> str:
+    """Return what the curves over the turn leave out: torques that do not repeat with it."""
+    said = ", ".join(
+        _("order {order}, ± {torque} N·m at most").format(
+            order=f"{one.order:g}", torque=significant(float(np.max(np.abs(one.torque))), 3)
+        )
+        for one in found.apart
+    )
+    return (
+        _("; the curves leave out what does not repeat within two turns: {orders}").format(orders=said) if said else ""
     )
 
 
@@ -148,9 +185,9 @@ def sweep_figure(found: TorsionResponse) -> Figure:
         y=axis(_("Swing of the torque, ±"), "N·m", [found.swing[:, worst]], include=(0.0,), count=5),
     )
     e = worst[0]
-    amplitude = found.steady.torque.amplitude[:, e]
+    order, amplitude = orders_of(found, e)
     height = np.nan_to_num(np.max(np.nan_to_num(amplitude), axis=0))
-    strongest = sorted(int(k) for k in np.argsort(-height)[:CURVES] if height[k] >= SEEN * np.max(height))
+    strongest = sorted(int(k) for k in np.argsort(-height)[:ORDERS] if height[k] >= SEEN * np.max(height))
     orders = Panel(
         series=(
             *shaded,
@@ -160,7 +197,7 @@ def sweep_figure(found: TorsionResponse) -> Figure:
                     y=amplitude[:, k],
                     role="accent",
                     dash=DASHES[n % 4],
-                    label=_("order {order}").format(order=f"{found.steady.order[k]:g}"),
+                    label=_("order {order}").format(order=f"{order[k]:g}"),
                 )
                 for n, k in enumerate(strongest)
             ),
@@ -172,7 +209,8 @@ def sweep_figure(found: TorsionResponse) -> Figure:
         name="torsion-sweep",
         title=_("Torsional vibration over the speed"),
         sentence=_sweep_sentence(found, speed, e, names[e]),
-        source=_("periodic solutions of the exact equations of motion, judged by their Floquet multipliers"),
+        source=_("periodic solutions of the exact equations of motion, judged by their Floquet multipliers")
+        + _left_out(found, worst),
         rows=(Row(panels=(swings,), height=2.0), Row(panels=(orders,), height=1.6)),
     )
 
@@ -219,8 +257,8 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
     speed = np.abs(found.speed) / rpm
     peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
     e = worst_elements(peak)[0]
-    amplitude = np.nan_to_num(found.steady.torque.amplitude[:, e])
-    order = found.steady.order
+    order, amplitude = orders_of(found, e)
+    amplitude = np.nan_to_num(amplitude)
     last = int(np.max(np.flatnonzero(np.max(amplitude, axis=0) > 2e-3 * np.max(amplitude)), initial=1))
     order, amplitude = order[: last + 1], amplitude[:, : last + 1]
     stretches = np.array_split(np.arange(len(speed)), min(FALLS, len(speed)))
