@@ -131,6 +131,19 @@ def test_maps_cover_the_unstable_points() -> None:
     assert len(drawn(growth, Band)) == 1
 
 
+def test_a_map_tells_what_else_may_be_red() -> None:
+    """With play the torque may change its sign and steady running ends there, far from any zone."""
+    tight = stability(
+        DRIVE, over={"duty.speed_rpm": np.linspace(44.0, 56.0, 4) / rpm, "bend_deg": np.asarray([25.0, 30])}
+    )
+    assert "play" not in map_figure(tight).source
+    backlash = np.full_like(tight.train.model.backlash, 0.01)
+    loose = replace(tight, train=replace(tight.train, model=replace(tight.train.model, backlash=backlash)))
+    figure = map_figure(loose)
+    assert "red there is rattling" in figure.source
+    assert all(one.text.startswith("nearest: ") for one in drawn(figure, Note))
+
+
 def test_zones_are_named_beside_their_tongues() -> None:
     for axes in (("duty.speed_rpm", "bend_deg"), ("bend_deg", "duty.speed_rpm")):
         values = {"duty.speed_rpm": np.linspace(20.0, 60.0, 41) / rpm, "bend_deg": np.linspace(5.0, 30.0, 6)}

@@ -12,7 +12,7 @@ import pytest
 from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.drive.shaft import Shaft
 from cardan.figures.wording import significant
-from cardan.report.block import Page, Table
+from cardan.report.block import Page, Picture, Table, Words
 from cardan.report.torsion import twisting
 
 
@@ -43,6 +43,16 @@ def test_growing_vibration_is_an_alarm() -> None:
     assert "principal zone of mode 1" in found.alarms[0].text
     assert "and small disturbances grow" in found.answer
     assert of(example("cured-drive")).alarms == []
+
+
+def test_a_map_without_anything_on_it_is_a_sentence() -> None:
+    blocks = of(example("pto-flywheel-absorber")).blocks
+    assert any(isinstance(one, Words) and "grows nowhere" in one.text for one in blocks)
+    names = [one.figure.name for one in blocks if isinstance(one, Picture)]
+    assert "stability-map" not in names
+    assert "stability-map" in [
+        one.figure.name for one in of(example("unstable-drive")).blocks if isinstance(one, Picture)
+    ]
 
 
 def test_what_is_met_in_use_is_told() -> None:

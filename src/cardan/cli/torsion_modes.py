@@ -186,17 +186,18 @@ def _shape_table(found: TorsionModes) -> Table:
     from .answer import Column, Table
     from .torsion_parts import short
 
+    known = found.train.to_scale
     rows: list[list[Cell]] = [
         [
             short(name, 30),
-            1e3 * float(found.train.position[k]) if found.train.to_scale else None,
+            *([1e3 * float(found.train.position[k])] if known else []),
             *(float(one) for one in found.shape[:SHOWN, k]),
         ]
         for k, name in enumerate(found.train.model.names)
     ]
     columns = (
         Column(key="station", heading=_("station"), left=True),
-        Column(key="position_mm", heading=_("at"), unit="mm", form=".0f"),
+        *([Column(key="position_mm", heading=_("at"), unit="mm", form=".0f")] if known else []),
         *_mode_columns(found, ".3f"),
     )
     return Table(columns=columns, rows=rows, title=_("How the stations swing, the largest by 1"))

@@ -155,9 +155,30 @@ def map_figure(found: Stability) -> Figure:
         sentence=_("{share} of the map is unstable; the lines cross where the drive stands.").format(
             share=percent(found.unstable_share)
         ),
-        source=_("Floquet multipliers of the exact equations at every point"),
+        source=_("Floquet multipliers of the exact equations at every point") + "".join(_cautions(found, wide, x)),
         rows=(Row(panels=(panel,), height=3.0),),
     )
+
+
+def _cautions(found: Stability, wide: str, x: Array) -> Iterator[str]:
+    """Yield what a reader of a map has to know to read it rightly."""
+    label, unit = _axis_words(wide)
+    step = significant(float(np.max(np.diff(x), initial=0.0)), 2)
+    yield _("; points {step} {unit} apart, zones narrower than that may be missed").format(
+        step=step, unit=unit or label
+    )
+    if np.any(found.verdict == Verdict.UNKNOWN):
+        yield _("; not known: no steady motion was found")
+    if plays(found) and np.any(found.verdict == Verdict.UNSTABLE):
+        yield _(
+            "; with play, steady running also ends where the torque changes its sign and the play opens: red there is "
+            "rattling, whatever zone is nearest"
+        )
+
+
+def plays(found: Stability) -> bool:
+    """Tell whether anything has play that may open."""
+    return bool(np.any(found.train.model.backlash > 0.0))
 
 
 def _tongues(
@@ -183,7 +204,7 @@ def _tongues(
         if here[1] is not None and abs(height - here[1]) < 0.03 * room:
             height = here[1] + math.copysign(0.04, height - here[1]) * room
         yield Note(
-            text=name,
+            text=_("nearest: {zone}").format(zone=name) if plays(found) else name,
             x=place,
             y=height,
             role="failed",

@@ -121,8 +121,11 @@ def stable(on: Subject, progress: Progress | None = None) -> Page | None:
 
 
 def _said(blocks: Sequence[Block]) -> str:
-    """Return the sentence under the first figure."""
-    return next((one.figure.sentence for one in blocks if isinstance(one, Picture)), "")
+    """Return the sentence under the first figure, or what stands instead of one."""
+    for one in blocks:
+        if isinstance(one, (Picture, Words)):
+            return one.figure.sentence if isinstance(one, Picture) else one.text
+    return ""
 
 
 def _page(drive: Drive, modes: TorsionModes, runs: TorsionResponse | None, more: Sequence[Block]) -> Page:
@@ -156,6 +159,16 @@ def _sweep(swept: TorsionResponse) -> list[Block]:
 
 
 def _map(mapped: Stability, modes: TorsionModes) -> list[Block]:
+    if not np.any(mapped.verdict != Verdict.STABLE):
+        (_speed, speeds), (_bend, bends) = mapped.over
+        text = _(
+            "From {slow} to {fast} rpm and with bends from {low} to {high}° torsional vibration grows nowhere: there "
+            "is nothing to draw."
+        )
+        ends = {"slow": speeds[0], "fast": speeds[-1], "low": bends[0], "high": bends[-1]}
+        return [
+            Words(text=text.format(**{name: significant(float(end), 3) for name, end in ends.items()}), tone="good")
+        ]
     return [Picture(figure=map_figure(mapped)), *([_finer(mapped)] if _plays(modes) else [])]
 
 
