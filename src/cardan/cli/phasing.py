@@ -131,8 +131,6 @@ def command(file: Path, held: Mapping[int, float], goal: str, *more: str) -> tup
 
 def spread(found: Phasing) -> Iterator[Remark]:
     """Yield what an error of the yokes costs, or what the free yokes reach."""
-    from math import radians
-
     from cardan.figures.wording import noiseless
 
     from .answer import Remark, percent, significant
@@ -140,8 +138,8 @@ def spread(found: Phasing) -> Iterator[Remark]:
     if found.settings and found.free:
         best = found.settings[0]
         numbers = sorted((*found.free, *found.fixed))
-        slopes = noiseless(best.sensitivity, found.irregularity_max)
-        each = [100.0 * abs(slopes[k - 2]) * radians(1.0) for k in numbers]
+        costs = noiseless(best.one_off, found.irregularity_max)
+        each = [100.0 * costs[k - 2] for k in numbers]
         if found.feasible and len(numbers) > WIDEST:
             text = _("A yoke 1° off costs at most {cost} %, on shaft {shaft}.")
             yield Remark(text=text.format(cost=significant(max(each), 2), shaft=numbers[each.index(max(each))]))

@@ -11,7 +11,6 @@ from cardan.maths import mobius
 from cardan.maths.arrays import Array
 from cardan.synthesis.phases import Phasing, YokeSetting
 from cardan.texts import _
-from cardan.units import deg
 
 from .axes import axis, steps, written
 from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series
@@ -19,7 +18,7 @@ from .palette import dash_of, shaft
 from .wording import percent, significant
 
 FLAT = 1e-6
-"""Below this slope of δ [1/rad] a setting is a smooth minimum: small errors of the yokes cost next to nothing."""
+"""Below this growth of δ a yoke that stands a degree off costs next to nothing."""
 
 
 def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
@@ -29,7 +28,7 @@ def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     made = [polygon_figure(found)]
     if max(one.irregularity for one in _compared(found)) > SYNCHRONOUS:
         made.append(settings_figure(found))
-    if float(np.max(np.abs(found.settings[0].sensitivity))) > FLAT:
+    if float(np.max(found.settings[0].one_off)) > FLAT:
         made.append(sensitivity_figure(found))
     return tuple(made)
 
@@ -203,9 +202,9 @@ def sensitivity_figure(found: Phasing) -> Figure:
         What the yoke angles can do.
     """
     best = found.settings[0]
-    cost = 100.0 * np.abs(np.asarray(best.sensitivity)) * deg
+    cost = 100.0 * np.maximum(best.one_off, 0.0)
     number = np.arange(2, len(cost) + 2)
-    upright = axis(_("Irregularity per degree of yoke error"), "% / °", [cost], include=(0.0,), least=1e-3, count=3)
+    upright = axis(_("Irregularity by one degree of yoke error"), "%", [cost], include=(0.0,), least=1e-3, count=3)
     ticks = tuple(float(k) for k in number)
     across = Axis(
         label=_("shaft"), low=1.4, high=float(number[-1]) + 0.6, ticks=ticks, texts=written(ticks), grid=False
@@ -221,7 +220,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
         sentence=_("Shaft {number} asks for most care: one degree off costs {cost}.").format(
             number=worst + 2, cost=percent(float(cost[worst]) / 100.0)
         ),
-        source=_("|∂δ/∂γ| at setting {label}, exact derivative of δ = 4|a||b|").format(label=best.label),
+        source=_("δ(γ ± 1°) − δ(γ) at setting {label}, to the worse side; exact, δ = 4|a||b|").format(label=best.label),
         rows=(
             Row(
                 panels=(

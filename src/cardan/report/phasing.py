@@ -147,24 +147,17 @@ def _between(one: YokeSetting) -> Cell:
 
 def _costs(on: Subject) -> Table:
     some = [on.phasing.as_built, *on.phasing.settings[:3]]
-    slopes = [noiseless(one.sensitivity * deg * 100.0, on.phasing.irregularity_max) for one in some]
+    costs = [[100.0 * cost for cost in noiseless(one.one_off, on.phasing.irregularity_max)] for one in some]
     rows: Sequence[list[Cell]] = [
-        [
-            of_shaft(k + 2),
-            *(number(significant(slope[k], 3), slope[k]) for slope in slopes),
-        ]
-        for k in range(on.joints - 1)
+        [of_shaft(k + 2), *(number(significant(cost[k], 3), cost[k]) for cost in costs)] for k in range(on.joints - 1)
     ]
     return Table(
-        title=_("Change of δ for one degree of yoke angle"),
-        columns=(
-            Column(heading=_("shaft"), left=True),
-            *(Column(heading=one.label, unit=_("%/°")) for one in some),
-        ),
+        title=_("Growth of δ when one yoke stands one degree off"),
+        columns=(Column(heading=_("shaft"), left=True), *(Column(heading=one.label, unit="%") for one in some)),
         rows=rows,
-        note=_(
-            "Where δ is 0 it grows to both sides alike; elsewhere a negative value means that turning forward helps."
-        ),
+        note=_("To the worse side, in the pose where it grows most; exact, no slope.")
+        if on.phasing.poses
+        else _("To the worse side; exact, no slope."),
     )
 
 

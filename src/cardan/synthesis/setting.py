@@ -14,6 +14,7 @@ from cardan.drive.drive import Drive
 from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace, unit_complex
 from cardan.maths.mobius import Pair
+from cardan.units import deg
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -34,6 +35,8 @@ class YokeSetting:
         ψ of each joint.
     sensitivity : array (n-1,) [1/rad]
         Growth of δ when the yoke of shaft 2 … n is turned, see `sensitivity`.
+    one_off : array (n-1,)
+        Growth of δ when the yoke of shaft 2 … n stands a degree off, see `growth`; in the worst of drive and poses.
     vertex : complex array (n+1,)
         Corners of the phase polygon in the unit disk.
     change : array (n-1,) [rad]
@@ -48,6 +51,7 @@ class YokeSetting:
     shaft_irregularity: Array
     phase_angle: Array
     sensitivity: Array
+    one_off: Array
     vertex: Array
     change: Array
     pose_irregularity: Array = field(default_factory=lambda: np.zeros(0))
@@ -156,7 +160,6 @@ def sensitivity(chain: Chain) -> Array:
 
     Examples
     --------
-    >>> from cardan.units import deg
     >>> from cardan.drive.chain import chain
     >>> from cardan.drive.drive import Drive
     >>> sensitivity(chain(Drive.from_angles([20 * deg, 20 * deg]))) * deg
@@ -169,6 +172,38 @@ def sensitivity(chain: Chain) -> Array:
     along_b = xp.real(xp.conj(b)[..., None] * db) / xp.where(closed, 1.0 + 0.0 * size_b, size_b)
     along_a = xp.real(xp.conj(a)[..., None] * da) / size_a
     return 4.0 * xp.where(closed, size_a * xp.abs(db), size_a * along_b + size_b * along_a)
+
+
+def growth(chain: Chain, yoke_angle: Array, error: float = deg) -> Array:
+    """Return by how much δ grows when one yoke stands off, to the worse side, array (..., n-1).
+
+    Parameters
+    ----------
+    chain : Chain
+        The drive.
+    yoke_angle : array (..., n-1) [rad]
+        Settings of its yokes.
+    error : float [rad]
+        How far each yoke stands off, one at a time.
+
+    Notes
+    -----
+    max δ(γ ± error) - δ(γ), exact. At a smooth minimum the slope, see `sensitivity`, is 0 and this is not.
+
+    Examples
+    --------
+    >>> from cardan.drive.chain import chain
+    >>> from cardan.drive.drive import Drive
+    >>> drive = chain(Drive.from_angles([20 * deg, 20.01 * deg]))
+    >>> growth(drive, drive.yoke_angle), bool(abs(sensitivity(drive)) < 1e-12)
+    (array([0.00422...]), True)
+    """
+    count = yoke_angle.shape[-1]
+    off = error * np.concatenate((np.eye(count), -np.eye(count)))
+    moved = equivalent_joint(with_yokes(chain, yoke_angle[..., None, :] + off)).irregularity
+    here = equivalent_joint(with_yokes(chain, yoke_angle)).irregularity
+    found: Array = np.max(moved.reshape(*moved.shape[:-1], 2, count), axis=-2) - here[..., None]
+    return found
 
 
 def settings(
@@ -194,6 +229,7 @@ def settings(
     joint = equivalent_joint(batch)
     psi = phase_angles(batch)
     slope = sensitivity(batch)
+    off = np.max([growth(one, tidy) for one in (chain, *poses)], axis=0)
     change = wrapped(tidy - as_built)
     posed = [equivalent_joint(with_yokes(pose, tidy)).irregularity for pose in poses]
     each = np.stack(posed, axis=-1) if posed else np.zeros((len(labels), 0))
@@ -205,6 +241,7 @@ def settings(
             shaft_irregularity=joint.shaft_irregularity[s],
             phase_angle=psi[s],
             sensitivity=slope[s],
+            one_off=off[s],
             vertex=joint.vertex[s],
             change=change[s],
             pose_irregularity=each[s],
