@@ -1,8 +1,14 @@
 """Bars of the limits used."""
 
+import re
+from dataclasses import replace
+
+import pytest
+
 from cardan import check, example
 from cardan.figures.check import MOST, WIDEST, check_figures
 from cardan.figures.figure import Bars
+from cardan.figures.render_svg import inline_svg
 
 
 def bars(name):
@@ -14,7 +20,8 @@ def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
     figure, drawn = bars("truck-duty-cycle")
     run = [one for one in check(example("truck-duty-cycle")) if one.run and not one.advice]
     used = sorted((float(one.utilisation) for one in run), reverse=True)[:MOST]
-    assert drawn.size.tolist() == [min(one, WIDEST) for one in used]
+    assert drawn.size.tolist() == used
+    assert drawn.ends.tolist() == used
     assert [role == "failed" for role in drawn.roles] == [one > 1.0 for one in used]
     assert [role == "warning" for role in drawn.roles] == [0.9 <= one <= 1.0 for one in used]
     assert "2 of" in figure.sentence
@@ -28,3 +35,18 @@ def test_signs_tell_without_colour():
 def test_nothing_judged_nothing_drawn():
     drive = example("single-20deg")
     assert check_figures([one for one in check(drive) if not one.run or one.advice]) == ()
+
+
+def test_what_uses_far_too_much_is_cut_with_an_arrow_and_keeps_its_number():
+    verdicts = [one for one in check(example("six-joints")) if one.run and not one.advice]
+    first = next(one for one in verdicts if one.sense == "at_most")
+    far = replace(first, value=23.4 * first.limit)
+    (figure,) = check_figures([far, *(one for one in verdicts if one is not first)])
+    drawn, panel = next(one for one in figure.panels[0].series if isinstance(one, Bars)), figure.panels[0]
+    assert drawn.size[0] == pytest.approx(23.4)
+    assert drawn.ends[0] == WIDEST < panel.x.high
+    assert drawn.texts[0].startswith("▶ ")
+    assert drawn.texts[0].endswith(" 23.40")
+    assert not any(text.startswith("▶") for text in drawn.texts[1:])
+    svg = inline_svg(figure)
+    assert max(float(one) for one in re.findall(r'<rect [^>]*width="(\d+)"', svg)) < 7200 * figure.width

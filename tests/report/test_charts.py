@@ -9,6 +9,7 @@ import numpy as np
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.report.block import Page, Picture
 from cardan.report.content import Excerpt
+from cardan.report.plain import figure_csv
 from cardan.report.workbook import excerpt
 
 from .test_workbook import CHART, opened, parts
@@ -64,7 +65,11 @@ def test_lying_bars_have_room_and_stand_before_the_track_up_to_their_limit() -> 
     along = Axis(label="share", low=0.0, high=1.2, ticks=(0.0, 1.0), texts=("0", "1"))
     bars = Bars(at=np.arange(20.0), size=np.full(count, 0.5), lying=True)
     data = book_of(Panel(series=(bars, Rule(value=1.0, upright=True)), x=along, y=kinds))
-    limit, share = chart_in(data).iter(f"{CHART}ser")
+    limit, share, outline = chart_in(data).iter(f"{CHART}ser")
+    assert [one.text for one in outline.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"] * count
+    assert (
+        outline.find(f"{CHART}spPr").find("{http://schemas.openxmlformats.org/drawingml/2006/main}noFill") is not None
+    )
     assert [one.text for one in limit.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"] * count
     assert [one.text for one in share.find(f"{CHART}val").iter(f"{CHART}v")] == ["0.5"] * count
     (drawn,) = opened(data).worksheets[0]._charts
@@ -76,3 +81,64 @@ def test_curves_of_one_name_stand_in_the_legend_once() -> None:
     chart = chart_of(Panel(series=curves))
     gone = [int(one.find(f"{CHART}idx").get("val")) for one in chart.iter(f"{CHART}legendEntry")]
     assert gone == [2, 3]
+
+
+def test_bars_that_are_cut_have_their_true_length_among_the_numbers() -> None:
+    kinds = Axis(low=0.5, high=2.5, ticks=(1.0, 2.0), texts=("a", "b"))
+    along = Axis(label="share", low=0.0, high=12.0, ticks=(0.0, 5.0, 10.0), texts=("0", "5", "10"))
+    bars = Bars(at=np.asarray([1.0, 2.0]), size=np.asarray([3.0, 42.0]), lying=True, most=10.0)
+    data = book_of(Panel(series=(bars,), x=along, y=kinds))
+    rows = [row[1:3] for row in opened(data).worksheets[1].iter_rows(min_row=5, values_only=True)]
+    assert rows == [("share", "as drawn"), (None, None), (42, 10), (3, 3)]
+    (drawn,) = chart_in(data).iter(f"{CHART}ser")
+    assert [one.text for one in drawn.find(f"{CHART}val").iter(f"{CHART}v")] == ["10", "3"]
+
+
+def stacked() -> Figure:
+    """Return a figure of two panels whose legend stands with the first, and a mark without a name."""
+    names = ("shaft 1", "shaft 2")
+    first = [Curve(x=np.arange(3.0), y=np.arange(3.0) + k, label=one, role=one) for k, one in enumerate(names)]
+    second = [Curve(x=np.arange(3.0), y=np.arange(3.0) * k, role=one) for k, one in enumerate(names)]
+    dot = Curve(x=np.ones(1), y=np.ones(1), role="ink", width=0.0, marker=4.0)
+    upright = Axis(label="force", unit="N")
+    panels = Panel(series=(Rule(value=0.5), *first), y=upright), Panel(series=(*second, dot), y=upright)
+    rows = tuple(Row(panels=(panel,)) for panel in panels)
+    return Figure(name="two", title="two", sentence="", source="", rows=rows)
+
+
+def test_each_chart_has_a_legend_and_each_column_the_name_that_it_has_there() -> None:
+    page = Page(name="two", title="two", answer="", blocks=[Picture(figure=stacked())])
+    data = excerpt(Excerpt(title="two", page=page))
+    sheet = opened(data).worksheets[1]
+    heads = [cell.value for cell in sheet[5]]
+    names = ["x", "shaft 1", "shaft 2"]
+    assert heads == [*names, None, "x", "force", None, *names, None, "x", "line"]
+    beside = "Lines and marks beside the curves"
+    assert [k for k, cell in enumerate(sheet[4]) if cell.value == beside] == [4, 11]
+    for text in parts(data, "xl/charts/chart").values():
+        chart = ElementTree.fromstring(text)
+        gone = {int(one.find(f"{CHART}idx").get("val")) for one in chart.iter(f"{CHART}legendEntry")}
+        assert chart.find(f".//{CHART}legend") is not None
+        assert len([*chart.iter(f"{CHART}ser")]) - len(gone) == 2
+
+
+def test_a_csv_names_the_curves_of_the_lower_panels_too() -> None:
+    assert figure_csv(stacked()).splitlines()[7].split(",")[:3] == ["x", "shaft 1 [N]", "shaft 2 [N]"]
+
+
+def test_only_numbers_that_fill_pages_are_not_printed() -> None:
+    short, long = (
+        opened(book_of(Panel(series=(Curve(x=np.arange(n), y=np.arange(n)),)))).worksheets[1] for n in (60.0, 61.0)
+    )
+    assert not short.print_area
+    assert "too many" not in short["A2"].value
+    assert long.print_area
+    assert "too many to be printed" in long["A2"].value
+
+
+def test_decades_are_written_in_one_way() -> None:
+    kinds = Axis(low=0.4, high=1.6, ticks=(1.0,), texts=("2",))
+    for low, form in ((1e-9, "0E+00"), (1e-2, "General"), (1.0, "#,##0")):
+        along = Axis(label="size", low=low, high=10.0, ticks=(low,), texts=("",), log=True)
+        chart = chart_of(Panel(series=(Bars(at=np.ones(1), size=np.ones(1)),), x=kinds, y=along))
+        assert {one.get("formatCode") for one in chart.find(f".//{CHART}valAx").iter(f"{CHART}numFmt")} == {form}

@@ -25,6 +25,7 @@ from cardan.io.book import sheet_name
 from cardan.report import paper, renderer
 from cardan.report.amounts import amount, read
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
+from cardan.report.chart_data import HEAD, PRINTED
 from cardan.report.charts import split
 from cardan.report.content import Content, content
 from cardan.report.paper import headed
@@ -334,7 +335,7 @@ def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
         assert sheet.freeze_panes
         data = sheet.title.endswith(" data")  # what is too much to be printed says so
-        assert bool(sheet.print_area) == data
+        assert bool(sheet.print_area) == (data and sheet.max_row > HEAD + PRINTED)
         assert not data or sheet["A2"].hyperlink.location == f"'{sheet.title.removesuffix(' data')}'!A1"
         assert said(name).title in sheet.oddHeader.left.text
         assert sheet.max_row > 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -181,8 +182,8 @@ def _shape(found: CriticalSpeeds, k: int, width: float) -> tuple[Series, ...]:
         if found.rigid[number - 1]:
             series.append(_triangle(x, height(x), width))
         else:
-            series.append(_spring(x, height(x), width))
-            series.append(Note(text=str(number), x=x, y=-1.2, role="muted", size=7.0, shift=(8.0, 0.0)))
+            series.append(replace(_spring(x, height(x), width), text=_("support {number}").format(number=number)))
+            series.append(Note(text=str(number), x=x + 0.012 * width, y=-1.2, role="muted", size=7.0, side="left"))
     for number in found.held:
         x = float(found.joint_place[number - 1]) / mm
         series.append(_triangle(x, height(x), width))
@@ -201,7 +202,8 @@ def _shape(found: CriticalSpeeds, k: int, width: float) -> tuple[Series, ...]:
             )
         )
     joints = np.asarray([x for x in found.joint_place if not math.isnan(x)]) / mm
-    series.append(Curve(x=joints, y=np.interp(joints, place, deflection), role="ink", width=0.0, marker=6.0))
+    heights = np.interp(joints, place, deflection)
+    series.append(Curve(x=joints, y=heights, role="ink", width=0.0, marker=6.0, text=_("the joints")))
     return tuple(series)
 
 

@@ -15,8 +15,8 @@ from .figure import Axis, Bars, Curve, Figure, Panel, Row
 MOST = 40
 """Bars in a figure; the least used limits are left out."""
 
-WIDEST = 2.0
-"""Utilisation at which bars are cut; what uses more says so at its end."""
+WIDEST = 10.0
+"""Utilisation at which bars are cut; an arrow at the end of what uses more says so."""
 
 ROLES = {"passed": "good", "close": "warning", "failed": "failed"}
 
@@ -43,11 +43,14 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
     at = np.arange(len(shown), 0, -1, dtype=float)
     bars = Bars(
         at=at,
-        size=np.minimum(used, top),
-        texts=tuple(f"{SIGNS[one.state]} {use:.2f}" for one, use in zip(shown, used, strict=True)),
+        size=used,
+        texts=tuple(
+            f"{'▶ ' if use > WIDEST else ''}{SIGNS[one.state]} {use:.2f}" for one, use in zip(shown, used, strict=True)
+        ),
         roles=tuple(ROLES[one.state] for one in shown),
         thick=0.62,
         lying=True,
+        most=WIDEST,
     )
     limit = Curve(x=np.asarray([1.0, 1.0]), y=np.asarray([0.4, len(shown) + 0.6]), role="ink", dash="dashed")
     ticks = steps(0.0, top, 5)

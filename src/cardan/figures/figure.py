@@ -6,6 +6,7 @@ units of their axes.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
@@ -59,7 +60,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Bars:
-    """Bars from a base, upright or lying, each with the text at its end."""
+    """Bars from a base, upright or lying, each with the text at its end; none is drawn beyond ``most``."""
 
     at: Array
     size: Array
@@ -69,6 +70,13 @@ class Bars:
     thick: float = 0.6
     base: float = 0.0
     lying: bool = False
+    most: float = math.inf
+
+    @property
+    def ends(self) -> Array:
+        """Where the bars end."""
+        found: Array = np.minimum(np.asarray(self.size, dtype=float), self.most)
+        return found
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -239,11 +239,12 @@ def _curves(found: Forces, angle: Array, part: str, names: Sequence[str], *, lab
             if nothing or same:
                 continue
             called = names[k] if k < len(names) else ""
-            name = support_name(k + 1, number, called) if labelled and not back else ""
+            name = support_name(k + 1, number, called)
             yield Curve(
                 x=angle,
                 y=row,
-                label=name or (_("thin: splines sliding back") if labelled and back else ""),
+                label=_("thin: splines sliding back") if back else name if labelled else "",
+                text=name,
                 role=shaft(number),
                 dash=dash,
                 width=0.7 if back else 1.6,

@@ -173,7 +173,7 @@ class PanelWriter:
             )
 
     def _bars(self, item: Bars) -> None:
-        lengths = [float(size) - (0.0 if self._log(item) else item.base) for size in item.size]
+        lengths = [float(size) - (0.0 if self._log(item) else item.base) for size in item.ends]
         at = _list(item.at)
         self._add(
             type="bar",

@@ -308,12 +308,12 @@ def _rim() -> list[Any]:
 
 def _bars(axes: Axes, item: Bars, order: float) -> None:
     tints = [palette.colour(item.roles[k % len(item.roles)]) for k in range(len(item.at))]
-    lengths = [size - item.base for size in item.size]
+    lengths = [size - item.base for size in item.ends]
     if item.lying:
         axes.barh(item.at, lengths, item.thick, left=item.base, color=tints, linewidth=0.0, zorder=order)
     else:
         axes.bar(item.at, lengths, item.thick, bottom=item.base, color=tints, linewidth=0.0, zorder=order)
-    for at, size, text in zip(item.at, item.size, item.texts, strict=False):
+    for at, size, text in zip(item.at, item.ends, item.texts, strict=False):
         axes.annotate(
             text,
             (size, at) if item.lying else (at, size),

@@ -270,7 +270,7 @@ class _Plot:
         elif isinstance(item, Cells):
             yield from self._cells(item)
         elif isinstance(item, Bars):
-            for k, (at, size) in enumerate(zip(item.at, item.size, strict=True)):
+            for k, (at, size) in enumerate(zip(item.at, item.ends, strict=True)):
                 how = f'fill="{palette.colour(item.roles[k % len(item.roles)])}"'
                 along, across = (self.x, self.y) if item.lying else (self.y, self.x)
                 start, stop = _one(along, item.base), _one(along, size)
@@ -330,7 +330,7 @@ class _Plot:
             how: dict[str, Any] = {"side": item.side, "level": item.level, "bold": item.bold, "rim": item.halo}
             yield _word(item.text, *place, item.size, item.role, **how)
         elif isinstance(item, Bars):
-            for at, size, text in zip(item.at, item.size, item.texts, strict=False):
+            for at, size, text in zip(item.at, item.ends, item.texts, strict=False):
                 if item.lying:
                     place, how = (_one(self.x, size) + 4.0 * POINT, _one(self.y, at)), {"level": "line"}
                 else:

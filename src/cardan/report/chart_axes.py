@@ -32,7 +32,7 @@ def axis_of(axis: Axis) -> dict[str, Any]:
         "min": low,
         "max": high,
         "num_font": SMALL,
-        "num_format": "General" if axis.log and axis.low < 1.0 else _digits(axis),
+        "num_format": _decades(low, high) if axis.log else _digits(axis),
         "major_gridlines": grid,
         "line": {"color": palette.colour("faint")},
         "major_tick_mark": "none",
@@ -59,6 +59,11 @@ def _digits(axis: Axis) -> str:
         return "0E+00"
     parts = max((len(text.replace(",", ".").partition(".")[2]) for text in axis.texts), default=0)
     return "#,##0" + ("." + "0" * parts if parts else "")
+
+
+def _decades(low: float, high: float) -> str:
+    """Return the number format of powers of ten: in full, all of them, where none is long."""
+    return "0E+00" if low < 1e-3 or high > 1e6 else "General" if low < 1.0 else "#,##0"
 
 
 def _step(axis: Axis) -> float:

@@ -21,6 +21,9 @@ HEAD = 6
 WIDTH = 13
 """Of a column, in letters."""
 
+PRINTED = 60
+"""Rows of numbers that are printed; more are for the spreadsheet alone."""
+
 DIGITS = 6
 """Of the largest number of a column."""
 
@@ -68,16 +71,24 @@ class ChartData:
     def __init__(self, sheet: Any, looks: Looks, page: str) -> None:
         self.sheet = sheet
         self._looks = looks
-        self._column = 0
+        self._column = self._begun = 0
+        self._aside = ""
         self._known: dict[tuple[str, bytes], Place] = {}
         sheet.freeze_panes(HEAD, 0)
-        sheet.print_area(0, 0, 1, 9)
         sheet.set_row_pixels(HEAD - 2, 64)
         put(sheet, 0, 0, sheet.get_name(), looks(bold=True, font_size=16, color="accent"))
-        told = _(
-            "Numbers of the charts on the sheet {name}, too many to be printed: clear the print area if you want them."
-        )
-        leads_to(sheet, 1, 0, told.format(name=page), page, looks(color="muted"))
+        self._page, self._rows = page, 0
+
+    def close(self) -> None:
+        """Say what stands here; numbers that would fill pages are not printed."""
+        told = _("Numbers of the charts on the sheet {name}.")
+        if self._rows > PRINTED:
+            self.sheet.print_area(0, 0, 1, 9)
+            told = _(
+                "Numbers of the charts on the sheet {name}, too many to be printed: clear the print area if you want "
+                "them."
+            )
+        leads_to(self.sheet, 1, 0, told.format(name=self._page), self._page, self._looks(color="muted"))
 
     def begin(self, figure: str, panel: str) -> list[Any]:
         """Begin the columns of a panel and return the cell with its heading."""
@@ -85,17 +96,35 @@ class ChartData:
             self.sheet.set_column(self._column, self._column, 2)
             self._column += 1
         self._known.clear()
+        self._aside, self._begun = "", self._column
         put(self.sheet, HEAD - 4, self._column, figure, self._looks(bold=True))
         put(self.sheet, HEAD - 3, self._column, panel, self._looks(color="muted"))
         return [self.sheet.get_name(), HEAD - 3, self._column]
 
-    def numbers(self, name: str, unit: str, values: Array | Sequence[float]) -> Place:
-        """Write a column of numbers, or find it where this panel has the same one already."""
+    def aside(self, words: str) -> None:
+        """Begin what the chart of the panel needs besides its numbers, at the next column that is written."""
+        self._aside = words
+
+    def numbers(self, name: str, unit: str, values: Array | Sequence[float], *, told: str = "") -> Place:
+        """Write a column of numbers, or find it where this panel has the same one already.
+
+        Parameters
+        ----------
+        name, unit : str
+            What they are.
+        values : array (n,)
+            The numbers.
+        told : str
+            What else tells them from others of that name.
+        """
         array = np.atleast_1d(np.asarray(values, dtype=float))
         key = (name, array.tobytes())
         if key not in self._known:
             finite = [value if np.isfinite(value) else None for value in array.tolist()]
             self._known[key] = self._written(name, unit, finite, left=False)
+            if told not in ("", name) and self._begun < self._known[key].column:
+                look = self._looks(color="muted", text_wrap=True, align="right")
+                put(self.sheet, HEAD - 3, self._known[key].column, told, look)
         return self._known[key]
 
     def words(self, name: str, values: Sequence[str]) -> Place:
@@ -103,6 +132,11 @@ class ChartData:
         return self._written(name, "", values, left=True)
 
     def _written(self, name: str, unit: str, values: Sequence[object], *, left: bool) -> Place:
+        if self._aside:
+            self.sheet.set_column(self._column, self._column, 2)
+            self._column += 1
+            put(self.sheet, HEAD - 3, self._column, self._aside, self._looks(color="muted", italic=True))
+            self._aside = ""
         column, align = self._column, "left" if left else "right"
         apart: dict[str, Any] = {"indent": 1} if left else {}
         head = self._looks(bold=True, text_wrap=True, align=align, valign="bottom", **apart)
@@ -113,6 +147,7 @@ class ChartData:
         look = self._looks(**apart) if left else self._looks(num_format=digits([v for v in values if v is not None]))
         for row, value in enumerate(values, start=HEAD):
             put(self.sheet, row, column, value, None if value is None else look)  # a blank with looks would count as 0
+        self._rows = max(self._rows, len(values))
         widest = max(map(len, map(str, values)), default=0) if left else 0
         self.sheet.set_column(column, column, min(max(WIDTH, widest), 48))
         self._column += 1

@@ -11,6 +11,7 @@ import numpy as np
 
 from cardan.figures import palette
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
+from cardan.figures.legend import called
 from cardan.texts import _
 
 from .amounts import read
@@ -130,6 +131,7 @@ def charts(
     for row in rows:
         drawn = []
         for panel, share in zip(row.panels, row.widths, strict=True):
+            panel = called(figure, panel)
             below = [one.x for one in figure.panels if (one.x.low, one.x.high) == (panel.x.low, panel.x.high)]
             named = next((axis for axis in (panel.x, *below) if axis.title), panel.x)
             made = _chart(book, data, figure, replace(panel, x=replace(named, grid=panel.x.grid)))
@@ -167,9 +169,13 @@ def _curve_chart(book: Any, data: ChartData, panel: Panel) -> Any:
     panel = replace(panel, x=snug(panel.x, spread(panel, upright=False)), y=snug(panel.y, spread(panel, upright=True)))
     chart = book.add_chart({"type": "scatter", "subtype": "straight"})
     curves = [one for one in panel.series if isinstance(one, Curve)]
-    drawn = [_curve(data, panel, one, count) for count, one in enumerate(curves, start=1)]
+    told = [k for k, one in enumerate(curves) if one.label or one.text] or [*range(len(curves))]
+    several = _("curve {number}")
+    drawn = {k: _curve(data, panel, curves[k], several.format(number=k + 1) if k else panel.y.label) for k in told}
+    data.aside(_("Lines and marks beside the curves"))
+    drawn |= {k: _curve(data, panel, one, _("line")) for k, one in enumerate(curves) if k not in drawn}
     marks = [mark for one in panel.series for mark in _mark(data, panel, one)]
-    for one in (*marks, *drawn):
+    for one in (*marks, *(drawn[k] for k in range(len(curves)))):
         chart.add_series(one)
     named_before = {one.label: k for k, one in reversed([*enumerate(curves, start=len(marks))])}
     unnamed = [k for k, one in enumerate(curves, start=len(marks)) if not one.label or named_before[one.label] != k]
@@ -187,15 +193,15 @@ def _legend(chart: Any, count: int, unnamed: Sequence[int]) -> None:
         chart.set_legend({"position": "bottom", "font": SMALL, "delete_series": list(unnamed)})
 
 
-def _curve(data: ChartData, panel: Panel, one: Curve, count: int) -> dict[str, Any]:
+def _curve(data: ChartData, panel: Panel, one: Curve, otherwise: str) -> dict[str, Any]:
+    """Return the series of a curve, called by its name or otherwise."""
     tint = palette.colour(one.role)
-    named = one.label or one.text or (panel.y.label if count == 1 else "") or _("curve {number}").format(number=count)
     line = {"color": tint, "width": one.width, "dash_type": DASHES[one.dash]} if one.width else {"none": True}
     size = max(2, round(one.marker))
     dot = {"type": "circle", "size": size, "fill": {"color": tint}, "border": {"none": True}}
     return _series(
         data.numbers(panel.x.label or "x", panel.x.unit, one.x),
-        data.numbers(named, panel.y.unit, one.y),
+        data.numbers(one.label or one.text or otherwise or _("line"), panel.y.unit, one.y, told=one.text),
         line=line,
         marker=dot if one.marker else {"type": "none"},
     )
@@ -271,14 +277,17 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
     alone = along.log and len(bars) == 1 and not bars[0].label  # words at the outer end of bars below 1 are at its foot
     gap = max(60, 300 // max(1, len(order))) if not lying else 60
     if limit is not None:
-        place = data.numbers(_("limit"), along.unit, np.full(len(names), limit))
-        chart.add_series(_series(kinds, place, fill={"color": TRACK}, border={"none": True}, gap=gap, overlap=100))
+        kept = data.numbers(_("limit"), along.unit, np.full(len(names), limit))
+        chart.add_series(_series(kinds, kept, fill={"color": TRACK}, border={"none": True}, gap=gap, overlap=100))
     for one in bars:
         found = _at_ticks(one, upon)
+        ends = [float(one.ends[found[k]]) if k in found else math.nan for k in order]
         sizes = [float(one.size[found[k]]) if k in found else math.nan for k in order]
         texts = [one.texts[found[k]] if k in found and one.texts else None for k in order]
         heading = one.label or along.label or panel.heading
         place = data.numbers(heading, along.unit, sizes)
+        if any(size > one.most for size in sizes):
+            place = data.numbers(_("as drawn"), along.unit, ends)
         if one.texts:
             data.words(_("as written"), [text or "" for text in texts])
         tints = [palette.colour(one.roles[found[k] % len(one.roles)]) if k in found else None for k in order]
@@ -290,7 +299,12 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             above = book.add_chart({"type": "line"})
             above.add_series(_series(kinds, place, line={"none": True}, **_labels(texts, "ink", "above")))
             chart.combine(above)
-    _legend(chart, len(bars), [k for k, one in enumerate(bars) if not one.label and limit is None])
+    unnamed = [k for k, one in enumerate(bars) if not one.label and limit is None]
+    if limit is not None:  # once more before the bars, as an outline: those beyond it hide the track behind them
+        line = {"color": palette.colour("muted"), "width": 1.0, "dash_type": "dash"}
+        chart.add_series(_series(kinds, kept, fill={"none": True}, border=line, gap=gap))
+        unnamed = [len(bars) + 1]
+    _legend(chart, len(bars) + (2 if limit is not None else 0), unnamed)
     font = {**SMALL, "size": _size(len(order))[0]}
     kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cardan.figures.figure import Bars, Curve, Figure, Mesh, Panel, Shape
+from cardan.figures.legend import called
 from cardan.io.formats.json import plain
 from cardan.texts import _
 
@@ -141,6 +142,7 @@ def drawn_from(panel: Panel) -> bool:
 
 def _section(figure: Figure, panel: Panel) -> list[Any]:
     columns: dict[tuple[str, bytes], list[Any]] = {}
+    panel = called(figure, panel)
     for name, values in (column for one in panel.series for column in _columns(panel, one)):
         columns.setdefault((name, str(values).encode()), values)
     names = [name for name, _values in columns]
@@ -150,7 +152,7 @@ def _section(figure: Figure, panel: Panel) -> list[Any]:
 def _columns(panel: Panel, one: object) -> Iterator[tuple[str, list[Any]]]:
     if isinstance(one, Curve | Shape):
         yield _named(panel.x.label or "x", panel.x.unit), _numbers(one.x)
-        name = one.label or panel.y.label or "y"
+        name = one.label or (one.text if isinstance(one, Curve) else "") or panel.y.label or "y"
         yield _named(name, panel.y.unit), _numbers(one.y)
         if isinstance(one, Curve) and one.z is not None:
             yield "z", _numbers(one.z)

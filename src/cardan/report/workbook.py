@@ -120,6 +120,8 @@ class Sheets:
             for block in page.blocks:
                 paper.block(block)
             paper.close()
+            if data is not None:
+                data.close()
 
 
 def _tables_of(content: Content) -> list[Table]:
