@@ -122,7 +122,7 @@ def test_a_degree_off_costs_something_where_the_slope_is_zero():
     blocks = phasing(on).blocks
     costs = next(block for block in blocks if getattr(block, "title", "").startswith("Growth of δ"))
     assert abs(on.best.sensitivity).max() < 1e-8
-    assert all(0.0 < row[2].value < row[1].value for row in costs.rows)
+    assert all(0.0 < float(row[2].full) < float(row[1].full) for row in costs.rows)
 
 
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
