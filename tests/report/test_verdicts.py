@@ -8,12 +8,14 @@ import pytest
 from cardan.catalogue import catalogue, with_files
 from cardan.checks import check
 from cardan.io import example
-from cardan.report.block import Page, Words
+from cardan.report.block import Page, Table, Words
 from cardan.report.report import page
 from cardan.report.subject import asked
 from cardan.report.summary import evenness, judgement, warnings
 from cardan.report.verdicts import judged
 from tests.report.test_report import parsed
+
+KEY = "duty.speed_rpm"
 
 
 def test_a_joint_too_small_stands_first_with_its_cure():
@@ -42,7 +44,9 @@ def test_the_page_holds_every_verdict_and_names_what_is_missing():
     assert not found.page.alarms
     rows = {block.title: block.rows for block in found.page.blocks if hasattr(block, "rows")}
     verdicts = check(drive)
-    assert len(rows["Could not be judged"]) == sum(bool(one.missing) for one in verdicts)
+    lacking = [row[0].text for row in rows["Could not be judged"]]
+    assert lacking == ["error of the output angle", "speed times bend of joint 1 (and 2)"]
+    assert sum(bool(one.missing) for one in verdicts) == 3
     said = " ".join(row[0].text for row in rows["Verdicts"])
     assert all(one.title.split(" of ")[0] in said for one in verdicts if one.run and not one.advice)
 
@@ -79,3 +83,47 @@ def test_the_norm_of_a_catalogue_of_the_user_s_own_counts(tmp_path):
     own = replace(drive, settings=replace(drive.settings, norm="plant"))
     known = with_files(catalogue(), [tmp_path / "own.toml"])
     assert "all 3 limits that could be judged are kept" in "".join(parsed(page(own, known=known)).words)
+
+
+def test_one_change_that_cures_all_stands_first_in_words_and_with_its_key():
+    found = judged(asked(example("truck-wrong-yokes"), None, None))
+    assert found.changes is not None
+    first, second = ([cell.text for cell in row] for row in found.changes.rows)
+    assert first == ["input speed", "855 rpm", "560 rpm", "torsional acceleration of the output and 2 others", "", KEY]
+    assert (second[0], second[1], second[-1]) == ("joint 2: bend", "15.3333°", "joints[1].bend_deg")
+    assert found.changes.note.startswith("Keys count from 0")
+
+
+def test_a_change_is_listed_once_and_red_where_it_breaks_something():
+    found = judged(asked(example("truck-duty-cycle"), None, None))
+    assert found.page is not None
+    cures = next(one for one in found.page.blocks if isinstance(one, Table) and one.title.startswith("What cures it"))
+    told = [(row[-1].text, row[2].text) for row in cures.rows]
+    assert len(set(told)) == len(told)
+    assert {row[-2].tone for row in cures.rows if row[-2].text} == {"failed"}
+    assert sum(key == "joints[2].centre_mm[2]" for key, _value in told) == 1, "hardly more of it cures both"
+
+
+def test_a_limit_alone_that_is_not_kept_is_not_one_of_one():
+    found = judged(asked(example("single-20deg"), None, None))
+    assert found.page is not None
+    assert found.page.answer.startswith("The one limit that could be judged is not kept: torsional acceleration of")
+
+
+def test_verdicts_name_the_speed_and_a_band_both_of_its_ends():
+    lights = judged(asked(example("truck-duty-cycle"), None, None)).lights
+    assert lights is not None
+    assert "acceleration of inside shafts in coast, at 1\u202f800 rpm" in [row[0].text for row in lights.rows]
+    page = judged(asked(example("two-piece-rubber-bearing"), None, None)).page
+    assert page is not None
+    rows = [row for block in page.blocks if isinstance(block, Table) for row in block.rows]
+    band = next(row for row in rows if row[0].text == "range of speeds about half the critical speed of shaft 3")
+    assert band[3].text == "≤ 3\u202f264 or ≥ 3\u202f831"
+
+
+def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
+    page = judged(asked(example("six-joints"), None, None)).page
+    assert page is not None
+    rows = next(one.rows for one in page.blocks if isinstance(one, Table) and one.title == "Could not be judged")
+    assert [row[0].text for row in rows if row[0].text.startswith("bend")] == ["bend of joint 1 (and 2, 3, 4, 5, 6)"]
+    assert len(rows) < 25

@@ -22,7 +22,7 @@ def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
     """
     groups: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts:
-        kind = re.sub(r"\d+", "#", one.title) if one.subject else one.title
+        kind = re.sub(r"\d+", "#", one.title, count=1) if one.subject else one.title
         used = f"{float(np.max(one.utilisation)):.2f}"
         groups.setdefault((one.check, kind, used, one.state), []).append(one)
     return [tuple(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
@@ -43,6 +43,23 @@ def title_of(group: Sequence[Verdict]) -> str:
     return _("{title} (and {numbers})").format(title=group[0].title, numbers=", ".join(map(str, numbers)))
 
 
+NOTHING = 1e-5
+"""A length [m] below which a limit says that something must be left at all."""
+
+
+def deciding_limits(one: Verdict) -> list[tuple[str, float]]:
+    """Return senses and limits, in SI, that a reader compares the value with: both ends of a band it must leave.
+
+    Examples
+    --------
+    >>> deciding_limits(Verdict(check="", title="", value=1.5, limit=(1.0, 2.0), sense="outside"))
+    [('≤', 1.0), ('≥', 2.0)]
+    """
+    if isinstance(one.limit, tuple) and one.sense == "outside" and one.limit[0] < one.value < one.limit[1]:
+        return [("≤", float(one.limit[0])), ("≥", float(one.limit[1]))]
+    return [deciding_limit(one)]
+
+
 def deciding_limit(one: Verdict) -> tuple[str, float]:
     """Return the sense and the limit, in SI, that a reader compares the value with; of a band the nearer end.
 
@@ -52,6 +69,8 @@ def deciding_limit(one: Verdict) -> tuple[str, float]:
     ('≥', 2.0)
     """
     if not isinstance(one.limit, tuple):
+        if one.sense == "at_least" and one.dimension == "length" and float(one.limit) < NOTHING:
+            return ">", 0.0
         return ("≤" if one.sense == "at_most" else "≥"), float(one.limit)
     low, high = (float(end) for end in one.limit)
     above = float(one.value) ** 2 >= low * high

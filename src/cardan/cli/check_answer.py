@@ -178,11 +178,11 @@ def shown(one: Verdict, value: Any, digits: int = 4) -> str:
 
 def limit(one: Verdict) -> str:
     """Return the limit of a verdict with its sense and unit; of a band the nearer end."""
-    from cardan.checks.alike import deciding_limit
+    from cardan.checks.alike import deciding_limits
     from cardan.units import label
 
-    sense, value = deciding_limit(one)
-    return f"{sense} {shown(one, value)} {label(one.unit)}".strip()
+    ends = (f"{sense} {shown(one, value)}" for sense, value in deciding_limits(one))
+    return f"{_(' or ').join(ends)} {label(one.unit)}".strip()
 
 
 def unit_factor(one: Verdict) -> float:

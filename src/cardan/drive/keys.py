@@ -131,16 +131,34 @@ def spelled(path: str, root: Any = Drive) -> str:
     >>> spelled("joints[1].centre[2]"), spelled("shafts[1].spline.teeth")
     ('joints[1].centre_mm[2]', 'shafts[1].spline.teeth')
     """
-    classes: list[Any] = [root]
     steps = []
+    for step, fields_here in _along(path, root):
+        if not fields_here:
+            return path
+        steps.append(fields_here[0].spelling + step[len(step.partition("[")[0]) :])
+    return ".".join(steps)
+
+
+def meant(path: str, root: Any = Drive) -> str:
+    """Return what a field means that a path without unit leads to, not translated; empty where it leads nowhere.
+
+    Examples
+    --------
+    >>> meant("shafts[1].outer"), meant("shafts[1].spline.tooth_width"), meant("shafts[1].colour")
+    ('outer diameter', 'width of a tooth', '')
+    """
+    found = [fields_here for _step, fields_here in _along(path, root)]
+    return found[-1][0].key.doc if all(found) else ""
+
+
+def _along(path: str, root: Any) -> Iterator[tuple[str, list[Field]]]:
+    """Yield the steps of a path and the fields they may lead to; none where they lead nowhere."""
+    classes: list[Any] = [root]
     for step in path.split("."):
         name = step.partition("[")[0]
         fields_here = [fields_of(cls)[name] for cls in classes if name in fields_of(cls)]
-        if not fields_here:
-            return path
-        steps.append(fields_here[0].spelling + step[len(name) :])
+        yield step, fields_here
         classes = [inner for one in fields_here for inner in _classes(one.type)]
-    return ".".join(steps)
 
 
 def _classes(hint: Any) -> list[Any]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from cardan.checks import Verdict, check
-from cardan.checks.alike import alike, deciding_limit, title_of
+from cardan.checks.alike import alike, deciding_limits, title_of
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, significant
 from cardan.synthesis.cure import Cure, cures
@@ -123,7 +123,7 @@ def with_cures(on: Subject, progress: Progress | None = None) -> tuple[Light, ..
 
 def _light(group: Sequence[Verdict]) -> Light:
     one = group[0]
-    sense, limit = deciding_limit(one)
+    limits = (f"{sense} {_figure(one, limit).text}" for sense, limit in deciding_limits(one))
     beyond = one.advice and one.state == "failed"
     tone: Tone = "warning" if beyond else TONES[one.state]
     said = {"good": _("passed"), "warning": _("close"), "failed": _("failed")}[tone]
@@ -134,7 +134,7 @@ def _light(group: Sequence[Verdict]) -> Light:
         verdict=_("beyond") if beyond else said,
         value=_figure(one, float(one.value)),
         unit=label(one.unit),
-        limit=f"{sense} {_figure(one, limit).text} {label(one.unit)}".strip(),
+        limit=f"{_(' or ').join(limits)} {label(one.unit)}".strip(),
         used=float(one.utilisation),
         source=one.source,
         why=one.note,
@@ -192,6 +192,8 @@ def sentence(shown: Sequence[Light]) -> str:
     count = sum(one.count for one in binding)
     if not binding:
         return _("Nothing could be judged: the drive file gives neither limits nor what they need.")
+    if failed and count == 1:
+        return _("The one limit that could be judged is not kept.")
     if failed:
         return plural(
             "{failed} of {count} limits is not kept.", "{failed} of {count} limits are not kept.", failed

@@ -99,9 +99,19 @@ def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
             helping,
             key=lambda one: (one.demand, len(one.breaks) - len(left & {one.title, *one.solves}), one.cost),
         )
+        if best.demand:
+            # A lesser demand that is made anyway may as well cure what changes of the drive cured before it.
+            best = min(
+                (one for one in helping if one.demand), key=lambda one: (len(one.breaks) - _solved(one), one.cost)
+            )
         chosen.append(best)
         left -= {best.title, *best.solves}
-    return tuple(chosen)
+    return tuple(sorted(chosen, key=lambda one: -_solved(one)))
+
+
+def _solved(one: Cure) -> int:
+    """Return how many verdicts pass with a change that failed."""
+    return len({one.title, *one.solves})
 
 
 def _with_effects(drive: Drive, found: Sequence[Cure], judged: Sequence[Verdict], known: Catalogue) -> list[Cure]:
