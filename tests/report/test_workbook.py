@@ -341,6 +341,20 @@ def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
         assert sheet.max_row > 1
 
 
+def test_pictures_have_a_size_of_their_own_and_the_shape_they_were_drawn_in() -> None:
+    data = file_of("car-propshaft")
+    drawing = "{http://schemas.openxmlformats.org/drawingml/2006/spreadsheetDrawing}"
+    seen = 0
+    for text in parts(data, "xl/drawings/drawing").values():
+        for anchor in ElementTree.fromstring(text):
+            assert (anchor.find(f"{drawing}pic") is not None) == (anchor.tag == f"{drawing}oneCellAnchor")
+    for sheet in opened(data):
+        for one in sheet._images:
+            seen += 1
+            assert one.anchor.ext.width / one.anchor.ext.height == pytest.approx(one.width / one.height, rel=0.01)
+    assert seen > 3
+
+
 def test_a_drive_without_limits_or_curves_has_a_workbook() -> None:
     book = opened(written(content(Drive.from_angles([0.0, 20 * deg]))))
     assert book.sheetnames[0] == "Summary"

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import datetime
+import io
 import math
 import re
+import zipfile
 from typing import IO, Any
 
 from cardan.errors import MissingExtraError
@@ -21,6 +23,15 @@ NAME_LETTERS = 31
 
 UNREADABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufeff\ufffe\uffff]")
 """Marks of control and halves of letters: no such file may hold them."""
+
+PICTURE = re.compile(
+    r'<xdr:twoCellAnchor editAs="oneCell">(<xdr:from>(?:(?!</xdr:from>).)*</xdr:from>)'
+    r"<xdr:to>(?:(?!</xdr:to>).)*</xdr:to>"
+    r'(<xdr:pic>(?:(?!</xdr:pic>).)*?<a:ext (cx="[0-9]+" cy="[0-9]+")/>(?:(?!</xdr:pic>).)*</xdr:pic><xdr:clientData/>)'
+    r"</xdr:twoCellAnchor>",
+    re.DOTALL,
+)
+"""Place of a picture that reaches from one cell to another, in a sheet's drawing."""
 
 LONGEST_TITLE = 250
 """Letters of a title among the properties."""
@@ -63,6 +74,27 @@ def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) 
         {"title": words(title)[:LONGEST_TITLE], "created": datetime.datetime(day.year, day.month, day.day)}
     )
     return book
+
+
+def unstretched(data: bytes) -> bytes:
+    """Return a workbook whose pictures have a size of their own instead of reaching to a cell.
+
+    How wide a column of so many letters is differs from spreadsheet to spreadsheet: a picture that ends in a cell is
+    stretched, and its circles are ellipses.
+
+    Parameters
+    ----------
+    data : bytes
+        The workbook.
+    """
+    stream = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as new:
+        for one in old.infolist():
+            part = old.read(one)
+            if one.filename.startswith("xl/drawings/drawing"):
+                part = PICTURE.sub(r"<xdr:oneCellAnchor>\1<xdr:ext \3/>\2</xdr:oneCellAnchor>", part.decode()).encode()
+            new.writestr(one, part)
+    return stream.getvalue()
 
 
 def put(sheet: Any, row: int, column: int, value: object, form: Any = None) -> None:

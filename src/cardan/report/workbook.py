@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, words
+from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
 from cardan.texts import _
 
 from .block import Listing, Page, Picture, Table
@@ -44,7 +44,7 @@ def written(content: Content) -> bytes:
     _summary(Paper(book, summary, sheets.looks, _tables_of(content)), content, names)
     sheets.fill(summary.get_name())
     book.close()
-    return stream.getvalue()
+    return unstretched(stream.getvalue())
 
 
 def excerpt(part: Excerpt) -> bytes:
@@ -61,7 +61,7 @@ def excerpt(part: Excerpt) -> bytes:
     sheets.page(part.page)
     sheets.fill()
     book.close()
-    return stream.getvalue()
+    return unstretched(stream.getvalue())
 
 
 class Sheets:
