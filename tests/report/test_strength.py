@@ -4,11 +4,16 @@ from dataclasses import replace
 
 import pytest
 
+from cardan.analysis.forces import forces
 from cardan.analysis.strength import strength
+from cardan.analysis.torsion_response import torsion_response
 from cardan.drive.duty import Duty
 from cardan.figures.wording import significant
 from cardan.io import example
+from cardan.report.block import Page, Points
 from cardan.report.report import page
+from cardan.report.strength import bearing_up
+from cardan.report.subject import Subject
 
 from .test_report import parsed
 
@@ -31,3 +36,27 @@ def test_a_weak_drive_is_an_alarm():
     weak = replace(drive, duty=Duty(torque=50 * drive.duty.torque, speed=100.0))
     text = "".join(parsed(page(weak)).words)
     assert f"of the {significant(weak.duty.torque)} N·m asked for" in text
+
+
+def of(drive) -> Page:
+    found = bearing_up(Subject(drive=drive))
+    assert found is not None
+    return found
+
+
+def test_torsional_vibration_is_named_beside_the_torques_without_it():
+    drive = example("unstable-drive")
+    found, runs = of(drive), torsion_response(drive)
+    (said,) = found.alarms
+    assert f"{significant(float(runs.torque_highest.max()), 3)} N·m" in said.text
+    assert said.tone == "warning"  # 243 N·m, and the weakest part holds 818
+    weak = replace(drive, limits=replace(drive.limits, twist=0.02))
+    assert [one.tone for one in of(weak).alarms] == ["failed"]
+    assert of(example("car-propshaft")).alarms == []
+
+
+def test_loads_that_the_stresses_leave_out_are_told():
+    drive = example("truck-supports")
+    points = [one for block in of(drive).blocks if isinstance(block, Points) for one in block.items]
+    journal = max(float(one.journals.size.max()) for one in (forces(drive), forces(drive).reverse))
+    assert any(f"{significant(journal)} N, 5.3 % more" in one for one in points)

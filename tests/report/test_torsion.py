@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,13 +12,14 @@ from cardan import Drive, example, torsion_modes, torsion_response
 from cardan.drive.shaft import Shaft
 from cardan.figures.wording import significant
 from cardan.report.block import Page, Picture, Table, Words
+from cardan.report.subject import Subject
 from cardan.report.torsion import twisting
 
 
 @cache
 def of(drive: Drive) -> Page:
     """Return the page of a drive, made once for all tests."""
-    return twisting(SimpleNamespace(drive=drive))  # type: ignore[arg-type, return-value]
+    return twisting(Subject(drive=drive))  # type: ignore[return-value]
 
 
 def test_it_stands_only_where_masses_or_stiffnesses_are_given() -> None:

@@ -5,22 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
+from cardan.analysis.forces import forces
 from cardan.analysis.strength import Strength, strength
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
+from cardan.figures.force_arrows import senses
 from cardan.figures.strength import strength_figures
 from cardan.figures.wording import fixed, significant
 from cardan.texts import _, plural
-from cardan.units import deg
+from cardan.units import deg, rpm
 
 from .balance import refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Tone, Words, number, of_shaft, words
-from .lacking import of_strength
+from .lacking import of_forces, of_strength, of_torsion
 from .subject import Subject
 
 MPA = 1e6
 
 HOUR = 3600.0
+
+LITTLE = 1.02
+"""Times the torque counted up to which torsional vibration is not worth a word."""
+
+SLIGHT = 0.005
+"""Share by which all forces together must raise the load of a journal to be told."""
 
 AMBER = 0.9
 """Share of the torque rating from which the drive is close to it."""
@@ -40,11 +50,13 @@ def bearing_up(on: Subject) -> Page | None:
     figures = strength_figures(found)
     blocks: list[Block] = [Picture(figure=figure) for figure in figures]
     blocks += [_shafts(on.drive, found), _joints(on.drive, found)]
-    notes = list(_notes(found))
-    if notes:
-        blocks.append(Points(title=_("To mind"), items=notes))
     answer = figures[0].sentence
     alarms = [Words(text=answer, tone="failed")] if found.enough is False else []
+    swung = _swinging(on, found)
+    if swung is not None:
+        blocks.insert(0, swung)
+        alarms.append(swung)
+    blocks.append(Points(title=_("To mind"), items=list(_notes(found, _heavier(on, found)))))
     return Page(name="strength", title=title, answer=answer, blocks=blocks, keys=list(_keys(found)), alarms=alarms)
 
 
@@ -92,7 +104,7 @@ def _shafts(drive: Drive, found: Strength) -> Table:
         columns=(
             Column(heading=_("shaft"), left=True),
             Column(heading=_("torque"), unit="N·m"),
-            Column(heading=_("secondary couple"), unit="N·m"),
+            Column(heading=_("secondary couple, larger end"), unit="N·m"),
             Column(heading=_("torsion"), unit="MPa"),
             Column(heading=_("bending"), unit="MPa"),
             Column(heading=_("twist"), unit="°"),
@@ -134,7 +146,69 @@ def _joints(drive: Drive, found: Strength) -> Table:
     )
 
 
-def _notes(found: Strength) -> Iterator[str]:
+def _swinging(on: Subject, found: Strength) -> Words | None:
+    """Return what torsional vibration adds at the speed of the duty; None where it adds little or is not known."""
+    if of_torsion(on.drive):
+        return None
+    try:
+        runs = on.swings
+    except InputError:
+        return None
+    if runs is None or not bool(runs.steady.found):
+        return None
+    most = np.maximum(np.abs(runs.torque_lowest), np.abs(runs.torque_highest))
+    model = runs.train.model
+    plain = np.asarray([np.max(found.loads.torque[:, model.shaft[a]]) for a, _b in model.elements])
+    own = [e for e, (_a, b) in enumerate(model.elements) if runs.train.hangs[b] is None and plain[e] > 0.0]
+    if not own:
+        return None
+    e = max(own, key=lambda one: float(most[one] / plain[one]))
+    more = float(most[e] / plain[e])
+    if more <= LITTLE:
+        return None
+    text = _(
+        "Torsional vibration is not in these figures: at {speed} rpm it takes the torque in {name} to {most} N·m, "
+        "{more} times what is counted here."
+    )
+    said = text.format(
+        speed=significant(abs(float(runs.speed)) / rpm, 3),
+        name=runs.train.element_names[e],
+        most=significant(float(most[e]), 3),
+        more=significant(more, 3),
+    )
+    beyond = found.torque_factor < more
+    if beyond:
+        said += " " + _("That is more than the torque rating of the drive.")
+    if on.drive.duty.run_up is not None:
+        said += " " + _("While running up it may be more: see Running up.")
+    return Words(text=said, tone="failed" if beyond else "warning")
+
+
+def _heavier(on: Subject, found: Strength) -> tuple[int, float, float] | None:
+    """Return joint, load [N] and excess of the journal whose load all forces together raise most; None if unknown."""
+    if of_forces(on.drive) or found.cases[0].name:
+        return None
+    try:
+        every = forces(on.drive)
+    except InputError:
+        return None
+    load = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(every)], axis=0)
+    span = np.asarray([one.couple / one.journal_force for one in found.joints])
+    more = load * span / found.couple[0] - 1.0
+    if not np.any(np.isfinite(more)):
+        return None
+    i = int(np.nanargmax(more))
+    return (i + 1, float(load[i]), float(more[i])) if more[i] > SLIGHT else None
+
+
+def _notes(found: Strength, heavier: tuple[int, float, float] | None) -> Iterator[str]:
+    yield _(
+        "Stresses count what the torque of the duty makes without friction and masses; axial forces of splines, "
+        "weights and torsional vibration are not in them."
+    )
+    yield _(
+        "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
+    )
     left = sum(not one.judged for one in found.uses)
     if left:
         yield plural(
@@ -142,7 +216,14 @@ def _notes(found: Strength) -> Iterator[str]:
             "{count} limits could not be judged; the drive may carry less.",
             left,
         ).format(count=left)
-    if found.dynamic_factor > 1.02:
+    if heavier is not None:
+        number, load, more = heavier
+        text = _(
+            "With friction, masses, weights and axial forces a journal of joint {number} carries {load} N, {more} % "
+            "more than counted here before the factor for shocks."
+        )
+        yield text.format(number=number, load=significant(load), more=fixed(100.0 * more, 1))
+    elif found.dynamic_factor > 1.02:
         text = _("Masses and friction raise the largest couple of a cross by {more} %, which the stresses leave out.")
         yield text.format(more=fixed(100.0 * (found.dynamic_factor - 1.0), 1))
     for one in found.shafts:

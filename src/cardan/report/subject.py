@@ -11,9 +11,10 @@ import numpy as np
 from cardan.analysis.articulation import Articulation, articulation
 from cardan.analysis.book import BookComparison, book_comparison
 from cardan.analysis.closure import Closure, closure
-from cardan.analysis.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
+from cardan.analysis.equivalence import SPECK, SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
 from cardan.analysis.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.analysis.motion import Motion, motion, phase_angles
+from cardan.analysis.torsion_response import TorsionResponse, torsion_response
 from cardan.catalogue import Catalogue
 from cardan.drive.chain import Chain, as_hooke, turning_chain
 from cardan.drive.drive import Drive
@@ -132,6 +133,11 @@ class Subject:
         return None if self.best is None else swing_by_vectors(as_hooke(self.drive), self.best.yoke_angle)
 
     @cached_property
+    def swings(self) -> TorsionResponse | None:
+        """How it vibrates in torsion at the speed of its duty; None where that has none. Refused as the analysis is."""
+        return None if self.drive.duty.speed is None else torsion_response(self.drive)
+
+    @cached_property
     def moved(self) -> Articulation | InputError | None:
         """What its movement does to it, or why that was not calculated; None where there is none to tell."""
         if not self.drive.movements or not self.complete:
@@ -159,9 +165,14 @@ class Subject:
         return float(self.whole.irregularity) < SYNCHRONOUS
 
     @property
+    def rounded(self) -> bool:
+        """Whether it is synchronous as built but for the rounding of the figures that describe it."""
+        return not self.even and float(self.whole.irregularity) < SPECK
+
+    @property
     def curable(self) -> bool:
-        """Whether another setting of the yokes makes it synchronous."""
-        return not self.even and self.phasing.feasible
+        """Whether another setting of the yokes makes it synchronous, but for rounding."""
+        return not self.even and not self.rounded and self.phasing.irregularity_min < SPECK
 
     @property
     def best(self) -> YokeSetting | None:

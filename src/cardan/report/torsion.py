@@ -51,7 +51,7 @@ def twisting(on: Subject) -> Page | None:
     if of_torsion(drive):
         return None
     try:
-        modes, runs = torsion_modes(drive), _running(drive)
+        modes, runs = torsion_modes(drive), on.swings
         swept = None if of_orders(drive) else _swept(drive)
         mapped = _mapped(drive, modes)
     except InputError as error:
@@ -69,7 +69,7 @@ def swinging(on: Subject) -> Page | None:
     if of_torsion(on.drive):
         return None
     try:
-        modes, runs = torsion_modes(on.drive), _running(on.drive)
+        modes, runs = torsion_modes(on.drive), on.swings
     except InputError as error:
         return refused("torsion", _("Torsional vibration"), error)
     return _page(on.drive, modes, runs, [])
@@ -147,11 +147,6 @@ def _page(drive: Drive, modes: TorsionModes, runs: TorsionResponse | None, more:
         keys=list(_keys(modes, runs)),
         alarms=alarms,
     )
-
-
-def _running(drive: Drive) -> TorsionResponse | None:
-    """Return the motion at the speed of the duty; None where there is none."""
-    return None if drive.duty.speed is None else torsion_response(drive)
 
 
 def _sweep(swept: TorsionResponse) -> list[Block]:
