@@ -9,10 +9,10 @@ import numpy as np
 
 from cardan.analysis.critical_speed import ARTICLE, CATALOGUE
 from cardan.texts import _, mark
-from cardan.units import rpm
 
 from .check import Check
 from .design import Design
+from .told import turning
 from .verdict import Verdict
 from .whirl import Whirl, whirls
 
@@ -47,23 +47,35 @@ def _judge(design: Design) -> Iterator[Verdict]:
             "industrial": _("IMS catalogue, industrial drives: 65 %"),
         }
         yield made(
-            title=_("highest speed over the critical speed of shaft {number}").format(number=one.shaft + 1),
+            title=_("highest speed over the computed critical speed of shaft {number}").format(number=one.shaft + 1),
             value=top / one.speed,
             limit=CATALOGUE[application],
             dimension="share",
             unit="percent",
             source=makers[application],
             levers=(*(path for path in one.levers if "wear" not in path), *design.speed_levers),
+            note=_computed(one),
         )
 
 
 def _note(one: Whirl) -> str:
-    if one.speed is None or np.ndim(one.speed) or np.ndim(one.wear):
-        return ""
-    text = _("{factor:g} of the {speed:.0f} rpm computed for the whole line")
+    """Return which critical speed of one shaft counts, as computed and as the real shaft has it."""
+    if one.speed is None or np.ndim(one.speed) or np.ndim(one.wear) or float(one.wear) == 1.0:
+        return _computed(one)
+    text = _("{factor:g} of the {speed} rpm computed for the whole line")
     if not one.exact:
-        text = _("{factor:g} of the {speed:.0f} rpm computed for the tube between its joints")
-    return text.format(factor=float(one.wear), speed=float(one.speed) / rpm)
+        text = _("{factor:g} of the {speed} rpm computed for the tube between its joints")
+    return text.format(factor=float(one.wear), speed=turning(float(one.speed)))
+
+
+def _computed(one: Whirl) -> str:
+    """Return the critical speed of one shaft as computed."""
+    if one.speed is None or np.ndim(one.speed):
+        return ""
+    text = _("{speed} rpm, computed for the whole line")
+    if not one.exact:
+        text = _("{speed} rpm, computed for the tube between its joints")
+    return text.format(speed=turning(float(one.speed)))
 
 
 CHECK = Check(

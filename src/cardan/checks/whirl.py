@@ -14,7 +14,7 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array
 
 from .design import Design
-from .section import modulus, sections
+from .section import Section, modulus, sections
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -44,7 +44,7 @@ class Whirl:
 
 
 def whirls(design: Design) -> list[Whirl]:
-    """Return the lowest critical speed of every shaft between two joints.
+    """Return the lowest critical speed of every shaft between two joints, and of end shafts that whirl in the line.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def whirls(design: Design) -> list[Whirl]:
         elif k not in line and line:
             continue
         found.append(alone)
-    return found
+    return [*found, *(_end(design, plain, k, line[k]) for k in (0, design.joints) if k in line)]
 
 
 @lru_cache(maxsize=64)
@@ -84,20 +84,44 @@ def _line(drive: Drive) -> dict[int, float]:
     return speeds
 
 
+def _end(design: Design, plain: Design, k: int, speed: float) -> Whirl:
+    """Return the critical speed of an end shaft on its supports: that of the line, changed as its longest stretch."""
+    longest = _longest(list(sections(design, k)))
+    varied = speed * (_swiftness(design, longest) / _swiftness(plain, _longest(list(sections(plain, k)))))
+    levers = design.levers(*longest.levers, f"shafts[{k}].wear_factor")
+    return Whirl(shaft=k, speed=np.asarray(varied), wear=_wear(design, k), exact=True, levers=levers)
+
+
+def _longest(found: list[Section]) -> Section:
+    """Return the longest of the stretches of a shaft."""
+    return max(found, key=lambda one: 0.0 if one.length is None else float(np.max(np.asarray(one.length))))
+
+
+def _swiftness(design: Design, section: Section) -> Array:
+    """Return what critical speeds of shafts of one length are proportional to: √(E/ρ) √(D² + d²)."""
+    stiff, heavy = (np.asarray(modulus(design, section, name)) for name in ("youngs", "density"))
+    found: Array = np.sqrt(stiff / heavy) * np.hypot(section.outer, section.inner)
+    return found
+
+
+def _wear(design: Design, k: int) -> Array | float:
+    """Return real over computed critical speed of a shaft."""
+    given: Array | float | None = design.value(f"shafts[{k}].wear_factor")
+    usual = SPLINED if design.drive.shafts[k].spline is not None else 1.0
+    return usual if given is None else given
+
+
 def _alone(design: Design, k: int) -> Whirl:
     """Return the critical speed of a shaft between its joints, one like its longest stretch."""
     found = list(sections(design, k))
     length = design.length(k)
     lacking = [] if found else [f"shafts[{k}].outer"]
     lacking += [] if length is not None else [f"shafts[{k}].length"]
-    given = design.value(f"shafts[{k}].wear_factor")
-    usual = SPLINED if design.drive.shafts[k].spline is not None else 1.0
-    wear = usual if given is None else given
+    wear = _wear(design, k)
     if lacking or length is None:
         return Whirl(shaft=k, speed=None, wear=wear, missing=tuple(lacking))
-    section = max(found, key=lambda one: float(np.max(np.asarray(one.length))))
-    stiff, heavy = (np.asarray(modulus(design, section, name)) for name in ("youngs", "density"))
-    speed: Array = 0.25 * np.sqrt(stiff / heavy) * np.hypot(section.outer, section.inner) * (math.pi / length) ** 2
+    section = _longest(found)
+    speed: Array = 0.25 * _swiftness(design, section) * (math.pi / length) ** 2
     levers = [*section.levers, f"shafts[{k}].wear_factor"]
     levers += [f"shafts[{k}].length"] if design.drive.form != "points" and len(found) == 1 else []
     return Whirl(shaft=k, speed=speed, wear=wear, levers=design.levers(*levers))
