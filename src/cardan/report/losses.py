@@ -15,6 +15,7 @@ from cardan.texts import _
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
 from .lacking import of_losses
+from .named import with_key
 from .subject import Subject
 
 
@@ -34,7 +35,7 @@ def rubbing(on: Subject) -> Page | None:
     elif heat_parts(found):
         blocks += [Picture(figure=figure), _table(on.drive, found)]
     if found.uncounted:
-        items = [f"{one.field}: {one.message}" for one in found.uncounted]
+        items = [f"{with_key(one.field)}: {one.message}" for one in found.uncounted]
         blocks.append(Points(title=_("Not counted"), items=items))
     if not found.locked:
         blocks.append(_checks(found))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from cardan.drive.keys import meant
+from cardan.synthesis.lever import key_of
 from cardan.texts import _
 
 CLAUSE = re.compile(r"[;,，；(\[]")
@@ -15,6 +16,22 @@ STEP = re.compile(r"([a-z]+)(?:\[(\d+)\])?")
 
 AXES = re.compile(r"\[([012])\]$")
 """Coordinate of a point."""
+
+
+def with_key(path: str) -> str:
+    """Return what stands at a path in words, with the key that is typed for it.
+
+    Parameters
+    ----------
+    path : str
+        Without unit.
+
+    Examples
+    --------
+    >>> with_key("shafts[1].outer")
+    'shaft 2: outer diameter (shafts[1].outer_mm)'
+    """
+    return f"{in_words(path)} ({key_of(path)})"
 
 
 def in_words(path: str) -> str:

@@ -24,6 +24,7 @@ from cardan.units import deg, rpm
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
 from .lacking import of_orders, of_stability, of_torsion
+from .named import with_key
 from .subject import Progress, Subject
 
 MODES = 4
@@ -335,7 +336,7 @@ def _assumed(modes: TorsionModes) -> Iterator[str]:
         "damping": _("without damping"),
     }
     for path in modes.train.assumed:
-        yield f"{path}: {meant.get(path.rpartition('.')[2], _('as by default'))}"
+        yield f"{with_key(path)}: {meant.get(path.rpartition('.')[2], _('as by default'))}"
 
 
 def _keys(modes: TorsionModes, runs: TorsionResponse | None) -> Iterator[list[Cell]]:

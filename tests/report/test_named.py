@@ -1,0 +1,34 @@
+"""Keys of the drive file in words, where pages of the report speak of them."""
+
+import re
+
+import pytest
+
+from cardan.checks import check
+from cardan.checks.design import design
+from cardan.drive.keys import meant
+from cardan.io import example
+from cardan.report.block import Points
+from cardan.report.losses import rubbing
+from cardan.report.named import in_words
+from cardan.report.subject import asked
+
+
+@pytest.mark.parametrize("name", ["truck-duty-cycle", "two-piece-rubber-bearing", "w-arrangement"])
+def test_every_lever_has_words_with_numbers_from_one(name):
+    drive = design(example(name)).drive
+    levers = {path for one in check(drive) for path in one.levers}
+    assert levers
+    for path in levers:
+        said = in_words(path)
+        assert meant(re.sub(r"\[\d\]$", "", path)), path
+        assert not re.search(r"[\[\]_;]", said), said
+        numbered = re.match(r"(?:joints|shafts)\[(\d+)\]", path)
+        assert numbered is None or f" {int(numbered[1]) + 1}" in said
+
+
+def test_heat_that_is_not_counted_is_told_in_words():
+    page = rubbing(asked(example("overconstrained-pump"), None, None))
+    assert page is not None
+    items = [item for block in page.blocks if isinstance(block, Points) for item in block.items]
+    assert any(item.startswith("support 1: coefficient of friction (supports[0].friction): ") for item in items)
