@@ -39,7 +39,7 @@ def test_the_tables_are_those_of_the_analysis():
     drive = example("truck-duty-cycle")
     made, found = of(drive), life(drive)
     for i, row in enumerate(table(made, "Joints").rows):
-        shown = [float(one.full) for one in row[5:]]
+        shown = [float(one.full) for one in row[6:]]
         assert shown == pytest.approx([found.of(name)[i] / HOUR for name in ("iso", "simple", "maker", "book")])
     rows = table(made, "Parts of the duty cycle").rows
     for joint in range(3):
@@ -64,3 +64,13 @@ def test_there_is_no_page_without_a_life_to_tell(change):
     else:
         drive = replace(drive, duty=replace(drive.duty, torque=None))
     assert of(drive) is None
+
+
+def test_the_dynamic_capacity_that_is_meant_stands_there():
+    drive = example("truck-duty-cycle")
+    found = life(drive)
+    heavy = next(one.message for one in found.cautions if one.code == "heavy_load")
+    assert "over half of their dynamic capacity of 63\u202f000 N" in heavy
+    joints = table(of(drive), "Joints")
+    at = [column.heading for column in joints.columns].index("dynamic capacity")
+    assert [row[at].full for row in joints.rows] == [repr(float(one)) for one in found.bearings.capacity]

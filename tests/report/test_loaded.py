@@ -86,6 +86,7 @@ def test_forces_says_what_the_worst_support_takes():
     top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
     text = words(drive)
     assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
+    assert significant(top) in text.split("greatest force in all")[1]  # in the table too, radial and axial together
     assert significant(max(float(np.max(one.journals.size[1])) for one in (found, found.reverse))) in text
 
 

@@ -93,8 +93,12 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             yield Caution(code="extrapolated", joint=i + 1, message=text.format(number=i + 1))
         most = float(np.max(found.journal_force[running, i]))
         if most > HEAVY * own.capacity[i]:
-            text = _("journals of joint {number} carry up to {force} N, over half the capacity; ISO 281 ends there")
-            yield Caution(code="heavy_load", joint=i + 1, message=text.format(number=i + 1, force=_grouped(most)))
+            text = _(
+                "journals of joint {number} carry up to {force} N, over half of their dynamic capacity of {capacity} "
+                "N; ISO 281 ends there"
+            )
+            said = text.format(number=i + 1, force=_grouped(most), capacity=_grouped(float(own.capacity[i])))
+            yield Caution(code="heavy_load", joint=i + 1, message=said)
     if beyond:
         text = _("{share:.6g} % reliability is beyond the table of ISO 281, which ends at 99.95 %")
         yield Caution(code="extrapolated", joint=0, message=text.format(share=100.0 * found.reliability))

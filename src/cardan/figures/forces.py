@@ -78,7 +78,7 @@ def torques_figure(found: Forces) -> Figure:
         ),
         source=_(
             "Couples along the normals of the crosses balance the torques, K = T n; the rest bends the shafts, Book "
-            "p. 129 ff., exact; paths below: tip of the couple seen along the power flow, dot at the start"
+            "p. 129 ff., exact; paths: tip of the couple seen along the power flow, dot at the start"
         ),
         rows=(
             _over_angle(angle, torque, _("Torque that enters each shaft"), "N·m", shafts=True),
@@ -158,7 +158,7 @@ def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
         source = _("Balance of every shaft, shared by least energy among bearings and shafts that give way")
     paths = tuple(_radial_paths(found, most.size))
     if paths:
-        source += _("; paths below: tip of the radial force seen along the power flow, z up, dot at the start")
+        source += _("; paths: tip of the radial force seen along the power flow, z up, dot at the start")
     rows = [
         Row(
             panels=(
@@ -193,7 +193,11 @@ def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
     return Figure(
         name="reactions",
         title=_("What the supports take"),
-        sentence=_("Support {number} on shaft {shaft} takes most, {most} N at {angle}°.").format(
+        sentence=(
+            _("Support {number} on shaft {shaft} takes most, {most} N at {angle}°, radial and axial force together.")
+            if pushed
+            else _("Support {number} on shaft {shaft} takes most, {most} N at {angle}°.")
+        ).format(
             number=most.support + 1,
             shaft=found.support_shaft[most.support],
             most=significant(most.size),

@@ -19,7 +19,7 @@ from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.maths import frames
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, plural
 from cardan.units import deg
 
 from .balance import ROUNDING, checks, refused
@@ -52,7 +52,10 @@ def carrying(on: Subject) -> Page | None:
         return Page(name="forces", title=_("Forces"), answer=turned.sentence, blocks=blocks, keys=keys, alarms=alarms)
     held = reactions_figure(found, [one.name for one in on.drive.supports])
     if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
-        text = _("Held by more than statics can tell: the supports share the forces by their stiffness.")
+        text = _(
+            "The supports hold the drive more often than needed, so that statics alone cannot tell what they take: they "
+            "share the forces by their stiffness."
+        )
         remark = [Words(text=text, tone="warning")]
     moved = _moving(on.drive)
     blocks = [
@@ -144,9 +147,13 @@ def _shafts(drive: Drive, found: Forces) -> Table:
             last = k + 1 == len(drive.shafts)
             row.append(Cell(text="–") if last or not known[k] else _amount(float(journal[k])))
         rows.append(row)
-    note = _("Least and greatest over a turn in steps of a degree.")
-    if found.assumed:
-        note += " " + _("Not given, so assumed: {paths}.").format(paths=", ".join(found.assumed))
+    note = " ".join(
+        [
+            _("Least and greatest over a turn in steps of a degree."),
+            _("The secondary couple is that of both ends of a shaft together, which its supports balance."),
+            *_assumed(found.assumed),
+        ]
+    )
     journals = (Column(heading=_("greatest load of a journal of the joint behind"), unit="N"),) if np.any(known) else ()
     return Table(
         title=_("Shafts and joints"),
@@ -162,20 +169,40 @@ def _shafts(drive: Drive, found: Forces) -> Table:
     )
 
 
+def _assumed(paths: Sequence[str]) -> Iterator[str]:
+    """Yield in words what the drive does not say and the forces assume."""
+    light = [path.split("[")[1].split("]")[0] for path in paths if path.endswith(".inertia")]
+    numbers = ", ".join(str(int(one) + 1) for one in light)
+    if "duty.speed" in paths:
+        yield _("Without a speed inertia does not count.")
+    elif light:
+        text = plural(
+            "Shaft {numbers} counts as without inertia, as none is given.",
+            "Shafts {numbers} count as without inertia, as none is given.",
+            len(light),
+        )
+        yield text.format(numbers=numbers)
+    others = [path for path in paths if path != "duty.speed" and not path.endswith(".inertia")]
+    if others:
+        yield _("Not given, so assumed: {paths}.").format(paths=", ".join(others))
+
+
 def _supports(drive: Drive, found: Forces) -> Table:
     angle = np.asarray(found.angle) / deg
     ways = senses(found)
     # One sense of sliding behind the other along the angle: the table takes the worse.
-    radial, axial, turn = (
+    radial, axial, whole, turn = (
         np.concatenate([part(one) for one in ways], axis=-1)
         for part in (
             lambda one: np.asarray(one.radial),
             lambda one: np.asarray(one.axial),
+            lambda one: frames.norm(np.asarray(one.reaction)),
             lambda one: frames.norm(np.asarray(one.support_couple)),
         )
     )
     top = max(float(np.max(radial)), float(np.max(np.abs(axial))))
     tilts = any(support.tilt for support in drive.supports)
+    pushed = bool(np.any(np.abs(axial) > NOTHING * top))
     rows: list[Sequence[Cell]] = []
     for k, support in enumerate(drive.supports):
         most, at = _peak(radial[k])
@@ -187,6 +214,8 @@ def _supports(drive: Drive, found: Forces) -> Table:
             _amount(float(np.min(axial[k])), top) if support.axial else Cell(text="–"),
             _amount(float(np.max(axial[k])), top) if support.axial else Cell(text="–"),
         ]
+        if pushed:
+            row.append(_amount(float(np.max(whole[k])), top))
         if tilts:
             row.append(_amount(float(np.max(turn[k])), top) if support.tilt else Cell(text="–"))
         rows.append(row)
@@ -199,6 +228,7 @@ def _supports(drive: Drive, found: Forces) -> Table:
             Column(heading=_("mean radial force"), unit="N"),
             Column(heading=_("axial force from"), unit="N"),
             Column(heading=_("to"), unit="N"),
+            *((Column(heading=_("greatest force in all"), unit="N"),) if pushed else ()),
             *((Column(heading=_("greatest couple"), unit="N·m"),) if tilts else ()),
         ),
         rows=rows,

@@ -75,12 +75,15 @@ def _joints(drive: Drive, found: Life) -> Table:
     lives = {name: found.of(name) for name in METHODS}
     bend, load = found.share @ found.bend, found.equivalent_torque
     force = np.max(found.journal_force, axis=0)
+    capacity = found.bearings.capacity
+    rated = bool(np.any(np.isfinite(capacity)))
     rows = [
         [
             words(f"{i + 1} {joint.name}".strip()),
             number(fixed(float(bend[i]) / deg), float(bend[i]) / deg),
             _cell(float(load[i])),
             _cell(float(force[i])),
+            *([_cell(float(capacity[i]))] if rated else []),
             _cell(float(found.speed_angle[i]) / (rpm * deg)),
             *(_cell(float(lives[name][i]) / HOUR) for name in METHODS),
         ]
@@ -96,6 +99,7 @@ def _joints(drive: Drive, found: Life) -> Table:
             Column(heading=_("bend"), unit="°"),
             Column(heading=_("torque that wears as much"), unit="N·m"),
             Column(heading=_("largest load of a journal"), unit="N"),
+            *([Column(heading=_("dynamic capacity"), unit="N")] if rated else []),
             Column(heading=_("speed times bend"), unit="rpm·°"),
             Column(heading=_("ISO 281"), unit="h"),
             Column(heading=_("by the mean load"), unit="h"),
