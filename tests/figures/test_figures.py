@@ -3,6 +3,7 @@
 import io
 import re
 from dataclasses import replace
+from html import escape
 from xml.etree import ElementTree
 
 import numpy as np
@@ -18,6 +19,8 @@ from cardan.analysis.motion import motion
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
+from cardan.figures.book import book_figure
+from cardan.figures.equivalence import orders_figure
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
@@ -121,7 +124,7 @@ def test_words_of_a_picture_keep_all_their_digits():
     value = 0.0123456
     figure = figures.for_result(equivalent_joint(Drive.from_angles([value])))[-1]
     shown = [text for panel in figure.panels for item in panel.series if isinstance(item, Bars) for text in item.texts]
-    assert all(text in inline_svg(figure) for text in shown)
+    assert all(escape(text) in inline_svg(figure) for text in shown)
 
 
 def test_a_synchronous_output_is_a_flat_line_on_a_sensible_axis():
@@ -247,3 +250,17 @@ def test_the_caption_stays_within_the_page_in_any_script(said: str) -> None:
     font = FontProperties(family="DejaVu Sans")
     widths = [TextPath((0.0, 0.0), line, size=8.2, prop=font).get_extents().width / 72.0 for line in page.caption]
     assert 0.8 * page.width < max(widths) < page.width - 0.1  # drawn 0.1 in from the left
+
+
+def test_orders_below_the_rounding_say_so_instead_of_vanishing():
+    drive = Drive.from_angles([1 * deg, 1 * deg], yoke_angles=[90 * deg])
+    figure = orders_figure(equivalent_joint(drive))
+    (drawn,) = (one for one in figure.panels[0].series if isinstance(one, Bars))
+    assert drawn.at.tolist() == [2.0, 4.0, 6.0, 8.0]
+    assert [text == "< 10⁻⁹\u202f°" for text in drawn.texts] == [False, False, True, True]
+    assert not any(re.search("[⁰¹²³⁴-⁹]°", text) for text in drawn.texts)
+    assert np.all(drawn.ends >= figure.panels[0].y.low)
+    assert np.all(drawn.size[2:] < figure.panels[0].y.low)
+    texts = figure.panels[0].y.texts
+    assert all(text.startswith("10") for text in texts)
+    assert "·10" not in re.sub("·10[⁻⁰¹²³⁴-⁹]+\u202f°", "", book_figure(book_comparison(drive, np.zeros(3))).sentence)

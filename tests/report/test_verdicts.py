@@ -127,3 +127,12 @@ def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
     rows = next(one.rows for one in page.blocks if isinstance(one, Table) and one.title == "Could not be judged")
     assert [row[0].text for row in rows if row[0].text.startswith("bend")] == ["bend of joint 1 (and 2, 3, 4, 5, 6)"]
     assert len(rows) < 25
+
+
+def test_limits_are_written_as_they_were_given():
+    found = judged(asked(example("truck-rear-axle"), None, None)).page
+    assert found is not None
+    tables = [block for block in found.blocks if isinstance(block, Table) and len(block.columns) > 5]
+    limits = {row[3].text for block in tables for row in block.rows}
+    assert "≤ 6" in limits
+    assert not any(re.fullmatch(r"[≤≥] .*\.\d*0", text) for text in limits)

@@ -11,7 +11,7 @@ from cardan.units import deg
 from .axes import axis
 from .figure import Curve, Figure, Panel, Row, Rule
 from .turning import across
-from .wording import significant
+from .wording import angular
 
 
 def book_figures(found: BookComparison) -> tuple[Figure, ...]:
@@ -53,7 +53,7 @@ def book_figure(found: BookComparison) -> Figure:
         ),
     )
     misses = [float(np.max(np.abs(row - exact))) for row in (first, second)]
-    worst = tuple(significant(miss, 2) for miss in misses)
+    worst = tuple(angular(miss, 2) for miss in misses)
     return Figure(
         name="book",
         title=_("The classical series against the exact motion"),

@@ -132,6 +132,7 @@ def _series(one: Series, scale: _Scale, how: Conversion) -> Series:
             one,
             at=_times(one.at, across),
             size=_times(one.size, along),
+            least=one.least * along,
             most=one.most * along,
             base=one.base * along,
             thick=one.thick * across,

@@ -16,7 +16,7 @@ from .axes import axis, steps, written
 from .diagnosis import UNITS, order_text, quantity_word, told
 from .figure import Axis, Curve, Figure, Panel, Row
 from .palette import shaft
-from .wording import significant
+from .wording import angular, significant
 
 POINTS = 800
 """Points of a curve at most."""
@@ -176,7 +176,7 @@ def torsional_figure(found: TorsionalVibration) -> Figure:
     best = int(inner[np.argmax(found.twist_amplitude[inner])]) if inner.size else 0
     text = _("The shaft swings by ±{twist}° in order {order}, at a mean speed of {speed} rpm.")
     sentence = text.format(
-        twist=significant(float(found.twist_amplitude[best]) / deg, 3),
+        twist=angular(float(found.twist_amplitude[best]) / deg, 3),
         order=order_text(float(found.order[best])),
         speed=significant(float(np.mean(found.speed)) / rpm, 3),
     )

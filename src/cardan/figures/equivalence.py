@@ -13,7 +13,10 @@ from cardan.units import deg
 from .axes import axis, written
 from .figure import Axis, Bars, Figure, Panel, Row, Rule, Series
 from .palette import shaft
-from .wording import percent, power_of_ten, significant
+from .wording import THIN, angular, percent, powers_of_ten, significant
+
+FLOOR = 1e-9
+"""Amplitude [°] below which there is only rounding."""
 
 ORDERS = 4
 """Orders 2, 4 … drawn."""
@@ -67,7 +70,7 @@ def orders_figure(found: EquivalentJoint) -> Figure:
     even = bool(np.ravel(np.asarray(found.shaft_irregularity))[-1] < SYNCHRONOUS)
     top = 1.0 if even else float(amplitude[0])
     high = 10.0 ** (math.floor(math.log10(top)) + 1)
-    low = max(high * 1e-8, 10.0 ** (math.floor(math.log10(max(float(amplitude[-1]), 1e-300)))))
+    low = min(max(FLOOR, 10.0 ** (math.floor(math.log10(max(float(amplitude[-1]), 1e-300))))), 1e-2 * high)
     if even:
         low, high = 1e-6, 1.0
     powers = range(round(math.log10(low)), round(math.log10(high)) + 1)
@@ -79,7 +82,7 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         low=low,
         high=high * 3.0,
         ticks=ticks,
-        texts=tuple(power_of_ten(t) for t in ticks),
+        texts=powers_of_ten(ticks),
         log=True,
     )
     across = Axis(
@@ -90,13 +93,14 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         texts=written(tuple(orders)),
         grid=False,
     )
-    shown = amplitude > low
+    little = f"< {powers_of_ten((low,))[0]}{THIN}°"
     series: list[Series] = [
         Bars(
-            at=orders[shown],
-            size=amplitude[shown],
-            texts=tuple(f"{significant(float(value), 3)}°" for value in amplitude[shown]),
+            at=orders,
+            size=amplitude,
+            texts=tuple(f"{angular(value, 3)}°" if value >= low else little for value in amplitude.tolist()),
             base=low,
+            least=low,
             roles=("accent",),
             thick=0.7,
         )

@@ -60,7 +60,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Bars:
-    """Bars from a base, upright or lying, each with the text at its end; none is drawn beyond ``most``."""
+    """Bars from a base, upright or lying, each with the text at its end; they end from ``least`` to ``most``."""
 
     at: Array
     size: Array
@@ -70,12 +70,13 @@ class Bars:
     thick: float = 0.6
     base: float = 0.0
     lying: bool = False
+    least: float = -math.inf
     most: float = math.inf
 
     @property
     def ends(self) -> Array:
         """Where the bars end."""
-        found: Array = np.minimum(np.asarray(self.size, dtype=float), self.most)
+        found: Array = np.clip(np.asarray(self.size, dtype=float), self.least, self.most)
         return found
 
 

@@ -14,7 +14,7 @@ from cardan.units import deg
 from .axes import angle_axis, axis
 from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
-from .wording import significant
+from .wording import angular, significant
 
 WIDTHS = (2.2, 1.5)
 """Of the first curve and of the others."""
@@ -110,7 +110,7 @@ def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> str:
         if not turns[0].error:
             return _("At {bend}° the {name} joint turns exactly evenly.").format(bend=at, name=names[0])
         text = _("At {bend}° the output of the {name} joint runs ahead and back by {error}°.")
-        return text.format(bend=at, name=names[0], error=significant(turns[0].error / deg, 3))
+        return text.format(bend=at, name=names[0], error=angular(turns[0].error / deg, 3))
     if not turns[worst].error:
         return _("At {bend}° all of them turn exactly evenly.").format(bend=at)
     text = _("At {bend}° {worst} runs ahead and back most, by {most}°, and {best} least, by {least}°.")
@@ -118,6 +118,6 @@ def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> str:
         bend=at,
         worst=names[worst],
         best=names[best],
-        most=significant(turns[worst].error / deg, 3),
-        least=significant(turns[best].error / deg, 3),
+        most=angular(turns[worst].error / deg, 3),
+        least=angular(turns[best].error / deg, 3),
     )

@@ -18,7 +18,7 @@ from cardan.units import deg, mm
 
 from .axes import angle_axis, axis, steps, written
 from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
-from .wording import significant
+from .wording import angular, significant
 
 HALF = 0.2
 """Half the length of the bar that stands for a link; neighbours are one apart."""
@@ -314,7 +314,7 @@ def closure_figures(found: FiniteMobility) -> tuple[Figure, ...]:
             "At {angle}° the loops miss each other by {gap} mm and {turn}°: so much play or give it must find."
         )
         sentence = sentence.format(
-            angle=f"{angle[worst]:.0f}", gap=significant(float(gap[worst]), 3), turn=significant(float(turn[worst]), 3)
+            angle=f"{angle[worst]:.0f}", gap=significant(float(gap[worst]), 3), turn=angular(float(turn[worst]), 3)
         )
     across = axis(_("input angle"), "°", [angle], count=8, margin=0.0)
     panels = [

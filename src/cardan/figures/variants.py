@@ -16,7 +16,7 @@ from .axes import axis
 from .figure import Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .turning import across
-from .wording import significant
+from .wording import angular
 
 NOISE = 1e-12
 """Below this a swing is rounding."""
@@ -107,7 +107,7 @@ def _panel(
 
 def _sentence(leads: Sequence[Array], names: Sequence[str]) -> str:
     swing = [0.5 * float(np.ptp(lead)) if lead.size else 0.0 for lead in leads]
-    told = [significant(one, 3) if one > NOISE else "0" for one in swing]
+    told = [angular(one, 3) if one > NOISE else "0" for one in swing]
     if len(told) == 1:
         return _("{name}: the output runs ahead and back by {lead}°.").format(name=names[0], lead=told[0])
     best, worst = int(np.argmin(swing)), int(np.argmax(swing))

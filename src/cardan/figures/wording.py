@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from cardan.texts import _, plural
@@ -33,6 +33,30 @@ def significant(value: float, digits: int = 4) -> str:
     return f"{value:,.{max(0, digits - 1 - size)}f}".replace(",", THIN).replace("-", "−")
 
 
+def angular(value: float, digits: int = 4) -> str:
+    """Return an angle before its sign °, which does not touch a power of ten: 10⁻⁷° would be read as one of ⁻⁷⁰.
+
+    Examples
+    --------
+    >>> f"{angular(12.5)}° {angular(4.31e-7, 2)}°"
+    '12.50° 4.3·10⁻⁷\u202f°'
+    """
+    text = significant(value, digits)
+    return text + THIN if "·" in text else text
+
+
+def given(value: float) -> str:
+    """Return a number as it was given: four significant digits at most, none that is nought at the end.
+
+    Examples
+    --------
+    >>> given(6.0), given(1500.0), given(7.9271), given(0.250)
+    ('6', '1\u202f500', '7.927', '0.25')
+    """
+    text = significant(value)
+    return text.rstrip("0").rstrip(".") if "." in text and "·" not in text else text
+
+
 def fixed(value: float, decimals: int = 2) -> str:
     """Return a number with so many decimals, never "-0".
 
@@ -51,15 +75,12 @@ def percent(share: float, digits: int = 3) -> str:
 
     Examples
     --------
-    >>> percent(0.12512), percent(3e-16), percent(2.34e-6)
-    ('12.5 %', '0 %', '0.000234 %')
+    >>> percent(0.12512), percent(3e-16), percent(2.34e-6), percent(0.00069)
+    ('12.5 %', '0 %', '0.000234 %', '0.0690 %')
     """
     if abs(share) < 1e-13:
         return "0 %"
-    text = significant(100.0 * share, digits)
-    if "·" not in text and abs(share) < 1e-3:
-        text = f"{100.0 * share:.{digits}g}" if abs(share) >= 1e-6 else text
-    return f"{text} %"
+    return f"{significant(100.0 * share, digits)} %"
 
 
 def noiseless(slope: Iterable[float], largest: float) -> list[float]:
@@ -164,16 +185,18 @@ def half_turn(angle: float) -> float:
     return 90.0 - (90.0 - angle) % 180.0
 
 
-def power_of_ten(value: float) -> str:
-    """Return a power of ten, in full where it is short.
+def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
+    """Return powers of ten, in full where all of them are short.
 
     Examples
     --------
-    >>> power_of_ten(0.01), power_of_ten(1e-6)
-    ('0.01', '10⁻⁶')
+    >>> powers_of_ten((0.01, 1.0)), powers_of_ten((1e-6, 1.0))
+    (('0.01', '1'), ('10⁻⁶', '10⁰'))
     """
-    power = round(math.log10(value))
-    return f"{value:g}" if -3 < power < 4 else f"10{_raised(power)}"
+    powers = [round(math.log10(value)) for value in values]
+    if all(-3 < power < 4 for power in powers):
+        return tuple(f"{value:g}" for value in values)
+    return tuple(f"10{_raised(power)}" for power in powers)
 
 
 def _raised(number: int) -> str:

@@ -286,7 +286,7 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
         texts = [one.texts[found[k]] if k in found and one.texts else None for k in order]
         heading = one.label or along.label or panel.heading
         place = data.numbers(heading, along.unit, sizes)
-        if any(size > one.most for size in sizes):
+        if any(size != end for size, end in zip(sizes, ends, strict=True) if math.isfinite(end)):
             place = data.numbers(_("as drawn"), along.unit, ends)
         if one.texts:
             data.words(_("as written"), [text or "" for text in texts])

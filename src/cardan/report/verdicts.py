@@ -10,7 +10,7 @@ from cardan.checks import Verdict, check
 from cardan.checks.alike import alike, deciding_limits, title_of
 from cardan.errors import InputError
 from cardan.figures.check import check_figures
-from cardan.figures.wording import fixed, significant
+from cardan.figures.wording import fixed, given, significant
 from cardan.synthesis.cure import Cure, cures, most_helpful
 from cardan.synthesis.lever import key_of
 from cardan.texts import _, plural
@@ -161,7 +161,7 @@ def _figure(one: Verdict, value: float, sense: str = "") -> Cell:
     shown = value / (factor(one.dimension, one.unit) if one.dimension else 1.0)
     if shown == float("inf"):
         return Cell(text=f"{sense} ∞".strip())
-    text = "0" if abs(shown) < 1e-9 else significant(shown)
+    text = "0" if abs(shown) < 1e-9 else (given if sense else significant)(shown)
     return number(f"{sense} {text}".strip(), shown)
 
 
