@@ -8,7 +8,8 @@ import numpy as np
 
 from cardan.analysis.equivalence import WARN_BEND
 from cardan.checks.checks import check
-from cardan.checks.verdict import Verdict
+from cardan.checks.verdict import AMBER, Verdict
+from cardan.errors import InputError
 from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent, significant
 from cardan.synthesis.setting import YokeSetting
@@ -191,26 +192,43 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
 
 
 def _bend(on: Subject) -> list[Cell]:
-    bends = on.bend / deg
-    limits = [one.steepest / deg for one in on.drive.joints]
-    worst = int(np.argmax(bends / limits))
-    joint, bend, limit = worst + 1, float(bends[worst]), round(limits[worst], 6)
+    """Return the bend that comes nearest to its limit: the one of the page on limits, else the utmost of its kind."""
+    allowed = {one.subject: one for one in _bends(on) if one.run}
+    moving = {one.number: one.value for one in on.moving.worst if one.what == "bend"} if on.moving else {}
+    found = []
+    for k, (kind, drawn) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
+        one = allowed.get(f"joints[{k - 1}]")
+        if one is None:
+            most = max(float(drawn), moving.get(k, 0.0))
+            note = _("while the drive moves") if most > drawn else ""
+            found.append((most / kind.steepest, k, most, kind.steepest, note))
+        elif not isinstance(one.limit, tuple):
+            found.append((float(one.utilisation), k, float(one.value), float(one.limit), one.note))
+    use, joint, bend, limit, note = max(found, key=lambda one: (round(one[0], 9), -one[1]))
     name = _("largest bend, joint {k}")
-    steeper = [one for one in on.moving.worst if one.what == "bend" and one.value > bend * deg] if on.moving else []
-    if steeper:
-        most = max(steeper, key=lambda one: one.value)
-        joint, bend, name = most.number, most.value / deg, _("largest bend while moving, joint {k}")
-    use = bend / limit
-    tone: Tone = "failed" if use > 1.0 else "warning" if use >= 0.9 else "good"
+    if note == _("while the drive moves"):
+        name, note = _("largest bend while moving, joint {k}"), ""
+    title = ", ".join(part for part in (name.format(k=joint), note) if part)
+    if f"joints[{joint - 1}]" not in allowed and use < AMBER:
+        return key(title, bend / deg, "°", words(""))
+    tone: Tone = "failed" if use > 1.0 else "warning" if use >= AMBER else "good"
     verdict = {"failed": _("too much"), "warning": _("near the limit"), "good": _("passed")}[tone]
     return [
-        words(name.format(k=joint)),
-        number(significant(bend), bend),
+        words(title),
+        number(significant(bend / deg), bend / deg),
         words("°"),
-        number(f"≤ {limit:g}", limit),
+        number(f"≤ {round(limit / deg, 6):g}", limit / deg),
         number(fixed(use, 2), use),
         words(verdict, tone),
     ]
+
+
+def _bends(on: Subject) -> tuple[Verdict, ...]:
+    """Return the verdicts on the bends of the joints; none where the drive cannot be judged."""
+    try:
+        return check(on.drive, only=["bend"], known=on.known)
+    except InputError:
+        return ()
 
 
 def _acceleration(on: Subject) -> list[Cell]:
