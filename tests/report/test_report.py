@@ -114,6 +114,53 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     assert "22.27°" in words
 
 
+def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
+    """Its two bends of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
+    from cardan.report.phasing import phasing
+    from cardan.report.subject import asked
+    from cardan.report.summary import evenness, key_figures
+    from cardan.report.turning import turning
+
+    on = asked(example("pto-spline-thrust"), None, None)
+    assert on.rounded
+    assert not on.phasing.feasible
+    proof = phasing(on)
+    said = [evenness(on).text, proof.answer, proof.blocks[0].text, proof.blocks[1].figure.sentence, turning(on).answer]
+    assert all("but for the rounding" in text.lower() for text in said)
+    rows = {row[0].text: row for row in key_figures(on).rows}
+    assert rows["output ahead and back of its mean by"][1].text == "9.283·10⁻⁶"
+    assert "times smaller" not in "".join(parsed(page(on.drive)).words)
+
+
+def test_joints_that_turn_evenly_by_themselves_are_said_to():
+    from cardan.report.phasing import phasing
+    from cardan.report.subject import asked
+    from cardan.report.turning import turning
+
+    for name in ("front-halfshaft", "pto-hitch"):
+        on = asked(example(name), None, None)
+        told = (phasing(on).blocks[0].text, phasing(on).answer, turning(on).answer)
+        assert all("joint turns evenly by itself" in text for text in told)
+
+
+def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike():
+    from cardan.report.phasing import phasing
+    from cardan.report.subject import asked
+
+    text = phasing(asked(example("double-cardan-propshaft"), None, None)).blocks[0].text
+    assert "if the Hooke joint that turns like that joint bent 1.00°. α is the bend of the Hooke joint" in text
+
+
+def test_lengths_of_end_shafts_that_the_file_gives_are_shown():
+    from cardan.report.subject import asked
+    from cardan.report.understood import understood
+
+    page_two = understood(asked(example("w-arrangement"), None, None))
+    shafts = next(block for block in page_two.blocks if getattr(block, "title", "") == "Shafts")
+    assert [row[1].text for row in shafts.rows] == ["300.0", "1\u202f450.0", "250.0"]
+    assert not any("lengths of the end shafts" in item for item in page_two.blocks[-1].items)
+
+
 def test_a_degree_off_costs_something_where_the_slope_is_zero():
     from cardan.report.phasing import phasing
     from cardan.report.subject import asked

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from cardan.analysis.equivalence import SPECK
 from cardan.analysis.motion import Motion
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -15,7 +16,7 @@ from .axes import axis
 from .figure import Axis, Curve, Figure, Panel, Row, Rule
 from .palette import dash_of, shaft
 from .turning import across, shaft_name
-from .wording import significant
+from .wording import angular
 
 NOISE = 1e-12
 """Below this a ratio's swing is rounding."""
@@ -39,8 +40,10 @@ def motion_figure(found: Motion) -> Figure:
     known = found.speed is not None
     steep = np.asarray(found.shaft_acceleration) if known else np.asarray(found.shaft_slope)
     along = across(angle)
+    ratio = np.asarray(found.shaft_ratio)
+    even = len(angle) > 1 and float(np.max(np.ptp(ratio, axis=-1), initial=0.0)) < NOISE  # nothing else to be seen
     panels = (
-        _panel(angle, np.asarray(found.shaft_ratio), along, _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
+        _panel(angle, ratio, across(angle, named=even), _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
         _panel(angle, lead, along, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
         _panel(
             angle,
@@ -62,7 +65,7 @@ def motion_figure(found: Motion) -> Figure:
             "i = 1/|b̄w + ā|², w = e^(2iφ₁), from the product of the joints' Möbius matrices; exact, equal to Book "
             "(32), (33), (38)"
         ),
-        rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels),
+        rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels[: 1 if even else None]),
     )
 
 
@@ -109,14 +112,23 @@ def _sentence(found: Motion, lead: Array) -> str:
     low, high = float(np.min(ratio)), float(np.max(ratio))
     if high - low < NOISE:
         between = float(np.max(np.ptp(lead, axis=-1))) / 2.0
+        if between < NOISE / deg:
+            return _("Every shaft turns exactly evenly.")
         return _("The output turns exactly evenly; between the ends a shaft runs ahead and back by {lead}°.").format(
-            lead=significant(between, 3)
+            lead=angular(between, 3)
+        )
+    if high - low < SPECK:
+        return _("But for rounding the output turns evenly: it runs ahead and back of its mean by {lead}°.").format(
+            lead=angular(float(np.ptp(lead[-1])) / 2.0, 2)
         )
     text = _(
-        "The output runs ahead and back by {lead}° twice a turn, its speed between {low} and {high} of the input's."
+        "The output runs ahead and back of its mean by {lead}° twice a turn, its speed between {low} and {high} of the "
+        "input's."
     )
     if found.followed:
-        text = _("The output runs ahead and back by {lead}°, its speed between {low} and {high} of the input's.")
+        text = _(
+            "The output runs ahead and back of its mean by {lead}°, its speed between {low} and {high} of the input's."
+        )
     places = min(max(1 - math.floor(math.log10(100.0 * (high - low))), 1), 9)  # so that the two differ in two figures
     least, most = (f"{100.0 * ratio:.{places}f} %" for ratio in (low, high))
-    return text.format(lead=significant(float(np.ptp(lead[-1])) / 2.0, 3), low=least, high=most)
+    return text.format(lead=angular(float(np.ptp(lead[-1])) / 2.0, 3), low=least, high=most)

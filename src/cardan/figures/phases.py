@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from cardan.analysis.equivalence import SYNCHRONOUS
+from cardan.analysis.equivalence import SPECK, SYNCHRONOUS
 from cardan.maths import mobius
 from cardan.maths.arrays import Array
 from cardan.synthesis.phases import Phasing, YokeSetting
@@ -54,7 +54,7 @@ def polygon_figure(found: Phasing) -> Figure:
     while len(panels) < 3:
         panels = (*panels, Panel(series=(), bare=True))
     best = found.settings[0].irregularity if found.settings else found.as_built.irregularity
-    if best < SYNCHRONOUS:
+    if best < SPECK:
         sentence = _(
             "As built the path ends {start} from the middle; with the yokes set it comes back to the middle: "
             "the drive is synchronous."
@@ -66,6 +66,8 @@ def polygon_figure(found: Phasing) -> Figure:
         )
     if best < SYNCHRONOUS and found.as_built.irregularity < SYNCHRONOUS:
         sentence = _("The path comes back to the middle: as built the drive is synchronous.")
+    elif found.as_built.irregularity < SPECK:
+        sentence = _("But for the rounding of the drive's figures the path comes back to the middle as built.")
     elif found.as_built.irregularity - best < SYNCHRONOUS:
         sentence = _(
             "The path ends {start} from the middle and no yokes bring it nearer: one side is too long for the others."

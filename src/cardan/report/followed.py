@@ -174,7 +174,7 @@ def figures_by_laws(on: Followed, pages: Sequence[Page]) -> Table:
     steep = float(on.whole.max_acceleration[-1])
     rows = [
         key(_("irregularity δ of the output"), 100.0 * share, "%", words(""), percent(share, 4).removesuffix(" %")),
-        key(_("output ahead and back by"), float(on.whole.max_lead[-1]) / deg, "°", words("")),
+        key(_("output ahead and back of its mean by"), float(on.whole.max_lead[-1]) / deg, "°", words("")),
     ]
     if speed is None:
         rows.append(key(_("largest acceleration of the output over ω₁²"), steep, "–", words("")))

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import __version__
+from cardan.analysis.equivalence import SPECK
 from cardan.figures.kinds import kind_name
-from cardan.figures.wording import fixed, significant
+from cardan.figures.wording import angular, fixed, significant
 from cardan.texts import _
 from cardan.units import deg
 
@@ -131,12 +132,14 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
     yield (
         _("ahead and back"),
         Cell(text="arcsin τ, τ = |b|/|a|", formula="arcsin tau, quad tau = abs(b)/abs(a)"),
-        f"arcsin {significant(b / a)} = {fixed(float(np.arcsin(b / a)) / deg, 4)}°",
+        f"arcsin {significant(b / a)} = {angular(float(np.arcsin(b / a)) / deg)}°",
         _("extreme of Book (19)"),
     )
     closing = on.closing
     if on.joints > 1:
         sign = "≤" if closing.closes else ">"
+        if not closing.closes and on.phasing.irregularity_min < SPECK:
+            sign = "≈"
         yield (
             _("can be even"),
             Cell(

@@ -29,8 +29,8 @@ def moving(on: Subject) -> Page:
 def _worst(found: Articulation) -> Table:
     names = {
         "bend": _("bend of joint {number}"),
-        "irregularity": _("irregularity of the output, standing still"),
-        "moving_irregularity": _("irregularity of the output, movement counted"),
+        "irregularity": _("irregularity of the output if it stopped there"),
+        "moving_irregularity": _("irregularity of the output while moving"),
         "speed_error": _("speed error of the output"),
         "acceleration": _("acceleration of the output"),
         "length_max": _("longest shaft {number}"),

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from cardan.analysis.equivalence import SPECK
 from cardan.figures.phases import phasing_figures
 from cardan.figures.wording import fixed, letters, noiseless, percent, significant
 from cardan.synthesis.setting import YokeSetting
@@ -38,24 +39,36 @@ def _answer(on: Subject) -> str:
     best = on.best
     if best is None:
         return _("A single joint has no second one to undo it.")
+    if on.alone_even:
+        return _("The yokes may stand anyhow: every joint turns evenly by itself.")
     if on.even:
         return _("The yokes stand right: the drive is synchronous.")
+    if on.rounded:
+        return _("The yokes stand right: the drive is synchronous but for the rounding of its figures.")
     if on.phasing.feasible:
         return _("The yokes can make the drive exactly synchronous.")
+    if on.phasing.irregularity_min < SPECK:
+        return _("The yokes can make the drive synchronous but for the rounding of its figures.")
     return _("No yokes make the drive synchronous; the least they can leave is {share}.").format(
         share=percent(on.phasing.irregularity_min)
     )
 
 
 def _proof(on: Subject) -> str:
+    if on.alone_even:
+        return _("Every joint turns evenly by itself, straight or of constant velocity: there is nothing to undo.")
+    sides = _sides(on)
+    return sides + " " + _("α is the bend of the Hooke joint that turns alike.") if on.mixed else sides
+
+
+def _sides(on: Subject) -> str:
+    """Return what the sides of the phase polygon say."""
     closing = on.closing
     sides = ", ".join(fixed(float(value), 4) for value in closing.length[:8]) + (" …" if on.joints > 8 else "")
     if on.joints == 1:
         return _(
             "Every joint is a side of length L = −ln cos α, here {sides}. One side never comes back to its start."
         ).format(sides=sides)
-    if not np.any(closing.length > 0.0):
-        return _("Every joint is straight as drawn: there is nothing to undo.")
     if on.phasing.fixed:
         held = ", ".join(map(str, on.phasing.fixed))
         return _(
@@ -79,11 +92,24 @@ def _proof(on: Subject) -> str:
             "longest side, joint {longest} with {long}, is no longer than the others together, {others}: the path can "
             "be closed, exactly and for all harmonics at once."
         ).format(**compare)
-    return _(
+    if on.phasing.irregularity_min < SPECK:
+        return _(
+            "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The "
+            "longest side, joint {longest}, is as long as the others together but for the rounding of the figures that "
+            "describe the drive: what it leaves, {left}, is no unevenness of the design."
+        ).format(**compare, left=percent(on.phasing.irregularity_min))
+    text = _(
         "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The longest "
         "side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles can close the "
         "path. It could be closed if that joint bent {bend}°."
-    ).format(**compare, bend=fixed(closing.bend_allowed / deg))
+    )
+    if on.drive.joints[closing.longest - 1].kind != "hooke":
+        text = _(
+            "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The "
+            "longest side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles "
+            "can close the path. It could be closed if the Hooke joint that turns like that joint bent {bend}°."
+        )
+    return text.format(**compare, bend=fixed(closing.bend_allowed / deg))
 
 
 def _all(on: Subject) -> list[YokeSetting]:

@@ -170,6 +170,11 @@ class Subject:
         return not self.even and float(self.whole.irregularity) < SPECK
 
     @property
+    def alone_even(self) -> bool:
+        """Whether every joint turns evenly by itself, straight or of constant velocity."""
+        return float(np.sum(self.closing.length)) < SYNCHRONOUS
+
+    @property
     def curable(self) -> bool:
         """Whether another setting of the yokes makes it synchronous, but for rounding."""
         return not self.even and not self.rounded and self.phasing.irregularity_min < SPECK

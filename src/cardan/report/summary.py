@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.equivalence import WARN_BEND
+from cardan.analysis.equivalence import SPECK, WARN_BEND
 from cardan.checks.checks import check
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.errors import InputError
@@ -24,9 +24,6 @@ ILL = 80.0
 
 CALM = 1e-3
 """Irregularity below which a drive is called nearly even: some tenth of what one joint of 5° does."""
-
-SPECK = 1e-6
-"""Irregularity that comes from the last digits of coordinates: to call a drive uneven for it would mislead."""
 
 UTMOST = 1e-9
 """Changes of the irregularity smaller than this help nobody."""
@@ -77,11 +74,19 @@ def evenness(on: Subject) -> Words:
         text = _("{name} is synchronous as built: the output turns exactly evenly.").format(name=name)
         if on.moving is not None:
             text = _("{name} is synchronous as drawn, standing still.").format(name=name)
+    elif on.rounded:
+        tone = "good"
+        text = _("{name} is synchronous as built but for the rounding of its figures, which leaves {share}.").format(
+            name=name, share=share
+        )
     elif on.curable and best is not None:
         tone = "warning"
-        text = _(
-            "{name} is {share} irregular as built; with its yokes set differently it turns exactly evenly."
-        ).format(name=name, share=share)
+        text = _("{name} is {share} irregular as built; with its yokes set differently it turns exactly evenly.")
+        if not on.phasing.feasible:
+            text = _(
+                "{name} is {share} irregular as built; with its yokes set differently it turns evenly to rounding."
+            )
+        text = text.format(name=name, share=share)
     elif best is None:
         tone = "warning"
         text = _("{name} has one joint and turns {share} irregularly; one joint alone is never even.")
@@ -149,7 +154,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
                 ),
                 tone="failed",
             )
-    uneven = float(on.whole.irregularity) > SPECK
+    uneven = min(float(on.whole.irregularity), on.phasing.irregularity_min) > SPECK
     if on.joints > 1 and uneven and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why = _("Joints tied by held yokes act as one that is too uneven for the others.")
         if len(on.phasing.limiting_joints) == 1:
@@ -180,8 +185,8 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
     share = float(on.whole.irregularity)
     rows = [
         key(_("irregularity δ of the output"), 100.0 * share, "%", _evenness(on), percent(share, 4).removesuffix(" %")),
-        key(_("the same as one joint bent by"), float(on.whole.bend) / deg, "°", words("")),
-        key(_("output ahead and back by"), float(on.whole.max_lead) / deg, "°", words("")),
+        _unless_even(on, _("the same as one joint bent by"), float(on.whole.bend) / deg),
+        _unless_even(on, _("output ahead and back of its mean by"), float(on.whole.max_lead) / deg),
         _acceleration(on),
         _bend(on),
     ]
@@ -189,6 +194,11 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
         rows += list(_moving(on))
     rows += [list(row) for page in pages for row in page.keys]
     return Table(columns=verdict_columns(), rows=rows)
+
+
+def _unless_even(on: Subject, name: str, angle: float) -> list[Cell]:
+    """Return the row of an angle [°] that is nothing but rounding where the drive is even."""
+    return key(name, angle, "°", words(""), "0" if on.even else significant(angle))
 
 
 def _bend(on: Subject) -> list[Cell]:
@@ -245,6 +255,8 @@ def _acceleration(on: Subject) -> list[Cell]:
 def _evenness(on: Subject) -> Cell:
     if on.even:
         return words(_("exactly even"), "good")
+    if on.rounded:
+        return words(_("even but for rounding"), "good")
     if float(on.whole.irregularity) < CALM:
         return words(_("nearly even"))
     if on.curable:
@@ -257,8 +269,8 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
     for one in on.moving.worst:
         if one.what in ("irregularity", "moving_irregularity"):
             name = {
-                "irregularity": _("largest irregularity while moving, standing still at {time} s"),
-                "moving_irregularity": _("largest irregularity while moving, movement counted, at {time} s"),
+                "irregularity": _("largest irregularity if it stopped on its way, at {time} s"),
+                "moving_irregularity": _("largest irregularity while moving, at {time} s"),
             }[one.what].format(time=significant(one.time, 3))
             yield key(name, 100.0 * one.value, "%", words(""), percent(one.value).removesuffix(" %"))
     overlap, posed = on.drive.limits.spline_overlap, _worst_of_poses(on)
@@ -300,8 +312,8 @@ def _travel(name: str, value: float, limit: float | None, *, failed: bool) -> li
 def changes(on: Subject) -> Table | Words:
     """Return the changes that help most, with their effect, at most three."""
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
-    if on.even:
-        if _while_moving(on) > UTMOST:
+    if on.even or on.rounded:
+        if _while_moving(on) > max(UTMOST, 2.0 * float(on.whole.irregularity)):
             return Words(
                 text=_("The yokes stand right; what is left comes from bends that differ while the drive moves.")
             )
@@ -309,8 +321,6 @@ def changes(on: Subject) -> Table | Words:
     now = float(on.whole.irregularity)
     found = sorted((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now))
     rows = [_change(text, now, after) for after, text in found[:3]]
-    if not rows and now < SPECK:
-        return Words(text=f"{_('Nothing needs to be changed for an even output.')} {drawn}".strip())
     if not rows:
         if on.joints == 1 and on.mixed:
             return Words(text=_("Nothing but other sizes or another bend of the joint helps."))

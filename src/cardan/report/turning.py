@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -22,9 +23,10 @@ def turning(on: Subject) -> Page:
     """Return the page of the motion."""
     figure = motion_figure(on.found)
     blocks: list[Block] = [Picture(figure=figure), _extremes(on)]
-    if not on.even:
+    if not on.even and not on.rounded:
         blocks.append(Picture(figure=orders_figure(on.whole)))
-    blocks += [Picture(figure=book_figure(on.compared)), _compared(on)]
+    if not on.alone_even:
+        blocks += [Picture(figure=book_figure(on.compared)), _compared(on)]
     return Page(name="motion", title=_("Motion"), answer=_equivalent(on), blocks=blocks)
 
 
@@ -50,11 +52,12 @@ def extremes_table(found: Array, speed: float | None, *, even: float) -> Table:
     rows: list[list[Cell]] = []
     for k, (low, high, share, ahead, pull) in enumerate(found.tolist()):
         lead, steep, still = ahead / deg, pull * scale, share < even
+        places = 4 if still else min(max(4, 1 - math.floor(math.log10(share))), 9)  # so that the ratios are not alike
         rows.append(
             [
                 of_shaft(k + 2, end=_("output") if k + 1 == len(found) else ""),
-                number(fixed(low, 4), low),
-                number(fixed(high, 4), high),
+                number(fixed(low, places), low),
+                number(fixed(high, places), high),
                 number(percent(share).removesuffix(" %"), 100.0 * share),
                 number("0" if still else significant(lead, 3), lead),
                 number("0" if still else significant(steep), steep),
@@ -67,7 +70,7 @@ def extremes_table(found: Array, speed: float | None, *, even: float) -> Table:
             Column(heading=_("least ratio")),
             Column(heading=_("greatest ratio")),
             Column(heading=_("irregularity δ"), unit="%"),
-            Column(heading=_("ahead and back by"), unit="°"),
+            Column(heading=_("ahead and back of the mean by"), unit="°"),
             Column(heading=_("greatest acceleration"), unit="–" if speed is None else "rad/s²"),
         ),
         rows=rows,
@@ -76,8 +79,12 @@ def extremes_table(found: Array, speed: float | None, *, even: float) -> Table:
 
 
 def _equivalent(on: Subject) -> str:
+    if on.alone_even:
+        return _("Every joint turns evenly by itself, and so does the output.")
     if on.even:
         return _("What one joint does the others undo: the output turns as evenly as the input.")
+    if on.rounded:
+        return _("The output turns as evenly as the input but for the rounding of the figures that describe the drive.")
     return _(
         "The drive moves exactly like one universal joint bent by {bend}°, its driving yoke {phase}° from the plane of "
         "that joint at the start."

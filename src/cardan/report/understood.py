@@ -7,9 +7,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.analysis.joint_inside import Inside
+from cardan.drive.body import body_length
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.kinds import figure_of, inside, kind_name, too_steep
 from cardan.figures.wording import fixed, half_turn, percent, significant
+from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
 
@@ -94,10 +96,22 @@ def _joints(on: Subject) -> Table:
             Column(heading=_("phase angle ψ"), unit="°"),
         ),
         rows=rows,
-        note=_("A joint of bend 0 has no plane of its own; it takes that of the joint before.")
-        if np.any(bend == 0.0)
-        else "",
+        note=_straight(bend),
     )
+
+
+def _straight(bend: Array) -> str:
+    """Return a sentence on where straight joints have their planes; nothing where there are none."""
+    if not np.any(bend == 0.0):
+        return ""
+    if not np.any(bend > 0.0):
+        return _("Joints of bend 0 have no plane of their own; all are given the same one.")
+    if bend[0] == 0.0:
+        return _(
+            "A joint of bend 0 has no plane of its own; it takes that of the joint before, or at the input that of the "
+            "first bent joint."
+        )
+    return _("A joint of bend 0 has no plane of its own; it takes that of the joint before.")
 
 
 def _inside(told: Sequence[tuple[int, Inside]]) -> Table:
@@ -129,7 +143,9 @@ def _shafts(on: Subject) -> Table:
         rows.append(
             [
                 of_shaft(k, shaft.name, end=_("input") if k == 1 else _("output") if k == on.joints + 1 else ""),
-                _length(float(length[k - 1]), f"shafts[{k - 1}].length" in on.place.assumed) if between else words("–"),
+                _length(float(length[k - 1]), f"shafts[{k - 1}].length" in on.place.assumed)
+                if between
+                else _end_length(body_length(shaft, None)),
                 number(fixed(gamma), shaft.yoke_angle / deg) if between else words("–"),
                 words(_("held") if shaft.yoke_fixed else _("free") if between else "–"),
                 *([words(str(teeth) if teeth else "–")] if splined else []),
@@ -157,6 +173,10 @@ def _length(value: float, assumed: bool) -> Cell:
     return number(f"({text})" if assumed else text, value)
 
 
+def _end_length(given: float | None) -> Cell:
+    return words("–") if given is None else _length(given / mm, assumed=False)
+
+
 def _assumed(on: Subject) -> Iterator[str]:
     between = {f"shafts[{k}].length" for k in range(1, on.joints)} & set(on.place.assumed)
     if between:
@@ -181,7 +201,7 @@ def _assumed(on: Subject) -> Iterator[str]:
         yield _("No input speed: accelerations are given over its square.")
     elif on.drive.duty.acceleration == 0.0:
         yield _("The input turns at a constant {speed} rpm.").format(speed=significant(speed / rpm))
-    if on.drive.input.point is None:
+    if on.drive.input.point is None and any(body_length(on.drive.shafts[k], None) is None for k in (0, -1)):
         yield _("Sizes of yokes, crosses and tubes, and lengths of the end shafts, in the drawings.")
     else:
         yield _("Sizes of yokes, crosses and tubes in the drawings.")
