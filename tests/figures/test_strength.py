@@ -14,6 +14,8 @@ from cardan.drive.shaft import Shaft
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
+from cardan.figures.strength import uses_figure
+from cardan.io import example
 from cardan.synthesis.sizing import size
 from cardan.synthesis.trade_off import trade_off
 from cardan.units import mm, rpm
@@ -37,6 +39,21 @@ def test_bars_are_what_is_used_from_the_most():
     np.testing.assert_allclose(shown.size, 100 * np.sort([one.utilisation for one in found.judged])[::-1])
     point = [item for item in tired.panels[0].series if isinstance(item, Curve)][-1]
     assert 1.0 / float(point.x[0] + point.y[0]) == pytest.approx(float(found.shafts[1].fatigue.safety))
+
+
+def test_what_the_bars_leave_out_is_said():
+    found = strength(example("car-propshaft"))
+    figure = uses_figure(found)
+    assert f"the 16 nearest of {len(found.judged)} limits" in figure.source
+    assert "grey: rules of thumb" in figure.source
+    assert "grey" not in uses_figure(strength(DRIVE)).source
+
+
+def test_a_limit_that_ends_first_without_being_used_most_is_explained():
+    found = strength(example("pto-drive"))
+    assert found.governing.utilisation < found.utilisation
+    assert "a life falls with the power 10/3" in uses_figure(found).sentence
+    assert "a life falls" not in uses_figure(strength(DRIVE)).sentence
 
 
 def test_a_drive_that_says_nothing_has_a_figure_too():

@@ -16,6 +16,9 @@ from .wording import percent, significant
 SHOWN = 16
 """Limits with a bar of their own, those used most."""
 
+SAME = 1e-9
+"""Share by which two uses may differ that are the same."""
+
 AMBER = 0.9
 """Share of a limit from which it is close."""
 
@@ -41,11 +44,17 @@ def uses_figure(found: Strength) -> Figure:
     found : Strength
     """
     order = sorted(found.judged, key=lambda one: -one.utilisation)[:SHOWN]
+    source = _("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")
+    if len(order) < len(found.judged):
+        text = _("; the {shown} nearest of {all} limits")
+        source += text.format(shown=len(order), all=len(found.judged))
+    if any(one.advice for one in order):
+        source += _("; grey: rules of thumb, which end nothing")
     return Figure(
         name="strength",
         title=_("What every part uses of its limit"),
         sentence=_sentence(found),
-        source=_("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz"),
+        source=source,
         rows=(
             Row(
                 panels=(bars_of([(one.title, one.utilisation, tone(one)) for one in order]),),
@@ -91,7 +100,13 @@ def _sentence(found: Strength) -> str:
     text = _("The drive carries {rated} N·m of the {torque} N·m asked for; then {title} ends it.")
     if found.enough:
         text = _("The drive carries {torque} N·m, and up to {rated} N·m until {title} ends it.")
-    return text.format(rated=significant(found.rated_torque), torque=significant(found.torque), title=first.title)
+    said = text.format(rated=significant(found.rated_torque), torque=significant(found.torque), title=first.title)
+    if first.utilisation < found.utilisation * (1.0 - SAME):
+        said += " " + _(
+            "Another limit is used more now, but {title} comes first as the torque grows: a life falls with the power "
+            "10/3 of the torque, a contact pressure grows with its root."
+        ).format(title=first.title)
+    return said
 
 
 def fatigue_figure(found: Strength) -> Figure:

@@ -53,8 +53,8 @@ def carrying(on: Subject) -> Page | None:
     held = reactions_figure(found, [one.name for one in on.drive.supports])
     if int(np.max(np.asarray(found.status))) == int(Held.INDETERMINATE):
         text = _(
-            "The supports hold the drive more often than needed, so that statics alone cannot tell what they take: they "
-            "share the forces by their stiffness."
+            "The supports hold the drive more often than needed, so that statics alone cannot tell what they take: "
+            "they share the forces by their stiffness."
         )
         remark = [Words(text=text, tone="warning")]
     moved = _moving(on.drive)
