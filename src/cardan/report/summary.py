@@ -36,6 +36,9 @@ SAME = 1e-6
 def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     """Return the one sentence the reader came for: whether the drive keeps its limits, else how evenly it turns.
 
+    It is red where a limit or a part of the report fails, amber where a limit is nearly used up or what follows asks
+    for attention, and then says so; rules of thumb colour nothing.
+
     Parameters
     ----------
     on : Subject
@@ -54,7 +57,15 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     )
     if failed and not limits.alarms:
         said += " " + _("But what follows fails.")
-    return Words(text=said, tone="failed" if failed else "warning" if "warning" in alarms else "good")
+    elif "warning" in alarms and not failed:
+        said += " " + _("But what follows asks for attention.")
+    return Words(text=said, tone="failed" if failed else "warning" if "warning" in alarms or _close(limits) else "good")
+
+
+def _close(limits: Page) -> bool:
+    """Tell whether a limit that must be kept is nearly used up: the first table of the page has them."""
+    table = next((one for one in limits.blocks if isinstance(one, Table)), None)
+    return table is not None and any(cell.tone == "warning" for row in table.rows for cell in row)
 
 
 def _limits(pages: Sequence[Page]) -> Page | None:
