@@ -136,3 +136,31 @@ def test_limits_are_written_as_they_were_given():
     limits = {row[3].text for block in tables for row in block.rows}
     assert "≤ 6" in limits
     assert not any(re.fullmatch(r"[≤≥] .*\.\d*0", text) for text in limits)
+
+
+def test_the_colour_of_the_first_sentence_has_a_reason_in_words():
+    on = asked(example("composite-propshaft"), None, None)
+    limits = judged(on).page
+    assert limits is not None
+    asks = Page(name="bending", title="", answer="", blocks=[], alarms=[Words(text="half", tone="warning")])
+    first = judgement(on, [asks, limits])
+    assert (first.tone, first.text.endswith("asks for attention.")) == ("warning", True)
+    calm = judgement(on, [limits])
+    assert (calm.tone, calm.text.endswith("asks for attention.")) == ("good", False)
+    assert any(
+        cell.text == "beyond"
+        for block in limits.blocks
+        if isinstance(block, Table)
+        for row in block.rows
+        for cell in row
+    )
+
+
+def test_a_limit_nearly_used_up_makes_the_first_sentence_amber():
+    drive = example("composite-propshaft")
+    bends = [float(one.value) for one in check(drive, only=["bend"])]
+    near = replace(drive, limits=replace(drive.limits, bend=max(bends) / 0.95))
+    on = asked(near, None, None)
+    page = judged(on).page
+    assert page is not None
+    assert judgement(on, [page]).tone == "warning"
