@@ -151,6 +151,16 @@ def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike()
     assert "if the Hooke joint that turns like that joint bent 1.00°. α is the bend of the Hooke joint" in text
 
 
+def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
+    from cardan.report.method import method
+    from cardan.report.subject import asked
+
+    tables = [block for block in method(asked(example("truck-rear-axle"), None, None), None).blocks]
+    equations = next(block for block in tables if getattr(block, "title", "") == "Equations used")
+    turn = next(row[2].text for row in equations.rows if row[0].text == "between joints 1 and 2")
+    assert turn.endswith("= 269.93° ≡ 89.93° (mod 180°)")
+
+
 def test_lengths_of_end_shafts_that_the_file_gives_are_shown():
     from cardan.report.subject import asked
     from cardan.report.understood import understood

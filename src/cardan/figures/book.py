@@ -34,11 +34,12 @@ def book_figure(found: BookComparison) -> Figure:
     upper = Panel(
         series=(
             Rule(value=0.0, dash="solid", role="faint"),
-            Curve(x=angle, y=exact, role="exact", label=_("exact"), width=2.4),
-            Curve(x=angle, y=first, role="first order", label=_("first order, c = α²/4"), width=1.4, dash="dashed"),
+            Curve(x=angle, y=first, role="first order", label=_("first order, c = α²/4"), width=3.0, dash="dashed"),
             Curve(
-                x=angle, y=second, role="second order", label=_("second order, c = tan²(α/2)"), width=1.4, dash="dotted"
+                x=angle, y=second, role="second order", label=_("second order, c = tan²(α/2)"), width=2.4, dash="dotted"
             ),
+            # Thin and on top: mostly all three run in one line, and each is to be seen.
+            Curve(x=angle, y=exact, role="exact", label=_("exact"), width=0.9),
         ),
         x=across(angle),
         y=axis(_("Angle error of the output"), "°", [exact, first, second], least=0.02),

@@ -9,7 +9,7 @@ import numpy as np
 from cardan import __version__
 from cardan.analysis.equivalence import SPECK
 from cardan.figures.kinds import kind_name
-from cardan.figures.wording import angular, fixed, significant
+from cardan.figures.wording import angular, fixed, half_turn, significant
 from cardan.texts import _
 from cardan.units import deg
 
@@ -105,7 +105,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
         yield (
             _("between joints 1 and 2"),
             Cell(text="μ = 90° − γ − β", formula="mu = 90° - gamma - beta"),
-            f"90° − ({gamma}°) − ({beta}°) = {fixed(float(turn) / deg)}°",
+            f"90° − ({gamma}°) − ({beta}°) = {_as_line(float(turn) / deg)}",
             _("Book (31), (38)"),
         )
     yield (
@@ -149,6 +149,12 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
             f"{fixed(float(closing.length[closing.longest - 1]), 5)} {sign} {fixed(closing.others, 5)}",
             _("in place of Book (77), (86)"),
         )
+
+
+def _as_line(angle: float) -> str:
+    """Return an angle [°], and where it is another the one in (-90, 90] that means the same: yokes are lines."""
+    own, line = fixed(angle), fixed(half_turn(angle))
+    return f"{own}°" if own == line else f"{own}° ≡ {line}° (mod 180°)"
 
 
 def _checks(on: Subject) -> Table:
