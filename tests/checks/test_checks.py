@@ -289,7 +289,7 @@ def test_lubrication_is_due_at_the_interval():
 
 def test_what_is_missing_is_named_with_its_path():
     lacking = {v.check: v.missing for v in check(Drive.from_angles([0.1, 0.1]))}
-    assert lacking["tube_strength"] == ("shafts[1].outer",)
+    assert lacking["tube_strength"] == ("shafts[1].outer", "shafts[1].material.yield_strength", "duty.torque")
     assert "joints[1].cross.span" in lacking["journal_strength"]
     assert lacking["acceleration"] == ("duty.speed",)
     assert "design_torque" not in lacking  # no vehicle stands behind this drive

@@ -1,5 +1,6 @@
 """What verdicts tell of the speed, the band and the bend that they were reached with."""
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -9,6 +10,7 @@ from cardan.analysis.bending import bending_speeds
 from cardan.checks import check
 from cardan.drive.duty import Duty
 from cardan.drive.paths import with_values
+from cardan.io import loads
 from cardan.units import deg, mm, rpm
 
 
@@ -67,3 +69,18 @@ def test_an_end_shaft_that_whirls_on_its_supports_is_judged_like_the_others():
 def test_a_critical_speed_says_whether_it_is_the_computed_one(wear, said):
     drive = with_values(example("car-propshaft"), {"shafts[1].wear_factor": wear})
     assert check(drive, only=["critical_speed"])[0].note.startswith(said)
+
+
+@pytest.mark.parametrize("name", ["tube_strength", "tube_fatigue", "twist", "critical_speed", "half_critical"])
+def test_all_that_is_missing_is_named_at_once(name):
+    """With what is named the check runs: nobody is asked for more in a second round."""
+    lacking = {path for one in check(Drive.from_angles([0.1, 0.2]), only=[name]) for path in one.missing}
+    material = {path.rpartition(".")[2] for path in lacking if "material" in path}
+    shaft = {"number": 2}
+    shaft |= {f"{name}_mm": size for name, size in (("outer", 60), ("length", 900)) if f"shafts[1].{name}" in lacking}
+    if material:
+        shaft["material"] = {f"{name}_MPa": 400 for name in sorted(material)}
+    duty = {key: 300 for key in ("torque_Nm", "speed_rpm") if f"duty.{key.partition('_')[0]}" in lacking}
+    text = json.dumps({"format": 1, "joints": [{"bend_deg": 5}, {"bend_deg": 9}], "shafts": [shaft], "duty": duty})
+    assert len(lacking) == len(duty) + len(material) + ("outer_mm" in shaft) + ("length_mm" in shaft)
+    assert all(one.run for one in check(loads(text, form="json"), only=[name]))

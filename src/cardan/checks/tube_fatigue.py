@@ -33,7 +33,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
         if not found:
             if 0 < k < design.joints:
-                yield made(missing=(f"shafts[{k}].outer",))
+                material = f"shafts[{k}].material"
+                strong = design.missing(f"{material}.ultimate_strength", f"{material}.yield_strength")
+                yield made(missing=(f"shafts[{k}].outer", *strong, *design.unloaded))
             continue
         strengths = [section.of_material(name) for section in found for name in ("ultimate_strength", "yield_strength")]
         lacking = (*design.missing(*strengths), *design.unloaded)

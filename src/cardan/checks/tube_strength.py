@@ -23,7 +23,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
         for section in found:
             yield _of_section(design, k, section)
         if not found:
-            yield _made(k)(missing=(f"shafts[{k}].outer",))
+            allowed = design.missing(f"shafts[{k}].material.yield_strength")
+            allowed = () if design.value("limits.shear_stress") is not None else allowed
+            yield _made(k)(missing=(f"shafts[{k}].outer", *allowed, *design.unloaded))
 
 
 def _made(k: int, part: str = "") -> partial[Verdict]:

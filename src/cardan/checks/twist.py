@@ -36,7 +36,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
             levers += [path for one in found for path in one.levers]
         elif between:
-            lacking.append(f"shafts[{k}].length" if found else f"shafts[{k}].outer")
+            lacking += [] if found else [f"shafts[{k}].outer"]
+            lacking += [f"shafts[{k}].length"] if design.length(k) is None or found else []
     if lacking or not soft:
         if lacking:
             yield made(missing=tuple(lacking))
