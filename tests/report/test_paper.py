@@ -114,3 +114,20 @@ def test_a_tall_figure_stays_on_the_page_of_its_title_with_its_words() -> None:
     sheet = sheet_of(Picture(figure=Figure(name="f", title="tall", sentence=SENTENCE, source="source", rows=rows)))
     assert [one.id for one in sheet.row_breaks.brk] == []
     assert pixels(sheet, range(1, sheet.max_row + 1)) <= PAPER[1]
+
+
+def test_rows_are_as_high_as_their_words_and_no_higher() -> None:
+    columns = [Column(heading="phase angle ψ", unit="°"), Column(heading="torque", unit="± N·m")]
+    sheet = sheet_of(Table(columns=columns, rows=[[number("1", 1.0)] * 2]))
+    row = next(row for row in range(1, sheet.max_row + 1) if sheet.cell(row, 1).value == "phase angle ψ [°]")
+    assert sheet.row_dimensions[row].height == pytest.approx(0.75 * (2 * LINE + 2))
+    assert sheet.cell(row, 2).value == "torque [±\u00a0N·m]"
+
+
+def test_two_charts_of_a_figure_stand_on_a_page() -> None:
+    panel = Panel(series=(Curve(x=np.arange(3.0), y=np.arange(3.0), label="one"),))
+    rows = (Row(panels=(panel,), height=1.5),) * 3
+    sheet = sheet_of(Picture(figure=Figure(name="f", title="a figure", sentence=SENTENCE, source="", rows=rows)))
+    assert [
+        len([k for k in page if k - 1 in {one.anchor._from.row for one in sheet._charts}]) for page in printed(sheet)
+    ] == [2, 1]

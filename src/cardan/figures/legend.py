@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from .figure import Curve, Figure, Panel
 
 
@@ -33,12 +35,15 @@ def called(figure: Figure, panel: Panel) -> Panel:
     """
     entries = [one for one in reversed(figure.entries) if isinstance(one, Curve)] if figure.legend else []
     alike = {(one.role, one.dash, one.width): one.label for one in entries}
+    similar = {(one.role, one.dash): one.label for one in entries if one.width}
     akin = {one.role: one.label for one in entries}
 
     def named(one: Curve) -> Curve:
         if one.label:
             return one
         label = alike.get((one.role, one.dash, one.width), "")
+        if not label and one.width and not one.marker and np.size(one.x) > 2:
+            label = similar.get((one.role, one.dash), "")
         return replace(one, label=label, text=one.text or label or akin.get(one.role, ""))
 
     return replace(panel, series=tuple(named(one) if isinstance(one, Curve) else one for one in panel.series))

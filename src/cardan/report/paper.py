@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import textwrap
 from collections.abc import Sequence
 from itertools import accumulate
 from typing import Any
@@ -17,6 +16,7 @@ from .amounts import amount
 from .block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 from .chart_data import ChartData
 from .charts import Drawn, charts, split
+from .letters import lines
 from .looks import Looks
 
 NARROW, SHORT, WIDE = 9, 24, 44
@@ -31,9 +31,6 @@ MOST = 170
 LETTER, MARGIN, LINE = 7, 5, 21
 """Pixels of a digit, of the margin of a cell, and of a line of words: rows of no stated height, as those of 20 pixels
 are written, every spreadsheet makes as high as it likes."""
-
-DENSE, DENSER = 1.12, 1.16
-"""Letters in the width of a digit, at the least; in a long line they are more."""
 
 PAPER = (10.69 * 96.0, 6.6 * 96.0)
 """Pixels of a printed page within its margins, in natural size."""
@@ -174,8 +171,8 @@ class Paper:
     @staticmethod
     def _high_of(text: str, letters: float, size: float = 11.0) -> float:
         """Return the height of a row with words across so many letters."""
-        lines = _lines(text, letters * 11.0 / size)
-        return min(HIGHEST_ROW, lines * LINE * max(1.0, size / 11.0) + (4.0 if lines > 1 else 2.0))
+        count = lines(text, letters * 11.0 / size)
+        return min(HIGHEST_ROW, count * LINE * max(1.0, size / 11.0) + (4.0 if count > 1 else 2.0))
 
     def space(self) -> None:
         """Leave a row free."""
@@ -243,7 +240,7 @@ class Paper:
         widths = list(self._widths[: len(texts)])
         if _at_end(table, len(texts) - 1):
             widths[-1] = sum(self._widths[len(texts) - 1 :])
-        return max(_lines(text, width - indent) for text, width in zip(texts, widths, strict=True))
+        return max(lines(text, width - indent) for text, width in zip(texts, widths, strict=True))
 
     def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
         chip: dict[str, Any] = {"left": 5, "left_color": cell.chip, "indent": 1} if cell.chip else {}
@@ -270,8 +267,9 @@ class Paper:
         self.keep(first + about)
         self.heading(figure.title)
         for k, drawn in enumerate(drawings):
-            high = self._high(heights[k], 6 * LINE) if k else first
-            self.keep(high + 3 * LINE)
+            about = 6 * LINE if k == len(drawings) - 1 else LINE  # words follow the last one
+            high = self._high(heights[k], about) if k else first
+            self.keep(high + min(about, 3 * LINE))
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": high})
@@ -307,23 +305,19 @@ class Paper:
 
     def _down(self, pixels: float) -> None:
         """Go below what is so high."""
-        for _row in range(int((pixels + 4.0) // LINE) + 2):
+        for _row in range(math.ceil((pixels + 10.0) / LINE)):
             self._next()
 
 
 def headed(column: Column) -> str:
-    """Return the heading of a column with its unit."""
-    return f"{column.heading} [{column.unit}]" if column.unit else column.heading
+    """Return the heading of a column with its unit, which is not broken."""
+    unit = column.unit.replace(" ", "\u00a0")
+    return f"{column.heading} [{unit}]" if unit else column.heading
 
 
 def _side(k: int, column: Column) -> dict[str, Any]:
     """Return where words and numbers stand in their cells: words away from the numbers before them."""
     return {"align": "left", "indent": int(k > 0)} if column.left else {"align": "right"}
-
-
-def _lines(text: str, digits: float) -> int:
-    letters = max(1, int((DENSE if digits < WIDE else DENSER) * digits))
-    return sum(max(1, len(textwrap.wrap(part, letters))) for part in text.splitlines() or [""])
 
 
 def _widths(tables: Sequence[Table]) -> list[int]:
@@ -356,7 +350,7 @@ def _at_end(table: Table, k: int) -> bool:
 
 def _need(table: Table, k: int, column: Column) -> int:
     """Return the letters that a column needs."""
-    heads = max((len(word) for word in headed(column).split()), default=0) + 1
+    heads = max((len(word) for word in headed(column).split(" ")), default=0) + 1
     heads = max(heads, len(headed(column)) // 3 + 1)
     cells = (len(row[k].text) + 2 * bool(row[k].sign) for row in table.rows)
     return min(max(heads, *cells, 0) + 2, WIDE)

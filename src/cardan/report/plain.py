@@ -18,7 +18,6 @@ from cardan.texts import _
 from .amounts import amount
 from .block import Block, Cell, Column, Page, Picture, Table
 from .content import Content
-from .paper import headed
 
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
 """Words that begin so would be calculated by a spreadsheet that opens the file."""
@@ -118,7 +117,7 @@ def csv_of(tables: Sequence[Table]) -> str:
     return _csv(
         [
             table.title,
-            [headed(column) for column in table.columns],
+            [_named(column.heading, column.unit) for column in table.columns],
             [[_value(cell, column) for column, cell in zip(table.columns, row, strict=True)] for row in table.rows],
         ]
         for table in tables
