@@ -264,3 +264,16 @@ def test_orders_below_the_rounding_say_so_instead_of_vanishing():
     texts = figure.panels[0].y.texts
     assert all(text.startswith("10") for text in texts)
     assert "·10" not in re.sub("·10[⁻⁰¹²³⁴-⁹]+\u202f°", "", book_figure(book_comparison(drive, np.zeros(3))).sentence)
+
+
+def test_panels_that_are_zero_throughout_are_left_out():
+    straight, bent = Drive.from_angles([0.0, 0.0]), Drive.from_angles([0.1, 0.2])
+    for drive, count in ((straight, 1), (bent, 3)):
+        (figure,) = figures.for_result(motion(drive))
+        assert len(figure.rows) == count
+        assert figure.rows[-1].panels[0].x.title == "input angle φ₁ from the start position [°]"
+    lower = book_figure(book_comparison(straight, np.linspace(0.0, 6.0, 9)))
+    assert len(lower.rows) == 1
+    close = book_figure(book_comparison(Drive.from_angles([0.004, 0.003]), np.linspace(0.0, 6.0, 99)))
+    most = max(float(np.max(np.abs(one.y))) for one in close.panels[1].series if isinstance(one, Curve))
+    assert most > 0.5 * close.panels[1].y.high
