@@ -14,6 +14,7 @@ from cardan.figures.mobility import graph_figure
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import mechanism_names
+from cardan.mechanism.pair import PAIRS
 from tests.builders.mechanisms import anyhow
 
 
@@ -34,6 +35,7 @@ def test_every_mechanism_is_drawn_by_both(name):
     assert all(any(text.startswith(link) for text in notes) for link in found.mechanism.links)
     dots = [item for item in figure.panels[0].series if isinstance(item, Curve) and item.marker]
     assert [item.role == "warning" for item in dots] == [one.strained for one in found.joints]
+    assert all(f"{one.type}: {PAIRS[one.type].name}" in figure.source for one in found.joints)
 
 
 def test_no_two_links_lie_on_each_other():

@@ -15,6 +15,8 @@ from .verdict import Verdict
 def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
     """Return verdicts in groups: of one check, with limits used alike to a percent, differing in joint or shaft alone.
 
+    The one that uses most of its limit stands first.
+
     Parameters
     ----------
     verdicts : iterable of Verdict
@@ -25,7 +27,17 @@ def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
         kind = re.sub(r"\d+", "#", one.title, count=1) if one.subject else one.title
         used = f"{float(np.max(one.utilisation)):.2f}"
         groups.setdefault((one.check, kind, used, one.state), []).append(one)
-    return [tuple(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
+    return [_worst_first(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
+
+
+def _worst_first(group: list[Verdict]) -> tuple[Verdict, ...]:
+    worst = max(group, key=_used)
+    return (worst, *(one for one in group if one is not worst))
+
+
+def _used(one: Verdict) -> float:
+    """Return the share of its limit that is used, to four digits: what differs less reads the same."""
+    return float(f"{float(np.max(one.utilisation)):.4g}")
 
 
 def title_of(group: Sequence[Verdict]) -> str:

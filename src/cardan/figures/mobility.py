@@ -13,6 +13,7 @@ from cardan.analysis.mobility import JointHold, Mobility
 from cardan.analysis.mobility_turn import MobilityTurn
 from cardan.maths.arrays import Array
 from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.pair import PAIRS
 from cardan.texts import _, plural
 from cardan.units import deg, mm
 
@@ -75,7 +76,8 @@ def graph_figure(found: Mobility) -> Figure:
         name="mechanism",
         title=_("Links and joints, and what they hold too often"),
         sentence=_sentence(found),
-        source=_("Left null space of the wrenches that the joints hold; Book p. 11-16, exact by screws"),
+        source=_("Left null space of the wrenches that the joints hold; Book p. 11-16, exact by screws")
+        + _codes(found),
         rows=(
             Row(
                 panels=(
@@ -92,6 +94,12 @@ def graph_figure(found: Mobility) -> Figure:
             ),
         ),
     )
+
+
+def _codes(found: Mobility) -> str:
+    """Return what the letters beside the joints mean."""
+    used = [code for code in PAIRS if any(hold.type == code for hold in found.joints)]
+    return "; " + ", ".join(f"{code}: {_(PAIRS[code].name)}" for code in used) if used else ""
 
 
 def _sentence(found: Mobility) -> str:
