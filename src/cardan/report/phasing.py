@@ -145,6 +145,8 @@ def _settings(on: Subject) -> Table:
 def _notes(on: Subject) -> Iterator[str]:
     if meaning := letters(on.phasing):
         yield meaning
+    if on.phasing.poses:
+        yield _("What is left here is left in the drive as drawn; the poses have a table of their own below.")
     if on.phasing.spline_steps:
         steps = ", ".join(
             _("{steps} places on shaft {number}").format(steps=steps, number=number)

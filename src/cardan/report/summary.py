@@ -8,10 +8,13 @@ import numpy as np
 
 from cardan.analysis.equivalence import SPECK, WARN_BEND
 from cardan.checks.checks import check
+from cardan.checks.design import Design
+from cardan.checks.moving import WORSE, posed
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.errors import InputError
 from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent, significant
+from cardan.maths.arrays import Array
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
@@ -196,6 +199,7 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
     share = float(on.whole.irregularity)
     rows = [
         key(_("irregularity δ of the output"), 100.0 * share, "%", _evenness(on), percent(share, 4).removesuffix(" %")),
+        *_uneven_pose(on),
         _unless_even(on, _("the same as one joint bent by"), float(on.whole.bend) / deg),
         _unless_even(on, _("output ahead and back of its mean by"), float(on.whole.max_lead) / deg),
         _acceleration(on),
@@ -207,6 +211,15 @@ def key_figures(on: Subject, pages: Sequence[Page] = ()) -> Table:
     return Table(columns=verdict_columns(), rows=rows)
 
 
+def _uneven_pose(on: Subject) -> Iterator[list[Cell]]:
+    """Yield the irregularity in the worst pose, where it is worse than as drawn."""
+    share = on.phasing.as_built.pose_irregularity
+    if share.size and float(np.max(share)) > float(on.whole.irregularity) + UTMOST:
+        worst, name = float(np.max(share)), on.phasing.poses[int(np.argmax(share))]
+        title = _("irregularity δ of the output, in the pose {name}").format(name=name)
+        yield key(title, 100.0 * worst, "%", words(""), percent(worst, 4).removesuffix(" %"))
+
+
 def _unless_even(on: Subject, name: str, angle: float) -> list[Cell]:
     """Return the row of an angle [°] that is nothing but rounding where the drive is even."""
     return key(name, angle, "°", words(""), "0" if on.even else significant(angle))
@@ -216,12 +229,16 @@ def _bend(on: Subject) -> list[Cell]:
     """Return the bend that comes nearest to its limit: the one of the page on limits, else the utmost of its kind."""
     allowed = {one.subject: one for one in _bends(on) if one.run}
     moving = {one.number: one.value for one in on.moving.worst if one.what == "bend"} if on.moving else {}
+    poses = [] if len(allowed) == on.joints else _posed_bends(on)
     found = []
     for k, (kind, drawn) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
         one = allowed.get(f"joints[{k - 1}]")
         if one is None:
             most = max(float(drawn), moving.get(k, 0.0))
             note = _("while the drive moves") if most > drawn else ""
+            for pose, bends in poses:
+                if bends[k - 1] > most * WORSE:
+                    most, note = float(bends[k - 1]), _("in the pose {name}").format(name=pose)
             found.append((most / kind.steepest, k, most, kind.steepest, note))
         elif not isinstance(one.limit, tuple):
             found.append((float(one.utilisation), k, float(one.value), float(one.limit), one.note))
@@ -242,6 +259,14 @@ def _bend(on: Subject) -> list[Cell]:
         number(fixed(use, 2), use),
         words(verdict, tone),
     ]
+
+
+def _posed_bends(on: Subject) -> list[tuple[str, Array]]:
+    """Return the name of every pose and the largest bend of each joint in it, moving too, array (n) [rad]."""
+    if not on.drive.poses:
+        return []
+    each = posed(Design(drive=on.drive, duty=on.drive.duty))
+    return [(name, np.maximum(one.bend, one.moving_bend) if one.drive.movements else one.bend) for name, one in each]
 
 
 def _bends(on: Subject) -> tuple[Verdict, ...]:
