@@ -103,7 +103,7 @@ def _worst(one: Verdict) -> float:
 def _sentence(binding: Sequence[Verdict]) -> str:
     failed = [one for one in binding if one.state == "failed"]
     used = fixed(float(binding[0].utilisation))
-    used = used if float(used) else "< 0.01"
+    used = "< 0.01" if float(binding[0].utilisation) < 0.005 else used
     if failed and len(binding) == 1:
         text = _("The one limit that could be judged is not kept: {title}, {used} of it.")
         return text.format(title=binding[0].title, used=used)
