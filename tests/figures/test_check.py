@@ -37,6 +37,12 @@ def test_nothing_judged_nothing_drawn():
     assert check_figures([one for one in check(drive) if not one.run or one.advice]) == ()
 
 
+def test_one_limit_is_told_as_one_and_the_colours_in_words():
+    (figure,) = check_figures(check(example("single-20deg")))
+    assert figure.sentence == "The one limit that could be judged is not kept."
+    assert "amber comes near, red fails" in figure.source
+
+
 def test_what_uses_far_too_much_is_cut_with_an_arrow_and_keeps_its_number():
     verdicts = [one for one in check(example("six-joints")) if one.run and not one.advice]
     first = next(one for one in verdicts if one.sense == "at_most")

@@ -149,7 +149,7 @@ class _Judge:
         )(
             value=torque * self.duty.shock_factor,
             limit=float(buckles) / self.drive.limits.safety,
-            source=_("buckling of the wall, 2π r² t E (t/r)^(3/2)/(3√2 (1 - ν²)^(3/4)), over safety"),
+            source=_("buckling of the wall by Timoshenko and Gere, 11.11, over safety"),
             case=case,
         )
 

@@ -75,7 +75,7 @@ def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
         yield made(
             value=torque * design.shock,
             limit=buckles / design.value("limits.safety"),
-            source=_("buckling of the wall, 2π r² t E (t/r)^(3/2)/(3√2 (1 - ν²)^(3/4)), over safety"),
+            source=_("buckling of the wall by Timoshenko and Gere, 11.11, over safety"),
             levers=(*section.levers, *design.torque_levers),
             note=note,
         )

@@ -59,7 +59,9 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
     along = Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks))
     panel = Panel(series=(bars, limit), x=along, y=upright, title=_("Share of the limit that is used"))
     failed = sum(one.state == "failed" for one in run)
-    if failed:
+    if failed and len(run) == 1:
+        sentence = _("The one limit that could be judged is not kept.")
+    elif failed:
         text = plural("{count} of {all} limits is not kept.", "{count} of {all} limits are not kept.", failed)
         sentence = text.format(count=failed, all=len(run))
     else:
@@ -75,6 +77,9 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
         name="checks",
         title=_("Limits of {name}").format(name=name) if name else _("Limits"),
         sentence=sentence,
-        source=_("Utilisation: value over limit, or limit over value where it must be at least that"),
+        source=_(
+            "Utilisation: value over limit, or limit over value where it must be at least that; green keeps its limit, "
+            "amber comes near, red fails"
+        ),
         rows=(Row(panels=(panel,), height=0.25 * len(shown) + 0.3),),
     )

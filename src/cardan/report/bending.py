@@ -162,7 +162,7 @@ def _shafts(drive: Drive, found: CriticalSpeeds) -> Table:
         columns=(
             Column(heading=_("shaft"), left=True),
             Column(heading=_("length"), unit="mm"),
-            Column(heading=_("as a plain tube between joints, Book (257)"), unit="rpm"),
+            Column(heading=_("uniform between its joints, Book (257)"), unit="rpm"),
         ),
         rows=rows,
         note=_(
