@@ -21,7 +21,10 @@ from cardan.figures.losses import watts
 from cardan.figures.wording import percent, significant
 from cardan.io import example, example_names
 from cardan.maths import frames
+from cardan.report.assembly import straining
+from cardan.report.mobility import binding
 from cardan.report.report import page
+from cardan.report.subject import Subject
 from cardan.units import arcmin
 
 from .test_report import of_example, parsed
@@ -277,3 +280,9 @@ def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
     assert "cannot be made synchronous" not in text
     assert "instead of" not in text
     assert "Nothing needs to be changed for an even output" in text
+
+
+def test_what_holds_too_often_is_counted_once_on_the_first_page():
+    on = Subject(drive=example("overconstrained-pump"))
+    keys = [row[0].text for made in (straining(on), binding(on)) for row in made.keys]
+    assert sum("too" in text for text in keys) == 1

@@ -54,7 +54,6 @@ def _keys(found: AssemblyForces) -> Iterator[list[Cell]]:
     joint = max(range(len(found.joint_peak)), key=lambda k: found.joint_peak[k].value)
     name = _("force of misfit without load, joint {number}").format(number=joint + 1)
     yield key(name, found.joint_peak[joint].value, "N", words(_("binds"), "warning"))
-    yield key(_("forces held too many"), float(found.degree), "", None, str(found.degree))
 
 
 def _answer(found: AssemblyForces) -> str:
@@ -86,7 +85,7 @@ def _release(drive: Drive, found: AssemblyForces) -> str:
     text = _("The drive is held by {degree} more than statics needs.").format(degree=found.degree)
     if not named:
         return f"{text} {_('No support can be let go without freeing a shaft.')}"
-    more = _("Nothing would strain it if these supports did not hold: {names}.")
+    more = _("Nothing would strain it if, for instance, these supports did not hold: {names}.")
     if found.kept:
         more = _("Without these holds {kept} would be left: {names}; no other can go without freeing a shaft.")
     return f"{text} {more.format(names=', '.join(named), kept=found.kept)}"
