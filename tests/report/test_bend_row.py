@@ -7,8 +7,8 @@ import pytest
 from cardan.checks import check
 from cardan.drive.drive import Drive
 from cardan.io import example
+from cardan.report.key_figures import key_figures
 from cardan.report.subject import asked
-from cardan.report.summary import key_figures
 from cardan.units import deg
 
 

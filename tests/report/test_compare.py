@@ -9,7 +9,7 @@ from cardan.io.amend import amend
 from cardan.report.answers import subject
 from cardan.report.block import Picture, Table, Words
 from cardan.report.compare import Variant, _merged, compared, differences_table
-from cardan.report.summary import key_figures
+from cardan.report.key_figures import key_figures
 from cardan.texts import speaking
 
 TEXT = example_text("z-arrangement")

@@ -116,9 +116,10 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
 
 def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     """Its two bends of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
+    from cardan.report.key_figures import key_figures
     from cardan.report.phasing import phasing
     from cardan.report.subject import asked
-    from cardan.report.summary import evenness, key_figures
+    from cardan.report.summary import evenness
     from cardan.report.turning import turning
 
     on = asked(example("pto-spline-thrust"), None, None)
@@ -162,8 +163,8 @@ def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
 
 
 def test_key_figures_name_the_pose_that_is_worst():
+    from cardan.report.key_figures import key_figures
     from cardan.report.subject import asked
-    from cardan.report.summary import key_figures
 
     rows = {
         row[0].text: row[1].text for row in key_figures(asked(example("rolling-mill-upper-spindle"), None, None)).rows

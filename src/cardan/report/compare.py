@@ -25,8 +25,8 @@ from cardan.texts import _, plural
 from .answers import answered, subject
 from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, number, words
 from .followed import Followed, figures_by_laws
+from .key_figures import key_figures
 from .subject import Progress, Subject
-from .summary import key_figures
 from .verdicts import TONES
 
 Sense: TypeAlias = Literal["less", "more", ""]

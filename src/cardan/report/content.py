@@ -30,12 +30,13 @@ from .followed import (
     warnings_by_laws,
     yokes_refused,
 )
+from .key_figures import key_figures
 from .loaded import loaded
 from .method import method
 from .moving import moving
 from .phasing import phasing
 from .subject import Subject, asked
-from .summary import changes, judgement, key_figures, warnings
+from .summary import changes, judgement, warnings
 from .turning import turning
 from .understood import understood
 from .verdicts import Judged, judged
