@@ -84,3 +84,12 @@ def test_all_that_is_missing_is_named_at_once(name):
     text = json.dumps({"format": 1, "joints": [{"bend_deg": 5}, {"bend_deg": 9}], "shafts": [shaft], "duty": duty})
     assert len(lacking) == len(duty) + len(material) + ("outer_mm" in shaft) + ("length_mm" in shaft)
     assert all(one.run for one in check(loads(text, form="json"), only=[name]))
+
+
+def test_rounding_makes_no_pose_the_worst():
+    """A synchronous drive swings by the last digits alone, in whatever pose these are largest."""
+    (turns,) = (
+        one for one in check(example("rolling-mill-lower-spindle"), only=["acceleration"]) if "output" in one.title
+    )
+    assert turns.utilisation < 1e-15
+    assert not turns.note

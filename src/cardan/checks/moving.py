@@ -21,6 +21,9 @@ from .verdict import Verdict
 WORSE = 1.0 + 1e-9
 """A pose is worse than another from here on; less is rounding."""
 
+NOISE = 1e-12
+"""Share of a limit that comes from rounding alone."""
+
 
 @lru_cache(maxsize=64)
 def movement(drive: Drive) -> Articulation | None:
@@ -88,7 +91,7 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence
 
 def _worse(worst: Verdict, other: Verdict, said: str) -> Verdict:
     """Return the worse of two verdicts, of many drives place by place; the other one with a word on its pose."""
-    worse = np.asarray(other.utilisation > np.asarray(worst.utilisation) * WORSE)
+    worse = np.asarray(other.utilisation > np.asarray(worst.utilisation) * WORSE + NOISE)
     if not np.any(worse):
         return worst
     if np.all(worse):
