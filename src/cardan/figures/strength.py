@@ -49,7 +49,7 @@ def uses_figure(found: Strength) -> Figure:
         text = _("; the {shown} nearest of {all} limits")
         source += text.format(shown=len(order), all=len(found.judged))
     if any(one.advice for one in order):
-        source += _("; grey: rules of thumb, which end nothing")
+        source += _("; grey: rules of thumb, which fail no drive")
     return Figure(
         name="strength",
         title=_("What every part uses of its limit"),

@@ -167,8 +167,8 @@ def _swinging(on: Subject, found: Strength) -> Words | None:
     if more <= LITTLE:
         return None
     text = _(
-        "Torsional vibration is not in these figures: at {speed} rpm it takes the torque in {name} to {most} N·m, "
-        "{more} times what is counted here."
+        "The strength leaves torsional vibration out: at {speed} rpm that takes the torque in {name} to {most} N·m, "
+        "{more} times what is counted."
     )
     said = text.format(
         speed=significant(abs(float(runs.speed)) / rpm, 3),
