@@ -56,7 +56,7 @@ def bearing_up(on: Subject) -> Page | None:
     if swung is not None:
         blocks.insert(0, swung)
         alarms.append(swung)
-    blocks.append(Points(title=_("To mind"), items=list(_notes(found, _heavier(on, found)))))
+    blocks.append(Points(title=_("To mind"), items=list(_notes(on, found))))
     return Page(name="strength", title=title, answer=answer, blocks=blocks, keys=list(_keys(found)), alarms=alarms)
 
 
@@ -201,7 +201,7 @@ def _heavier(on: Subject, found: Strength) -> tuple[int, float, float] | None:
     return (i + 1, float(load[i]), float(more[i])) if more[i] > SLIGHT else None
 
 
-def _notes(found: Strength, heavier: tuple[int, float, float] | None) -> Iterator[str]:
+def _notes(on: Subject, found: Strength) -> Iterator[str]:
     yield _(
         "Stresses count what the torque of the duty makes without friction and masses; axial forces of splines, "
         "weights and torsional vibration are not in them."
