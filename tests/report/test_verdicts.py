@@ -164,3 +164,12 @@ def test_a_limit_nearly_used_up_makes_the_first_sentence_amber():
     page = judged(on).page
     assert page is not None
     assert judgement(on, [page]).tone == "warning"
+
+
+def test_what_no_single_key_cures_is_said_beside_the_cures():
+    """The duty names a speed and a range of speeds: lowering one of them leaves the other."""
+    found = judged(asked(example("truck-power-unit"), None, None))
+    assert found.changes is not None
+    said = "Failed, and no single key cures it: acceleration of inside shafts in coast."
+    assert found.changes.note.endswith(said)
+    assert "no single key" not in judged(asked(example("truck-wrong-yokes"), None, None)).changes.note

@@ -68,12 +68,16 @@ def judged(on: Subject) -> Judged:
         return Judged()
     advice = sorted((one for one in verdicts if one.run and one.advice), key=_worst)
     answer = _sentence(binding)
+    cured = {one.title for one in found}
+    uncured = [one.title for one in binding if one.state == "failed" and one.title not in cured]
     blocks: list[Block] = [
         *(Picture(figure=figure) for figure in check_figures(verdicts, name=on.drive.name)),
         _table(binding, _("Verdicts"), sources=True),
     ]
     if found:
-        blocks.append(_cures(found, _("What cures it: the smallest change of one key")))
+        blocks.append(_cures(found, _("What cures it: the smallest change of one key"), uncured))
+    elif uncured:
+        blocks.append(Words(text=_uncured(uncured), tone="warning"))
     if advice:
         blocks.append(_table(advice, _("Advice: rules of thumb, they fail no drive"), sources=True))
     lacking = [one for one in verdicts if one.missing]
@@ -92,7 +96,7 @@ def judged(on: Subject) -> Judged:
             alarms=[Words(text=answer, tone="failed")] if failed else [],
         ),
         lights=_lights(binding),
-        changes=_cures(most_helpful(found), _("Changes that help most")) if found else None,
+        changes=_cures(most_helpful(found), _("Changes that help most"), uncured) if found else None,
     )
 
 
@@ -170,7 +174,7 @@ def _limits(one: Verdict, ends: Sequence[tuple[str, float]]) -> str:
     return _(" or ").join(_figure(one, limit, sense).text for sense, limit in ends)
 
 
-def _cures(found: Sequence[Cure], title: str) -> Table:
+def _cures(found: Sequence[Cure], title: str, uncured: Sequence[str]) -> Table:
     rows = []
     told: dict[str, int] = {}
     shown: set[tuple[str, float | int | str]] = set()
@@ -202,7 +206,12 @@ def _cures(found: Sequence[Cure], title: str) -> Table:
         ),
         rows=rows,
         title=title,
-        note=_from_nought([one.path for one in found]),
+        note=" ".join(
+            [
+                *([_from_nought([one.path for one in found])] if found else []),
+                *([_uncured(uncured)] if uncured else []),
+            ]
+        ),
     )
 
 
@@ -211,6 +220,10 @@ def _outdone(one: Cure, other: Cure) -> bool:
     if one.path != other.path or other.change > NEAR * one.change or len(other.breaks) > len(one.breaks):
         return False
     return {one.title, *one.solves} < {other.title, *other.solves}
+
+
+def _uncured(titles: Sequence[str]) -> str:
+    return " ".join(_("Failed, and no single key cures it: {title}.").format(title=one) for one in titles)
 
 
 def _effect(one: Cure) -> str:
