@@ -142,6 +142,7 @@ def test_joints_that_turn_evenly_by_themselves_are_said_to():
         on = asked(example(name), None, None)
         told = (phasing(on).blocks[0].text, phasing(on).answer, turning(on).answer)
         assert all("joint turns evenly by itself" in text for text in told)
+        assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
 
 
 def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike():

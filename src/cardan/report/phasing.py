@@ -39,6 +39,8 @@ def _answer(on: Subject) -> str:
     best = on.best
     if best is None:
         return _("A single joint has no second one to undo it.")
+    if on.alone_even and (on.drive.movements or on.drive.poses):
+        return _("As drawn every joint turns evenly by itself; the yokes count where the drive bends otherwise.")
     if on.alone_even:
         return _("The yokes may stand anyhow: every joint turns evenly by itself.")
     if on.even:
@@ -56,9 +58,15 @@ def _answer(on: Subject) -> str:
 
 def _proof(on: Subject) -> str:
     if on.alone_even:
-        return _("Every joint turns evenly by itself, straight or of constant velocity: there is nothing to undo.")
+        said = _("Every joint turns evenly by itself, straight or of constant velocity: there is nothing to undo.")
+        return f"{said} {_standing(on)}".strip()
     sides = _sides(on)
     return sides + " " + _("α is the bend of the Hooke joint that turns alike.") if on.mixed else sides
+
+
+def _standing(on: Subject) -> str:
+    """Return that something holds for a moving drive as drawn; nothing for one that does not move."""
+    return _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
 
 
 def _sides(on: Subject) -> str:
@@ -179,13 +187,16 @@ def _costs(on: Subject) -> Table:
     rows: Sequence[list[Cell]] = [
         [of_shaft(k + 2), *(number(significant(cost[k], 3), cost[k]) for cost in costs)] for k in range(on.joints - 1)
     ]
+    note = (
+        _("To the worse side, in the pose where it grows most; exact, no slope.")
+        if on.phasing.poses
+        else _("To the worse side; exact, no slope.")
+    )
     return Table(
         title=_("Growth of δ when one yoke stands one degree off"),
         columns=(Column(heading=_("shaft"), left=True), *(Column(heading=one.label, unit="%") for one in some)),
         rows=rows,
-        note=_("To the worse side, in the pose where it grows most; exact, no slope.")
-        if on.phasing.poses
-        else _("To the worse side; exact, no slope."),
+        note=f"{note} {_standing(on)}".strip(),
     )
 
 

@@ -80,7 +80,9 @@ def extremes_table(found: Array, speed: float | None, *, even: float) -> Table:
 
 def _equivalent(on: Subject) -> str:
     if on.alone_even:
-        return _("Every joint turns evenly by itself, and so does the output.")
+        said = _("Every joint turns evenly by itself, and so does the output.")
+        drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
+        return f"{said} {drawn}".strip()
     if on.even:
         return _("What one joint does the others undo: the output turns as evenly as the input.")
     if on.rounded:
