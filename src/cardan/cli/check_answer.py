@@ -212,7 +212,9 @@ def _cures(judged: Judged) -> Table:
 
 def figure(value: float | int | str) -> str:
     """Return a value of a key as a file has it."""
-    return value if isinstance(value, str) else f"{value:.10g}"
+    from cardan.synthesis.change import typed
+
+    return typed(value)
 
 
 def effect(one: Cure) -> str:

@@ -9,6 +9,7 @@ from cardan.checks import Verdict, check
 from cardan.checks.alike import alike, deciding_limits, title_of
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, significant
+from cardan.synthesis.change import typed
 from cardan.synthesis.cure import Cure, cures
 from cardan.texts import _, plural
 from cardan.units import factor, label
@@ -156,7 +157,7 @@ def _applicable(light: Light, found: Sequence[Cure]) -> tuple[Applicable, ...]:
     mine = [one for one in found if f"{one.check} {one.subject}" == light.name]
     return tuple(
         Applicable(
-            label=f"{one.path} = {_value(one.value)}",
+            label=f"{one.path} = {typed(one.value)}",
             effect=_effect(one),
             values={one.path: one.value},
         )
@@ -165,7 +166,7 @@ def _applicable(light: Light, found: Sequence[Cure]) -> tuple[Applicable, ...]:
 
 
 def _effect(one: Cure) -> str:
-    text = _("instead of {now}").format(now=_value(one.now))
+    text = _("instead of {now}").format(now=typed(one.now))
     others = len([title for title in one.solves if title != one.title])
     if others:
         more = plural("cures one more", "cures {count} more", others).format(count=others)
@@ -173,10 +174,6 @@ def _effect(one: Cure) -> str:
     if one.breaks:
         text = _("{change}; then fails: {titles}").format(change=text, titles=", ".join(one.breaks))
     return text
-
-
-def _value(value: float | int | str) -> str:
-    return value if isinstance(value, str) else f"{value:.10g}"
 
 
 def sentence(shown: Sequence[Light]) -> str:

@@ -11,6 +11,7 @@ from cardan.checks.alike import alike, deciding_limits, title_of
 from cardan.errors import InputError
 from cardan.figures.check import check_figures
 from cardan.figures.wording import fixed, given, significant
+from cardan.synthesis.change import typed
 from cardan.synthesis.cure import Cure, cures, most_helpful
 from cardan.synthesis.lever import key_of
 from cardan.texts import _, plural
@@ -238,10 +239,7 @@ def _effect(one: Cure) -> str:
 
 
 def _value(value: float | int | str, unit: str) -> Cell:
-    if isinstance(value, str):
-        return words(value)
-    text = f"{value:.6g}" if abs(value) < 1e6 else f"{value:.10g}"
-    return words(f"{text} {label(unit)}".strip() if label(unit) != "°" else f"{text}°")
+    return words(f"{typed(value)}{'' if label(unit) == '°' else ' '}{label(unit)}".strip())
 
 
 def _from_nought(paths: Sequence[str]) -> str:

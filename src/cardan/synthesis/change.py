@@ -66,6 +66,19 @@ class Cure:
         return self.demand, len(self.breaks), self.effort, self.change
 
 
+def typed(value: float | int | str) -> str:
+    """Return a value of a key as people would type it: to six digits, and all of a large number.
+
+    Examples
+    --------
+    >>> typed(15.3333333333), typed(-46.2), typed(1234567.0), typed("example-150")
+    ('15.3333', '-46.2', '1234567', 'example-150')
+    """
+    if isinstance(value, str):
+        return value
+    return f"{value:.6g}" if abs(value) < 1e6 else f"{value:.10g}"
+
+
 def cured(drive: Drive, cure: Cure, *, known: Catalogue | None = None) -> Drive:
     """Return a drive with a change put in.
 
