@@ -206,9 +206,11 @@ def _notes(on: Subject, found: Strength) -> Iterator[str]:
         "Stresses count what the torque of the duty makes without friction and masses; axial forces of splines, "
         "weights and torsional vibration are not in them."
     )
-    yield _(
-        "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
-    )
+    if not of_forces(on.drive):
+        yield _(
+            "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
+        )
+    heavier = _heavier(on, found)
     left = sum(not one.judged for one in found.uses)
     if left:
         yield plural(
