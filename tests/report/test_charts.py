@@ -63,15 +63,15 @@ def test_lying_bars_have_room_and_stand_before_the_track_up_to_their_limit() -> 
     names = tuple(f"check {k}" for k in range(count))
     kinds = Axis(low=-0.5, high=count - 0.5, ticks=tuple(map(float, range(count))), texts=names)
     along = Axis(label="share", low=0.0, high=1.2, ticks=(0.0, 1.0), texts=("0", "1"))
-    bars = Bars(at=np.arange(20.0), size=np.full(count, 0.5), lying=True)
+    bars = Bars(at=np.arange(20.0), size=np.asarray([1.1] + [0.5] * (count - 1)), lying=True)
     data = book_of(Panel(series=(bars, Rule(value=1.0, upright=True)), x=along, y=kinds))
     limit, share, outline = chart_in(data).iter(f"{CHART}ser")
-    assert [one.text for one in outline.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"] * count
+    assert [one.text for one in outline.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"]
     assert (
         outline.find(f"{CHART}spPr").find("{http://schemas.openxmlformats.org/drawingml/2006/main}noFill") is not None
     )
     assert [one.text for one in limit.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"] * count
-    assert [one.text for one in share.find(f"{CHART}val").iter(f"{CHART}v")] == ["0.5"] * count
+    assert [one.text for one in share.find(f"{CHART}val").iter(f"{CHART}v")] == ["0.5"] * (count - 1) + ["1.1"]
     (drawn,) = opened(data).worksheets[0]._charts
     assert drawn.anchor.to.row - drawn.anchor._from.row >= count * 16 // 21
 

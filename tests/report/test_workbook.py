@@ -25,7 +25,7 @@ from cardan.io.book import sheet_name
 from cardan.report import paper, renderer
 from cardan.report.amounts import amount, read
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
-from cardan.report.chart_data import HEAD, PRINTED
+from cardan.report.chart_data import BESIDE, HEAD, PRINTED
 from cardan.report.charts import split
 from cardan.report.content import Content, content
 from cardan.report.paper import headed
@@ -331,11 +331,16 @@ def test_the_same_report_gives_the_same_file_and_tells_nobody_who_made_it() -> N
 def test_sheets_are_ready_to_be_read_and_printed(name: str) -> None:
     for sheet in opened(file_of(name)):
         assert sheet.page_setup.orientation == "landscape"
-        assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) in ((1, 0), (None, 0))
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
         assert sheet.freeze_panes
         data = sheet.title.endswith(" data")  # what is too much to be printed says so
-        assert bool(sheet.print_area) == (data and sheet.max_row > HEAD + PRINTED)
+        few = data and sheet.max_row <= HEAD + PRINTED and sheet.max_column <= BESIDE
+        assert (sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight) in (
+            (1, None if few else 0),
+            (None, 1 if few else 0),
+            (None, None),
+        )
+        assert bool(sheet.print_area) == (data and not few)
         assert not data or sheet["A2"].hyperlink.location == f"'{sheet.title.removesuffix(' data')}'!A1"
         assert said(name).title in sheet.oddHeader.left.text
         assert sheet.max_row > 1

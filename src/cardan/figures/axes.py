@@ -105,6 +105,34 @@ def axis(
     return Axis(label=label, unit=unit, low=low, high=high, ticks=ticks, texts=written(ticks))
 
 
+def clear_way(places: Array, rings: Sequence[float], first: complex) -> complex:
+    """Return the diagonal direction along which words at rings are farthest from what is drawn.
+
+    Parameters
+    ----------
+    places : complex array (p,)
+        Where something is drawn.
+    rings : sequence of float
+        Distances of the words from the middle.
+    first : complex
+        The diagonal taken where that is as good as any, of length 1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> way = clear_way(np.asarray([1.0 + 1.0j]), [1.4], np.exp(0.25j * np.pi))
+    >>> bool(np.isclose(way, -np.exp(0.25j * np.pi)))
+    True
+    """
+    ways = [first * 1j**k for k in (0, 1, 3, 2)]
+    known = places[np.isfinite(places)]
+    if not known.size or not len(rings):
+        return first
+    words = np.asarray(ways)[:, None] * np.asarray(rings)
+    free = np.min(np.abs(words[..., None] - known), axis=(1, 2))
+    return ways[int(np.argmax(np.minimum(free, 0.3 * max(rings))))]
+
+
 def angle_axis(label: str, stop: float = 360.0) -> Axis:
     """Return the axis of an angle of rotation [°], marked every eighth of a turn."""
     ticks = tuple(float(k) for k in range(0, int(stop) + 1, 45 if stop <= 360.0 else 90))

@@ -10,7 +10,7 @@ import numpy as np
 from cardan.maths import frames
 from cardan.maths.arrays import Array
 
-from .axes import steps, written
+from .axes import clear_way, steps, written
 from .figure import Axis, Curve, Note, Panel, Row, Series
 
 DOWN = 0.99
@@ -71,11 +71,12 @@ def _panel(tip: Tip, reach: float) -> Panel:
     series: list[Series] = []
     rings = steps(0.0, reach, 3)[1:]
     series += [Curve(x=ring * np.sin(turn), y=ring * np.cos(turn), role="faint", width=0.8) for ring in rings]
+    seen = [(frames.dot(path, right), frames.dot(path, up)) for path in tip.paths]
     for ring, name in list(zip(rings, written(rings), strict=True))[-1:]:
-        series.append(Note(text=name, x=0.7071 * ring, y=-0.7071 * ring, role="muted", size=6.6))
+        way = clear_way(np.concatenate([x + 1j * y for x, y in seen]), [ring], 0.5**0.5 * (1.0 - 1.0j))
+        series.append(Note(text=name, x=ring * way.real, y=ring * way.imag, role="muted", size=6.6))
     series.append(Curve(x=np.asarray([0.0]), y=np.asarray([0.0]), role="muted", width=0.0, marker=2.5))
-    for k, path in reversed(list(enumerate(tip.paths))):
-        x, y = frames.dot(path, right), frames.dot(path, up)
+    for k, (x, y) in reversed(list(enumerate(seen))):
         series.append(Curve(x=x, y=y, role=tip.role, dash=tip.dash, width=0.7 if k else 1.8))
         if not k:
             series.append(Curve(x=x[:1], y=y[:1], role=tip.role, width=0.0, marker=5.5))

@@ -12,7 +12,7 @@ from cardan.maths.arrays import Array
 from cardan.synthesis.phases import Phasing, YokeSetting
 from cardan.texts import _
 
-from .axes import axis, steps, written
+from .axes import axis, clear_way, steps, written
 from .figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series
 from .palette import dash_of, shaft
 from .wording import percent, significant
@@ -89,15 +89,19 @@ def polygon_figure(found: Phasing) -> Figure:
 def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
     rings: list[Series] = []
     top = _share(reach)
-    for share in steps(0.0, 100.0 * top, 3)[1:]:
-        radius = math.tanh(0.5 * math.asinh(0.005 * share))
+    shares = steps(0.0, 100.0 * top, 3)[1:]
+    radii = [math.tanh(0.5 * math.asinh(0.005 * share)) for share in shares]
+    pairs = zip(one.vertex, one.vertex[1:], strict=False)
+    drawn = np.concatenate([[0.0], *(_side(complex(start), complex(end)) for start, end in pairs)])
+    way = clear_way(drawn, radii, 0.5**0.5 * (1.0 + 1.0j))
+    for share, radius in zip(shares, radii, strict=True):
         turn = np.linspace(0.0, 2.0 * math.pi, 91)
         rings.append(Curve(x=radius * np.cos(turn), y=radius * np.sin(turn), role="faint", width=0.8))
         rings.append(
             Note(
                 text=f"{share:g} %",
-                x=radius * math.cos(0.25 * math.pi),
-                y=radius * math.sin(0.25 * math.pi),
+                x=radius * way.real,
+                y=radius * way.imag,
                 role="muted",
                 size=6.8,
             )

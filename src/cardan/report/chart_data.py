@@ -24,6 +24,9 @@ WIDTH = 13
 PRINTED = 60
 """Rows of numbers that are printed; more are for the spreadsheet alone."""
 
+BESIDE = 16
+"""Columns that are printed."""
+
 DIGITS = 6
 """Of the largest number of a column."""
 
@@ -82,7 +85,9 @@ class ChartData:
     def close(self) -> None:
         """Say what stands here; numbers that would fill pages are not printed."""
         told = _("Numbers of the charts on the sheet {name}.")
-        if self._rows > PRINTED:
+        if self._rows <= PRINTED and self._column <= BESIDE:
+            self.sheet.fit_to_pages(1, 1)
+        else:
             self.sheet.print_area(0, 0, 1, 9)
             told = _(
                 "Numbers of the charts on the sheet {name}, too many to be printed: clear the print area if you want "

@@ -32,7 +32,7 @@ AROUND = 84.0
 BAR = 16.0
 """Pixels of a chart for each of its lying bars: its name has to have room."""
 
-SIZES = ((24, 9, 13.5), (30, 8, 12.5), (math.inf, 7, 11.0))
+SIZES = ((12, 9, 17.0), (30, 8, 12.5), (math.inf, 7, 11.0))
 """Up to how many bars their names have which size, and the pixels that one needs at the least."""
 
 TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
@@ -300,11 +300,16 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             above.add_series(_series(kinds, place, line={"none": True}, **_labels(texts, "ink", "above")))
             chart.combine(above)
     unnamed = [k for k, one in enumerate(bars) if not one.label and limit is None]
-    if limit is not None:  # once more before the bars, as an outline: those beyond it hide the track behind them
-        line = {"color": palette.colour("muted"), "width": 1.0, "dash_type": "dash"}
-        chart.add_series(_series(kinds, kept, fill={"none": True}, border=line, gap=gap))
-        unnamed = [len(bars) + 1]
-    _legend(chart, len(bars) + (2 if limit is not None else 0), unnamed)
+    count = len(bars)
+    if limit is not None:
+        count += 1
+        beyond = [size > limit for size in sizes]
+        if any(beyond):  # once more before the bars, as an outline: those beyond it hide the track behind them
+            once_more = data.numbers(_("limit"), along.unit, [limit if one else math.nan for one in beyond])
+            line = {"color": palette.colour("faint"), "width": 1.25}
+            chart.add_series(_series(kinds, once_more, fill={"none": True}, border=line, gap=gap))
+            count, unnamed = count + 1, [count]
+    _legend(chart, count, unnamed)
     font = {**SMALL, "size": _size(len(order))[0]}
     kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:
