@@ -72,6 +72,8 @@ def test_lying_bars_have_room_and_stand_before_the_track_up_to_their_limit() -> 
     )
     assert [one.text for one in limit.find(f"{CHART}val").iter(f"{CHART}v")] == ["1"] * count
     assert [one.text for one in share.find(f"{CHART}val").iter(f"{CHART}v")] == ["0.5"] * (count - 1) + ["1.1"]
+    size = chart_in(data).find(f".//{CHART}catAx//{{http://schemas.openxmlformats.org/drawingml/2006/main}}defRPr")
+    assert size.get("sz") == "800"
     (drawn,) = opened(data).worksheets[0]._charts
     assert drawn.anchor.to.row - drawn.anchor._from.row >= count * 16 // 21
 
@@ -142,3 +144,12 @@ def test_decades_are_written_in_one_way() -> None:
         along = Axis(label="size", low=low, high=10.0, ticks=(low,), texts=("",), log=True)
         chart = chart_of(Panel(series=(Bars(at=np.ones(1), size=np.ones(1)),), x=kinds, y=along))
         assert {one.get("formatCode") for one in chart.find(f".//{CHART}valAx").iter(f"{CHART}numFmt")} == {form}
+
+
+def test_long_names_of_many_bars_are_smaller_so_that_none_takes_two_lines() -> None:
+    names = tuple(f"{k} {'torque of the composite tube of shaft 2'}" for k in range(16))
+    kinds = Axis(low=-0.5, high=15.5, ticks=tuple(map(float, range(16))), texts=names)
+    along = Axis(label="share", low=0.0, high=1.2, ticks=(0.0, 1.0), texts=("0", "1"))
+    chart = chart_of(Panel(series=(Bars(at=np.arange(16.0), size=np.ones(16), lying=True),), x=along, y=kinds))
+    size = chart.find(f".//{CHART}catAx//{{http://schemas.openxmlformats.org/drawingml/2006/main}}defRPr")
+    assert size.get("sz") == "700"

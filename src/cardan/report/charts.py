@@ -35,6 +35,9 @@ BAR = 16.0
 SIZES = ((12, 9, 17.0), (30, 8, 12.5), (math.inf, 7, 11.0))
 """Up to how many bars their names have which size, and the pixels that one needs at the least."""
 
+LONG = 36
+"""Letters of a name of a bar that has room in one line at the usual size."""
+
 TRACK = palette.mixed(palette.colour("muted"), "#ffffff", 0.82)
 """Colour behind lying bars, up to their limit."""
 
@@ -137,7 +140,7 @@ def charts(
             made = _chart(book, data, figure, replace(panel, x=replace(named, grid=panel.x.grid)))
             wide = room[0] * share / sum(row.widths)
             high = max(INCH * row.height, BAR * _lying(panel)) + AROUND
-            least = min(_size(_lying(panel))[1] * _lying(panel) + AROUND, room[1])
+            least = min(_size(panel.y.texts)[1] * _lying(panel) + AROUND, room[1])
             drawn.append(Drawn(chart=made, width=wide, height=min(high, room[1]), least=least))
         yield drawn
 
@@ -147,9 +150,13 @@ def _lying(panel: Panel) -> int:
     return len(panel.y.ticks) if any(isinstance(one, Bars) and one.lying for one in panel.series) else 0
 
 
-def _size(count: int) -> tuple[int, float]:
-    """Return the size of the names of so many bars, and the pixels that one needs at the least."""
-    return next((size, pixels) for most, size, pixels in SIZES if count <= most)
+def _size(names: Sequence[str]) -> tuple[int, float]:
+    """Return the size of the names of bars, and the pixels that one needs at the least.
+
+    Among many bars a spreadsheet leaves out every other name where one of them would take two lines.
+    """
+    size, pixels = next((size, pixels) for most, size, pixels in SIZES if len(names) <= most)
+    return (min(size, 7) if size < 9 and max(map(len, names)) > LONG else size), pixels
 
 
 def _chart(book: Any, data: ChartData, figure: Figure, panel: Panel) -> Any:
@@ -310,7 +317,7 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
             chart.add_series(_series(kinds, once_more, fill={"none": True}, border=line, gap=gap))
             count, unnamed = count + 1, [count]
     _legend(chart, count, unnamed)
-    font = {**SMALL, "size": _size(len(order))[0]}
+    font = {**SMALL, "size": _size(names)[0]}
     kinds_axis = {**named(upon), "num_font": font, "interval_unit": 1, "major_tick_mark": "none", "text_axis": True}
     if lying:
         values = axis_of(along if along.title else replace(along, label=panel.heading))
