@@ -9,6 +9,7 @@ from cardan.catalogue import catalogue, with_files
 from cardan.checks import check
 from cardan.io import example
 from cardan.report.block import Page, Table, Words
+from cardan.report.preferred import in_choice
 from cardan.report.report import page
 from cardan.report.subject import asked
 from cardan.report.summary import evenness, judgement, warnings
@@ -173,3 +174,13 @@ def test_what_no_single_key_cures_is_said_beside_the_cures():
     said = "Failed, and no single key cures it: acceleration of inside shafts in coast."
     assert found.changes.note.endswith(said)
     assert "no single key" not in judged(asked(example("truck-wrong-yokes"), None, None)).changes.note
+
+
+def test_changes_of_keys_stay_in_the_units_of_the_keys():
+    page = judged(asked(example("truck-duty-cycle"), None, None)).page
+    assert page is not None
+    shown = in_choice(page, {"length": "in", "torque": "lbft"})
+    rows = next(one.rows for one in shown.blocks if isinstance(one, Table) and one.title.startswith("What cures it"))
+    told = {row[-1].text: (row[1].text, row[2].text) for row in rows}
+    assert told["joints[2].centre_mm[2]"] == ("-193 mm", "-184.5 mm")
+    assert told["duty.blocks[0].torque_Nm"] == ("5000 N·m", "3860 N·m")

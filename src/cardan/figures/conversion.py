@@ -47,7 +47,7 @@ LISTED = re.compile(r"(\.\d+(?:·10[⁻⁰¹²³⁴-⁹]+)?[°′]?), (?=[−+±
 WORDS = ("in",)
 """Labels of units that are words too: no number of a sentence is read to be in them."""
 
-KEY = re.compile(r"[a-z][a-z0-9_]*(?:\[\d+\])?(?:\.[a-z][a-z0-9_]*(?:\[\d+\])?)+|[a-z0-9]+(?:_[a-z0-9]+)+")
+KEY = re.compile(r"[a-z][a-z0-9_]*(?:\[\d+\])?(?:\.[a-z][A-Za-z0-9_]*(?:\[\d+\])?)+|[a-z0-9]+(?:_[A-Za-z0-9]+)+")
 """A path of the drive file, ``joints[1].centre_mm``."""
 
 DIGITS, WHOLE = 3, 4
