@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -72,7 +73,9 @@ def _standing(on: Subject) -> str:
 def _sides(on: Subject) -> str:
     """Return what the sides of the phase polygon say."""
     closing = on.closing
-    sides = ", ".join(fixed(float(value), 4) for value in closing.length[:8]) + (" …" if on.joints > 8 else "")
+    longest = float(np.max(closing.length))
+    places = min(max(4, 2 - math.floor(math.log10(longest))), 12) if longest > 0.0 else 4
+    sides = ", ".join(fixed(float(value), places) for value in closing.length[:8]) + (" …" if on.joints > 8 else "")
     if on.joints == 1:
         return _(
             "Every joint is a side of length L = −ln cos α, here {sides}. One side never comes back to its start."
@@ -90,8 +93,8 @@ def _sides(on: Subject) -> str:
         )
     compare = {
         "longest": closing.longest,
-        "long": fixed(float(closing.length[closing.longest - 1]), 4),
-        "others": fixed(closing.others, 4),
+        "long": fixed(float(closing.length[closing.longest - 1]), places),
+        "others": fixed(closing.others, places),
         "sides": sides,
     }
     if closing.closes:
