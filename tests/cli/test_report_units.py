@@ -5,12 +5,23 @@ import re
 
 from tests.cli.conftest import EXAMPLES
 
+KEY = re.compile(r"\w+\[?\d*\]?\.\w+_(mm|deg|rpm)\b")
+"""A key of the drive file: its value stays in the unit that the key names."""
+
 TRUCK = EXAMPLES / "truck-printed-coordinates.toml"
 
 
+ROW = re.compile(r"<tr\b.*?</tr>", re.DOTALL)
+
+
 def told(path):
-    """Return what a page says, but for the drive file at its end and for the drawings."""
+    """Return what a page says, but for the drive file at its end, the drawings, and rows on keys that are typed."""
     text = re.sub(r"<(pre|svg|style|script).*?</\1>", "", path.read_text(), flags=re.DOTALL)
+    text = ROW.sub(lambda row: "" if KEY.search(words(row[0])) else row[0], text)
+    return words(text)
+
+
+def words(text):
     return html.unescape(re.sub(r"<[^>]+>", " ", text))
 
 
@@ -22,7 +33,11 @@ def test_lengths_are_told_in_the_unit_asked_for(cardan, tmp_path):
     assert not re.search(r"\bmm\b", asked)
     assert re.search(r"\bin\b", asked)
     assert re.search(r"\d,\d+ ", asked)
-    assert "centre_mm" in (tmp_path / "in.html").read_text()  # the drive file as it stands
+    page = (tmp_path / "in.html").read_text()
+    assert "centre_mm" in page  # the drive file as it stands
+    typed = [words(row) for row in ROW.findall(page) if "joints[0].centre_mm[1]" in words(row)]
+    assert typed
+    assert all(re.search(r"\d mm\b", row) for row in typed)
 
 
 def test_what_is_no_unit_is_refused_before_any_work(cardan, tmp_path):
