@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from cardan.analysis.forces import forces
+from cardan.analysis.stability import Verdict
 from cardan.analysis.strength import strength
 from cardan.analysis.torsion_response import torsion_response
 from cardan.drive.duty import Duty
@@ -45,14 +46,32 @@ def of(drive) -> Page:
 
 
 def test_torsional_vibration_is_named_beside_the_torques_without_it():
-    drive = example("unstable-drive")
+    drive = example("cured-drive")
     found, runs = of(drive), torsion_response(drive)
     (said,) = found.alarms
+    assert runs.floquet.verdict == Verdict.STABLE
     assert f"{significant(float(runs.torque_highest.max()), 3)} N·m" in said.text
     assert said.tone == "warning"  # 243 N·m, and the weakest part holds 818
     weak = replace(drive, limits=replace(drive.limits, twist=0.02))
     assert [one.tone for one in of(weak).alarms] == ["failed"]
     assert of(example("car-propshaft")).alarms == []
+
+
+def test_no_torque_is_told_of_torsional_vibration_that_grows():
+    drive = example("unstable-drive")
+    (said,) = of(drive).alarms
+    assert torsion_response(drive).floquet.verdict == Verdict.UNSTABLE
+    assert "grows by itself" in said.text
+    assert "N·m" not in said.text
+    assert said.tone == "failed"
+
+
+@pytest.mark.parametrize("name", ["truck-supports", "propshaft-with-rzeppa"])
+def test_a_drive_that_carries_no_torque_is_not_rated(name):
+    drive = example(name)
+    assert of(drive).keys
+    idle = Subject(drive=replace(drive, duty=replace(drive.duty, torque=0.0)))
+    assert bearing_up(idle) is None
 
 
 def test_loads_that_the_stresses_leave_out_are_told():

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.analysis.forces import forces
+from cardan.analysis.stability import Verdict
 from cardan.analysis.strength import Strength, strength
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
@@ -37,7 +38,7 @@ AMBER = 0.9
 
 
 def bearing_up(on: Subject) -> Page | None:
-    """Return the page of the strength; None where the file gives no torque, or nothing that could be judged."""
+    """Return the page of the strength; None where the drive carries no torque, or nothing could be judged."""
     title = _("Strength")
     if of_strength(on.drive):
         return None
@@ -45,7 +46,7 @@ def bearing_up(on: Subject) -> Page | None:
         found = strength(on.drive, known=on.known)
     except InputError as error:
         return refused("strength", title, error)
-    if not found.binding:
+    if not found.binding or not found.torque > 0.0:
         return None
     figures = strength_figures(found)
     blocks: list[Block] = [Picture(figure=figure) for figure in figures]
@@ -147,7 +148,10 @@ def _joints(drive: Drive, found: Strength) -> Table:
 
 
 def _swinging(on: Subject, found: Strength) -> Words | None:
-    """Return what torsional vibration adds at the speed of the duty; None where it adds little or is not known."""
+    """Return what torsional vibration adds at the speed of the duty; None where it adds little or is not known.
+
+    The torque of a steady motion that grows is none that the drive keeps, so none is told of it.
+    """
     if of_torsion(on.drive):
         return None
     try:
@@ -156,6 +160,13 @@ def _swinging(on: Subject, found: Strength) -> Words | None:
         return None
     if runs is None or not bool(runs.steady.found):
         return None
+    speed = significant(abs(float(runs.speed)) / rpm, 3)
+    if int(runs.floquet.verdict) == Verdict.UNSTABLE:
+        text = _(
+            "The strength leaves torsional vibration out: at {speed} rpm that grows by itself, so what torque the "
+            "shafts reach cannot be told."
+        )
+        return Words(text=text.format(speed=speed), tone="failed")
     most = np.maximum(np.abs(runs.torque_lowest), np.abs(runs.torque_highest))
     model = runs.train.model
     plain = np.asarray([np.max(found.loads.torque[:, model.shaft[a]]) for a, _b in model.elements])
@@ -171,7 +182,7 @@ def _swinging(on: Subject, found: Strength) -> Words | None:
         "{more} times what is counted."
     )
     said = text.format(
-        speed=significant(abs(float(runs.speed)) / rpm, 3),
+        speed=speed,
         name=runs.train.element_names[e],
         most=significant(float(most[e]), 3),
         more=significant(more, 3),
@@ -193,8 +204,8 @@ def _heavier(on: Subject, found: Strength) -> tuple[int, float, float] | None:
     except InputError:
         return None
     load = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(every)], axis=0)
-    span = np.asarray([one.couple / one.journal_force for one in found.joints])
-    more = load * span / found.couple[0] - 1.0
+    span = np.asarray([one.couple / one.journal_force if one.journal_force > 0.0 else math.nan for one in found.joints])
+    more = load * span / np.where(found.couple[0] > 0.0, found.couple[0], math.nan) - 1.0
     if not np.any(np.isfinite(more)):
         return None
     i = int(np.nanargmax(more))
