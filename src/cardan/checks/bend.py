@@ -18,7 +18,7 @@ from .verdict import Verdict
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    own = design.drive.limits.bend
+    own = design.value("limits.bend")
     for i, joint in enumerate(design.drive.joints):
         row = design.known.rows(JointType).get(joint.type)
         limits = [

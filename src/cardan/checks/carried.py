@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from cardan.analysis.moving_chain import moving_shafts
 from cardan.analysis.moving_points import default_times, moving_points
 from cardan.drive.chain import Chain, turning
 from cardan.drive.geometry import geometry_from_points
@@ -14,6 +15,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.movement import Movement
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.series import turning_points
 
 FEW = 40
 """Up to so many drives are looked at at all instants of a movement."""
@@ -81,6 +83,61 @@ def largest_of(
         )
         found.append(np.max(np.where(possible[..., None], ask(turning(turned, joints)), np.inf), axis=-2))
     return np.concatenate(found).reshape(*lead, -1)
+
+
+def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
+    """Return the least and the greatest length of every shaft over the instants of a movement, arrays (..., n+1) [m].
+
+    Parameters
+    ----------
+    points : array (..., n+2, 3) [m]
+        Points of the axis as drawn.
+    movements : sequence of Movement
+
+    Notes
+    -----
+    Up to `FEW` different drives exactly, as `cardan.analysis.articulation` has them; of more the parabola through the
+    extreme instant and its neighbours.
+    """
+    count = points.shape[-2]
+    flat, back = np.unique(points.reshape(-1, 3 * count), axis=0, return_inverse=True)
+    rows = flat.reshape(-1, count, 3)
+    if rows.shape[0] > FEW:
+        lengths = [frames.norm(np.diff(moved, axis=-2)) for _part, moved in _moved(rows, movements)]
+        low = np.concatenate([-_tops(-one) for one in lengths])
+        high = np.concatenate([_tops(one) for one in lengths])
+    else:
+        ends = np.stack([_extremes(row, movements) for row in rows])
+        low, high = ends[..., 0], ends[..., 1]
+    shape = (*points.shape[:-2], count - 1)
+    return low[back.ravel()].reshape(shape), high[back.ravel()].reshape(shape)
+
+
+def _extremes(points: Array, movements: Sequence[Movement]) -> Array:
+    """Return least and greatest length of every shaft of one drive, array (n+1, 2) [m]; nan where its ends meet."""
+    times = default_times(movements)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shafts = moving_shafts(moving_points(points, movements, times))
+    found = np.full((points.shape[0] - 1, 2), np.nan)
+    for k, ends in enumerate(found):
+        good = np.isfinite(shafts.length_acceleration[:, k])
+        if np.any(good):
+            parts = (shafts.length, shafts.length_rate, shafts.length_acceleration)
+            values = turning_points((times[good], *(part[good, k] for part in parts)))[1]
+            ends[:] = np.min(values), np.max(values)
+    return found
+
+
+def _tops(values: Array) -> Array:
+    """Return the largest of values (m, t, k) over the instants, between them by a parabola, array (m, k)."""
+    last = values.shape[1] - 1
+    at = np.argmax(values, axis=1)[:, None]
+    before, most, after = (np.take_along_axis(values, np.clip(at + step, 0, last), axis=1)[:, 0] for step in (-1, 0, 1))
+    curve = 2.0 * most - before - after
+    inside = (at[:, 0] > 0) & (at[:, 0] < last) & (curve > 0.0)
+    rise = (after - before) ** 2 / (8.0 * np.where(inside, curve, 1.0))
+    found: Array = most + np.where(inside, rise, 0.0)
+    return found
 
 
 def _moved(points: Array, movements: Sequence[Movement]) -> Iterator[tuple[slice, Array]]:

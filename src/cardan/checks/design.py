@@ -50,15 +50,15 @@ class Design:
         Its norms, types and sizes.
     varied : mapping of str to array (...)
         Path without unit, as ``joints[0].cross.span`` or ``duty.torque`` -> values in SI, in place of the drive's.
-    drawn : Drive, optional
-        The drive as drawn, where this is one of its poses: engaged length and gap of a spline hold there.
+    drawn : Design, optional
+        The drives as drawn, where this is one of its poses: engaged length and gap of a spline hold there.
     """
 
     drive: Drive
     duty: Duty
     known: Catalogue = field(default_factory=catalogue)
     varied: Mapping[str, Array] = field(default_factory=dict)
-    drawn: Drive | None = None
+    drawn: Design | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -343,7 +343,9 @@ def design(
 
 
 def _variable(drive: Drive, bare: str, path: str) -> None:
-    """Refuse to vary sizes by which a joint of another kind turns: they are the same in all drives."""
+    """Refuse to vary what is the same in all drives: movements, poses, sizes by which a joint of another kind turns."""
+    if bare.startswith(("movements[", "poses[")):
+        raise refuse(path, _("is not varied in a batch; judge the drives one by one"))
     match = re.match(r"joints\[(\d+)\]\.(\w+)", bare)
     own = fields_of(type(drive.joints[int(match[1])])).keys() - fields_of(Joint).keys() if match else ()
     if match is not None and match[2] in own:

@@ -1,16 +1,13 @@
-"""What the movements of a drive and its poses make of its joints, asked once for all checks."""
+"""What the movements of a drive and its poses make of its joints."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from cardan.analysis.articulation import Articulation, articulation
-from cardan.drive.drive import Drive
 from cardan.drive.paths import bare_path, pose_drives
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -23,12 +20,6 @@ WORSE = 1.0 + 1e-9
 
 NOISE = 1e-12
 """Share of a limit that comes from rounding alone."""
-
-
-@lru_cache(maxsize=64)
-def movement(drive: Drive) -> Articulation | None:
-    """Return the articulation of a drive; None where nothing moves."""
-    return articulation(drive) if drive.movements else None
 
 
 def largest_bend(design: Design, i: int) -> Array | float:
@@ -63,7 +54,7 @@ def posed(design: Design) -> list[tuple[str, Design]]:
             for path, values in design.varied.items()
             if not any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in own)
         }
-        other = replace(design, drive=drive, duty=drive.duty, varied=varied, drawn=design.drive)
+        other = replace(design, drive=drive, duty=drive.duty, varied=varied, drawn=design)
         found.append((pose.name or str(k), other))
     return found
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 
-from cardan.drive.drive import Drive
-from cardan.drive.parts import known_lengths
+from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 from cardan.units import mm
 
+from .carried import extreme_lengths
 from .check import Check
 from .design import Design
-from .moving import movement
 from .verdict import Verdict
 
 TOUCH = 1e-3 * mm
@@ -55,27 +54,26 @@ def _judge(design: Design) -> Iterator[Verdict]:
             )
 
 
-def _slid(design: Design) -> dict[int, tuple[float, float]]:
-    """Return how far each shaft grows longer and shorter than drawn, where it slides [m]; a pose may say it anew."""
-    found = _slides(design.drive, design.drawn or design.drive)
-    if design.drawn is None:
-        return found
-    shafts = zip(design.drive.shafts, design.drawn.shafts, strict=True)
-    anew = {k for k, (one, other) in enumerate(shafts) if one.spline and one.spline != other.spline}
-    own = _slides(design.drive, design.drive) if anew else {}
-    return {k: own.get(k, (0.0, 0.0)) if k in anew else ways for k, ways in found.items()}
+def _slid(design: Design) -> dict[int, tuple[Array, Array]]:
+    """Return how far each splined shaft gets longer and shorter than drawn [m]; none where no shaft slides.
 
-
-@lru_cache(maxsize=64)
-def _slides(drive: Drive, drawn: Drive) -> dict[int, tuple[float, float]]:
-    """Return how far each shaft gets longer and shorter than drawn, standing and moving; none where none slides [m]."""
-    if not drive.movements and not drive.poses and drive is drawn:
+    Engaged length and gap hold in the drive as drawn; a pose that says them anew means its own place.
+    """
+    moves, drawn = design.drive.movements, design.drawn
+    if not moves and not design.drive.poses and drawn is None:
         return {}
-    zero, standing, moving = known_lengths(drawn), known_lengths(drive), movement(drive)
-    reach = {number: (length, length) for number, length in standing.items()}
-    for one in moving.splines if moving is not None else ():
-        reach[one.shaft] = (one.length_min, one.length_max)
-    return {k - 1: (high - zero[k], zero[k] - low) for k, (low, high) in reach.items() if k in zero}
+    reach = extreme_lengths(design.points, moves) if moves else None
+    ways = {}
+    for k, shaft in enumerate(design.drive.shafts):
+        origin = design if drawn is None or shaft.spline != drawn.drive.shafts[k].spline else drawn
+        standing, zero = design.length(k), origin.length(k)
+        if shaft.spline is None or standing is None or zero is None:
+            continue
+        low = high = np.asarray(standing, dtype=float)
+        if reach is not None:
+            low, high = (np.where(np.isfinite(one[..., k]), one[..., k], standing) for one in reach)
+        ways[k] = high - zero, zero - low
+    return ways
 
 
 CHECK = Check(
