@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from cardan import check, example
+from cardan.checks import Verdict
 from cardan.figures.check import MOST, WIDEST, check_figures
 from cardan.figures.figure import Bars
 from cardan.figures.render_svg import inline_svg
@@ -30,6 +31,13 @@ def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
 def test_signs_tell_without_colour():
     _figure, drawn = bars("car-propshaft")
     assert all(text.startswith("●") for text in drawn.texts)
+
+
+def test_a_limit_of_nothing_is_used_without_end():
+    nothing_left = Verdict(check="spline_overlap", title="engaged length", value=0.0, limit=0.04, sense="at_least")
+    (figure,) = check_figures([nothing_left, *check(example("car-propshaft"))])
+    drawn = next(one for one in figure.rows[0].panels[0].series if isinstance(one, Bars))
+    assert drawn.texts[0].endswith(" ∞")
 
 
 def test_nothing_judged_nothing_drawn():

@@ -27,6 +27,11 @@ def test_every_lever_has_words_with_numbers_from_one(name):
         assert numbered is None or f" {int(numbered[1]) + 1}" in said
 
 
+def test_a_torque_of_the_duty_is_told_without_the_end_where_it_acts():
+    told = in_words("duty.torque"), in_words("duty.blocks[0].torque"), in_words("joints[0].rating.max_torque")
+    assert told == ("torque", "part 1 of the duty cycle: torque", "joint 1, rating: largest torque")
+
+
 def test_heat_that_is_not_counted_is_told_in_words():
     page = rubbing(asked(example("overconstrained-pump"), None, None))
     assert page is not None

@@ -75,6 +75,8 @@ def answer(judged: Judged) -> Answer:
 
 def sentence(judged: Judged) -> str:
     """Return the answer in a sentence."""
+    from cardan.figures.wording import used
+
     from .source import title
 
     name, count, failed = title(judged.drive, judged.file), len(judged.binding), judged.failed
@@ -84,23 +86,23 @@ def sentence(judged: Judged) -> str:
             text = _("{name}: no limit that must be kept was judged; rules of thumb stand below.")
         return text.format(name=name)
     worst = judged.binding[0]
-    used = f"{float(worst.utilisation):.2f}"
+    share = used(float(worst.utilisation))
     if failed and count == 1:
         text = _("{name}: the only check fails: {title}, {used} of its limit.")
-        return text.format(name=name, title=worst.title, used=used)
+        return text.format(name=name, title=worst.title, used=share)
     if failed:
         text = plural(
             "{name}: {failed} of {count} checks fails: {title}, {used} of its limit.",
             "{name}: {failed} of {count} checks fail, worst {title}, {used} of its limit.",
             len(failed),
         )
-        return text.format(name=name, failed=len(failed), count=count, title=worst.title, used=used)
+        return text.format(name=name, failed=len(failed), count=count, title=worst.title, used=share)
     text = plural(
         "{name}: the only check passes: {title}, {used} of its limit.",
         "{name}: all {count} checks pass; nearest to its limit is {title}, {used} of it.",
         count,
     )
-    return text.format(name=name, count=count, title=worst.title, used=used)
+    return text.format(name=name, count=count, title=worst.title, used=share)
 
 
 def listing() -> Answer:

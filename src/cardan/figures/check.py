@@ -11,6 +11,7 @@ from cardan.texts import _, plural
 
 from .axes import steps, written
 from .figure import Axis, Bars, Curve, Figure, Panel, Row
+from .wording import used
 
 MOST = 40
 """Bars in a figure; the least used limits are left out."""
@@ -38,14 +39,15 @@ def check_figures(verdicts: Sequence[Verdict], *, name: str = "") -> tuple[Figur
 
 def _figure(run: Sequence[Verdict], name: str) -> Figure:
     shown = run[:MOST]
-    used = np.asarray([float(one.utilisation) for one in shown])
-    top = min(max(1.15, 1.1 * float(np.max(used))), WIDEST)
+    shares = np.asarray([float(one.utilisation) for one in shown])
+    top = min(max(1.15, 1.1 * float(np.max(shares))), WIDEST)
     at = np.arange(len(shown), 0, -1, dtype=float)
     bars = Bars(
         at=at,
-        size=used,
+        size=shares,
         texts=tuple(
-            f"{'▶ ' if use > WIDEST else ''}{SIGNS[one.state]} {use:.2f}" for one, use in zip(shown, used, strict=True)
+            f"{'▶ ' if share > WIDEST else ''}{SIGNS[one.state]} {used(share)}"
+            for one, share in zip(shown, shares, strict=True)
         ),
         roles=tuple(ROLES[one.state] for one in shown),
         thick=0.62,
@@ -70,7 +72,7 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
             "All {all} limits are kept; {title} uses most, {used}.",
             len(run),
         )
-        sentence = text.format(all=len(run), title=run[0].title, used=f"{float(run[0].utilisation):.2f}")
+        sentence = text.format(all=len(run), title=run[0].title, used=used(float(run[0].utilisation)))
     if len(run) > MOST:
         sentence += " " + _("The {count} that use most are shown.").format(count=MOST)
     return Figure(

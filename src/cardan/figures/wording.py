@@ -70,6 +70,17 @@ def fixed(value: float, decimals: int = 2) -> str:
     return f"{value:z,.{decimals}f}".replace(",", THIN).replace("-", "−")
 
 
+def used(share: float) -> str:
+    """Return how much of a limit is used, where a limit of nothing is used without end.
+
+    Examples
+    --------
+    >>> used(0.784), used(float("inf"))
+    ('0.78', '∞')
+    """
+    return "∞" if share == math.inf else fixed(share)
+
+
 def percent(share: float, digits: int = 3) -> str:
     """Return a share in percent; what is nothing but rounding is 0.
 

@@ -18,7 +18,7 @@ from cardan.checks import Verdict, check
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.figures.variants import variants_figure
-from cardan.figures.wording import fixed, percent
+from cardan.figures.wording import percent, used
 from cardan.io.differences import differences
 from cardan.texts import _, plural
 
@@ -337,7 +337,7 @@ def _verdicts(variants: Sequence[Variant]) -> Table:
 
 def _used(one: Verdict) -> Cell:
     share = float(one.utilisation)
-    return Cell(text=fixed(share) if math.isfinite(share) else "∞", full=repr(share), tone=TONES[one.state])
+    return Cell(text=used(share), full=repr(share), tone=TONES[one.state])
 
 
 def _answer(variants: Sequence[Variant]) -> str:

@@ -47,7 +47,7 @@ def in_words(path: str) -> str:
     >>> in_words("shafts[3].yoke_angle"), in_words("joints[0].centre[2]")
     ('shaft 4: yoke angle', 'joint 1: centre, z')
     >>> in_words("duty.speed"), in_words("duty.blocks[1].torque"), in_words("joints[2].yoke.material.yield_strength")
-    ('input speed', 'part 2 of the duty cycle: torque at the output', 'joint 3, yoke: yield strength')
+    ('input speed', 'part 2 of the duty cycle: torque', 'joint 3, yoke: yield strength')
     """
     owners = {
         "joints": _("joint {number}"),
@@ -59,6 +59,7 @@ def in_words(path: str) -> str:
         "cross": _("cross"),
         "yoke": _("yoke"),
         "needles": _("needles"),
+        "rating": _("rating"),
     }
     short = {
         "yoke_angle": _("yoke angle"),
@@ -66,6 +67,7 @@ def in_words(path: str) -> str:
         "centre": _("centre"),
         "size": _("size"),
         "yield_strength": _("yield strength"),
+        **({"torque": _("torque")} if path.startswith("duty.") else {}),
         "speed_range[1]": _("highest speed"),
     }
     name = path.rpartition(".")[2]

@@ -104,6 +104,8 @@ def _straight(bend: Array) -> str:
     """Return a sentence on where straight joints have their planes; nothing where there are none."""
     if not np.any(bend == 0.0):
         return ""
+    if len(bend) == 1:
+        return _("A joint of bend 0 has no plane of its own.")
     if not np.any(bend > 0.0):
         return _("Joints of bend 0 have no plane of their own; all are given the same one.")
     if bend[0] == 0.0:

@@ -28,7 +28,7 @@ LIGHTS = 10
 CURES = 4
 """Cures shown for each failed verdict."""
 
-CONDITIONS = frozenset(("acceleration", "irregularity", "bend"))
+CONDITIONS = frozenset(("acceleration", "irregularity", "bend", "spline_overlap"))
 """Checks whose note says at which speed, in which pose or when the value is reached: it belongs to what is judged."""
 
 NEAR = 1.1
