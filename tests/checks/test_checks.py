@@ -18,6 +18,7 @@ from cardan.drive.geometry import geometry
 from cardan.drive.inspection import Inspection
 from cardan.drive.keys import spelled
 from cardan.drive.material import Material
+from cardan.drive.movement import Body
 from cardan.drive.paths import pose_drives, read, with_values
 from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
 from cardan.errors import InputError
@@ -365,6 +366,32 @@ def test_advice_on_bends_is_judged_while_the_drive_moves():
     assert table.passed == (np.max(np.abs(bends[:, 0] ** 2 - bends[:, 1] ** 2)) * speed**2 <= 400.0)
     quick = check(replace(drive, duty=replace(drive.duty, speed=30.0 * speed)), only=["angle_table"])[0]
     assert quick.state == "failed"
+
+
+def test_the_table_of_angles_judges_a_moving_drive_alike_alone_and_among_others():
+    """One joint keeps 10°, the other swings by 5° about less or more: whether the larger bend is the drawn one or not,
+    √(largest² - largest difference² + a/ω²) is the limit, in a batch as alone."""
+    drive, path = with_values(example("pto-hitch"), {"duty.speed_rpm": 1000.0}), "output.point_mm[2]"
+    swing = Body(moves=("output",), pivot=(1.0, 0.0, 0.0), pitch=5 * deg, frequency=1.0)
+    start = (-0.4, 0.0, 0.4 * math.tan(10 * deg))
+    drive = replace(drive, input=replace(drive.input, point=start), movements=(swing,))
+    values = [-37.0, -12.0]  # 14° or 4.6° as drawn
+    many = check(drive, only=["angle_table"], vary={path: values})[0]
+    for k, value in enumerate(values):
+        alone = with_values(drive, {path: value})
+        single, bends = check(alone, only=["angle_table"])[0], articulation(alone).bend
+        high, apart = np.max(bends), np.max(np.abs(bends[:, 0] ** 2 - bends[:, 1] ** 2))
+        limit = math.sqrt(max(high**2 - apart, 0.0) + 400.0 / drive.duty.speed**2)
+        assert (many.value[k], many.limit[k]) == pytest.approx((high, limit), rel=1e-6)
+        assert single.utilisation == pytest.approx(many.utilisation[k], rel=1e-12)
+
+
+def test_the_table_of_angles_has_a_limit_where_a_joint_comes_to_bend_90_degrees():
+    drive = with_values(example("pto-hitch"), {"joints[1].centre_mm[1]": -300.0})
+    with np.errstate(all="raise"):
+        found = check(drive, only=["angle_table"])[0]
+    assert (found.value, found.state) == (math.inf, "failed")
+    assert 0.0 < found.limit <= 45 * deg
 
 
 def test_a_value_at_its_limit_but_for_rounding_keeps_it():

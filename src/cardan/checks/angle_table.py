@@ -41,11 +41,15 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     high, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
     low = np.min(design.bend, axis=-1)
-    if note:
-        # √(low² + a/ω²) is kept where high² - low² is at most a/ω²: the largest difference decides.
+    if design.drive.movements:
+        # √(low² + a/ω²) is kept where high² - low² is at most a/ω²: the largest difference decides. Where a joint
+        # comes to bend 90° both are infinite: beside the drawn bend the limit stays a number.
         apart = at_its_most(design, lambda bend: np.abs(bend[..., :1] ** 2 - bend[..., 1:] ** 2))[0]
-        low = np.sqrt(np.maximum(high**2 - apart, 0.0))[..., 0]
-    most: Array = angle_limits(speed, low, high[..., 0], torsional=TABLE_TORSIONAL).most
+        finite = np.isfinite(high) & np.isfinite(apart)
+        square = np.where(finite, high, 0.0) ** 2 - np.where(finite, apart, 0.0)
+        low = np.where(finite, np.sqrt(np.maximum(square, 0.0)), low[..., None])[..., 0]
+    second = np.where(np.isfinite(high[..., 0]), high[..., 0], low)
+    most: Array = angle_limits(speed, low, second, torsional=TABLE_TORSIONAL).most
     most, said = bendable(design, most)
     yield made(
         value=high[..., 0],
