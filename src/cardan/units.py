@@ -142,6 +142,17 @@ def label(unit: str) -> str:
     return spoken(LABELS.get(unit, unit))
 
 
+def thousands(value: float, decimals: int = 0) -> str:
+    """Return a number with so many decimals, its thousands in thin groups.
+
+    Examples
+    --------
+    >>> thousands(51090), thousands(1234.56, 1)
+    ('51\u202f090', '1\u202f234.6')
+    """
+    return f"{value:,.{decimals}f}".replace(",", "\u202f")
+
+
 def spoken(printed: str) -> str:
     """Return a printed unit in the language spoken here, signs before it as they are.
 

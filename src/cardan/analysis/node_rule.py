@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import rpm
+from cardan.units import rpm, thousands
 
 from .steady_start import at_rest
 from .torsional_batch import Turning
@@ -248,7 +248,7 @@ def _sentences(rule: NodeRule) -> Iterator[str]:
     if np.isfinite(rule.resonance_torque):
         text = _("By this mode alone the torque swings by {torque} N·m where order 2 meets it.")
         torque = rule.resonance_torque
-        yield text.format(torque=f"{torque:.3g}" if torque < 1000.0 else f"{torque:,.0f}".replace(",", "\u202f"))
+        yield text.format(torque=f"{torque:.3g}" if torque < 1000.0 else thousands(torque))
 
 
 def _where(rule: NodeRule, joint: int) -> str:

@@ -8,12 +8,9 @@ import numpy as np
 
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import rpm
+from cardan.units import rpm, thousands
 
 from .design import Design
-
-THIN = "\u202f"
-"""Space between thousands."""
 
 
 def turning(speed: float) -> str:
@@ -24,7 +21,7 @@ def turning(speed: float) -> str:
     >>> turning(1800 * rpm)
     '1\u202f800'
     """
-    return f"{speed / rpm:,.0f}".replace(",", THIN)
+    return thousands(speed / rpm)
 
 
 def at_top_speed(design: Design) -> str:

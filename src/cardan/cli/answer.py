@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
+from cardan.units import thousands
+
 Cell: TypeAlias = float | int | str | bool | None
 
 Tone: TypeAlias = Literal["plain", "good", "warning", "failed", "next"]
@@ -110,7 +112,7 @@ def significant(value: float, digits: int = 4) -> str:
     size = math.floor(math.log10(abs(value)))
     if not -4 <= size < 9:
         return f"{value:.{digits - 1}e}"
-    return f"{value:,.{max(0, digits - 1 - size)}f}".replace(",", "\u202f")
+    return thousands(value, max(0, digits - 1 - size))
 
 
 def printed(value: Cell, form: str = "4") -> str:

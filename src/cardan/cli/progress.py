@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from cardan.texts import _
+from cardan.units import thousands
 
 PATIENCE = 2.0
 """Seconds before the bar appears."""
@@ -109,5 +110,5 @@ def pace(done: float, left: float, seconds: float, count: int) -> str:
         return ""
     rate, rest = done * count / seconds, round(left * seconds / done)
     clock = f"{rest // 3600}:{rest // 60 % 60:02d}:{rest % 60:02d}" if rest >= 3600 else f"{rest // 60}:{rest % 60:02d}"
-    shown = f"{rate:,.0f}".replace(",", "\u202f") if rate >= 10.0 else f"{rate:.2g}"
+    shown = thousands(rate) if rate >= 10.0 else f"{rate:.2g}"
     return _("{rate} points/s, {time} left").format(rate=shown, time=clock)

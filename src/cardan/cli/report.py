@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from cardan.texts import _
+from cardan.units import thousands
 
 from .options import AsJson, DriveFile, SpeedRpm
 
@@ -109,7 +110,7 @@ def report(
 
 
 def _kilobytes(path: Path) -> str:
-    return f"{path.stat().st_size / 1000:,.0f}".replace(",", "\u202f")
+    return thousands(path.stat().st_size / 1000)
 
 
 def _opened(path: Path) -> bool:

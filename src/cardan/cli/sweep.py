@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cardan.texts import _, plural
+from cardan.units import thousands
 
 from .options import AsCsv, AsJson, MoreRows, Plot
 
@@ -213,17 +214,16 @@ def _sentence(read: Plan, found: Sweep) -> tuple[Tone, str]:
     else:
         text = _("{name}: of {all} points {answered} are answered.")
     said = text.format(
-        name=read.title or read.drive.name or _("the drive"), done=_n(done), all=_n(found.size), answered=_n(answered)
+        name=read.title or read.drive.name or _("the drive"),
+        done=thousands(done),
+        all=thousands(found.size),
+        answered=thousands(answered),
     )
     if "feasible" in counts:
-        said += " " + _("{count} of them keep every constraint.").format(count=_n(int(counts["feasible"])))
+        said += " " + _("{count} of them keep every constraint.").format(count=thousands(int(counts["feasible"])))
     if found.missing:
         return ("warning" if found.status == "cancelled" else "failed"), said
     return ("plain" if answered else "warning"), said
-
-
-def _n(count: int) -> str:
-    return f"{count:,}".replace(",", "\u202f")
 
 
 def _tables(found: Sweep, keeps: bool) -> Iterator[Table]:
@@ -282,7 +282,7 @@ def _grouped(name: str, one: Mapping[str, Any]) -> Table:
     title = (
         name
         if len(pairs) <= GROUPS
-        else _("{name}: the first {count} of {all}").format(name=name, count=GROUPS, all=_n(len(pairs)))
+        else _("{name}: the first {count} of {all}").format(name=name, count=GROUPS, all=thousands(len(pairs)))
     )
     return Table(
         columns=columns, rows=[[*group.values(), value.get("value")] for group, value in pairs[:GROUPS]], title=title
@@ -330,10 +330,12 @@ def _remarks(work: SweepWork, found: Sweep, file: Path, keeps: bool) -> Iterator
                 n,
             )
         why = "; ".join(str(one) for one in work.why(int(row))[:3])
-        yield Remark(text=text.format(count=_n(n), row=row, why=why), tone="warning")
+        yield Remark(text=text.format(count=thousands(n), row=row, why=why), tone="warning")
     for one in found.missing[:3]:
         text = _("Missing: rows {start} to {stop}: {why}")
-        yield Remark(text=text.format(start=_n(one.start), stop=_n(one.stop - 1), why=one.why), tone="warning")
+        yield Remark(
+            text=text.format(start=thousands(one.start), stop=thousands(one.stop - 1), why=one.why), tone="warning"
+        )
     if len(found.missing) > 3:
         more = len(found.missing) - 3
         text = plural("Missing: {count} further stretch of rows.", "Missing: {count} further stretches of rows.", more)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cardan.texts import _
+from cardan.units import thousands
 
 if TYPE_CHECKING:
     from cardan.batch.boundary import Boundary
@@ -114,11 +115,11 @@ def _optimum(found: Optimum, title: str) -> Answer:
     if found.feasible and found.values:
         text = _("{name}: {goal} comes to {value} with {count} points asked.")
         said = text.format(
-            name=title, goal=str(found.goal), value=_value(goal, found.value), count=_n(found.evaluations)
+            name=title, goal=str(found.goal), value=_value(goal, found.value), count=thousands(found.evaluations)
         )
     else:
         said = _("{name}: none of {count} points asked keeps the limits.").format(
-            name=title, count=_n(found.evaluations)
+            name=title, count=thousands(found.evaluations)
         )
     return Answer(
         sentence=said,
@@ -155,10 +156,6 @@ def _told_optimum(found: Optimum) -> Iterator[Remark]:
         yield Remark(text=text.format(share=percent(found.excess)), tone="warning")
 
 
-def _n(count: int) -> str:
-    return f"{count:,}".replace(",", "\u202f")
-
-
 def _choice(found: ParetoSet, title: str) -> Answer:
     from .answer import Answer, Column, Remark, Table
 
@@ -179,7 +176,7 @@ def _choice(found: ParetoSet, title: str) -> Answer:
     if count > SHOWN:
         remarks.append(Remark(text=_("Some of them are shown; --csv and --json give all.")))
     return Answer(
-        sentence=text.format(name=title, count=_n(count), all=_n(found.evaluations)),
+        sentence=text.format(name=title, count=thousands(count), all=thousands(found.evaluations)),
         tone="plain" if found.status == "done" else "warning",
         tables=lambda: [table(columns, lists, SHOWN)] if count else [],
         remarks=tuple(remarks),
@@ -237,7 +234,9 @@ def _owing(found: Sensitivity, title: str) -> Answer:
     if found.left_out:
         text = _("{count} of {all} samples have a point without an answer and are left out.")
         all_samples = found.samples + found.left_out
-        remarks.append(Remark(text=text.format(count=_n(found.left_out), all=_n(all_samples)), tone="warning"))
+        remarks.append(
+            Remark(text=text.format(count=thousands(found.left_out), all=thousands(all_samples)), tone="warning")
+        )
     said = _("{name}: stopped before the shares were known.").format(name=title)
     if found.status == "done":
         first = found.ranked(0)[0]
@@ -348,4 +347,4 @@ def _spared(found: Boundary) -> Iterator[Remark]:
 
     yield from _stopped(found.status)
     text = _("{count} points were asked; a grid as fine has {grid}.")
-    yield Remark(text=text.format(count=_n(found.evaluations), grid=_n(found.grid)))
+    yield Remark(text=text.format(count=thousands(found.evaluations), grid=thousands(found.grid)))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cardan.texts import _, plural
+from cardan.units import thousands
 
 from .options import AsCsv, AsJson, Plot
 
@@ -183,43 +184,39 @@ def _sentence(asked: Asked) -> str:
     name = asked.name
     if asked.query:
         text = plural("{name}: {count} row answers this.", "{name}: {count} rows answer this.", asked.length)
-        return text.format(name=name, count=_n(asked.length))
+        return text.format(name=name, count=thousands(asked.length))
     all_points = asked.results.count(asked.where)
     if not asked.goals:
         answer = asked.answer
         if answer is None or not all_points:
-            return _("{name}: {count} points.").format(name=name, count=_n(all_points))
+            return _("{name}: {count} points.").format(name=name, count=thousands(all_points))
         span = asked.spans[answer.name]
         if span["most"] != span["most"]:
-            return _("{name}: {count} points, none of them answered.").format(name=name, count=_n(all_points))
+            return _("{name}: {count} points, none of them answered.").format(name=name, count=thousands(all_points))
         text = _("{name}: {count} points; {answer} lies between {low} and {high}.")
         return text.format(
             name=name,
-            count=_n(all_points),
+            count=thousands(all_points),
             answer=_called(asked, answer.name),
             low=significant(span["least"]),
             high=_with_unit(asked, answer.name, span["most"]),
         )
     if not asked.length:
         return _("{name}: none of {count} points was answered and keeps the limits.").format(
-            name=name, count=_n(all_points)
+            name=name, count=thousands(all_points)
         )
     if len(asked.goals) > 1:
         text = _("{name}: of {count} points {chosen} are a choice, none better in all goals.")
-        return text.format(name=name, count=_n(all_points), chosen=_n(asked.length))
+        return text.format(name=name, count=thousands(all_points), chosen=thousands(asked.length))
     goal = asked.goals[0]
     text = _("{name}: the best of {count} points has {answer} {value}.")
     value = float(asked.rows[goal.name][0])
     return text.format(
         name=name,
-        count=_n(all_points),
+        count=thousands(all_points),
         answer=_called(asked, goal.name),
         value=_with_unit(asked, goal.name, value),
     )
-
-
-def _n(count: int) -> str:
-    return f"{count:,}".replace(",", "\u202f")
 
 
 def _called(asked: Asked, name: str) -> str:
@@ -294,7 +291,7 @@ def _remarks(asked: Asked, exported: tuple[Path, int] | None) -> Iterator[Remark
     shown = asked.shown(WIDEST) if asked.query or asked.goals else ()
     if (asked.query or asked.goals) and asked.length > SHOWN:
         text = _("The first {count} of {all} rows are shown; --csv and --export give all.")
-        yield Remark(text=text.format(count=SHOWN, all=_n(asked.length)))
+        yield Remark(text=text.format(count=SHOWN, all=thousands(asked.length)))
     if shown and len(shown) < len(asked.rows):
         more = len(asked.rows) - len(shown)
         text = plural(
@@ -305,10 +302,12 @@ def _remarks(asked: Asked, exported: tuple[Path, int] | None) -> Iterator[Remark
         yield Remark(text=text.format(count=more))
     for one in asked.results.sweep.missing[:3]:
         text = _("Missing: rows {start} to {stop}: {why}")
-        yield Remark(text=text.format(start=_n(one.start), stop=_n(one.stop - 1), why=one.why), tone="warning")
+        yield Remark(
+            text=text.format(start=thousands(one.start), stop=thousands(one.stop - 1), why=one.why), tone="warning"
+        )
     if exported is not None:
         text = plural("{count} row written: {path}", "{count} rows written: {path}", exported[1])
-        yield Remark(text=text.format(count=_n(exported[1]), path=exported[0]))
+        yield Remark(text=text.format(count=thousands(exported[1]), path=exported[0]))
     answer = asked.answer
     if not asked.goals and not asked.query and answer is not None:
         command = ("cardan", "sweep", "show", str(asked.path), "--best", f"min {answer.name}")

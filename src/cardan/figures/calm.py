@@ -14,7 +14,7 @@ from cardan.maths.arrays import Array
 from cardan.synthesis.absorber import Absorber
 from cardan.synthesis.calm import Calm
 from cardan.texts import _
-from cardan.units import deg, rpm
+from cardan.units import deg, rpm, thousands
 
 from .axes import axis
 from .figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
@@ -265,4 +265,4 @@ def significant_tick(value: float) -> str:
     >>> significant_tick(0.05), significant_tick(2000.0)
     ('0.05', '2\u202f000')
     """
-    return f"{value:g}" if value < 1000.0 else f"{value:,.0f}".replace(",", "\u202f")
+    return f"{value:g}" if value < 1000.0 else thousands(value)

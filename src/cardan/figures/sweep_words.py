@@ -9,7 +9,7 @@ import numpy as np
 from cardan.batch.work import Column
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import label
+from cardan.units import label, thousands
 
 from .axes import axis, written
 from .figure import Axis
@@ -128,4 +128,4 @@ def counted(count: int) -> str:
     >>> counted(100000)
     '100\u202f000'
     """
-    return f"{count:,}".replace(",", "\u202f")
+    return thousands(count)

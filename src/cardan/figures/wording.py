@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from cardan.texts import _, plural
+from cardan.units import thousands
 
 if TYPE_CHECKING:
     from cardan.synthesis.phases import Phasing
@@ -30,7 +31,7 @@ def significant(value: float, digits: int = 4) -> str:
     if not -5 <= size < 9:
         mantissa, _sign, power = f"{value:.{digits - 1}e}".partition("e")
         return f"{mantissa}·10{_raised(int(power))}".replace("-", "−")
-    return f"{value:,.{max(0, digits - 1 - size)}f}".replace(",", THIN).replace("-", "−")
+    return thousands(value, max(0, digits - 1 - size)).replace("-", "−")
 
 
 def angular(value: float, digits: int = 4) -> str:
