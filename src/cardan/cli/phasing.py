@@ -138,7 +138,7 @@ def spread(found: Phasing) -> Iterator[Remark]:
     if found.settings and found.free:
         best = found.settings[0]
         numbers = sorted((*found.free, *found.fixed))
-        costs = noiseless(best.one_off, found.irregularity_max)
+        costs = noiseless(best.one_off, found.reach)
         each = [100.0 * costs[k - 2] for k in numbers]
         if found.feasible and len(numbers) > WIDEST:
             text = _("A yoke 1° off costs at most {cost} %, on shaft {shaft}.")

@@ -66,7 +66,7 @@ def polygon_figure(found: Phasing) -> Figure:
         )
     if best < SYNCHRONOUS and found.as_built.irregularity < SYNCHRONOUS:
         sentence = _("The path comes back to the middle: as built the drive is synchronous.")
-    elif found.as_built.irregularity < SPECK:
+    elif found.as_built.irregularity < SPECK < found.irregularity_max:
         sentence = _("But for the rounding of the drive's figures the path comes back to the middle as built.")
     elif found.as_built.irregularity - best < SYNCHRONOUS:
         sentence = _(

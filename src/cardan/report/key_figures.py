@@ -122,10 +122,11 @@ def _acceleration(on: Subject) -> list[Cell]:
     speed = on.drive.duty.speed
     even = on.even
     if speed is None:
-        return key(_("largest acceleration of the output over ω₁²"), 0.0 if even else relative, "–", words(""))
+        name, value = _("largest acceleration of the output over ω₁²"), 0.0 if even else relative
+        return key(name, value, "–", words(""), "0" if even else significant(value))
     value = 0.0 if even else relative * speed**2
     name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
-    return key(name, value, "rad/s²", words(""))
+    return key(name, value, "rad/s²", words(""), "0" if even else significant(value))
 
 
 def _evenness(on: Subject) -> Cell:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import __version__
-from cardan.analysis.equivalence import SPECK
 from cardan.figures.kinds import kind_name
 from cardan.figures.wording import angular, fixed, half_turn, significant
 from cardan.texts import _
@@ -138,7 +137,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
     closing = on.closing
     if on.joints > 1:
         sign = "≤" if closing.closes else ">"
-        if not closing.closes and on.phasing.irregularity_min < SPECK:
+        if not closing.closes and on.rounding(on.phasing.irregularity_min):
             sign = "≈"
         yield (
             _("can be even"),

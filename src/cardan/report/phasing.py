@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.equivalence import SPECK
+from cardan.drive.laws import is_even
 from cardan.figures.phases import phasing_figures
 from cardan.figures.wording import fixed, letters, noiseless, percent, significant
 from cardan.synthesis.setting import YokeSetting
@@ -40,7 +40,8 @@ def _answer(on: Subject) -> str:
     best = on.best
     if best is None:
         return _("A single joint has no second one to undo it.")
-    if on.alone_even and (on.drive.movements or on.drive.poses):
+    elsewhere = on.drive.movements or on.drive.poses
+    if on.alone_even and elsewhere and not all(is_even(joint) for joint in on.drive.joints):
         return _("As drawn every joint turns evenly by itself; the yokes count where the drive bends otherwise.")
     if on.alone_even:
         return _("The yokes may stand anyhow: every joint turns evenly by itself.")
@@ -50,7 +51,7 @@ def _answer(on: Subject) -> str:
         return _("The yokes stand right: the drive is synchronous but for the rounding of its figures.")
     if on.phasing.feasible:
         return _("The yokes can make the drive exactly synchronous.")
-    if on.phasing.irregularity_min < SPECK:
+    if on.rounding(on.phasing.irregularity_min):
         return _("The yokes can make the drive synchronous but for the rounding of its figures.")
     return _("No yokes make the drive synchronous; the least they can leave is {share}.").format(
         share=percent(on.phasing.irregularity_min)
@@ -103,7 +104,7 @@ def _sides(on: Subject) -> str:
             "longest side, joint {longest} with {long}, is no longer than the others together, {others}: the path can "
             "be closed, exactly and for all harmonics at once."
         ).format(**compare)
-    if on.phasing.irregularity_min < SPECK:
+    if on.rounding(on.phasing.irregularity_min):
         return _(
             "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The "
             "longest side, joint {longest}, is as long as the others together but for the rounding of the figures that "
@@ -186,7 +187,7 @@ def _between(one: YokeSetting) -> Cell:
 
 def _costs(on: Subject) -> Table:
     some = [on.phasing.as_built, *on.phasing.settings[:3]]
-    costs = [[100.0 * cost for cost in noiseless(one.one_off, on.phasing.irregularity_max)] for one in some]
+    costs = [[100.0 * cost for cost in noiseless(one.one_off, on.phasing.reach)] for one in some]
     rows: Sequence[list[Cell]] = [
         [of_shaft(k + 2), *(number(significant(cost[k], 3), cost[k]) for cost in costs)] for k in range(on.joints - 1)
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -28,6 +29,9 @@ from cardan.synthesis.phases import Phasing, phases
 from cardan.synthesis.setting import YokeSetting
 
 Progress = Callable[[float], object]
+
+UNDONE = 0.01
+"""Share of what all joints together could make of it, below which joints undo each other but for rounding."""
 
 ALONE = 12
 """In drives with more joints than this, single yokes are not tried one by one."""
@@ -167,7 +171,24 @@ class Subject:
     @property
     def rounded(self) -> bool:
         """Whether it is synchronous as built but for the rounding of the figures that describe it."""
-        return not self.even and float(self.whole.irregularity) < SPECK
+        return not self.even and self.rounding(float(self.whole.irregularity))
+
+    def rounding(self, share: float) -> bool:
+        """Tell whether an irregularity is no more than the rounding of the figures that describe the drive leaves.
+
+        Bends that coordinates give are never quite those meant, nor are those of joints that undo each other; a bend
+        that a file gives by itself is meant. What breaks a limit of the file is never put down to rounding.
+
+        Parameters
+        ----------
+        share : float
+            Irregularity of this drive at some setting of its yokes.
+        """
+        limit = self.drive.limits.irregularity
+        together = 2.0 * math.sinh(float(np.sum(self.closing.length)))
+        undone = self.joints > 1 and share < UNDONE * together
+        left = self.drive.form == "points" or undone or share < SYNCHRONOUS
+        return share < SPECK and left and (limit is None or share <= limit)
 
     @property
     def alone_even(self) -> bool:
@@ -177,7 +198,9 @@ class Subject:
     @property
     def curable(self) -> bool:
         """Whether another setting of the yokes makes it synchronous, but for rounding."""
-        return not self.even and not self.rounded and self.phasing.irregularity_min < SPECK
+        if self.even or self.rounded:
+            return False
+        return self.phasing.feasible or self.rounding(self.phasing.irregularity_min)
 
     @property
     def best(self) -> YokeSetting | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.equivalence import SPECK, WARN_BEND
+from cardan.analysis.equivalence import WARN_BEND
 from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent
 from cardan.synthesis.setting import YokeSetting
@@ -71,11 +71,14 @@ def evenness(on: Subject) -> Words:
     share = percent(float(on.whole.irregularity))
     best = on.best
     steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
+    posed, pose = _in_poses(on)
     if on.even:
         tone: Tone = "good"
         text = _("{name} is synchronous as built: the output turns exactly evenly.").format(name=name)
         if on.moving is not None:
             text = _("{name} is synchronous as drawn, standing still.").format(name=name)
+        elif posed > UTMOST:
+            text = _("{name} is synchronous as drawn.").format(name=name)
     elif on.rounded:
         tone = "good"
         text = _("{name} is synchronous as built but for the rounding of its figures, which leaves {share}.").format(
@@ -111,6 +114,9 @@ def evenness(on: Subject) -> Words:
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
         text += " " + _("While it moves, the output is up to {share} irregular.").format(share=percent(swings))
+    if posed > max(swings, float(on.whole.irregularity)) + UTMOST:
+        tone = "warning" if tone == "good" and posed > CALM else tone
+        text += " " + _("In the pose {name}, the output is {share} irregular.").format(name=pose, share=percent(posed))
     if on.moving is not None and any(one.flags for one in on.moving.splines):
         text += " " + _("A spline does not follow the movement.")
         tone = "failed"
@@ -121,6 +127,12 @@ def _while_moving(on: Subject) -> float:
     """Return the largest irregularity over the movement, the movement counted where a speed is known."""
     found = {one.what: one.value for one in on.moving.worst} if on.moving else {}
     return float(found.get("moving_irregularity", found.get("irregularity", 0.0)))
+
+
+def _in_poses(on: Subject) -> tuple[float, str]:
+    """Return the irregularity as built in the pose where it is largest, and the name of that; 0 without poses."""
+    share = on.phasing.as_built.pose_irregularity
+    return (float(np.max(share)), on.phasing.poses[int(np.argmax(share))]) if share.size else (0.0, "")
 
 
 def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
@@ -156,7 +168,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
                 ),
                 tone="failed",
             )
-    uneven = min(float(on.whole.irregularity), on.phasing.irregularity_min) > SPECK
+    uneven = not on.rounding(min(float(on.whole.irregularity), on.phasing.irregularity_min))
     if on.joints > 1 and uneven and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why = _("Joints tied by held yokes act as one that is too uneven for the others.")
         if len(on.phasing.limiting_joints) == 1:
@@ -178,10 +190,18 @@ def changes(on: Subject) -> Table | Words:
     """Return the changes that help most, with their effect, at most three."""
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
     if on.even or on.rounded:
-        if _while_moving(on) > max(UTMOST, 2.0 * float(on.whole.irregularity)):
+        little, moving, posed = max(UTMOST, 2.0 * float(on.whole.irregularity)), _while_moving(on), _in_poses(on)[0]
+        for one in on.phasing.pose_settings[:1]:
+            left = float(np.max(one.pose_irregularity))
+            if posed > little and posed - left > max(UTMOST, 0.01 * posed):
+                text = _("The drive is even as drawn; “{label}” leaves {left} in the worst pose instead of {now}.")
+                return Words(text=text.format(label=one.label, left=percent(left), now=percent(posed)))
+        if moving > little:
             return Words(
                 text=_("The yokes stand right; what is left comes from bends that differ while the drive moves.")
             )
+        if posed > little:
+            return Words(text=_("The yokes stand right; what is left comes from bends that differ in the poses."))
         return Words(text=_("Nothing needs to be changed for an even output."))
     now = float(on.whole.irregularity)
     found = sorted((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now))

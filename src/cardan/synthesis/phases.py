@@ -80,6 +80,12 @@ class Phasing:
     pose_settings: tuple[YokeSetting, ...] = ()
     complete: bool = True
 
+    @property
+    def reach(self) -> float:
+        """Largest irregularity met, in the drive and in its poses: the scale by which growth is more than rounding."""
+        every = (self.as_built, *self.settings, *self.pose_settings)
+        return max(self.irregularity_max, *(float(np.max(one.pose_irregularity, initial=0.0)) for one in every))
+
 
 def phases(
     drive: Drive,

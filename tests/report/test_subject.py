@@ -1,0 +1,55 @@
+"""What is put down to the rounding of the figures that describe a drive."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from cardan.analysis.equivalence import SPECK
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Limits
+from cardan.io import example
+from cardan.report.key_figures import key_figures
+from cardan.report.phasing import phasing
+from cardan.report.subject import Subject
+from cardan.report.summary import evenness
+
+SMALL = math.radians(0.05)
+
+
+@pytest.mark.parametrize("bends", [[SMALL], [0.0, SMALL], [0.3 * SMALL, SMALL]])
+def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(bends):
+    on = Subject(drive=Drive.from_angles(bends))
+    assert 1e-8 < float(on.whole.irregularity) < SPECK
+    assert not on.rounded
+    assert not on.curable
+    page = phasing(on)
+    said = (evenness(on).text, page.answer, page.blocks[0].text, page.blocks[1].figure.sentence)
+    assert not any("rounding" in text for text in said)
+
+
+@pytest.mark.parametrize(
+    "drive",
+    [Drive.from_angles([0.2, 0.2 + 1e-6]), Drive.from_points([(0, 0, 0), (1, 0.0001, 0), (2, 0, 0)])],
+    ids=["joints that undo each other", "joint drawn by points"],
+)
+def test_a_speck_is_rounding_unless_the_user_asks_for_less(drive):
+    on = Subject(drive=drive)
+    assert on.rounded
+    limit = 0.5 * float(on.whole.irregularity)
+    asked = Subject(drive=replace(drive, limits=Limits(irregularity=limit)))
+    assert not asked.rounded
+    assert not asked.curable
+    assert Subject(drive=replace(drive, limits=Limits(irregularity=4.0 * limit))).rounded
+
+
+def test_yokes_that_leave_a_speck_cure_a_drive_whose_joints_undo_each_other():
+    drive = example("pto-spline-thrust")
+    turned = replace(drive.shafts[1], yoke_angle=drive.shafts[1].yoke_angle + 0.5)
+    assert Subject(drive=replace(drive, shafts=(drive.shafts[0], turned, *drive.shafts[2:]))).curable
+
+
+@pytest.mark.parametrize("bends", [[SMALL], [0.0, SMALL]])
+def test_a_small_acceleration_is_told(bends):
+    (row,) = [row for row in key_figures(Subject(drive=Drive.from_angles(bends))).rows if "acceleration" in row[0].text]
+    assert row[1].text == "7.615·10⁻⁷"
