@@ -70,6 +70,8 @@ def _note(one: Whirl) -> str:
 
 def _computed(one: Whirl) -> str:
     """Return the critical speed of one shaft as computed."""
+    if one.speed is not None and np.ndim(one.speed) and one.exact:
+        return _("scaled from the speed of the drive as it is, computed for the whole line")
     if one.speed is None or np.ndim(one.speed):
         return ""
     text = _("{speed} rpm, computed for the whole line")

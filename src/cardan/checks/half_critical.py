@@ -46,7 +46,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
             )
         if between is not None:
-            nearest = np.clip(middle, between[0], design.value("duty.speed_range[1]"))
+            nearest = np.clip(middle, design.value("duty.speed_range[0]"), design.value("duty.speed_range[1]"))
             yield made(
                 title=_("range of speeds about half the critical speed of shaft {number}").format(number=k + 1),
                 value=nearest,

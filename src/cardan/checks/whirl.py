@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -10,11 +11,19 @@ import numpy as np
 
 from cardan.analysis.bending import SPLINED, bending_speeds
 from cardan.drive.drive import Drive
+from cardan.drive.keys import spelled
+from cardan.drive.paths import place, with_values
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 
 from .design import Design
 from .section import Section, modulus, sections
+
+MOVES = r"(shafts|joints|supports)\[|input\.|output\."
+"""Paths that may change the speeds of the line."""
+
+STEP = 0.02
+"""Share of a size by which it is changed to see how the speeds of the line go with it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,7 +58,8 @@ def whirls(design: Design) -> list[Whirl]:
     Parameters
     ----------
     design : Design
-        Where sizes vary, the speed of the line changes as that of the shaft alone between its joints.
+        Where sizes vary, the speed of the line changes as that of the shaft alone between its joints, that of an end
+        shaft with the power of each size that holds near the drive as it is.
 
     Notes
     -----
@@ -85,11 +95,40 @@ def _line(drive: Drive) -> dict[int, float]:
 
 
 def _end(design: Design, plain: Design, k: int, speed: float) -> Whirl:
-    """Return the critical speed of an end shaft on its supports: that of the line, changed as its longest stretch."""
+    """Return the critical speed of an end shaft on its supports: that of the line.
+
+    Where sizes vary it goes with a power of each, found from the line itself: bearings and joints bend too.
+    """
     longest = _longest(list(sections(design, k)))
-    varied = speed * (_swiftness(design, longest) / _swiftness(plain, _longest(list(sections(plain, k)))))
+    varied = np.asarray(speed)
+    for path, values in design.varied.items():
+        now = plain.value(path)
+        if re.match(MOVES, path) and isinstance(now, float):
+            power = _power(design.drive, path, k)
+            varied = varied * (np.maximum(values / now, 1e-9) ** power if now > 0.0 else np.exp(power * (values - now)))
     levers = design.levers(*longest.levers, f"shafts[{k}].wear_factor")
-    return Whirl(shaft=k, speed=np.asarray(varied), wear=_wear(design, k), exact=True, levers=levers)
+    return Whirl(shaft=k, speed=varied, wear=_wear(design, k), exact=True, levers=levers)
+
+
+@lru_cache(maxsize=256)
+def _power(drive: Drive, path: str, k: int) -> float:
+    """Return d ln ω/d ln value of the speed of a shaft in the line by a positive value, else d ln ω/d value."""
+    key = spelled(path)
+    unit = place(drive, key).factor
+    now = float(Design(drive=drive, duty=drive.duty).value(path))
+    step = STEP * now if now > 0.0 else STEP * 0.1
+    found = []
+    for value in (now - step, now, now + step):
+        try:
+            speed = _line(with_values(drive, {key: value / unit})).get(k)
+        except InputError:
+            continue  # beyond the range of the field, on this side
+        if speed is not None:
+            found.append((math.log(value) if now > 0.0 else value, math.log(speed)))
+    if len(found) < 2:
+        return 0.0
+    (first, low), (last, high) = found[0], found[-1]
+    return (high - low) / (last - first)
 
 
 def _longest(found: list[Section]) -> Section:
