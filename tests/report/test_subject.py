@@ -40,6 +40,7 @@ def test_a_speck_is_rounding_unless_the_user_asks_for_less(drive):
     asked = Subject(drive=replace(drive, limits=Limits(irregularity=limit)))
     assert not asked.rounded
     assert not asked.curable
+    assert [evenness(one).tone for one in (on, asked)] == ["good", "warning"]
     assert Subject(drive=replace(drive, limits=Limits(irregularity=4.0 * limit))).rounded
 
 

@@ -108,7 +108,8 @@ def evenness(on: Subject) -> Words:
         text = _("{name} is {share} irregular, and no setting of the yokes makes it any better.").format(
             name=name, share=share
         )
-    if float(on.whole.irregularity) < CALM:
+    limit = on.drive.limits.irregularity
+    if float(on.whole.irregularity) < (CALM if limit is None else min(CALM, limit)):
         tone = "good"
     swings = _while_moving(on)
     if swings > UTMOST:
