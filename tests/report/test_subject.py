@@ -13,6 +13,7 @@ from cardan.report.key_figures import key_figures
 from cardan.report.phasing import phasing
 from cardan.report.subject import Subject
 from cardan.report.summary import evenness
+from cardan.report.turning import turning
 
 SMALL = math.radians(0.05)
 
@@ -24,7 +25,9 @@ def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(bends):
     assert not on.rounded
     assert not on.curable
     page = phasing(on)
-    said = (evenness(on).text, page.answer, page.blocks[0].text, page.blocks[1].figure.sentence)
+    turn = turning(on)
+    said = (evenness(on).text, page.answer, page.blocks[0].text, turn.answer)
+    said += tuple(one.figure.sentence for one in (page.blocks[1], turn.blocks[0]))
     assert not any("rounding" in text for text in said)
 
 

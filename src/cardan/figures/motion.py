@@ -21,6 +21,9 @@ from .wording import angular
 NOISE = 1e-12
 """Below this a ratio's swing is rounding."""
 
+UNDONE = 0.01
+"""Share of the largest swing of a shaft below which what the output keeps of it is undone but for rounding."""
+
 
 def motion_figures(found: Motion) -> tuple[Figure, ...]:
     """Return the figures of a motion."""
@@ -117,7 +120,8 @@ def _sentence(found: Motion, lead: Array) -> str:
         return _("The output turns exactly evenly; between the ends a shaft runs ahead and back by {lead}°.").format(
             lead=angular(between, 3)
         )
-    if high - low < SPECK:
+    swing = np.ptp(lead, axis=-1)
+    if high - low < SPECK and float(swing[-1]) < UNDONE * float(np.max(swing)):
         return _("But for rounding the output turns evenly: it runs ahead and back of its mean by {lead}°.").format(
             lead=angular(float(np.ptp(lead[-1])) / 2.0, 2)
         )
