@@ -434,9 +434,42 @@ def test_splines_of_very_many_drives_are_nearly_those_of_one_by_one():
             assert a.value[k] == pytest.approx(b.value, abs=5e-5)
 
 
-def test_movements_and_poses_are_not_varied_in_a_batch():
-    with pytest.raises(InputError, match=r"movements\[0\].yaw_deg: is not varied in a batch"):
-        check(example("pto-hitch"), vary={"movements[0].yaw_deg": [10.0, 40.0]})
+@pytest.mark.parametrize(
+    ("path", "why"),
+    [
+        ("movements[0].yaw_deg", "is not varied in a batch"),
+        ("duty.reliability_percent", "is not varied in a batch"),
+        ("shafts[0].yoke_angle_deg", "shaft 1 is an end shaft"),
+        ("shafts[2].yoke_angle_deg", "shaft 3 is an end shaft"),
+    ],
+)
+def test_what_a_batch_cannot_honour_is_refused(path, why):
+    with pytest.raises(InputError, match=why) as refused:
+        check(example("pto-hitch"), vary={path: [60.0, 70.0]})
+    assert [one.field for one in refused.value.problems] == [path]
+
+
+@pytest.mark.parametrize(
+    ("path", "values"),
+    [
+        ("joints[0].plane_twist_deg", [40.0, 90.0]),
+        ("joints[0].error.s1_mm", [1.0, 2.0]),
+        ("duty.vehicle.wheelbase_mm", [3000.0, 5000.0]),
+    ],
+)
+def test_what_bears_on_little_changes_a_batch_no_more_than_a_drive(path, values):
+    """The first plane turns the whole drive and no joint against another."""
+    drive = whole()
+    if "plane_twist" in path:
+        bends = geometry(drive).bend
+        drive = replace(Drive.from_angles(list(bends), plane_twists=[0.3, 0.4]), duty=drive.duty)
+    only = ["irregularity", "output_error", "acceleration", "layout", "part_accuracy"]
+    many = check(drive, only=only, vary={path: values})
+    for k, value in enumerate(values):
+        for a, b in zip(many, check(with_values(drive, {path: value}), only=only), strict=True):
+            if a.run:
+                used = np.broadcast_to(a.utilisation, 2)[k]
+                assert used == pytest.approx(b.utilisation, rel=1e-9, abs=1e-12), a.title
 
 
 def test_the_limit_of_the_bends_may_vary():

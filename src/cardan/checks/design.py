@@ -31,7 +31,7 @@ from .carried import largest_bends, largest_of
 from .case import Case, largest
 from .varied import over, row_of, varied_points
 
-_STEP = re.compile(r"([a-z_]+)((?:\[\d+\])*)$")
+_STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
 _GEOMETRY = re.compile(
     r"joints\[\d+\]\.(centre|bend|plane_twist)|shafts\[\d+\]\.(yoke_angle|side_slope|plan_slope|length)|input\.|output\."
 )
@@ -343,9 +343,12 @@ def design(
 
 
 def _variable(drive: Drive, bare: str, path: str) -> None:
-    """Refuse to vary what is the same in all drives: movements, poses, sizes by which a joint of another kind turns."""
-    if bare.startswith(("movements[", "poses[")):
+    """Refuse to vary what is the same in all drives: movements, poses, reliability, laws of joints."""
+    if bare.startswith(("movements[", "poses[", "duty.reliability")):
         raise refuse(path, _("is not varied in a batch; judge the drives one by one"))
+    if bare in ("shafts[0].yoke_angle", f"shafts[{len(drive.joints)}].yoke_angle"):
+        text = _("shaft {number} is an end shaft; only a shaft between two joints has this")
+        raise refuse(path, text.format(number=1 if bare.startswith("shafts[0]") else len(drive.joints) + 1))
     match = re.match(r"joints\[(\d+)\]\.(\w+)", bare)
     own = fields_of(type(drive.joints[int(match[1])])).keys() - fields_of(Joint).keys() if match else ()
     if match is not None and match[2] in own:

@@ -26,7 +26,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     limits = {0: 0.0, 1: ONE_SHAFT * BELOW, 2: TWO_SHAFTS}
     yield made(
-        value=vehicle.wheelbase,
+        value=design.value("duty.vehicle.wheelbase"),
         limit=limits.get(shafts, math.inf),
         source=_("web articles on drive shafts: one shaft below 3.4 m, two up to 4.8 m, three above"),
     )

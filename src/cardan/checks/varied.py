@@ -62,12 +62,15 @@ def varied_points(
 
 
 def over(shape: tuple[int, ...], values: Array, moved: Mapping[str, Array], pattern: str, first: int) -> Array:
-    """Return values (..., k) with the varied ones in their places, whose index after ``first`` the pattern finds."""
+    """Return values (..., k) with the varied ones in their places, whose index after ``first`` the pattern finds.
+
+    One that lies outside them turns or bends nothing, as the plane of the first joint.
+    """
     given = np.asarray(values, dtype=float)
     whole = np.broadcast_to(given, (*shape, given.shape[-1])).copy()
     for path, new in moved.items():
         match = re.match(pattern, path)
-        if match:
+        if match and 0 <= int(match[1]) - first < whole.shape[-1]:
             whole[..., int(match[1]) - first] = new
     return whole
 
