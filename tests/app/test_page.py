@@ -267,7 +267,7 @@ def test_ends_of_lines_stay_as_the_file_has_them_and_a_pose_written_can_be_looke
     assert not mark(page, "pose").is_visible()
     text_of(page)
     page.locator(".cm-content").press("Control+End")
-    page.keyboard.type('\n[[poses]]\nname = "low"\nset = { "output.point_mm" = [2000, 0, -300] }')
+    page.keyboard.insert_text('\n[[poses]]\nname = "low"\nset = { "output.point_mm" = [2000, 0, -300] }')
     mark(page, "pose").wait_for()
     mark(page, "language-ru").click()  # builds the page anew, and it still saves once
     page.wait_for_function("document.documentElement.lang === 'ru'")

@@ -121,7 +121,7 @@ def clear_way(places: Array, rings: Sequence[float], first: complex) -> complex:
     --------
     >>> import numpy as np
     >>> way = clear_way(np.asarray([1.0 + 1.0j]), [1.4], np.exp(0.25j * np.pi))
-    >>> bool(np.isclose(way, -np.exp(0.25j * np.pi)))
+    >>> bool(np.isclose(way, np.exp(0.75j * np.pi)))
     True
     """
     ways = [first * 1j**k for k in (0, 1, 3, 2)]
