@@ -346,11 +346,14 @@ def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
         for one in (articulation(posed).splines[0].length_min, articulation(posed).splines[0].length_max)
     ]
     engaged, gap = check(drive, only=["spline_overlap"])
-    assert (engaged.value, engaged.note) == (pytest.approx(0.110 - (max(reach) - drawn)), "in the pose empty")
-    assert (gap.value, gap.note) == (pytest.approx(0.060 - (drawn - min(reach))), "in the pose full load")
+    assert engaged.value == pytest.approx(0.110 - (max(reach) - drawn))
+    assert gap.value == pytest.approx(0.060 - (drawn - min(reach)))
+    moving = "while the drive moves; in the pose {}".format
+    assert (engaged.note, gap.note) == (moving("empty"), moving("full load"))
     still = check(replace(drive, movements=()), only=["spline_overlap"])
     lengths = [float(geometry(posed).length[1]) for posed in pose_drives(drive)]
     assert [one.value for one in still] == pytest.approx([0.110 - max(lengths) + drawn, 0.060 - drawn + min(lengths)])
+    assert [one.note for one in still] == ["in the pose empty", "in the pose full load"]
 
 
 def test_advice_on_bends_is_judged_while_the_drive_moves():

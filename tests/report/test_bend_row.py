@@ -37,5 +37,5 @@ def test_a_bend_while_moving_says_so():
     drive = example("truck-rear-axle")
     drive = replace(drive, limits=replace(drive.limits, bend=12 * deg))
     shown = row(drive)
-    assert shown[0].text == "largest bend, joint 2, while the drive moves; in the pose empty"
+    assert shown[0].text == "largest bend while moving, joint 2, in the pose empty"
     assert shown[3].text == "≤ 12"

@@ -19,6 +19,9 @@ from .verdict import Verdict
 TOUCH = 1e-3 * mm
 """Way that must be left to bottoming [m]."""
 
+ROUNDING = 1e-12
+"""Way [m] that rounding alone makes."""
+
 
 def _judge(design: Design) -> Iterator[Verdict]:
     splined = [k for k, shaft in enumerate(design.drive.shafts) if shaft.spline is not None]
@@ -28,9 +31,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
     own = design.value("limits.spline_overlap")
     for k in splined:
         path = f"shafts[{k}].spline"
-        out, back = slides.get(k, (0.0, 0.0))
+        out, back, stood = slides.get(k, (0.0, 0.0, 0.0))
         made = partial(Verdict, check="spline_overlap", subject=f"shafts[{k}]", dimension="length", unit="mm")
         made = partial(made, sense="at_least")
+        moved = _("while the drive moves")
         engaged, gap = design.value(f"{path}.engaged"), design.value(f"{path}.gap")
         title = _("engaged length of the spline of shaft {number}").format(number=k + 1)
         if engaged is None or (own is None and k not in slides):
@@ -43,6 +47,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 limit=TOUCH if own is None else own,
                 source=_("it must not come apart") if own is None else _("limits of the drive file"),
                 levers=(f"{path}.engaged",),
+                note=moved if np.all(out > stood + ROUNDING) else "",
             )
         if gap is not None and k in slides:
             yield made(
@@ -51,11 +56,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 limit=TOUCH,
                 source=_("it must not bottom"),
                 levers=(f"{path}.gap",),
+                note=moved if np.all(back > ROUNDING - stood) else "",
             )
 
 
-def _slid(design: Design) -> dict[int, tuple[Array, Array]]:
-    """Return how far each splined shaft gets longer and shorter than drawn [m]; none where no shaft slides.
+def _slid(design: Design) -> dict[int, tuple[Array, Array, Array]]:
+    """Return how far each splined shaft gets longer and shorter than drawn [m], and how much longer it is standing.
+
+    None where no shaft slides.
 
     Engaged length and gap hold in the drive as drawn; a pose that says them anew means its own place.
     """
@@ -72,7 +80,7 @@ def _slid(design: Design) -> dict[int, tuple[Array, Array]]:
         low = high = np.asarray(standing, dtype=float)
         if reach is not None:
             low, high = (np.where(np.isfinite(one[..., k]), one[..., k], standing) for one in reach)
-        ways[k] = high - zero, zero - low
+        ways[k] = high - zero, zero - low, np.asarray(standing - zero)
     return ways
 
 

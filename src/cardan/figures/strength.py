@@ -101,7 +101,7 @@ def _sentence(found: Strength) -> str:
     if found.enough:
         text = _("The drive carries {torque} N·m, and up to {rated} N·m until {title} ends it.")
     said = text.format(rated=significant(found.rated_torque), torque=significant(found.torque), title=first.title)
-    if first.utilisation < found.utilisation * (1.0 - SAME):
+    if found.enough and first.utilisation < found.utilisation * (1.0 - SAME):
         said += " " + _(
             "Another limit is used more now, but {title} comes first as the torque grows: a life falls with the power "
             "10/3 of the torque, a contact pressure grows with its root."

@@ -143,7 +143,7 @@ class ChartData:
             put(self.sheet, HEAD - 3, self._column, self._aside, self._looks(color="muted", italic=True))
             self._aside = ""
         column, align = self._column, "left" if left else "right"
-        apart: dict[str, Any] = {"indent": 1} if left else {}
+        apart: dict[str, Any] = {"indent": 2} if left else {}
         head = self._looks(bold=True, text_wrap=True, align=align, valign="bottom", **apart)
         put(self.sheet, HEAD - 2, column, name, head)
         put(

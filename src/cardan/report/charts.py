@@ -312,6 +312,7 @@ def _bar_chart(book: Any, data: ChartData, panel: Panel, bars: Sequence[Bars]) -
         count += 1
         beyond = [size > limit for size in sizes]
         if any(beyond):  # once more before the bars, as an outline: those beyond it hide the track behind them
+            data.aside(_("Lines and marks beside the curves"))
             once_more = data.numbers(_("limit"), along.unit, [limit if one else math.nan for one in beyond])
             line = {"color": palette.colour("faint"), "width": 1.25}
             chart.add_series(_series(kinds, once_more, fill={"none": True}, border=line, gap=gap))

@@ -76,17 +76,18 @@ def _bend(on: Subject) -> list[Cell]:
         if one is None:
             most = max(float(drawn), moving.get(k, 0.0))
             note = _("while the drive moves") if most > drawn else ""
-            for pose, bends in poses:
-                if bends[k - 1] > most * WORSE:
-                    most, note = float(bends[k - 1]), _("in the pose {name}").format(name=pose)
+            for pose, stands, reaches in poses:
+                bend = max(stands[k - 1], reaches[k - 1])
+                if bend > most * WORSE:
+                    most, note = float(bend), _("in the pose {name}").format(name=pose)
+                    note = f"{_('while the drive moves')}; {note}" if bend > stands[k - 1] * WORSE else note
             found.append((most / kind.steepest, k, most, kind.steepest, note))
         elif not isinstance(one.limit, tuple):
             found.append((float(one.utilisation), k, float(one.value), float(one.limit), one.note))
     use, joint, bend, limit, note = max(found, key=lambda one: (round(one[0], 9), -one[1]))
-    name = _("largest bend, joint {k}")
-    if note == _("while the drive moves"):
-        name, note = _("largest bend while moving, joint {k}"), ""
-    title = ", ".join(part for part in (name.format(k=joint), note) if part)
+    moves, place = _parted(note)
+    name = _("largest bend while moving, joint {k}") if moves else _("largest bend, joint {k}")
+    title = ", ".join((name.format(k=joint), *place))
     if f"joints[{joint - 1}]" not in allowed and use < AMBER:
         return key(title, bend / deg, "°", words(""))
     tone: Tone = "failed" if use > 1.0 else "warning" if use >= AMBER else "good"
@@ -101,12 +102,19 @@ def _bend(on: Subject) -> list[Cell]:
     ]
 
 
-def _posed_bends(on: Subject) -> list[tuple[str, Array]]:
-    """Return the name of every pose and the largest bend of each joint in it, moving too, array (n) [rad]."""
+def _parted(note: str) -> tuple[bool, list[str]]:
+    """Return whether a note says that the drive moves, and what else it says."""
+    said = [part for part in note.split("; ") if part]
+    moves = _("while the drive moves")
+    return moves in said, [part for part in said if part != moves]
+
+
+def _posed_bends(on: Subject) -> list[tuple[str, Array, Array]]:
+    """Return the name of every pose, the bend of each joint in it and the largest while it moves, arrays (n) [rad]."""
     if not on.drive.poses:
         return []
     each = posed(Design(drive=on.drive, duty=on.drive.duty))
-    return [(name, np.maximum(one.bend, one.moving_bend) if one.drive.movements else one.bend) for name, one in each]
+    return [(name, one.bend, one.moving_bend if one.drive.movements else one.bend) for name, one in each]
 
 
 def _bends(on: Subject) -> tuple[Verdict, ...]:
@@ -158,11 +166,13 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
             name = _("shortest engaged length of the spline of shaft {k}").format(k=spline.shaft)
             worst = posed.get(f"{path}.engaged")
             left = spline.engaged_min if worst is None else float(worst.value)
+            name = ", ".join((name, *_parted(worst.note if worst else "")[1]))
             yield _travel(name, left, overlap, failed="engaged" in failed or (worst is not None and not worst.passed))
         if spline.gap_min is not None:
             name = _("least way left to bottoming of shaft {k}").format(k=spline.shaft)
             worst = posed.get(f"{path}.gap")
             left = spline.gap_min if worst is None else float(worst.value)
+            name = ", ".join((name, *_parted(worst.note if worst else "")[1]))
             yield _travel(name, left, None, failed="gap" in failed or (worst is not None and not worst.passed))
 
 

@@ -200,7 +200,7 @@ def _costs(on: Subject) -> Table:
         title=_("Growth of δ when one yoke stands one degree off"),
         columns=(Column(heading=_("shaft"), left=True), *(Column(heading=one.label, unit="%") for one in some)),
         rows=rows,
-        note=f"{note} {_standing(on)}".strip(),
+        note=note if on.phasing.poses else f"{note} {_standing(on)}".strip(),
     )
 
 
