@@ -21,6 +21,9 @@ import pytest
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+PATIENCE = 120_000
+"""Milliseconds a page may take to show what is waited for; how fast it is, benchmarks tell."""
+
 START = 60.0
 """Seconds a server may take until it answers."""
 
@@ -80,7 +83,7 @@ def pages(chromium: Any) -> Iterator[tuple[Opener, list[Complaints]]]:
         url: str, *, allow: tuple[str, ...] = (), script: str = "", browser: Any = None, **options: Any
     ) -> Any:
         context = (browser or chromium).new_context(**{"viewport": {"width": 1280, "height": 720}, **options})
-        context.set_default_timeout(30_000)
+        context.set_default_timeout(PATIENCE)
         contexts.append(context)
         page = context.new_page()
         if script:
