@@ -14,7 +14,8 @@ SYNCHRONOUS = 1e-13
 """Below this irregularity a drive is synchronous to rounding and its equivalent joint has no phase."""
 
 SPECK = 1e-6
-"""Irregularity that coordinates rounded to a micrometre leave: to call a drive uneven for it would mislead."""
+"""Irregularity that coordinates rounded to a micrometre leave: nobody notices it, and to call a drive uneven for it
+would mislead."""
 
 WARN_BEND = 45.0
 """Bend [deg] above which no real cross joint works."""

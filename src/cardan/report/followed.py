@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.analysis.equivalence import SYNCHRONOUS
+from cardan.analysis.equivalence import SPECK, SYNCHRONOUS
 from cardan.analysis.joint_by_joint import followed as by_laws
 from cardan.analysis.motion import Motion, motion
 from cardan.analysis.swing import Swing, swing
@@ -47,9 +47,6 @@ from .block import (
     words,
 )
 from .turning import extremes_table
-
-SPECK = 1e-6
-"""Irregularity that nobody notices."""
 
 ORDERS = 4
 """Orders of the angle error that are listed."""

@@ -161,19 +161,20 @@ def _moving(on: Subject) -> Iterator[list[Cell]]:
     overlap, posed = on.drive.limits.spline_overlap, _worst_of_poses(on)
     for spline in on.moving.splines:
         failed = {flag.field.rpartition(".")[2] for flag in spline.flags}
-        path = f"shafts[{spline.shaft - 1}].spline"
-        if spline.engaged_min is not None:
-            name = _("shortest engaged length of the spline of shaft {k}").format(k=spline.shaft)
-            worst = posed.get(f"{path}.engaged")
-            left = spline.engaged_min if worst is None else float(worst.value)
-            name = ", ".join((name, *_parted(worst.note if worst else "")[1]))
-            yield _travel(name, left, overlap, failed="engaged" in failed or (worst is not None and not worst.passed))
-        if spline.gap_min is not None:
-            name = _("least way left to bottoming of shaft {k}").format(k=spline.shaft)
-            worst = posed.get(f"{path}.gap")
-            left = spline.gap_min if worst is None else float(worst.value)
-            name = ", ".join((name, *_parted(worst.note if worst else "")[1]))
-            yield _travel(name, left, None, failed="gap" in failed or (worst is not None and not worst.passed))
+        engaged = _("shortest engaged length of the spline of shaft {k}")
+        gap = _("least way left to bottoming of shaft {k}")
+        for field, title, left, limit in (
+            ("engaged", engaged, spline.engaged_min, overlap),
+            ("gap", gap, spline.gap_min, None),
+        ):
+            if left is None:
+                continue
+            name, bad = title.format(k=spline.shaft), field in failed
+            worst = posed.get(f"shafts[{spline.shaft - 1}].spline.{field}")
+            if worst is not None:
+                name, left = ", ".join((name, *_parted(worst.note)[1])), float(worst.value)
+                bad = bad or not worst.passed
+            yield _travel(name, left, limit, failed=bad)
 
 
 def _worst_of_poses(on: Subject) -> dict[str, Verdict]:
