@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from cardan.drive.validity import movement_problems
 from cardan.errors import BendLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.paths import Path
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
 from cardan.units import Key, deg
 
@@ -312,7 +314,7 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
         joint = drive.joints[i]
         steep = np.nonzero(column > joint.steepest)[0]
         if steep.size:
-            k = steep[int(np.argmax(column[steep]))]
+            k = steep[int(foremost_on(column[steep]))]
             text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no real cross joint works above {limit:.0f}°")
             if type(joint) is not Hooke:
                 text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no {kind} joint works above {limit:.0f}°")
@@ -349,7 +351,7 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
             continue
         time, most, span = found_worst
         while refine and span[1] - span[0] > SHARP * (found.times[-1] - found.times[0]):
-            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value)
+            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value, among=np.nanargmax)
             if finer is None or finer[1] < most:
                 break
             time, most, span = finer
@@ -360,12 +362,14 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
             yield Worst(what="length_max", number=one.shaft, time=one.time_max, value=one.length_max)
 
 
-def _largest(found: Instants, value: Callable[[Instants], Array]) -> tuple[float, float, tuple[float, float]] | None:
+def _largest(
+    found: Instants, value: Callable[[Instants], Array], *, among: Callable[[Array], Any] = foremost_on
+) -> tuple[float, float, tuple[float, float]] | None:
     """Return time and value of the largest, and the instants on both sides of it; None when there is no value."""
     table, times = value(found), found.times
     if np.all(np.isnan(table)):
         return None
-    k = int(np.nanargmax(table))
+    k = int(among(table))
     return float(times[k]), float(table[k]), (float(times[max(k - 1, 0)]), float(times[min(k + 1, times.size - 1)]))
 
 

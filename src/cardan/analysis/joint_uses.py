@@ -17,6 +17,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .bearing_life import CONVENTIONS
@@ -120,7 +121,7 @@ def _lives(drive: Drive, duty: Duty) -> tuple[Array, Array] | None:
         found = life(drive, duty, method="iso").of("iso")
         with np.errstate(divide="ignore"):
             factors = (found / duty.life) ** (1.0 / POWER)
-        first = int(np.nanargmin(factors)) if not np.all(np.isnan(factors)) else -1
+        first = int(foremost(factors, least=True)) if not np.all(np.isnan(factors)) else -1
         for _round in range(ROUNDS if first >= 0 and math.isfinite(factors[first]) else 0):
             now = life(drive, scaled(duty, factors[first]), method="iso").of("iso")[first]
             step = float((now / duty.life) ** (1.0 / POWER))
@@ -179,7 +180,7 @@ class _Judge:
 
     def most(self, values: Array) -> tuple[float, str]:
         """Return the largest of values (c,), shocks counted, and which part of the duty it is of."""
-        at = int(np.argmax(values))
+        at = int(foremost(values))
         return float(values[at]) * self.duty.shock_factor, self.cases[at].name
 
     @property

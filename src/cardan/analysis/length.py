@@ -13,6 +13,7 @@ from cardan.drive.shaft import Spline
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.series import Series, crossings, turning_points, values_at
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
 from cardan.units import Key
 
@@ -156,7 +157,7 @@ def length_compensation(
     series = _series(times, length, rate, acceleration)
     base = float(series[1][0]) if drawn is None else drawn
     at, values = turning_points(series)
-    low, high = int(np.argmin(values)), int(np.argmax(values))
+    low, high = int(foremost_on(values, least=True)), int(foremost_on(values))
     engaged = spline.engaged if spline else None
     gap = spline.gap if spline else None
     flags = (*_short(series, base, engaged, limits, shaft, at, values), *_bottoms(series, base, gap, shaft, at, values))
@@ -209,7 +210,7 @@ def _short(
     spans = _spans(series, base + engaged - limit, longer=True, touching=stated is None)
     if not spans:
         return ()
-    worst = int(np.argmax(values))
+    worst = int(foremost_on(values))
     least = engaged - (float(values[worst]) - base)
     if least <= 0.0:
         text = _("the spline of shaft {shaft} comes apart: its engaged length falls to {value} at {time:.4g} s")
@@ -227,7 +228,7 @@ def _bottoms(series: Series, base: float, gap: float | None, shaft: int, at: Arr
     spans = _spans(series, base - gap, longer=False, touching=True)
     if not spans:
         return ()
-    worst = int(np.argmin(values))
+    worst = int(foremost_on(values, least=True))
     least = gap + (float(values[worst]) - base)
     text = _("the spline of shaft {shaft} bottoms: the way left falls to {value} at {time:.4g} s")
     return (_flag(f"shafts[{shaft - 1}].spline.gap", text, shaft, float(at[worst]), least, 0.0, spans),)

@@ -13,6 +13,7 @@ from cardan.drive.laws import refuse_kinds
 from cardan.drive.train import train
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
@@ -124,7 +125,7 @@ class Life:
     @property
     def governing(self) -> int:
         """Number of the joint that fails first."""
-        return int(np.nanargmin(self.joints)) + 1
+        return int(foremost(self.joints, least=True)) + 1
 
     @property
     def damage(self) -> Array:

@@ -16,6 +16,7 @@ from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
 
 from .cross_loads import JournalLoads
@@ -133,7 +134,7 @@ class MovingForces:
             The quantity at `times`.
         """
         table = np.asarray(values)
-        low, high = np.argmin(table, axis=-1), np.argmax(table, axis=-1)
+        low, high = foremost_on(table, least=True), foremost_on(table)
         return Extreme(
             low=np.min(table, axis=-1),
             high=np.max(table, axis=-1),

@@ -15,6 +15,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.material import Material
 from cardan.drive.shaft import Notch, Shaft
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .composite_tube import composite_tube
@@ -115,7 +116,7 @@ class _Judge:
     def most(self, values: Array) -> tuple[float, str]:
         """Return the largest of values (c, n+1) of this shaft, and which part of the duty it is of."""
         own = values[:, self.k]
-        at = int(np.argmax(own))
+        at = int(foremost(own))
         return float(own[at]), self.cases[at].name
 
     def uses(self) -> Iterator[Use]:
@@ -328,7 +329,7 @@ class _Judge:
         if not found or self.shaft.layup is not None:
             return plain
         worst = max(range(len(found)), key=lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
-        at = int(np.argmax(self.loads.mises[:, self.k]))
+        at = int(foremost(self.loads.mises[:, self.k]))
         torque, bending = (shock * float(table[at, self.k]) for table in (self.loads.torque, self.loads.bending))
         stress = shaft_stress(torque, bending, found[worst].outer, found[worst].inner)
         plain = replace(plain, stress=stress, stretch=worst + 1)
@@ -365,7 +366,7 @@ def _twist(drive: Drive, cases: Sequence[LoadCase], loads: ShaftLoads) -> Iterat
         yield made(missing=tuple(missing))
     elif not np.all(np.isnan(soft)):
         turned = np.sum(np.nan_to_num(soft) * loads.torque, axis=-1)
-        at, own = int(np.argmax(turned)), drive.limits.twist
+        at, own = int(foremost(turned)), drive.limits.twist
         yield made(
             value=float(turned[at]),
             limit=RATED_TWIST if own is None else own,

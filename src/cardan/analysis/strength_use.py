@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from cardan.drive.drive import Drive
+from cardan.maths.ties import foremost_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,4 +112,4 @@ def _at(thing: object, path: str) -> object:
 def governing(uses: Iterable[Use]) -> Use | None:
     """Return the use that ends first when the torque grows, None where nothing is judged."""
     judged = [one for one in uses if one.judged and not one.advice and one.power]
-    return min(judged, key=lambda one: one.torque_factor, default=None)
+    return foremost_of(judged, lambda one: one.torque_factor, least=True) if judged else None

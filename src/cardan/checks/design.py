@@ -25,6 +25,7 @@ from cardan.drive.paths import bare_path, place
 from cardan.errors import InputError, refuse
 from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .carried import largest_bends, largest_of
@@ -231,7 +232,7 @@ class Design:
         value = largest(answers)
         if value.ndim or len(answers) == 1:
             return value, ""
-        name = self.loaded[int(np.argmax([float(one) for one in answers]))].name
+        name = self.loaded[int(foremost([float(one) for one in answers]))].name
         return value, _("decided by {case}").format(case=name) if name else ""
 
     @property

@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.analysis.needle_bearing import book_load, needle_rating
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
 from .check import Check
@@ -63,7 +64,7 @@ def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
         case.couple[..., i] / book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi))
         for case in turning
     ]
-    worst = int(np.argmax([float(np.max(one)) for one in used]))
+    worst = int(foremost([float(np.max(one)) for one in used]))
     limit: Array = book_load(count, diameter, length, np.asarray(turning[worst].speed) / (2.0 * np.pi))
     yield made(
         title=_("load of the needles of joint {number}, the book's rule").format(number=i + 1),

@@ -212,6 +212,7 @@ def _write(drive: Drive, text: str, values: dict[str, float], out: Path) -> None
 
 def _remarks(file: Path, found: Allocation, out: Path | None) -> Iterator[Remark]:
     from cardan.analysis.tolerance import WorstCase
+    from cardan.figures.wording import closely
 
     from .answer import Remark
     from .asked import degrees
@@ -222,8 +223,8 @@ def _remarks(file: Path, found: Allocation, out: Path | None) -> Iterator[Remark
     how = _("in the worst case") if isinstance(found.method, WorstCase) else _("by root of squares")
     text = _("The target is reached {how} at {where}; a tolerance t costs weight/t (joints.tolerance.cost).")
     yield Remark(text=text.format(how=how, where=where))
-    text = _("No cheaper ones exist: proved to {gap:.0e} of the cost.")
-    yield Remark(text=text.format(gap=max(found.optimality, 1e-16)))
+    text = _("No cheaper ones exist: the cost is proved to be the least {closely}.")
+    yield Remark(text=text.format(closely=closely(found.optimality)))
     if out is not None:
         yield Remark(text=_("{path}: tolerances written, rounded down.").format(path=out), tone="good")
         yield Remark(text=_("Look at what they leave:"), command=("cardan", "tolerance", str(out)), tone="next")

@@ -68,6 +68,9 @@ def _answer(drive: Drive, file: Path, found: AssemblyForces, curves: AssemblyFor
 
 
 def _sentence(drive: Drive, file: Path, found: AssemblyForces) -> str:
+    from cardan.figures.wording import together
+    from cardan.maths.ties import largest
+
     from .answer import significant
     from .asked import called
     from .source import title
@@ -76,14 +79,19 @@ def _sentence(drive: Drive, file: Path, found: AssemblyForces) -> str:
     if not found.degree:
         return _("{name}: held just enough; it does not bind, however far its parts are off.").format(name=name)
     many = plural("{n} force", "{n} forces", found.degree).format(n=found.degree)
-    size, support = max(
-        (one.value, k) for peaks in (found.radial_peak, found.axial_peak) for k, one in enumerate(peaks, 1)
-    )
+    pressed = [
+        max(pair)
+        for pair in zip(*([one.value for one in row] for row in (found.radial_peak, found.axial_peak)), strict=True)
+    ]
+    places = largest(pressed)
+    size = pressed[places[0]]
     if not size > SMALL:
         text = _("{name}: held by {many} too many; as drawn all parts fit and nothing binds.")
         return text.format(name=name, many=many)
     text = _("{name}: held by {many} too many; misfit presses support {support} with up to {size} N.")
-    where = called(support, drive.supports[support - 1].name)
+    if len(places) > 1:
+        text = _("{name}: held by {many} too many; misfit presses supports {support} with up to {size} N each.")
+    where = together(called(k + 1, drive.supports[k].name) for k in places)
     return text.format(name=name, many=many, support=where, size=significant(size))
 
 

@@ -122,6 +122,8 @@ def _sentence(drive: Drive, file: Path, found: CriticalSpeeds) -> str:
 
 
 def _remarks(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSpeedMap | None) -> Iterator[Remark]:
+    from cardan.figures.wording import closely
+
     from .answer import Remark
 
     yield from _judged(drive, found)
@@ -142,9 +144,11 @@ def _remarks(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSp
     if found.used is None:
         text = _("How far the drive stays away needs duty.speed_range_rpm or duty.speed_rpm in the file.")
         yield Remark(text=text)
-    text = _("Checked: finite elements and transfer matrices differ by {rest:.0e}; the count of modes misses {none}.")
+    text = _("Checked: finite elements and transfer matrices agree {closely}; the count of modes misses {none}.")
     none = _("none") if not found.missed else str(found.missed)
-    yield Remark(text=text.format(rest=found.residual, none=none), tone="failed" if found.missed else "plain")
+    yield Remark(
+        text=text.format(closely=closely(found.residual), none=none), tone="failed" if found.missed else "plain"
+    )
     if varied is None:
         yield Remark(text=_("What would move them:"), command=("cardan", "bending", str(file), "--map"), tone="next")
 

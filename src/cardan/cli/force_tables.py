@@ -19,6 +19,16 @@ def both(found: Forces) -> tuple[Forces, ...]:
     return (found,) if found.reverse is None else (found, found.reverse)
 
 
+def balanced(found: Forces) -> str:
+    """Return how closely all balances hold."""
+    from cardan.figures.wording import closely
+
+    if found.force_left is None or found.moment_left is None:
+        return _("Power balance checked: it closes {closely}.").format(closely=closely(float(found.power_left.max())))
+    rest = max(float(part.max()) for part in (found.power_left, found.force_left, found.moment_left))
+    return _("Balances of power, forces and moments checked: they close {closely}.").format(closely=closely(rest))
+
+
 def tables(drive: Drive, found: Forces) -> list[Table]:
     """Return the tables for the terminal; those that would be empty are left out."""
     shown = [shaft_table(drive, found)]
@@ -128,6 +138,8 @@ def support_table(drive: Drive, found: Forces) -> Table:
     """Return radial force, axial force and couple of every support, of both ways of sliding."""
     import numpy as np
 
+    from cardan.maths.ties import foremost
+
     from .answer import Column, Table, named
     from .asked import ROUNDING, degrees, size, tidy, turn
 
@@ -142,7 +154,7 @@ def support_table(drive: Drive, found: Forces) -> Table:
     couple = tidy(np.max([size(one.support_couple).max(axis=-1) for one in ways], axis=0))
     rows: list[list[Cell]] = []
     for k, support in enumerate(drive.supports):
-        place = max(across, key=lambda one: float(one.high[k])).high_angle[k]
+        place = across[int(foremost([float(one.high[k]) for one in across]))].high_angle[k]
         row: list[Cell] = [
             named(k + 1, support.name),
             support.shaft,

@@ -92,6 +92,9 @@ def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
 
 
 def _sentence(drive: Drive, file: Path, found: Forces) -> str:
+    from cardan.figures.wording import together
+    from cardan.maths.ties import largest
+
     from .answer import significant
     from .asked import called, turn
     from .source import title
@@ -113,19 +116,23 @@ def _sentence(drive: Drive, file: Path, found: Forces) -> str:
         )
     if found.reaction is None:
         bent = turn(found.angle, found.bending_couple).high
-        worst = int(bent.argmax())
-        if not bent[worst] > 0.0:
+        places = largest(bent)
+        size = significant(float(bent[places[0]]))
+        if not bent[places[0]] > 0.0:
             return text + _("; nothing bends the shafts.")
         more = _("; shaft {shaft} is bent most, by up to {size} N·m.")
-        return text + more.format(shaft=worst + 1, size=significant(float(bent[worst])))
+        if len(places) > 1:
+            more = _("; shafts {shaft} are bent most, by up to {size} N·m each.")
+        return text + more.format(shaft=together(str(k + 1) for k in places), size=size)
     total = _sizes(found)
-    worst = int(total.argmax())
-    if not total[worst] > 0.0:
+    places = largest(total)
+    size = significant(float(total[places[0]]))
+    if not total[places[0]] > 0.0:
         return text + _("; the bearings carry nothing.")
     more = _("; support {support} carries most, up to {size} N.")
-    return text + more.format(
-        support=called(worst + 1, drive.supports[worst].name), size=significant(float(total[worst]))
-    )
+    if len(places) > 1:
+        more = _("; supports {support} carry most, up to {size} N each.")
+    return text + more.format(support=together(called(k + 1, drive.supports[k].name) for k in places), size=size)
 
 
 def _sizes(found: Forces) -> Any:
@@ -146,6 +153,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     from cardan.texts import plural
 
     from .answer import Remark, significant
+    from .force_tables import balanced
     from .motion import steep_joints
 
     yield from steep_joints(drive)
@@ -163,13 +171,7 @@ def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
         text += _("; loads are the largest of sliding in and out.") if found.reverse is not None else "."
         yield Remark(text=text)
     yield from _without(drive, found)
-    text = _("Balances checked: {power:.0e} of the power is left over")
-    if found.force_left is not None and found.moment_left is not None:
-        text += _(", {force:.0e} of the forces, {moment:.0e} of the moments")
-        rest = {"force": float(found.force_left.max()), "moment": float(found.moment_left.max())}
-    else:
-        rest = {}
-    yield Remark(text=text.format(power=float(found.power_left.max()), **rest) + ".")
+    yield Remark(text=balanced(found))
     if surplus:
         yield Remark(
             text=_("What misfit does alone, and what to let go:"),

@@ -123,6 +123,8 @@ def _answer(several: Sequence[Asked], turns: Sequence[JointTurn], speed_rpm: flo
 def _sentence(labels: Sequence[str], turns: Sequence[JointTurn]) -> str:
     from math import degrees
 
+    from cardan.maths.ties import foremost_of
+
     from .answer import percent, significant
 
     at = significant(degrees(turns[0].bend), 3)
@@ -135,7 +137,7 @@ def _sentence(labels: Sequence[str], turns: Sequence[JointTurn]) -> str:
             name=labels[0], bend=at, error=significant(degrees(one.error)), share=percent(one.irregularity)
         )
     even = [label for label, one in zip(labels, turns, strict=True) if not one.error]
-    rest = max(turns, key=lambda one: one.error)
+    rest = foremost_of(turns, lambda one: one.error)
     worst = labels[list(turns).index(rest)]
     if len(even) == len(turns):
         return _("All {count} joints turn exactly evenly at {bend}°.").format(count=len(turns), bend=at)

@@ -90,6 +90,8 @@ def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> An
 def _sentence(drive: Drive, file: Path, found: Losses) -> str:
     from math import isnan
 
+    from cardan.figures.wording import together
+    from cardan.maths.ties import largest
     from cardan.units import rpm
 
     from .answer import percent, significant
@@ -106,12 +108,14 @@ def _sentence(drive: Drive, file: Path, found: Losses) -> str:
         text = _("{name}: at {torque} N·m and {speed} rpm no power comes through; {heat} W turn to heat.")
         return text.format(name=name, heat=significant(found.heat), **at)
     parts = _parts(drive, found)
-    worst, heat = max(parts, key=lambda part: part[1])
+    places = largest([one for _name, one in parts])
+    heat = parts[places[0]][1]
     text = _("{name}: {share} of the power comes through at {torque} N·m and {speed} rpm; {heat} W turn to heat")
     text = text.format(name=name, share=percent(found.efficiency), heat=significant(found.heat), **at)
     if heat <= 0.0:
         return text + "."
-    return text + _(", most in {part}: {most} W.").format(part=worst, most=significant(heat))
+    more = _(", most in {part}: {most} W.") if len(places) == 1 else _(", most in {part}: {most} W each.")
+    return text + more.format(part=together(parts[k][0] for k in places), most=significant(heat))
 
 
 def _parts(drive: Drive, found: Losses) -> list[tuple[str, float]]:
@@ -226,6 +230,8 @@ def _map_tables(over: LossMap) -> Iterator[Table]:
 
 
 def _remarks(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> Iterator[Remark]:
+    from cardan.figures.wording import closely
+
     from .answer import Remark, percent, significant
 
     if found.locked:
@@ -241,8 +247,8 @@ def _remarks(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> I
     if taken:
         text = _("Resisting torques of the shafts take {power} W more.")
         yield Remark(text=text.format(power=significant(taken)))
-    text = _("Power balance checked: {rest:.0e} of it is left over.")
-    yield Remark(text=text.format(rest=found.residual))
+    text = _("Power balance checked: it closes {closely}.")
+    yield Remark(text=text.format(closely=closely(found.residual)))
     if over is None:
         yield Remark(
             text=_("The same over speed and torque:"), command=("cardan", "losses", str(file), "--map"), tone="next"

@@ -78,6 +78,8 @@ def answer(drive: Drive, file: Path, names: Sequence[str]) -> Answer:
 
 
 def _sentence(drive: Drive, file: Path, found: MovingForces) -> str:
+    from cardan.maths.ties import foremost
+
     from .answer import significant
     from .asked import called
     from .source import title
@@ -97,7 +99,7 @@ def _sentence(drive: Drive, file: Path, found: MovingForces) -> str:
     if forces.reaction is None:
         return text + "."
     most = found.extreme(found.reaction_size)
-    worst = int(most.high.argmax())
+    worst = int(foremost(most.high))
     more = _("; support {support} carries most, up to {size} N at {time} s.")
     return text + more.format(
         support=called(worst + 1, drive.supports[worst].name),
@@ -215,6 +217,7 @@ def _remarks(drive: Drive, file: Path, found: MovingForces) -> Iterator[Remark]:
     from cardan.analysis.reactions import Held
 
     from .answer import Remark, significant
+    from .force_tables import balanced
 
     steepest = float(np.rad2deg(np.max(_bends(found))))
     if steepest > WARN_BEND:
@@ -236,15 +239,7 @@ def _remarks(drive: Drive, file: Path, found: MovingForces) -> Iterator[Remark]:
         yield Remark(text=text, tone="warning")
     if found.forces.force_left is None:
         yield Remark(text=_("Add [[supports]] to {file} for the loads of bearings.").format(file=file), tone="next")
-    text = _("Balances checked: {power:.0e} of the power is left over")
-    rest: dict[str, float] = {}
-    if found.forces.force_left is not None and found.forces.moment_left is not None:
-        text += _(", {force:.0e} of the forces, {moment:.0e} of the moments")
-        rest = {
-            "force": float(found.forces.force_left.max()),
-            "moment": float(found.forces.moment_left.max()),
-        }
-    yield Remark(text=text.format(power=float(found.forces.power_left.max()), **rest) + ".")
+    yield Remark(text=balanced(found.forces))
     yield Remark(text=_("The same standing still, as drawn:"), command=("cardan", "forces", str(file)), tone="next")
 
 

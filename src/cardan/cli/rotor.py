@@ -209,6 +209,7 @@ def _guessed(one: Rotor) -> bool:
 
 
 def _remarks(file: Path, found: RotorResponse) -> Iterator[Remark]:
+    from cardan.figures.wording import closely
     from cardan.units import rpm
 
     from .answer import Remark, significant
@@ -231,8 +232,8 @@ def _remarks(file: Path, found: RotorResponse) -> Iterator[Remark]:
     if found.rotor.cracked and largest > 1.0:
         text = _("At some speeds it vibrates more than it hangs down: there the crack opens otherwise than by weight.")
         yield Remark(text=text, tone="warning")
-    text = _("Checked: power and multipliers agree to {rest:.0e}.")
-    yield Remark(text=text.format(rest=float(found.steady.residual[~_nan(found)].max(initial=0.0))))
+    text = _("Checked: power and multipliers agree {closely}.")
+    yield Remark(text=text.format(closely=closely(float(found.steady.residual[~_nan(found)].max(initial=0.0)))))
     command = ("cardan", "rotor", str(file), "--plot", "rotor.svg")
     yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
 
@@ -325,6 +326,7 @@ def _run(drive: Drive, file: Path, one: Rotor, found: CrackedRun) -> Answer:
 
 def _joined(drive: Drive, file: Path, first: Rotor, second: Rotor, found: CrackedShafts) -> Answer:
     from cardan.figures.rotor import joined_figure
+    from cardan.figures.wording import closely
     from cardan.units import rpm
 
     from .answer import Answer, Column, Remark, Table
@@ -350,7 +352,7 @@ def _joined(drive: Drive, file: Path, first: Rotor, second: Rotor, found: Cracke
         *_shaft(first),
         *_shaft(second),
         Remark(text=_("Orders are of each shaft's own turns, over the last eight; order 0 is where it hangs.")),
-        Remark(text=_("Checked: the account of energy closes to {rest:.0e}.").format(rest=found.residual)),
+        Remark(text=_("Checked: the account of energy closes {closely}.").format(closely=closely(found.residual))),
     )
     return Answer(
         sentence=text.format(name=title(drive, file), sentence=joined_figure(numbers, found).sentence),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cardan.maths.ties import foremost_of
 from cardan.texts import _, plural
 
 from .answer import Answer, Column, Remark, Table, named, significant
@@ -217,7 +218,7 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
         text = plural(
             "Failed: {title}, {used:.2f} of its limit.", "Failed: {count} limits, worst {title}.", len(failed)
         )
-        worst = max(failed, key=lambda one: one.utilisation)
+        worst = foremost_of(failed, lambda one: one.utilisation)
         yield Remark(text=text.format(title=worst.title, used=worst.utilisation, count=len(failed)), tone="failed")
         part = _sizable(first)
         if part:

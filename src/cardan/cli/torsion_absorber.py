@@ -269,6 +269,7 @@ def _remarks(file: Path, found: Absorber, given: tuple[str, ...], away: float | 
     import numpy as np
 
     from cardan.io.stations import station_text
+    from cardan.maths.ties import foremost
     from cardan.units import rpm
 
     from .answer import Remark, percent, significant
@@ -296,7 +297,7 @@ def _remarks(file: Path, found: Absorber, given: tuple[str, ...], away: float | 
     yield from _borne(found)
     if found.tuned_speed is not None:
         worst = np.max(found.after[:, list(found.judged)], axis=-1)
-        k = int(np.nanargmax(worst))
+        k = int(foremost(worst))
         text = _("It serves this speed alone: at {speed} rpm it swings itself up, and the torque by ± {torque} N·m.")
         yield Remark(
             text=text.format(speed=significant(float(found.speed[k]) / rpm, 3), torque=significant(float(worst[k]), 3)),

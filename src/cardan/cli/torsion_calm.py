@@ -189,6 +189,7 @@ def _step(step: float | None) -> str:
 def _peak_table(found: Calm) -> Table:
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.units import rpm
 
     from .answer import Column, Table
@@ -198,7 +199,7 @@ def _peak_table(found: Calm) -> Table:
     for e, name in enumerate(found.elements):
         cells: list[Cell] = [e + 1, short(name, 34)]
         for curve in (found.before, found.after):
-            k = int(np.argmax(np.nan_to_num(curve[:, e], nan=-1.0)))
+            k = int(foremost(np.nan_to_num(curve[:, e], nan=-1.0)))
             cells += [float(curve[k, e]), float(found.speed[k]) / rpm]
         rows.append(cells)
     columns = (

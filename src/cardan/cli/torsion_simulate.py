@@ -113,13 +113,14 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
     import numpy as np
 
     from cardan.analysis.simulation import Status
+    from cardan.maths.ties import foremost
 
     from .answer import significant
     from .source import title
 
     ends = found.motion.extremes
     size = np.maximum(np.abs(ends.torque_low), np.abs(ends.torque_high))
-    e = int(np.argmax(np.nan_to_num(size)))
+    e = int(foremost(np.nan_to_num(size)))
     high = abs(float(ends.torque_high[e])) >= abs(float(ends.torque_low[e]))
     text = _("{name}: in {span} s the torque reaches {peak} N·m after {time} s, in {element}")
     text = text.format(
@@ -196,6 +197,7 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     import numpy as np
 
     from cardan.analysis.simulation import Status
+    from cardan.figures.wording import closely
     from cardan.units import rpm
 
     from .answer import Remark, significant
@@ -225,10 +227,10 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the highest speed."))
     yield from assumptions(found.train)
-    text = _("Account of energy checked: {rest:.0e} of it is left over ({steps} steps, {method}).")
+    text = _("Account of energy checked: it closes {closely} ({steps} steps, {method}).")
     known = {"explicit": _("explicit"), "implicit": _("implicit"), "fixed steps": _("of one length")}
     how = known.get(found.motion.method, found.motion.method)
-    yield Remark(text=text.format(rest=float(found.motion.imbalance), steps=found.motion.steps, method=how))
+    yield Remark(text=text.format(closely=closely(float(found.motion.imbalance)), steps=found.motion.steps, method=how))
     yield Remark(
         text=_("Whether such vibration dies out:"), command=("cardan", "torsion", "stability", str(file)), tone="next"
     )

@@ -7,6 +7,7 @@ import numpy as np
 from cardan.analysis.articulation import Articulation
 from cardan.analysis.equivalence import SYNCHRONOUS, WARN_BEND
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 from cardan.units import deg, mm
 
@@ -67,7 +68,7 @@ def bends_figure(found: Articulation) -> Figure:
                 label=_("the same, the movement counted"),
             )
         )
-    widest = max((one for one in found.worst if one.what == "bend"), key=lambda one: one.value)
+    widest = foremost_of((one for one in found.worst if one.what == "bend"), lambda one: one.value)
     uneasy = next(one for one in found.worst if one.what == "irregularity")
     if uneasy.value < SYNCHRONOUS:
         sentence = _("Joint {joint} bends most, up to {bend}°; the output stays even throughout.")
@@ -144,7 +145,7 @@ def sliding_figure(found: Articulation) -> Figure:
         for flag in one.flags
         for start, end in flag.spans
     ]
-    longest = max(ones, key=lambda one: one.stroke)
+    longest = foremost_of(ones, lambda one: one.stroke)
     return Figure(
         name="sliding",
         title=_("Length compensation"),

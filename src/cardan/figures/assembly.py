@@ -9,6 +9,7 @@ import numpy as np
 from cardan.analysis.assembly import AssemblyForces
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg
 
@@ -98,7 +99,7 @@ def _sentence(found: AssemblyForces, top: float) -> str:
         return _("The drive is held by {degree} more than it needs, but all parts fit: nothing strains it.").format(
             degree=found.degree
         )
-    worst = max(range(len(found.radial_peak)), key=lambda k: found.radial_peak[k].value)
+    worst = int(foremost([one.value for one in found.radial_peak]))
     peak = found.radial_peak[worst]
     return _("Without load, misfit presses support {number} with up to {most} N, at {angle}°.").format(
         number=worst + 1, most=significant(peak.value), angle=f"{round(peak.angle / deg, 1) + 0.0:g}"

@@ -13,6 +13,7 @@ from cardan.drive.geometry import geometry
 from cardan.drive.solids import solids
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg, mm
 
@@ -71,7 +72,7 @@ def worst(found: Forces) -> Worst:
         Of one drive with supports.
     """
     size = np.stack([frames.norm(np.asarray(one.reaction)) for one in senses(found)])
-    sense, support, when = (int(part) for part in np.unravel_index(int(np.argmax(size)), size.shape))
+    sense, support, when = (int(part) for part in np.unravel_index(int(foremost(size.ravel())), size.shape))
     return Worst(forces=senses(found)[sense], support=support, when=when, size=float(np.max(size)))
 
 

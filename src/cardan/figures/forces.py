@@ -11,6 +11,7 @@ from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost, foremost_on
 from cardan.texts import _
 from cardan.units import deg
 
@@ -57,7 +58,7 @@ def torques_figure(found: Forces) -> Figure:
     angle = np.asarray(found.angle) / deg
     torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
     entering = np.asarray(found.input_torque)
-    bent = int(np.argmax(np.max(couple, axis=-1))) + 1
+    bent = int(foremost(np.max(couple, axis=-1))) + 1
     most = float(np.max(couple))
     if most <= NOTHING * float(np.max(np.abs(torque), initial=0.0)):
         sentence = _("The input takes {low} to {high} N·m; no joint bends, so no couple bends a shaft.")
@@ -74,7 +75,7 @@ def torques_figure(found: Forces) -> Figure:
             high=significant(float(np.max(entering))),
             number=bent,
             most=significant(most),
-            angle=_degrees(float(angle[int(np.argmax(couple[bent - 1]))])),
+            angle=_degrees(float(angle[int(foremost_on(couple[bent - 1]))])),
         ),
         source=_(
             "Couples along the normals of the crosses balance the torques, K = T n; the rest bends the shafts, Book "

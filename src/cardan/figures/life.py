@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from cardan.analysis.life import Life
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .axes import axis, steps, written
@@ -138,7 +139,7 @@ def parts_figure(found: Life) -> Figure:
     )
     top = float(max(np.max(time[shown]), np.max(damage[shown])))
     ticks = steps(0.0, top, 5)
-    most = int(np.argmax(damage))
+    most = int(foremost(damage))
     panel = Panel(
         series=bars,
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),

@@ -6,6 +6,7 @@ import numpy as np
 
 from cardan.analysis.losses import Losses, LossMap
 from cardan.drive.drive import Drive
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -197,7 +198,7 @@ def map_figure(found: LossMap) -> Figure:
         )
 
     best = float(np.nanmax(share)) if np.any(np.isfinite(share)) else float("nan")
-    at = np.unravel_index(int(np.nanargmax(share)), share.shape) if np.isfinite(best) else (0, 0)
+    at = np.unravel_index(int(foremost(share.ravel())), share.shape) if np.isfinite(best) else (0, 0)
     return Figure(
         name="loss-map",
         title=_("Efficiency and heat at other speeds and torques"),

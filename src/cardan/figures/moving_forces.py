@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.analysis.moving_forces import MovingForces
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .axes import axis
@@ -53,7 +54,7 @@ def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> F
     forces = found.forces
     size = found.reaction_size
     most = found.extreme(size)
-    worst = int(np.argmax(most.high))
+    worst = int(foremost(most.high))
     top = float(most.high[worst])
     axial = np.asarray(forces.axial)
     shafts = forces.support_shaft
@@ -99,7 +100,7 @@ def moving_torques_figure(found: MovingForces) -> Figure:
     torque, couple = np.asarray(found.forces.shaft_torque), np.asarray(found.forces.bending_couple)
     entering = found.extreme(torque[0])
     bent = found.extreme(couple)
-    worst = int(np.argmax(bent.high))
+    worst = int(foremost(bent.high))
     count = len(torque)
 
     def curves(rows: Array, *, labelled: bool, both: bool) -> list[Series]:

@@ -9,6 +9,7 @@ import numpy as np
 from cardan.analysis.equivalence import SPECK, SYNCHRONOUS
 from cardan.maths import mobius
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.synthesis.phases import Phasing, YokeSetting
 from cardan.texts import _
 
@@ -219,7 +220,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
     upright = Axis(
         label=upright.label, unit=upright.unit, low=0.0, high=1.1 * upright.high, ticks=kept, texts=written(kept)
     )
-    worst = int(np.argmax(cost))
+    worst = int(foremost(cost))
     return Figure(
         name="sensitivity",
         title=_("How exactly the yokes must stand"),

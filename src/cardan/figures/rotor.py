@@ -10,6 +10,7 @@ from cardan.analysis.cracked_run import CrackedRun
 from cardan.analysis.cracked_shafts import CrackedShafts
 from cardan.analysis.rotor_response import RotorResponse
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark
 from cardan.units import rpm
 
@@ -107,7 +108,7 @@ def sentence(found: RotorResponse) -> str:
     known = {order: one for order, one in sizes.items() if math.isfinite(one[1])}
     if not known:
         return _("Shaft {number} has no steady motion at these speeds.").format(number=found.rotor.shaft)
-    order = max(known, key=lambda one: known[one][1])
+    order = foremost_of(known, lambda one: known[one][1])
     speed, size = known[order]
     text = _("Shaft {number} whirls most in {order}: {size} µm at {speed} rpm, {share} of its critical speed.")
     return text.format(

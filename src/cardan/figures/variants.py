@@ -9,6 +9,7 @@ import numpy as np
 from cardan.analysis.motion import Motion
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg
 
@@ -110,7 +111,7 @@ def _sentence(leads: Sequence[Array], names: Sequence[str]) -> str:
     told = [angular(one, 3) if one > NOISE else "0" for one in swing]
     if len(told) == 1:
         return _("{name}: the output runs ahead and back by {lead}°.").format(name=names[0], lead=told[0])
-    best, worst = int(np.argmin(swing)), int(np.argmax(swing))
+    best, worst = int(foremost(swing, least=True)), int(foremost(swing))
     if told[best] == told[worst]:
         return _("All outputs run ahead and back by {lead}°.").format(lead=told[best])
     return _("{best}: the output turns most evenly, ahead and back by {least}°; {worst}: by {most}°.").format(

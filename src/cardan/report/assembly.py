@@ -12,6 +12,7 @@ from cardan.errors import InputError
 from cardan.figures.assembly import misfit_figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg
 
@@ -51,14 +52,14 @@ def straining(on: Subject) -> Page | None:
 
 
 def _keys(found: AssemblyForces) -> Iterator[list[Cell]]:
-    joint = max(range(len(found.joint_peak)), key=lambda k: found.joint_peak[k].value)
+    joint = int(foremost([one.value for one in found.joint_peak]))
     name = _("force of misfit without load, joint {number}").format(number=joint + 1)
     yield key(name, found.joint_peak[joint].value, "N", words(_("binds"), "warning"))
 
 
 def _answer(found: AssemblyForces) -> str:
-    joint = max(range(len(found.joint_peak)), key=lambda k: found.joint_peak[k].value)
-    support = max(range(len(found.radial_peak)), key=lambda k: found.radial_peak[k].value)
+    joint = int(foremost([one.value for one in found.joint_peak]))
+    support = int(foremost([one.value for one in found.radial_peak]))
     return _(
         "Its parts do not fit: without any load joint {joint} carries up to {most} N, support {support} up to {radial} "
         "N sideways."

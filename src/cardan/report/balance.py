@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from cardan.errors import InputError
-from cardan.figures.wording import significant
+from cardan.figures.wording import leftover, significant
 from cardan.texts import _
 
 from .block import Cell, Column, Page, Table, Words, number, words
@@ -40,7 +40,7 @@ def _row(what: str, how: str, left: float, allowed: float) -> list[Cell]:
     return [
         words(what),
         words(how),
-        number(_small(left), left),
+        number(leftover(left) if allowed else _small(left), left),
         number(_small(allowed), allowed),
         words(_("passed") if passed else _("failed"), "good" if passed else "failed"),
     ]

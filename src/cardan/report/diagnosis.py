@@ -13,6 +13,7 @@ from cardan.figures.diagnosis import UNITS, quantity_word, spectrum_figure, trac
 from cardan.figures.diagnosis_motion import orbit_figure, rotation_figure, torsional_figure
 from cardan.figures.examination import LIKELY, causes_figure, examined_map, verdict
 from cardan.figures.wording import percent, significant
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 from cardan.units import rpm
 
@@ -183,7 +184,7 @@ def should_appear(expected: Expected, found: Examination) -> Table:
         per = {"acceleration": 0, "velocity": 1, "displacement": 2}.get(found.channel.quantity, 0)
         level /= (order * top) ** per * size
         seen = found.spectrum.at(order) / size
-        strongest = max(own, key=lambda one: one.size)
+        strongest = foremost_of(own, lambda one: one.size)
         rows.append(
             [
                 number(f"{order:g}", order),

@@ -19,6 +19,7 @@ from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost, foremost_on
 from cardan.texts import _, plural
 from cardan.units import deg
 
@@ -88,7 +89,7 @@ def _moving(drive: Drive) -> tuple[list[Block], list[list[Cell]]]:
         problem = error.problems[0]
         return [Words(text=text.format(first=f"{problem.field}: {problem.message}"), tone="warning")], []
     most = found.extreme(found.reaction_size)
-    k = int(np.argmax(most.high))
+    k = int(foremost(most.high))
     figures = moving_forces_figures(found, [one.name for one in drive.supports])
     name = _("the same while moving, {name}").format(name=_called(drive, k))
     return [Picture(figure=figure) for figure in figures], [key(name, float(most.high[k]), "N")]
@@ -97,12 +98,12 @@ def _moving(drive: Drive) -> tuple[list[Block], list[list[Cell]]]:
 def _keys(drive: Drive, found: Forces) -> Iterator[list[Cell]]:
     """Yield the largest couple, journal load and reaction, for the first page."""
     couple = np.max(np.asarray(found.bending_couple), axis=-1)
-    bent = int(np.argmax(couple))
+    bent = int(foremost(couple))
     if couple[bent] > NOTHING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
         yield key(_("largest secondary couple, shaft {k}").format(k=bent + 1), float(couple[bent]), "N·m")
     journal = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(found)], axis=0)
     if np.any(np.isfinite(journal)):
-        most = int(np.nanargmax(journal))
+        most = int(foremost(journal))
         yield key(_("largest load of a journal, joint {k}").format(k=most + 1), float(journal[most]), "N")
     if found.reaction is not None:
         top = worst(found)
@@ -127,7 +128,7 @@ def _called(drive: Drive, support: int) -> str:
 
 
 def _peak(row: Array) -> tuple[float, int]:
-    at = int(np.argmax(row))
+    at = int(foremost_on(row))
     return float(row[at]), at
 
 

@@ -13,6 +13,7 @@ from cardan.checks.verdict import AMBER, Verdict
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg, mm, rpm
 
@@ -55,7 +56,7 @@ def _uneven_pose(on: Subject) -> Iterator[list[Cell]]:
     """Yield the irregularity in the worst pose, where it is worse than as drawn."""
     share = on.phasing.as_built.pose_irregularity
     if share.size and float(np.max(share)) > float(on.whole.irregularity) + UTMOST:
-        worst, name = float(np.max(share)), on.phasing.poses[int(np.argmax(share))]
+        worst, name = float(np.max(share)), on.phasing.poses[int(foremost(share))]
         title = _("irregularity δ of the output, in the pose {name}").format(name=name)
         yield key(title, 100.0 * worst, "%", words(""), percent(worst, 4).removesuffix(" %"))
 

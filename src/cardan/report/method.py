@@ -8,7 +8,7 @@ import numpy as np
 
 from cardan import __version__
 from cardan.figures.kinds import kind_name
-from cardan.figures.wording import angular, fixed, half_turn, significant
+from cardan.figures.wording import angular, fixed, half_turn, leftover, significant
 from cardan.texts import _
 from cardan.units import deg
 
@@ -161,7 +161,7 @@ def _checks(on: Subject) -> Table:
         [
             words(check.name),
             words(check.way),
-            number(_small(check.residual), check.residual),
+            number(leftover(check.residual), check.residual),
             number(_small(check.allowed), check.allowed),
             words(_("passed") if check.passed else _("failed"), "good" if check.passed else "failed"),
         ]
@@ -176,7 +176,7 @@ def _checks(on: Subject) -> Table:
             [
                 words(_("irregularity at setting {label}").format(label=on.best.label)),
                 words(_("swing of the output by plain vectors, sampled over a turn")),
-                number(_small(miss), miss),
+                number(leftover(miss), miss),
                 number(_small(allowed), allowed),
                 words(_("passed") if good else _("failed"), "good" if good else "failed"),
             ]

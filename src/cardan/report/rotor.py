@@ -10,6 +10,7 @@ from cardan.analysis.rotor_response import RotorResponse, rotor_response
 from cardan.errors import InputError
 from cardan.figures.rotor import MICRO, ORDERS, UNIT, orbits_figure, order_name, response_figure, sentence
 from cardan.figures.wording import fixed, significant
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 from cardan.units import rpm
 
@@ -34,7 +35,7 @@ def whirling_cracked(on: Subject) -> Page | None:
     alarms = list(_alarms(found))
     blocks: list[Block] = [*alarms, Picture(figure=response_figure(found)), _orders(found)]
     blocks += [Picture(figure=orbits_figure(found)), _checks(found)]
-    speed, size = max((found.peak(order) for order in ORDERS), key=lambda one: one[1])
+    speed, size = foremost_of((found.peak(order) for order in ORDERS), lambda one: one[1])
     text = _("largest whirling of shaft {number}, at {speed} rpm")
     name = text.format(number=found.rotor.shaft, speed=significant(speed / rpm, 3))
     return Page(

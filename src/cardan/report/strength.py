@@ -15,6 +15,7 @@ from cardan.errors import InputError
 from cardan.figures.force_arrows import senses
 from cardan.figures.strength import strength_figures
 from cardan.figures.wording import fixed, significant
+from cardan.maths.ties import foremost, foremost_of
 from cardan.texts import _, plural
 from cardan.units import deg, rpm
 
@@ -173,7 +174,7 @@ def _swinging(on: Subject, found: Strength) -> Words | None:
     own = [e for e, (_a, b) in enumerate(model.elements) if runs.train.hangs[b] is None and plain[e] > 0.0]
     if not own:
         return None
-    e = max(own, key=lambda one: float(most[one] / plain[one]))
+    e = foremost_of(own, lambda one: float(most[one] / plain[one]))
     more = float(most[e] / plain[e])
     if more <= LITTLE:
         return None
@@ -208,7 +209,7 @@ def _heavier(on: Subject, found: Strength) -> tuple[int, float, float] | None:
     more = load * span / np.where(found.couple[0] > 0.0, found.couple[0], math.nan) - 1.0
     if not np.any(np.isfinite(more)):
         return None
-    i = int(np.nanargmax(more))
+    i = int(foremost(more))
     return (i + 1, float(load[i]), float(more[i])) if more[i] > SLIGHT else None
 
 

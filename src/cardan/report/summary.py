@@ -9,6 +9,7 @@ import numpy as np
 from cardan.analysis.equivalence import WARN_BEND
 from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent
+from cardan.maths.ties import foremost
 from cardan.synthesis.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
@@ -133,7 +134,7 @@ def _while_moving(on: Subject) -> float:
 def _in_poses(on: Subject) -> tuple[float, str]:
     """Return the irregularity as built in the pose where it is largest, and the name of that; 0 without poses."""
     share = on.phasing.as_built.pose_irregularity
-    return (float(np.max(share)), on.phasing.poses[int(np.argmax(share))]) if share.size else (0.0, "")
+    return (float(np.max(share)), on.phasing.poses[int(foremost(share))]) if share.size else (0.0, "")
 
 
 def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:

@@ -18,6 +18,7 @@ from cardan.figures.torsion import campbell_figure, shapes_figure
 from cardan.figures.torsion_map import map_figure
 from cardan.figures.torsion_running import response_figure, sweep_figure, waterfall_figure
 from cardan.figures.wording import fixed, significant
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -210,7 +211,7 @@ def _answer(modes: TorsionModes, runs: TorsionResponse | None) -> str:
     )
     if runs is None or not bool(runs.steady.found):
         return text + "."
-    e = int(np.argmax(runs.swing))
+    e = int(foremost(runs.swing))
     said = _("; at {speed} rpm the torque in {name} swings by ± {swing} N·m, and small disturbances {fate}.")
     fate = {Verdict.STABLE: _("die out"), Verdict.NEUTRAL: _("stay"), Verdict.UNSTABLE: _("grow")}
     return text + said.format(
