@@ -40,7 +40,7 @@ lint: $(VENV)/.lint
 
 docs: $(VENV)/.docs
 	@rm -f docs/_build/.whole
-	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going -j auto -b html docs docs/_build/html
 	@touch docs/_build/.whole
 	@echo "docs/_build/html/index.html"
 
