@@ -20,6 +20,17 @@ settings.register_profile(
 settings.load_profile("fixed")
 
 
+SLOW = {"chromium", "site"}
+"""What makes a test slow that asks for it: a browser, a build of the documentation."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests by what they ask for; others say themselves that they take half a second or more."""
+    for item in items:
+        if not SLOW.isdisjoint(getattr(item, "fixturenames", ())):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(scope="session")
 def one_at_a_time(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], AbstractContextManager[Path]]:
     """Return what yields a folder that all workers of this run share, to one of them at a time."""

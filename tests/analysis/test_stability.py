@@ -45,6 +45,7 @@ def by_differences(model, speed, found, small):
     return np.linalg.eigvals(matrix.T)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "how", [{}, {"order": 0.5}, {"free": True, "motor": True}], ids=["forced", "half order", "free"]
 )

@@ -58,11 +58,13 @@ def test_rows_that_nobody_keeps_are_not_held(engine, tmp_path):
     assert rows_for(Numbers(0)) == 1
 
 
+@pytest.mark.slow
 def test_processes_give_the_same(tmp_path):
     undisturbed(run(WORK, engine=Processes(workers=2), chunk=CHUNK, into=tmp_path), WORK, CHUNK)
     undisturbed(run(WORK, engine=Processes(workers=1), chunk=CHUNK), WORK, CHUNK)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_loses_and_doubles_nothing(tmp_path):
     (tmp_path / "marks").mkdir()
     work = replace(WORK, trouble=Trouble("kill", row=555, marks=str(tmp_path / "marks"), times=2))
@@ -155,6 +157,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "how"),
     [("Processes", signal.SIGINT), ("Processes", signal.SIGKILL), ("Cluster", signal.SIGINT)],
@@ -243,6 +246,7 @@ def full(sweep, folder):
     assert read_sweep(folder).missing
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root can mount")
 @pytest.mark.parametrize("engine", [InProcess(), Processes(workers=2)], ids=["in process", "processes"])
 def test_a_disk_that_is_really_full(engine, tmp_path):
@@ -265,6 +269,7 @@ def test_a_table_that_is_too_large_to_be_held_is_refused(monkeypatch):
     assert run(WORK, rows="none", chunk=CHUNK).status == "done"
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_size():
     import tracemalloc
 

@@ -104,6 +104,7 @@ def test_every_verdict_has_what_a_reader_needs():
             assert v.state in ("passed", "close", "failed")
 
 
+@pytest.mark.slow
 def test_varying_a_key_is_the_same_as_a_drive_with_that_key():
     """Every lever of every verdict: the batch against drives made one by one."""
     drive = whole()
@@ -134,6 +135,7 @@ def test_varying_a_key_is_the_same_as_a_drive_with_that_key():
             pytest.fail(f"{path} cannot be changed")
 
 
+@pytest.mark.slow
 def test_the_levers_move_what_they_are_said_to_move():
     drive = whole()
     for lever in sorted({path for v in check(drive) for path in v.levers}):
@@ -336,6 +338,7 @@ def test_what_a_movement_makes_of_bends_and_splines_counts():
     assert spline.limit == pytest.approx(0.150)
 
 
+@pytest.mark.slow
 def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
     """The file says engaged length and gap as drawn: a pose has used some of them before it moves."""
     drive = example("truck-rear-axle")
@@ -499,6 +502,7 @@ def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
     assert check(drive, Duty(torque=100.0), only=["needle_static"])[0].missing == ("joints[0].needles.static_capacity",)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_a_shipped_drive_that_fails_says_so_in_its_file(name):
     head = example_text(name).partition("\nformat")[0]

@@ -70,6 +70,7 @@ def test_json_holds_what_the_library_found(cardan, car):
     assert {one["path"] for one in said["most_helpful"]} <= {one["path"] for one in said["cures"]}
 
 
+@pytest.mark.slow
 def test_a_cure_written_into_the_file_makes_its_check_pass(cardan, car, drive_file):
     cures = cardan("check", car, "--json").content["cures"]
     assert len({cure["title"] for cure in cures}) > 2

@@ -28,6 +28,7 @@ def rows(text):
     return list(csv.DictReader(io.StringIO(text)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ALL, ids=lambda path: path.stem)
 @pytest.mark.parametrize("question", ["motion", "phases"])
 def test_every_example_is_answered_within_80_columns(cardan, question, path):
@@ -278,6 +279,7 @@ def test_a_drive_that_stands_still_has_no_articulation(cardan):
     assert "[[movements]]" in done.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".svg", ".png", ".pdf", ".html"])
 @pytest.mark.parametrize(
     "question", [("motion", TRUCK), ("phases", TRUCK), ("articulation", MOVING[0])], ids=lambda question: question[0]

@@ -65,6 +65,7 @@ def rig(drive_file):
     return drive_file(RIG)
 
 
+@pytest.mark.slow
 def test_an_absorber_is_set_and_written(cardan, rig, tmp_path):
     done = cardan("torsion", "absorber", rig, "--ratio", "0.15", "-o", "better.toml", "--plot", "curves.svg")
     assert done.code == 0
@@ -80,6 +81,7 @@ def test_an_absorber_is_set_and_written(cardan, rig, tmp_path):
     assert (tmp_path / "curves.svg").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_what_an_absorber_does_for_a_program(cardan, rig):
     content = cardan("torsion", "absorber", rig, "--kind", "viscous", "--json").content
     found = absorbers.absorber(files.load(rig), kind="viscous")
@@ -93,6 +95,7 @@ def test_what_an_absorber_does_for_a_program(cardan, rig):
     np.testing.assert_allclose([float(row["best_swing_1_Nm"]) for row in rows], found.after[:, 0], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_pendulums_and_one_speed(cardan, rig):
     text = plain(cardan("torsion", "absorber", rig, "--kind", "pendulum", "--radius-mm", "150", "--at", "4").out)
     assert "with pendulums on mill" in text
@@ -102,6 +105,7 @@ def test_pendulums_and_one_speed(cardan, rig):
     assert "It serves this speed alone" in text
 
 
+@pytest.mark.slow
 def test_a_drive_that_runs_elsewhere_is_warned(cardan, drive_file):
     """Without a band of speeds the nearest resonance is taken, wherever the drive runs."""
     slow = drive_file(RIG.replace("speed_range_rpm = [350, 700]", "speed_rpm = 100"))
@@ -130,6 +134,7 @@ def test_lost_motions_are_told():
     assert not list(band_remarks(found))
 
 
+@pytest.mark.slow
 def test_a_calm_design_is_found_and_written(cardan, rig, tmp_path):
     ask = ("torsion", "calm", rig, "--free", f"{YOKE}=-45:45", "--grid", "7")
     done = cardan(*ask, "-o", "better.toml", "--plot", "calm.png")
@@ -187,6 +192,7 @@ def test_files_that_cannot_be_written_are_refused_before_any_work(cardan, rig, t
         assert "should end in" in cardan("torsion", name, rig, "-o", "drive.txt").err
 
 
+@pytest.mark.slow
 def test_a_duty_of_the_command_line_is_not_written_into_the_file(cardan, rig, tmp_path):
     done = cardan("torsion", "absorber", rig, "--torque-Nm", 7, "--speed-rpm", 777, "-o", "better.json")
     assert done.code == 0

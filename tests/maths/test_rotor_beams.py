@@ -105,6 +105,7 @@ def test_a_slender_timoshenko_beam_is_euler_and_bernoullis():
     assert off[2] / off[0] == pytest.approx(1e-4, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("spinning", [True, False])
 def test_elements_find_what_transfer_matrices_find(seed, spinning):

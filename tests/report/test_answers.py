@@ -39,6 +39,7 @@ def wrong_with(drive, path):
     return ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-supports", "overconstrained-pump", "propshaft-with-rzeppa", "car-propshaft"])
 def test_an_answer_is_the_page_of_the_report(name):
     drive = example(name)
@@ -122,6 +123,7 @@ def test_why_a_drive_cannot_be_made_even():
     assert synchronous(subject(example("single-20deg"))) == "A single joint has no second one to undo it."
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "truck-power-unit"])
 def test_every_cure_cures_when_it_is_written_into_the_file(name):
     text = example_text(name)

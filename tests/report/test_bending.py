@@ -48,6 +48,7 @@ def test_the_key_figure_has_its_limit():
     assert [cell.text for cell in row[3:]] == ["–", "–", ""]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("duty", "tones"),
     [

@@ -59,6 +59,7 @@ def test_only_what_differs_is_told(page):
     assert found.rows[0][2].text == "2000, 0, 400 mm"
 
 
+@pytest.mark.slow
 def test_limits_stand_beside_each_other_with_their_signs():
     text = example_text("car-propshaft")
     low = amend(text, {"joints[1].centre_mm": [1150, 0, -120]})

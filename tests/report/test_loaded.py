@@ -63,6 +63,7 @@ def words(drive):
     return "".join(parsed(paged(drive)).words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_each_part_stands_only_where_the_file_asks_for_it(name):
     assert PARTS & set(parsed(of_example(name)).ids) == WITH.get(name, set())
@@ -102,6 +103,7 @@ def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
     assert "What the supports take" not in text
 
 
+@pytest.mark.slow
 def test_a_loose_shaft_is_named():
     drive = example("truck-supports")
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))

@@ -32,6 +32,7 @@ def test_it_says_the_torque_rating():
     assert "torque rating of the whole drive" in text
 
 
+@pytest.mark.slow
 def test_a_weak_drive_is_an_alarm():
     drive = example("car-propshaft")
     weak = replace(drive, duty=Duty(torque=50 * drive.duty.torque, speed=100.0))

@@ -19,6 +19,7 @@ from tests.report.test_report import parsed
 KEY = "duty.speed_rpm"
 
 
+@pytest.mark.slow
 def test_a_joint_too_small_stands_first_with_its_cure():
     text = page(example("truck-duty-cycle"))
     words = "".join(parsed(text).words)
@@ -130,6 +131,7 @@ def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
     assert len(rows) < 25
 
 
+@pytest.mark.slow
 def test_limits_are_written_as_they_were_given():
     found = judged(asked(example("truck-rear-axle"), None, None)).page
     assert found is not None

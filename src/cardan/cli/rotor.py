@@ -233,9 +233,14 @@ def _remarks(file: Path, found: RotorResponse) -> Iterator[Remark]:
         text = _("At some speeds it vibrates more than it hangs down: there the crack opens otherwise than by weight.")
         yield Remark(text=text, tone="warning")
     text = _("Checked: power and multipliers agree {closely}.")
-    yield Remark(text=text.format(closely=closely(float(found.steady.residual[~_nan(found)].max(initial=0.0)))))
+    yield Remark(text=text.format(closely=closely(_left(found))))
     command = ("cardan", "rotor", str(file), "--plot", "rotor.svg")
     yield Remark(text=_("Orders over the speed, and orbits:"), command=command, tone="next")
+
+
+def _left(found: RotorResponse) -> float:
+    """Return what power and multipliers differ by at most."""
+    return float(found.steady.residual[~_nan(found)].max(initial=0.0))
 
 
 def _nan(found: RotorResponse) -> Any:
@@ -274,6 +279,7 @@ def _content(drive: Drive, file: Path, found: RotorResponse) -> dict[str, Any]:
         "file": str(file),
         "rotor": _described(found.rotor),
         "unstable_rpm": [[low / rpm, high / rpm] for low, high in found.unstable],
+        "residual": _left(found),
         "half_order_rpm": found.steady.speed[found.steady.half_order] / rpm,
         "behind_joint": None
         if found.behind is None
