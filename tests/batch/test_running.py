@@ -12,6 +12,7 @@ import sys
 import time
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -174,6 +175,7 @@ def test_an_interrupted_program_leaves_nobody_and_can_go_on(engine, how, tmp_pat
         text=True,
         env=os.environ | {"PYTHONPATH": os.getcwd()},
         start_new_session=True,
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # what runs in the background ignores it
     )
     while 0.0 <= float(program.stdout.readline()) < 0.1:
         pass
