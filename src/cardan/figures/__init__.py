@@ -146,7 +146,12 @@ def drawn(figures: Figure | Sequence[Figure], suffix: str, name: str = "") -> by
     if suffix not in SUFFIXES:
         known = ", ".join(SUFFIXES)
         raise refuse("path", _("{path} should end in one of {known}").format(path=name or suffix, known=known))
-    several = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    from cardan.answers.reader import reader
+
+    from .for_reader import for_reader
+
+    given = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    several = tuple(for_reader(one, reader()) for one in given)
     if suffix == ".html":
         from .render_plotly import render as page
 

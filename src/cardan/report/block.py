@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from cardan.answers.reader import USUAL
 from cardan.figures import Figure
+from cardan.figures.for_reader import for_reader
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.texts import _
@@ -102,9 +104,12 @@ class Listing:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
-    """A figure of the report."""
+    """A figure of the report, its texts in words."""
 
     figure: Figure
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "figure", for_reader(self.figure, USUAL))
 
 
 Block: TypeAlias = Table | Words | Points | Listing | Picture
