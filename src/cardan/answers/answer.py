@@ -60,7 +60,7 @@ class Column:
     Attributes
     ----------
     key : str
-        Name in JSON and CSV, without unit: ``joint_angle``.
+        Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
     heading : str
         What stands above it, in the language spoken where it was made.
     values : sequence of Value
@@ -266,6 +266,34 @@ class Answer:
     facts: Mapping[str, Any] = field(default_factory=dict)
     full: Callable[[], Table] | None = None
     code: int = 0
+
+
+def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> tuple[Column, ...]:
+    """Return the columns that head a table of parts counted from 1: number with name for people, each for programs.
+
+    Parameters
+    ----------
+    heading : str
+        What they are.
+    names : sequence of str
+        Their names, empty where they have none.
+    chips : sequence of str
+        Colours before them.
+
+    Examples
+    --------
+    >>> [list(column.values) for column in heads("joint", ["front", ""])]
+    [['1 front', '2'], [1, 2], ['front', '']]
+    """
+    numbers = list(range(1, len(names) + 1))
+    shown: list[Any] = [f"{number} {name}".strip() for number, name in zip(numbers, names, strict=True)]
+    if chips:
+        shown = [Cell(value=text, chip=chip) for text, chip in zip(shown, chips, strict=True)]
+    return (
+        Column(key="", heading=heading, values=shown, left=True),
+        Column(key="number", values=numbers, depth="data"),
+        Column(key="name", values=list(names), depth="data"),
+    )
 
 
 def bare(value: Value) -> Any:

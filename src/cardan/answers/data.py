@@ -65,7 +65,7 @@ def tree(facts: Mapping[str, Any], reader: Reader) -> dict[str, Any]:
 
 def of_table(table: Table, reader: Reader) -> Any:
     """Return a table as a list of rows where it holds records, else as lists of numbers by column."""
-    columns = {column.name(reader): _numbers(column, reader) for column in table.columns}
+    columns = {column.name(reader): _numbers(column, reader) for column in table.columns if column.key}
     if not table.records:
         return columns
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
@@ -108,8 +108,9 @@ def as_csv(table: Table, reader: Reader) -> Iterator[str]:
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow([column.name(reader) for column in table.columns])
-    for row in zip(*(_numbers(column, reader) for column in table.columns), strict=True):
+    columns = [column for column in table.columns if column.key]
+    writer.writerow([column.name(reader) for column in columns])
+    for row in zip(*(_numbers(column, reader) for column in columns), strict=True):
         writer.writerow(["" if value is None or value != value else value for value in row])
         if buffer.tell() > BUFFER:
             yield buffer.getvalue()
