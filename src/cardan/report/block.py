@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
+from cardan.answers.answer import Tone
+from cardan.answers.printed import SIGNS, Cell, Column, Table
 from cardan.answers.reader import USUAL
 from cardan.figures import Figure
 from cardan.figures.for_reader import for_reader
@@ -13,63 +15,6 @@ from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.texts import _
 from cardan.units import spoken
-
-Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
-
-SIGNS: dict[Tone, str] = {"plain": "○", "good": "✓", "warning": "▲", "failed": "✖"}
-"""Every tone by a sign too, never by colour alone."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cell:
-    """A cell of a table.
-
-    Parameters
-    ----------
-    text : str
-        What it says.
-    tone : str
-        How good that is.
-    full : str
-        The number in full precision, for whoever points at it.
-    chip : str
-        Colour of a chip before the text.
-    formula : str
-        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
-    """
-
-    text: str
-    tone: Tone = "plain"
-    full: str = ""
-    chip: str = ""
-    formula: str = ""
-
-    @property
-    def sign(self) -> str:
-        """Sign of the tone; none for plain words."""
-        return "" if self.tone == "plain" else SIGNS[self.tone]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Column:
-    """A column of a table: its heading with the unit of its numbers, both in the language spoken here."""
-
-    heading: str
-    unit: str = ""
-    left: bool = False
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "unit", spoken(self.unit))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Table:
-    """A table with a line of words above it."""
-
-    columns: Sequence[Column]
-    rows: Sequence[Sequence[Cell]]
-    title: str = ""
-    note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,6 +86,9 @@ class Page:
     blocks: Sequence[Block]
     keys: Sequence[Sequence[Cell]] = ()
     alarms: Sequence[Words] = ()
+
+
+__all__ = ["SIGNS", "Block", "Cell", "Column", "Listing", "Page", "Picture", "Points", "Table", "Tone", "Words"]
 
 
 def words(text: str, tone: Tone = "plain") -> Cell:
