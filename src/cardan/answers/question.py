@@ -18,8 +18,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from types import ModuleType
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+
+    from .answer import Answer
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 """Paths of the drive file that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
@@ -51,6 +57,8 @@ class Question:
         Whether its answer is there at once; the others are worth a process of their own.
     report : bool
         Whether the report has a page of it.
+    takes : tuple of str
+        What ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose.
     command : str
         Command that asks it, its words parted by blanks; the name of the question by default.
     """
@@ -63,12 +71,43 @@ class Question:
     gathers: Gathering = "each"
     quick: bool = True
     report: bool = True
+    takes: tuple[str, ...] = ()
     command: str = ""
 
     @property
     def home(self) -> ModuleType:
         """The module that answers it."""
         return import_module(self.module)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it is answered in a folder of its own."""
+        try:
+            return find_spec(self.module) is not None
+        except ModuleNotFoundError:
+            return False
+
+    def lacking(self, drive: Drive) -> Lacking:
+        """Return what a drive file lacks for it."""
+        found: Lacking = self.home.lacking(drive)
+        return found
+
+    def ask(self, drive: Drive, **given: Any) -> Any:
+        """Return its result, None where nothing can be told.
+
+        Parameters
+        ----------
+        drive : Drive
+            What is asked about.
+        **given
+            What there is to give; the question takes what it wants.
+        """
+        return self.home.ask(drive, **{name: given[name] for name in self.takes if given.get(name) is not None})
+
+    def answer(self, drive: Drive, result: Any) -> Answer:
+        """Return what there is to say of its result."""
+        found: Answer = self.home.answer(drive, result)
+        return found
 
 
 def absent(*conditions: tuple[bool | str, ...]) -> Lacking:
