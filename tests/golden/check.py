@@ -19,7 +19,7 @@ from .running import answered, workplace
 SHOWN = 40
 """So many lines of differences are shown, unless told otherwise."""
 
-WIDE = 150
+WIDE = 200
 
 
 def asked_exactly() -> bool:
@@ -49,11 +49,14 @@ def told(found: list[Difference], *, shown: int = SHOWN) -> str:
     for one in found:
         command = " ".join(one.line.split()[: 2 if one.line.startswith(("torsion", "sweep show", "calc")) else 1])
         groups[command, one.kind, one.path].append(one)
-    lines = []
-    for (command, kind, path), group in list(groups.items())[:shown]:
-        more = f" (and {len(group) - 1} more)" if len(group) > 1 else ""
-        lines.append(f"{command}: {kind} {path} {group[0].said}"[: WIDE * 2])
-        lines.append(f"    {group[0].line}{more}")
+    lines: list[str] = []
+    last = ""
+    for (_command, kind, path), group in list(groups.items())[:shown]:
+        first = f"{group[0].line}" + (f" and {len(group) - 1} more" if len(group) > 1 else "")
+        if first != last:
+            lines.append(first)
+        last = first
+        lines.append(f"  {kind} {path} {group[0].said}"[:WIDE])
     if len(groups) > shown:
         lines.append(f"… and {len(groups) - shown} more; --shown tells more of them")
     return "\n".join(lines)
@@ -61,14 +64,14 @@ def told(found: list[Difference], *, shown: int = SHOWN) -> str:
 
 def suggested(found: list[Difference]) -> str:
     """Return entries for `tests.golden.renamed.PATHS`: where the numbers of a missing path stand, all over."""
-    where: dict[tuple[str, str], set[str]] = {}
+    where: dict[tuple[str, str], list[str]] = {}
     for one in found:
         if one.kind == "missing":
-            key = one.line.split()[0], one.path
-            where[key] = where[key] & set(one.same) if key in where else set(one.same)
+            known = where.setdefault((one.line.split()[0], one.path), list(one.same))
+            known[:] = [path for path in known if path in one.same]
     return "\n".join(
-        f'    ("{command}", r"{re.escape(path)}", "{sorted(new)[0]}"),'
-        + (f"  # or {', '.join(sorted(new)[1:3])}" if len(new) > 1 else "")
+        f'    ("{command}", r"{path.replace(".", "[.]")}", "{new[0]}"),'
+        + (f"  # or {', '.join(new[1:3])}" if len(new) > 1 else "")
         for (command, path), new in where.items()
         if new
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from typing import Any
 
 from . import renamed, tolerances
@@ -30,7 +30,7 @@ class Difference:
     said : str
         What is wrong, in one line.
     same : tuple of str
-        New paths that hold the very numbers of a missing one.
+        New paths that hold the very numbers of a missing one, the likest name first.
     """
 
     line: str
@@ -132,13 +132,17 @@ def _numbers(line: str, old: dict[str, Any], new: list[_Column], *, exact: bool)
         now = without_unit(path_now(line, path))[0]
         faults = [_fault(wanted, column.values, rule) for column in new if column.bare == now]
         if not faults:
-            same = tuple(column.path for column in new if not _fault(wanted, column.values, rule))
+            same = _nearest_first(now, [column for column in new if not _fault(wanted, column.values, rule)])
             found.append(Difference(line, path, "missing", _missing(stored, now, new, same), same))
         elif all(faults):
             kind, said = faults[0]
             unit = path.removeprefix(bare).strip("_") if dimension else ""
             found.append(Difference(line, path, kind, said + (f" [SI of {unit}]" if unit and size != 1.0 else "")))
     return found
+
+
+def _nearest_first(bare: str, new: list[_Column]) -> tuple[str, ...]:
+    return tuple(one.path for one in sorted(new, key=lambda one: -SequenceMatcher(None, bare, one.bare).ratio()))
 
 
 @dataclass(frozen=True)
