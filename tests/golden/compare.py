@@ -127,7 +127,7 @@ def _numbers(line: str, old: dict[str, Any], new: list[_Column], *, exact: bool)
     found = []
     for path, stored in old.items():
         bare, dimension, size = without_unit(path)
-        rule = _rule(line, path, stored, scales.get(dimension, 1.0), exact=exact)
+        rule = _rule(line, path, scales.get(dimension, 1.0), dimension, exact=exact)
         wanted = in_si(stored, size)
         now = without_unit(path_now(line, path))[0]
         faults = [_fault(wanted, column.values, rule) for column in new if column.bare == now]
@@ -147,23 +147,36 @@ def _nearest_first(bare: str, new: list[_Column]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Rule:
-    """How a column is compared: share of its largest magnitude, what is noise, and whether its order counts."""
+    """How a column is compared.
+
+    Parameters
+    ----------
+    tolerance : float
+        Share of its largest magnitude.
+    noise : float
+        All numbers below are alike.
+    among : bool
+        Whether its numbers may stand in any order, among others.
+    least : float
+        Differences that never count.
+    """
 
     tolerance: float
     noise: float
     among: bool
+    least: float = 0.0
 
 
-def _rule(line: str, path: str, stored: Any, scale: float, *, exact: bool) -> _Rule:
+def _rule(line: str, path: str, scale: float, dimension: str, *, exact: bool) -> _Rule:
     among = any(re.match(start, line) and re.fullmatch(pattern, path) for start, pattern in renamed.AMONG)
     tolerance = tolerances.EXACT if exact else tolerances.ANYWHERE
     noise = tolerances.NOISE[exact] * scale
     if any(re.match(start, line) and re.fullmatch(pattern, path) for start, pattern in tolerances.RESIDUALS):
         return _Rule(tolerances.RESIDUAL, tolerances.RESIDUAL * scale, among)
-    for start, pattern, looser, _reason in () if exact else tolerances.LOOSER:
-        if re.match(start, line) and re.fullmatch(pattern, path):
-            return _Rule(max(looser, tolerance), max(noise, looser * 1e-3 * scale), among)
-    return _Rule(tolerance, noise, among)
+    if exact:
+        return _Rule(tolerance, noise, among)
+    fitting = (row[2] for row in tolerances.LOOSER if re.match(row[0], line) and re.fullmatch(row[1], path))
+    return _Rule(next(fitting, tolerance), noise, among, noise if dimension else 0.0)
 
 
 def _largest(stored: Any) -> float:
@@ -173,6 +186,8 @@ def _largest(stored: Any) -> float:
 
 def _fault(wanted: Any, got: list[float], rule: _Rule) -> tuple[str, str] | None:
     """Return kind and words of what is wrong with a new column, None where nothing is."""
+    if rule.tolerance == tolerances.CLASS:
+        return None
     if rule.among:
         return _absent(wanted, got, rule)
     length = len(wanted) if isinstance(wanted, list) else wanted["length"]
@@ -213,7 +228,7 @@ def _equal(a: float, b: float, scale: float, rule: _Rule) -> bool:
         return a == b or (math.isnan(a) and math.isnan(b))
     if abs(a) <= rule.noise and abs(b) <= rule.noise:
         return True
-    return abs(a - b) <= rule.tolerance * scale if rule.tolerance < tolerances.CLASS else True
+    return abs(a - b) <= max(rule.tolerance * scale, rule.least)
 
 
 def _missing(stored: Any, now: str, new: list[_Column], same: tuple[str, ...]) -> str:
