@@ -83,7 +83,7 @@ def report(
             decimal=decimal,
         )
 
-    from cardan.analysis.swing import each_shaft
+    from cardan.questions.forces.swing import each_shaft
 
     from .answer import Answer, Remark
     from .motion import sentence

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
-from cardan.analysis.machine_torques import turns_freely
-from cardan.analysis.mobility import mobility
-from cardan.analysis.strength import strength
 from cardan.catalogue import Catalogue
 from cardan.checks import check
+from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
-from cardan.drive.laws import unmapped
+from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
+from cardan.questions.mobility.mobility import mobility
+from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.texts import _
 
 from . import lacking as lacks
