@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from cardan.analysis.life import life
 from cardan.drive.duty import History
 from cardan.figures.wording import fixed, significant
 from cardan.io import example
+from cardan.questions.life.life import life
 from cardan.report.life import lasting
 from cardan.report.subject import asked
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from cardan.drive.drive import Drive
 
 METHODS = ("iso", "simple", "maker", "book")
-"""Those of `cardan.analysis.life`, known here without it."""
+"""Those of `cardan.questions.life.life`, known here without it."""
 
 
 def life(
@@ -51,7 +51,7 @@ def life(
     check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
     _check(method, reliability)
 
-    from cardan.analysis.life import life as question
+    from cardan.questions.life.life import life as question
 
     from .life_answer import answer
     from .source import read

@@ -12,8 +12,8 @@ from .answer import Answer, Column, Remark, Table, named, percent, significant
 from .life import METHODS
 
 if TYPE_CHECKING:
-    from cardan.analysis.life import Life
     from cardan.drive.drive import Drive
+    from cardan.questions.life.life import Life
 
     from .answer import Cell, Tone
 

@@ -73,7 +73,7 @@ def check_speed(speed_rpm: float | None) -> None:
     if not isfinite(speed_rpm):
         raise refuse("--speed-rpm", _("{value} is not a finite number").format(value=speed_rpm))
 
-    from cardan.drive.ranges import HUGE
+    from cardan.drive.fields.ranges import HUGE
     from cardan.units import rpm
 
     if abs(speed_rpm) * rpm > HUGE:

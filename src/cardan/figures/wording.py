@@ -10,7 +10,7 @@ from cardan.texts import _, plural
 from cardan.units import thousands
 
 if TYPE_CHECKING:
-    from cardan.synthesis.phases import Phasing
+    from cardan.questions.phases.phases import Phasing
 
 THIN = "\u202f"
 

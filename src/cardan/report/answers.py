@@ -6,16 +6,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
-from cardan.analysis.machine_torques import turns_freely
-from cardan.analysis.mobility import mobility
-from cardan.analysis.strength import strength
 from cardan.answers.question import Question
 from cardan.answers.reader import USUAL
 from cardan.catalogue import Catalogue
 from cardan.checks import check
+from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
-from cardan.drive.laws import unmapped
+from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
+from cardan.questions.mobility.mobility import mobility
+from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.register import QUESTIONS
 from cardan.texts import _
 

@@ -12,14 +12,14 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from cardan.analysis.motion import motion
 from cardan.catalogue import Catalogue
 from cardan.checks import Verdict, check
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
-from cardan.figures.variants import variants_figure
 from cardan.figures.wording import percent, used
 from cardan.io.differences import differences
+from cardan.questions.motion.figures.variants import variants_figure
+from cardan.questions.motion.motion import motion
 from cardan.texts import _, plural
 
 from .answers import answered, subject

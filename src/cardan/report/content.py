@@ -9,10 +9,10 @@ from typing import cast
 
 from cardan import __version__
 from cardan.catalogue import Catalogue
+from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.laws import unmapped
-from cardan.drive.solids import Solids
+from cardan.drive.models.laws import unmapped
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
 from cardan.texts import _

@@ -11,23 +11,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.analysis.equivalence import SPECK, SYNCHRONOUS
-from cardan.analysis.joint_by_joint import followed as by_laws
-from cardan.analysis.motion import Motion, motion
-from cardan.analysis.swing import Swing, swing
 from cardan.catalogue import Catalogue
+from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.laws import NEGLIGIBLE, has_map, kind_problem, left_over
-from cardan.drive.solids import Solids, solids
+from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_over
 from cardan.errors import InputError
-from cardan.figures.kinds import kind_name, too_steep
-from cardan.figures.motion import motion_figure
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
-from cardan.synthesis.phases import phases
-from cardan.synthesis.setting import YokeSetting
+from cardan.questions.forces.swing import Swing, swing
+from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
+from cardan.questions.motion.figures.motion import motion_figure
+from cardan.questions.motion.joint_by_joint import followed as by_laws
+from cardan.questions.motion.kinds import kind_name, too_steep
+from cardan.questions.motion.motion import Motion, motion
+from cardan.questions.phases.phases import phases
+from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg, rpm
 

@@ -8,10 +8,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from cardan.analysis.joint_bearings import joint_bearings
+from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
-from cardan.drive.keys import fields_of
-from cardan.synthesis.lever import key_of
+from cardan.drive.fields.keys import fields_of
+from cardan.questions.life.joint_bearings import joint_bearings
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.analysis.life import METHODS, Life, life
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.life import life_figures
 from cardan.figures.wording import fixed, percent, significant
+from cardan.questions.life.figure import life_figures
+from cardan.questions.life.life import METHODS, Life, life
 from cardan.texts import _
 from cardan.units import deg, rpm
 

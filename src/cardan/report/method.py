@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import __version__
-from cardan.figures.kinds import kind_name
 from cardan.figures.wording import angular, fixed, half_turn, significant
+from cardan.questions.motion.kinds import kind_name
 from cardan.texts import _
 from cardan.units import deg
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.equivalence import WARN_BEND
-from cardan.figures.kinds import too_steep
 from cardan.figures.wording import excess, fixed, half_turn, percent
-from cardan.synthesis.setting import YokeSetting
+from cardan.questions.motion.equivalence import WARN_BEND
+from cardan.questions.motion.kinds import too_steep
+from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
 
