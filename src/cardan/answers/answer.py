@@ -63,7 +63,7 @@ class Column:
         Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
     heading : str
         What stands above it, in the language spoken where it was made.
-    values : sequence of Value
+    values : sequence of Value, or array
         From the top; numbers in SI.
     dimension, unit : str
         As of `Quantity`.
@@ -79,7 +79,7 @@ class Column:
 
     key: str
     heading: str = ""
-    values: Sequence[Any]
+    values: Any
     dimension: str = ""
     unit: str = ""
     digits: int = 4

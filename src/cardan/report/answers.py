@@ -28,7 +28,6 @@ from .block import Page
 from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
 from .forces import carrying
 from .lacking import Lacking, named, told
-from .life import lasting
 from .losses import rubbing
 from .mobility import binding
 from .moving import moving
@@ -281,7 +280,6 @@ ANSWERS: dict[str, Answer] = {
         otherwise=_nothing,
         quick=False,
     ),
-    "life": Answer(title=lambda: _("Life"), page=_plain(lasting), lacking=_of(lacks.of_life), otherwise=_nothing),
     "strength": Answer(
         title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
     ),

@@ -16,7 +16,6 @@ from .balance import refused
 from .bending import whirling
 from .block import Page
 from .forces import carrying
-from .life import lasting
 from .losses import rubbing
 from .mobility import binding
 from .page import page as page_for
@@ -30,7 +29,7 @@ PAGES: dict[str, Callable[[Subject], Page | None]] = {
     "forces": carrying,
     "losses": rubbing,
     "strength": bearing_up,
-    "life": lasting,
+    "life": lambda _on: None,
     "accuracy": erring,
     "mobility": binding,
     "assembly": straining,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
+from itertools import islice
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
@@ -136,6 +137,18 @@ def spelled(path: str, root: Any = Drive) -> str:
             return path
         steps.append(fields_here[0].spelling + step[len(step.partition("[")[0]) :])
     return ".".join(steps)
+
+
+def in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
+    """Return the path of a key in the first joint that can have it; none where no joint of the drive can.
+
+    Examples
+    --------
+    >>> in_a_joint(Drive.from_angles([0.3]), "friction"), in_a_joint(Drive.from_angles([0.3]), "cross", ".span")
+    (('joints[0].friction',), ('joints[0].cross.span',))
+    """
+    able = (k for k, joint in enumerate(drive.joints) if key in fields_of(type(joint)))
+    return tuple(f"joints[{k}].{key}{inner}" for k in islice(able, 1))
 
 
 def meant(path: str, root: Any = Drive) -> str:

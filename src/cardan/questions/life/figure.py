@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.numbers import significant
+from cardan.answers.quantity import Quantity, Say, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
-from cardan.figures.wording import percent, significant
 from cardan.texts import _
 
 from .life import Life
@@ -59,7 +61,7 @@ def load_figure(found: Life) -> Figure:
     asked = [] if found.demanded is None else [found.demanded / HOUR]
     rules += [Rule(value=value, text=_("asked for"), role="accent") for value in asked]
     point = Curve(x=np.asarray([100.0]), y=np.asarray([found.drive / HOUR]), role=_tone(found), width=0.0, marker=7.0)
-    x = axis(_("all loads over those of the duty"), "%", [100.0 * REACH], margin=0.0, count=6)
+    x = axis(_("all loads over those of the duty"), "percent", [100.0 * REACH], dimension="share", margin=0.0, count=6)
     y = _decades(_("Life"), np.concatenate([*(curve.y for curve in curves), asked]))
     over = Panel(series=(*curves, *rules, point), x=x, y=y)
     return Figure(
@@ -92,7 +94,7 @@ def _methods(found: Life) -> Panel:
     bars = Bars(
         at=at,
         size=size,
-        texts=tuple(_("{life} h").format(life=significant(life, 3)) for life in size.tolist()),
+        texts=tuple(Quantity(HOUR * life, "duration", 3) for life in size.tolist()),
         roles=tuple(role for _name, _life, role in rows),
         thick=0.62,
         lying=True,
@@ -102,7 +104,9 @@ def _methods(found: Life) -> Panel:
         series=(bars,),
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=len(rows) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Joint {number} by each method [h]").format(number=found.governing),
+        title=_("Joint {number} by each method").format(number=found.governing),
+        dimension="duration",
+        unit="h",
     )
 
 
@@ -118,8 +122,10 @@ def parts_figure(found: Life) -> Figure:
     time = 100.0 * found.share
     shown = np.argsort(-damage, kind="stable")[:SHOWN] if damage.size > SHOWN else np.arange(damage.size)
     names = tuple(
-        _("{torque} N·m, {speed} rpm").format(
-            torque=significant(found.parts[k].torque, 3), speed=significant(found.parts[k].speed * 30.0 / math.pi, 3)
+        say(
+            "{torque}, {speed}",
+            torque=Quantity(found.parts[k].torque, "torque", 3),
+            speed=Quantity(found.parts[k].speed, "angular_speed", 3),
         )
         for k in shown
     )
@@ -128,7 +134,7 @@ def parts_figure(found: Life) -> Figure:
         Bars(
             at=at + shift,
             size=values[shown],
-            texts=tuple(percent(float(value) / 100.0) for value in values[shown]),
+            texts=tuple(Quantity(float(value) / 100.0, "share", 3) for value in values[shown]),
             label=label,
             roles=(role,) * len(shown),
             thick=0.34,
@@ -143,15 +149,18 @@ def parts_figure(found: Life) -> Figure:
         series=bars,
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Shares of time and of damage in joint {number} [%]").format(number=found.governing),
+        title=_("Shares of time and of damage in joint {number}").format(number=found.governing),
+        dimension="share",
+        unit="percent",
     )
     return Figure(
         name="life-parts",
         title=_("What each part of the duty cycle does"),
-        sentence=_("{torque} N·m in {time} of the time does {damage} of the damage to joint {number}.").format(
-            torque=significant(found.parts[most].torque, 3),
-            time=percent(float(found.share[most])),
-            damage=percent(float(damage[most]) / 100.0),
+        sentence=say(
+            _("{torque} in {time} of the time does {damage} of the damage to joint {number}."),
+            torque=Quantity(found.parts[most].torque, "torque", 3),
+            time=Quantity(float(found.share[most]), "share", 3),
+            damage=Quantity(float(damage[most]) / 100.0, "share", 3),
             number=found.governing,
         ),
         source=_("rule of Palmgren and Miner, Book (268)"),
@@ -178,14 +187,20 @@ def history_figure(found: Life) -> Figure:
     def panel(values: np.ndarray, label: str, role: str, *, named: bool) -> Panel:
         bars = Bars(at=middle, size=values, roles=(role,) * values.size, thick=thick)
         mark = Rule(value=levels.equivalent, upright=True, text=_("damages as much") if not named else "", role="ink")
-        made = axis(_("torque") if named else "", "N·m" if named else "", [levels.edge], include=(levels.equivalent,))
-        return Panel(series=(bars, mark), x=made, y=axis(label, "%", [values], include=(0.0,), count=4))
+        made = axis("", "", [levels.edge], include=(levels.equivalent,))
+        if named:
+            made = replace(made, label=_("torque"), unit="Nm", dimension="torque")
+        upright = axis(label, "percent", [values], dimension="share", include=(0.0,), count=4)
+        return Panel(series=(bars, mark), x=made, y=upright)
 
     return Figure(
         name="life-history",
         title=_("What the measured torque does"),
-        sentence=_("The torque from {low} to {high} N·m damages as much as a constant one of {same} N·m.").format(
-            low=significant(levels.low, 3), high=significant(levels.high, 3), same=significant(levels.equivalent)
+        sentence=say(
+            _("The torque from {low:bare} to {high} damages as much as a constant one of {same}."),
+            low=Quantity(levels.low, "torque", 3),
+            high=Quantity(levels.high, "torque", 3),
+            same=Quantity(levels.equivalent, "torque"),
         ),
         source=_("time at level, mean of the 10/3rd power; rule of Palmgren and Miner, Book (268)"),
         rows=(
@@ -222,7 +237,7 @@ def _unlimited(found: Life) -> Figure:
                         x=Axis(
                             label=_("joint"), low=0.4, high=at.size + 0.6, ticks=tuple(at), texts=written(tuple(at))
                         ),
-                        y=axis(_("Largest load of a journal"), "N", [forces], include=(0.0, 1.0)),
+                        y=axis(_("Largest journal force"), "N", [forces], dimension="force", include=(0.0, 1.0)),
                     ),
                 ),
             ),
@@ -234,19 +249,14 @@ def _tone(found: Life) -> str:
     return "ink" if found.enough is None else "good" if found.enough else "failed"
 
 
-def _sentence(found: Life) -> str:
-    said = {"number": found.governing, "life": significant(found.drive / HOUR, 3)}
+def _sentence(found: Life) -> Say | str:
+    """Return how far the loads are from those of the life asked for."""
     if found.demanded is None:
-        return _("Joint {number} fails first, after {life} h.").format(**said)
-    said["asked"] = significant(found.demanded / HOUR, 3)
-    said["factor"] = percent(found.torque_margin)
+        return ""
+    text = _("The loads would have to fall to {factor}.")
     if found.enough:
-        return _(
-            "Joint {number} fails first, after {life} h; {asked} h are asked for, so the loads may grow to {factor}."
-        ).format(**said)
-    return _(
-        "Joint {number} fails after {life} h of the {asked} h asked for; the loads would have to fall to {factor}."
-    ).format(**said)
+        text = _("The loads may grow to {factor}.")
+    return say(text, factor=Quantity(found.torque_margin, "share", 3))
 
 
 def _decades(label: str, values: np.ndarray) -> Axis:
@@ -256,5 +266,5 @@ def _decades(label: str, values: np.ndarray) -> Axis:
     wide = last - first > 3
     marks = [m * 10.0**k for k in range(first, last + 1) for m in ((1.0,) if wide else (1.0, 2.0, 5.0))]
     ticks = tuple(value for value in marks if low <= value <= high)
-    texts = tuple(significant(value, 1) if value < 1e6 else f"{value:.0e}" for value in ticks)
-    return Axis(label=label, unit="h", low=low, high=high, ticks=ticks, texts=texts, log=True)
+    texts = tuple(significant(value, 1) for value in ticks)
+    return Axis(label=label, unit="h", dimension="duration", low=low, high=high, ticks=ticks, texts=texts, log=True)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.formulas.joint_rating import LEAST_BEND, LIFE_RANGE, ROUNDING, SPEED_ANGLE_RANGE, rated_bend, within
 from cardan.maths.arrays import Array, ArrayLike, floats
 from cardan.texts import _
-from cardan.units import deg
 
 if TYPE_CHECKING:
     from .life import Life
@@ -30,13 +30,13 @@ class Caution:
         ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``.
     joint : int
         Number of the joint; 0 where it is the duty.
-    message : str
+    message : Text
         In one sentence.
     """
 
     code: str
     joint: int
-    message: str
+    message: Text
 
 
 def clamped(bend: ArrayLike) -> Array:
@@ -72,44 +72,34 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
         least = float(np.min(bend[:, i]))
         own = found.bearings
         if np.any(bend[:, i] == 0.0) and own.rated[i]:
-            text = _("joint {number} does not bend: its needles do not roll, and ISO 281 rates no life for that")
-            yield Caution(code="no_swing", joint=i + 1, message=text.format(number=i + 1))
+            text = _("joint {number} is straight: its needles do not roll, and ISO 281 rates no life for that")
+            yield Caution(code="no_swing", joint=i + 1, message=say(text, number=i + 1))
+        angle = Quantity(least, "angle", 3)
         if least < own.critical_swing[i]:
             text = _(
-                "joint {number} bends {bend:.3g}°; below {limit:.3g}° each needle wears its own patch, and formulas "
-                "promise too much"
+                "joint {number} has a joint angle of {angle}; below {limit} roller paths do not overlap: false "
+                "brinelling, and the computed life is optimistic"
             )
-            said = text.format(number=i + 1, bend=least / deg, limit=own.critical_swing[i] / deg)
+            said = say(text, number=i + 1, angle=angle, limit=Quantity(float(own.critical_swing[i]), "angle", 3))
             yield Caution(code="small_oscillation", joint=i + 1, message=said)
         figures = ~np.isnan(found.book[:, i]) | ~np.isnan(found.maker[:, i])
         if np.any(clamped(bend[:, i])) and np.any(figures):
-            text = _("joint {number} bends {bend:.3g}°; book and makers count it as 3°")
-            said = text.format(number=i + 1, bend=least / deg)
-            yield Caution(code="angle_clamped_3deg", joint=i + 1, message=said)
+            text = _("joint {number} has a joint angle of {angle}; handbook and makers count it as 3°")
+            yield Caution(code="angle_clamped_3deg", joint=i + 1, message=say(text, number=i + 1, angle=angle))
         whole = book[i]
         if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), whole)):
-            text = _("joint {number} is outside the book's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")
-            yield Caution(code="extrapolated", joint=i + 1, message=text.format(number=i + 1))
+            text = _("joint {number} is outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")
+            yield Caution(code="extrapolated", joint=i + 1, message=say(text, number=i + 1))
         most = float(np.max(found.journal_force[running, i]))
         if most > HEAVY * own.capacity[i]:
             text = _(
-                "journals of joint {number} carry up to {force} N, over half of their dynamic capacity of {capacity} "
-                "N; ISO 281 ends there"
+                "journals of joint {number} carry up to {force}, over half of their dynamic capacity of {capacity}; "
+                "ISO 281 ends there"
             )
-            said = text.format(number=i + 1, force=_grouped(most), capacity=_grouped(float(own.capacity[i])))
+            capacity = Quantity(float(own.capacity[i]), "force")
+            said = say(text, number=i + 1, force=Quantity(most, "force"), capacity=capacity)
             yield Caution(code="heavy_load", joint=i + 1, message=said)
     if beyond:
-        text = _("{share:.6g} % reliability is beyond the table of ISO 281, which ends at 99.95 %")
-        yield Caution(code="extrapolated", joint=0, message=text.format(share=100.0 * found.reliability))
-
-
-def _grouped(value: float) -> str:
-    """Return a number with four digits, in thin groups.
-
-    Examples
-    --------
-    >>> _grouped(51086.7), _grouped(12.3456)
-    ('51\u202f090', '12.35')
-    """
-    text = f"{float(f'{value:.4g}'):,.10g}"
-    return text.replace(",", "\u202f")
+        text = _("{share} reliability is beyond the table of ISO 281, which ends at 99.95 %")
+        share = Quantity(found.reliability, "share", 6, trim=True)
+        yield Caution(code="extrapolated", joint=0, message=say(text, share=share))
