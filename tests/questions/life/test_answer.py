@@ -31,7 +31,7 @@ def test_a_life_too_short_stands_first_with_what_would_do():
     drive = example("truck-duty-cycle")
     said, found = of(drive), life(drive)
     (key,) = said.keys
-    assert told(key.title, USUAL) == "life of joint 3, the first to fail"
+    assert told(key.called, USUAL) == "life of the joint that fails first, joint 3"
     assert (key.value.value, key.limit.value, key.better, key.tone) == (found.drive, 8000 * HOUR, "more", "failed")
     made = page(said, USUAL)
     assert [cell.text for cell in made.keys[0][3:5]] == ["≥ 8\u202f000", fixed(8000 * HOUR / found.drive)]
