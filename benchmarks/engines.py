@@ -16,7 +16,7 @@ from cardan.errors import MissingExtraError
 from .harness import Figure, fastest
 
 if TYPE_CHECKING:
-    from cardan.batch.engines import Engine
+    from cardan.batch.engine.engines import Engine
 
 AIM = 0.05
 """Share of the time of a chunk that an engine may cost."""
@@ -83,7 +83,7 @@ def keeping(rows: int) -> Figure:
     """Return how fast a chunk is put on the disk, checksums and all, against its bytes as they are."""
     import numpy as np
 
-    from cardan.batch.parquet import Label, put, write_chunk
+    from cardan.batch.table.parquet import Label, put, write_chunk
     from cardan.batch.work import Column
 
     names = [f"c{k}" for k in range(6)]

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cardan.analysis.floquet_map import floquet_map
-from cardan.analysis.steady import periodic_response
-from cardan.analysis.torques import Constant
-from cardan.analysis.torsional_balance import slopes
-from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
 from cardan.maths.compiled.method import Compiled
+from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.torsional_balance import slopes
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.steady.steady import periodic_response
 
 from .harness import Figure, fastest
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.analysis.forces import kinetostatics
-from cardan.drive.train import Hold, Train, train_of_points
+from cardan.drive.models.train import Hold, Train, train_of_points
+from cardan.questions.forces.forces import kinetostatics
 
 from .harness import Figure, fastest
 

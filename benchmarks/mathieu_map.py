@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import Compiled, Plain
-from cardan.maths.stability_map import stability_map
+from cardan.maths.periodic.stability_map import stability_map
 
 from .arithmetic import multiply_adds
 from .harness import Figure, fastest

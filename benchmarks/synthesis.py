@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import Drives, extremes, phases
-from cardan.drive.chain import chain
-from cardan.synthesis.batch import synchronous_yokes
+from cardan.drive.models.chain import chain
+from cardan.questions.phases.batch import synchronous_yokes
 
 from .harness import Figure, fastest, random_drives
 from .single_drive import truck

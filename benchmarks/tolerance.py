@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import Compiled, Drive, MonteCarlo, Plain, Tolerance, tolerance
-from cardan.analysis.accuracy import error_arrays, one_turn, transmission_error
-from cardan.analysis.sample_sums import Exact, Sums
-from cardan.analysis.sampling import drawn
 from cardan.maths.arrays import Array
-from cardan.synthesis.allocation import allocate
+from cardan.questions.accuracy.accuracy import error_arrays, one_turn, transmission_error
+from cardan.questions.accuracy.allocation import allocate
+from cardan.questions.accuracy.sample_sums import Exact, Sums
+from cardan.questions.accuracy.sampling import drawn
 from cardan.units import deg
 
 from .harness import Figure, fastest

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan import Compiled, Plain
 from cardan.maths.arrays import Array
-from cardan.maths.tridiagonal import modes, response
+from cardan.maths.linear.tridiagonal import modes, response
 
 from .harness import Figure, fastest
 

@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.analysis.fixed_steps import FixedStep
-from cardan.analysis.torques import Constant, Falling
-from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
-from cardan.analysis.transient import simulate
+from cardan.questions.torsion.model.torques import Constant, Falling
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.transient.fixed_steps import FixedStep
+from cardan.questions.torsion.transient.transient import simulate
 from cardan.units import deg, rpm
 
 from .harness import Figure, fastest

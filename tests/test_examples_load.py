@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from cardan import articulation, assembly, check, cured, cures, equivalent_joint, example, motion, phases
-from cardan.drive.geometry import geometry
-from cardan.drive.paths import pose_drives
+from cardan.drive.fields.paths import pose_drives
+from cardan.drive.models.geometry import geometry
 from cardan.io import example_names, example_text, loads, starter
 
 NAMES = example_names()

@@ -44,7 +44,9 @@ def test_asking_for_motion_is_light():
 
 @pytest.mark.slow
 def test_a_question_is_not_hidden_by_the_package_of_its_name():
-    code = "import cardan, cardan.calc.kinematics; from cardan import calc; print(type(calc).__name__, calc is {})"
+    code = (
+        "import cardan, cardan.calc.motion.kinematics; from cardan import calc; print(type(calc).__name__, calc is {})"
+    )
     assert run(code.format("cardan.calc")) == ["function", "True"]
 
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from cardan import diagnose, example, signal
-from cardan.diagnosis.expected import FAULTS
 from cardan.io import recording_names
+from cardan.questions.diagnosis.expected import FAULTS
 
 FOLDER = Path(__file__).parents[1] / "examples" / "recordings"
 

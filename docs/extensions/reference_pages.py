@@ -93,8 +93,8 @@ def rows() -> str:
 
 def joint_types() -> str:
     """Return the table of all types of joints with their limits, by the law by which they turn."""
-    from cardan.analysis.joint_law import types_of
     from cardan.drive.joints import JOINTS
+    from cardan.questions.motion.joint_law import types_of
 
     lines = [
         "| kind | type of the catalogue | even | bend to | torque to | speed times bend |",
@@ -141,8 +141,8 @@ def _cell(value: Any) -> str:
 def examples() -> str:
     """Return one section for each shipped example: its picture, what the program says of it, its text."""
     from cardan import equivalent_joint
-    from cardan.analysis.equivalence import SYNCHRONOUS
     from cardan.io import example, example_names, example_text
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     parts = []
     for name in example_names():
@@ -184,7 +184,7 @@ def checks() -> str:
 def questions() -> str:
     """Return the table of all questions of a sweep with the columns of their answers, for a drive of two joints."""
     from cardan import Drive
-    from cardan.batch.questions import questions as known
+    from cardan.batch.answering.questions import questions as known
 
     drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0), (1.5, 0, 0)])
     rows = ["| question | answers | columns |", "|---|---|---|"]
@@ -258,14 +258,20 @@ def _given(parameter: Any) -> str:
 
 GROUPS = {
     "The drive": ("drive", "mechanism", "io"),
-    "Questions": ("analysis", "maths"),
+    "Questions": ("questions", "maths"),
     "Verdicts": ("checks",),
-    "Choices": ("synthesis",),
-    "Diagnosis": ("diagnosis",),
+    "Choices": ("choices", "formulas", "questions.phases"),
+    "Diagnosis": ("questions.diagnosis",),
     "Sweeps": ("batch",),
-    "Results on paper": ("figures", "report", "calc"),
+    "Results on paper": ("figures", "scene", "report", "calc", "book"),
     "Errors": ("errors",),
 }
+
+
+def _room(home: str) -> str:
+    """Return the folder that says under which title a name stands: the narrowest that is in `GROUPS`."""
+    known = {room for rooms in GROUPS.values() for room in rooms if f"{home}.".startswith(f"{room}.")}
+    return max(known, key=len, default="")
 
 
 def names() -> str:
@@ -273,7 +279,7 @@ def names() -> str:
     homes: dict[str, str] = cardan._HOMES
     parts = []
     for title, rooms in GROUPS.items():
-        found = [(name, home) for name, home in homes.items() if home.split(".")[0] in rooms]
+        found = [(name, home) for name, home in homes.items() if _room(home) in rooms]
         if not found:
             continue
         parts.append(f"## {title}\n\n```{{eval-rst}}")

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cardan import Evolution, absorber, calm, example
-from cardan.analysis.node_rule import NodeRule
 from cardan.io import loads
+from cardan.questions.torsion.calm.node_rule import NodeRule
 from cardan.units import rpm
 
 from .kit import ACCENT, INK, PALE, SERIES, bare, page

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.maths import dividing_lever, tilted_plane, tripod
-from cardan.synthesis.dividing_lever import lever_choice
+from cardan.drive.joints.laws import dividing_lever, tilted_plane, tripod
+from cardan.formulas.dividing_lever import lever_choice
 from cardan.units import deg
 
 from .kit import ACCENT, DRIVEN, DRIVING, INK, PALE, SERIES, bare, note, page

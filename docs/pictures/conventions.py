@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cardan import Drive, equivalent_joint, motion
-from cardan.drive.geometry import Geometry, geometry
+from cardan.drive.models.geometry import Geometry, geometry
 from cardan.units import deg
 
 from . import kit

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.maths import double_cardan, pin_coupling
-from cardan.synthesis.centring import best_centring
+from cardan.drive.joints.laws import double_cardan, pin_coupling
+from cardan.formulas.centring import best_centring
 from cardan.units import deg
 
 from .kit import ACCENT, DRIVEN, DRIVING, INK, PALE, SERIES, arc, bare, note, page

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cardan import Drive
-from cardan.drive.geometry import geometry
+from cardan.drive.models.geometry import geometry
 
 from .conventions import solids
 from .kit import Scene, bare, page

@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cardan.analysis.joint_law import joint_turn
 from cardan.drive.joints import (
     Clemens,
     DoubleCardan,
@@ -25,7 +24,8 @@ from cardan.drive.joints import (
     Tripod,
     Weiss,
 )
-from cardan.maths import offset_grooves, pin_coupling, profile_coupling
+from cardan.drive.joints.laws import offset_grooves, pin_coupling, profile_coupling
+from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 
 from .kit import ACCENT, CROSS, DRIVEN, DRIVING, INK, PALE, STEEL, Scene, bare, note, page, turn, unit

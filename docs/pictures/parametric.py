@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.analysis.massless_joints import steady_twist
-from cardan.analysis.mathieu_reduction import MathieuReduction, mathieu_reduction
-from cardan.maths.mathieu import boundaries, damped_zone
+from cardan.book.massless_joints import steady_twist
+from cardan.book.mathieu_reduction import MathieuReduction, mathieu_reduction
+from cardan.maths.periodic.mathieu import boundaries, damped_zone
 from cardan.units import deg
 
 from .kit import ACCENT, INK, SERIES, page

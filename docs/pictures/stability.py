@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.analysis.floquet_map import floquet_map
-from cardan.analysis.speed_range import speed_sweep
-from cardan.analysis.steady_start import straight_frequencies
-from cardan.analysis.torques import Constant, Swinging
-from cardan.analysis.torsional_batch import chosen
-from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.model.torques import Constant, Swinging
+from cardan.questions.torsion.model.torsional_batch import chosen
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.stability.floquet_map import floquet_map
+from cardan.questions.torsion.stability.speed_range import speed_sweep
+from cardan.questions.torsion.steady.steady_start import straight_frequencies
 from cardan.units import deg, rpm
 
 from .kit import INK, PALE, SERIES, page

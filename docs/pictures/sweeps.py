@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from cardan import figures
-from cardan.batch.goals import Goal
-from cardan.batch.results import results
-from cardan.batch.running import run
-from cardan.batch.views import map_of
-from cardan.figures.sweep import parallel_figure, pareto_figure
-from cardan.figures.sweep_map import heat_figure
+from cardan.batch.engine.running import run
+from cardan.batch.figures.map import heat_figure
+from cardan.batch.figures.sweep import parallel_figure, pareto_figure
+from cardan.batch.search.goals import Goal
+from cardan.batch.table.results import results
+from cardan.batch.table.views import map_of
 from cardan.io.plan_designs import design_of
 from cardan.io.plan_file import read_plan
 

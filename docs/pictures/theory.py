@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cardan import Drive, equivalent_joint, motion
-from cardan.maths import mobius
+from cardan.maths.kernel import mobius
 from cardan.units import deg
 
 from .kit import ACCENT, INK, PALE, SERIES, bare, note, page

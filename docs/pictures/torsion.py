@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.analysis.steady import periodic_response
-from cardan.analysis.torsion import torsion_modes
-from cardan.analysis.torsion_response import loaded_model, parted
 from cardan.drive.drive import Drive
+from cardan.questions.torsion.model.torsion import torsion_modes
+from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.torsion_response import loaded_model, parted
 from cardan.units import rpm
 
 from .kit import ACCENT, INK, PALE, SERIES, page

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan.analysis.fixed_steps import FixedStep
-from cardan.analysis.hanging import hanging
-from cardan.analysis.torques import Falling
-from cardan.analysis.torsional_model import Torque, torsional_line
-from cardan.analysis.transient import simulate
 from cardan.maths.compiled.method import Compiled
+from cardan.questions.torsion.model.torques import Falling
+from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
+from cardan.questions.torsion.transient.fixed_steps import FixedStep
+from cardan.questions.torsion.transient.hanging import hanging
+from cardan.questions.torsion.transient.transient import simulate
 from cardan.units import deg, rpm
 
 from .kit import ACCENT, INK, PALE, SERIES, page

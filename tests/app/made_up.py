@@ -1,4 +1,4 @@
-"""A made-up scene in the form of ``cardan.figures.scene``: four shafts at angles, turning evenly about their axes.
+"""A made-up scene in the form of ``cardan.scene.scene``: four shafts at angles, turning evenly about their axes.
 
 It knows nothing of joints: what the browser draws is compared with it, not with a drive.
 """

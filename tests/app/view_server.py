@@ -19,7 +19,7 @@ def scene(*, radius: float = 0.035) -> dict[str, Any]:
     if len(sys.argv) < 3:
         return made_up.scene(radius=radius)
     from cardan import example
-    from cardan.figures.scene import scene as drawn
+    from cardan.scene.scene import scene as drawn
 
     return drawn(example(sys.argv[2]), with_forces=True, with_modes=True).described()
 

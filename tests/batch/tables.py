@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from cardan.batch.running import run
+from cardan.batch.engine.running import run
 from cardan.batch.work import Column
 
 COLUMNS = (

@@ -10,7 +10,7 @@ from cardan import Drawn, Drive, InputError, Listed, Spaced, Uniform, equivalent
 from cardan.batch import plan as plan_module
 from cardan.batch.plan import work_of
 from cardan.batch.work import Reduction, Work
-from cardan.drive.paths import with_values
+from cardan.drive.fields.paths import with_values
 from cardan.io import loads
 
 DRIVE = Drive.from_angles([0.3, 0.2, 0.25], yoke_angles=[0.1, 0.2])

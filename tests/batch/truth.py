@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cardan.batch.engines import InProcess
-from cardan.batch.running import read_sweep, run
+from cardan.batch.engine.engines import InProcess
+from cardan.batch.engine.running import read_sweep, run
 
 
 def same_tables(found, wanted):

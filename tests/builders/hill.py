@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.floquet import Coefficients
+from cardan.maths.periodic.floquet import Coefficients
 
 
 def hill_multipliers(coefficients: Coefficients, duration: float, *, harmonics: int = 12) -> Array:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cardan.diagnosis.signal import Channel, Signal
+from cardan.questions.diagnosis.signals.signal import Channel, Signal
 
 
 def angle_of(time, first, rate=0.0):

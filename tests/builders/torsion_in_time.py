@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cardan.analysis.torques import Asynchronous, Constant, Falling, SpeedTable, Swinging
-from cardan.analysis.torsional_balance import accelerations
-from cardan.analysis.torsional_model import Torque, TorsionalModel, torsional_line
+from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, SpeedTable, Swinging
+from cardan.questions.torsion.model.torsional_balance import accelerations
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel, torsional_line
 
 
 def drive(

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from cardan.analysis.forces import Forces
-from cardan.drive.train import Train, train_of_points
+from cardan.drive.models.train import Train, train_of_points
+from cardan.questions.forces.forces import Forces
 
 
 def layout(n: int) -> tuple[tuple[int, tuple[str, ...]], ...]:
@@ -58,7 +58,7 @@ def one(train: Train, index: int) -> Train:
     """Return one drive of a batch with one leading axis."""
     from dataclasses import fields, replace
 
-    from cardan.drive.chain import Chain
+    from cardan.drive.models.chain import Chain
 
     picked = {
         field.name: getattr(train, field.name)[index]

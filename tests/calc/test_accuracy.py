@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError, calc
-from cardan.maths.loops import Status, rccc
+from cardan.maths.kernel.loops import Status, rccc
 from tests.builders.loop_newton import gap
 
 LOOP = {"alpha_deg": [60, 75, 80, 40], "a_m": [0.1, 0.2, 0.15, 0.3], "s1_m": 0.05, "phi1_deg": 30.0}

@@ -2,7 +2,7 @@ import json
 import math
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def problems(capability, inputs):
 
 def test_no_file_of_calculations_is_left_out():
     folder = import_module("cardan.calc").__path__
-    parts = [import_module(f"cardan.calc.{module.name}") for module in iter_modules(folder)]
+    parts = [import_module(module.name) for module in walk_packages(folder, "cardan.calc.")]
     declared = [one for part in parts for one in getattr(part, "CALCULATIONS", ()) if not isinstance(one, str)]
     assert {one.name for one in declared} == set(OWN)
     assert len(declared) == len(OWN), "two calculations share a name"

@@ -3,7 +3,7 @@ import pytest
 from scipy.special import mathieu_a, mathieu_b
 
 from cardan import InputError, calc
-from cardan.maths.mathieu import boundaries, exponents
+from cardan.maths.periodic.mathieu import boundaries, exponents
 
 
 def fields(name, inputs):

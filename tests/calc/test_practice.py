@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from cardan.analysis.angle_limits import angle_limits
 from cardan.calc import calc
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair
+from cardan.choices.selection import Need, select_joint
 from cardan.errors import InputError
-from cardan.synthesis.selection import Need, select_joint
+from cardan.questions.motion.angle_limits import angle_limits
 
 
 def test_the_printed_table_of_angles_follows_its_law_to_one_digit() -> None:

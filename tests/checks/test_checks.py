@@ -6,23 +6,23 @@ import numpy as np
 import pytest
 
 from cardan import Drive, articulation, example, forces, load, motion
-from cardan.analysis.bearing_life import maker_life
-from cardan.analysis.equivalence import largest_acceleration
 from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
 from cardan.checks.case import Case
-from cardan.drive.chain import chain
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Upkeep, Vehicle
-from cardan.drive.geometry import geometry
+from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.paths import pose_drives, read, with_values
 from cardan.drive.inspection import Inspection
-from cardan.drive.keys import spelled
 from cardan.drive.material import Material
+from cardan.drive.models.chain import chain
+from cardan.drive.models.geometry import geometry
 from cardan.drive.movement import Body
-from cardan.drive.paths import pose_drives, read, with_values
 from cardan.drive.shaft import Layup, Ply, Shaft, Spline, Unbalance
 from cardan.errors import InputError
 from cardan.io.examples import example_names, example_text
+from cardan.questions.life.bearing_life import maker_life
+from cardan.questions.motion.equivalence import largest_acceleration
 from cardan.units import deg, mm, rpm
 
 HOUR = 3600.0
@@ -86,7 +86,7 @@ def whole() -> Drive:
 
 def test_every_file_of_a_check_is_listed():
     folder = Path(check.__code__.co_filename).parent
-    files = {path.stem for path in folder.glob("*.py") if "\nCHECK = " in path.read_text("utf-8")}
+    files = {path.stem for path in folder.rglob("*.py") if "\nCHECK = " in path.read_text("utf-8")}
     assert files == set(CHECKS)
 
 

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from cardan import Drive, check, motion, strength
-from cardan.analysis.turn_loads import across, turn_loads
 from cardan.checks.design import design
-from cardan.drive.chain import given_chain, turning, turning_chain
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Input
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.joints import ConstantVelocity, DoubleCardan, ElasticHalfCardan, Hooke, PinCoupling, Rzeppa, Tripod
-from cardan.drive.laws import alike
+from cardan.drive.models.chain import given_chain, turning, turning_chain
+from cardan.drive.models.laws import alike
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
+from cardan.questions.forces.turn_loads import across, turn_loads
 
 DRIVE = Drive(
     joints=(

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from cardan import Drive, example
-from cardan.analysis.bending import bending_speeds
 from cardan.checks import check
 from cardan.drive.duty import Duty
-from cardan.drive.paths import read, with_values
+from cardan.drive.fields.paths import read, with_values
 from cardan.io import loads
+from cardan.questions.bending.bending import bending_speeds
 from cardan.units import deg, rpm
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.assembly import assembly
+from cardan.questions.forces.assembly import assembly
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest
 

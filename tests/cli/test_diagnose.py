@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan import diagnose, load, signal
-from cardan.diagnosis.findings import BY_SIGNS
+from cardan.questions.diagnosis.findings import BY_SIGNS
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 

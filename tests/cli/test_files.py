@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.equivalence import equivalent_joint
 from cardan.calc import CALCULATIONS, calc
+from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.report import renderer
 from tests.cli.conftest import EXAMPLES
 

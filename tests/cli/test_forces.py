@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.forces import forces
 from cardan.drive.duty import Duty
+from cardan.questions.forces.forces import forces
 from cardan.units import deg, rpm
 from tests.cli.conftest import EXAMPLES
 

@@ -6,8 +6,8 @@ import io
 import numpy as np
 import pytest
 
-from cardan.analysis.joint_law import joint_turn
 from cardan.drive.joints import JOINTS, Clemens, DoubleCardan, Profile
+from cardan.questions.motion.joint_law import joint_turn
 from cardan.units import deg, mm
 from tests.cli.test_forces import plain, widest
 

@@ -91,7 +91,7 @@ KEPT = {
     *("joint", "tolerance", "bending", "assembly", "mobility", "torsion", "check", "report", "init", "example"),
     *("convert", "schema", "catalogue", "calc", "modes", "response", "simulate", "stability", "absorber", "calm"),
     *("path", "float", "toml", "html", "json", "list", "truck", "bool", "beta_deg", "alpha_deg", "diagnose", "faults"),
-    *("signal", "measured", "traces", "stderr", "rotor", "sweep"),
+    *("signal", "measured", "traces", "stderr", "rotor", "sweep", "length", "torque", "lbft"),
 }
 """Names of commands, of files and of types stay."""
 

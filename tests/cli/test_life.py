@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.life import life
+from cardan.questions.life.life import life
 from tests.cli.test_forces import plain, widest
 
 TEXT = """format = 1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.losses import loss_map, losses
+from cardan.questions.losses.losses import loss_map, losses
 from cardan.units import rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest

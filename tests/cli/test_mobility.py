@@ -8,7 +8,7 @@ import pytest
 
 from cardan import example_mechanism
 from cardan import io as files
-from cardan.analysis.mobility import mobility
+from cardan.questions.mobility.mobility import mobility
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.moving_forces import moving_forces
+from cardan.questions.forces.moving_forces import moving_forces
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.equivalence import equivalent_joint
-from cardan.analysis.motion import motion
+from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.motion import motion
 from cardan.units import deg, mm, rpm
 from tests.cli.conftest import EXAMPLES
 

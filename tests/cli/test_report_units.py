@@ -44,6 +44,6 @@ def test_what_is_no_unit_is_refused_before_any_work(cardan, tmp_path):
     done = cardan("report", TRUCK, "-o", "x.html", "--unit", "length=inn", "--unit", "colour=red", "--decimal", ";")
     assert done.code == 2
     assert "did you mean in?" in done.err
-    assert "colour=red is not dimension=unit" in done.err
+    assert "unknown dimension 'colour'" in done.err
     assert "neither a point nor a comma" in done.err
     assert not (tmp_path / "x.html").exists()

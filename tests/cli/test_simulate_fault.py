@@ -6,8 +6,8 @@ import io
 import pytest
 
 from cardan import expected_orders, load, signal, simulate_fault
-from cardan.diagnosis.expected import FAULTS
-from cardan.diagnosis.simulate import Runs
+from cardan.questions.diagnosis.expected import FAULTS
+from cardan.questions.diagnosis.simulate import Runs
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 

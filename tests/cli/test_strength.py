@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.shaft_balance import balance
-from cardan.analysis.strength import strength
 from cardan.catalogue import TABLES, catalogue
-from cardan.drive.parts import known_lengths
-from cardan.synthesis.selection import Need, select_joint
-from cardan.synthesis.sizing import size
+from cardan.checks.strength.strength import strength
+from cardan.choices.selection import Need, select_joint
+from cardan.choices.sizing import size
+from cardan.drive.fields.parts import known_lengths
+from cardan.questions.bending.shaft_balance import balance
 from cardan.units import deg, rpm
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest

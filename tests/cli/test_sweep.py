@@ -56,7 +56,7 @@ def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
 def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monkeypatch):
     plan = small.with_name("none.toml")
     plan.write_text('rows = "none"\n' + small.read_text(encoding="utf-8"), encoding="utf-8")
-    monkeypatch.setattr("cardan.batch.running.run", None)
+    monkeypatch.setattr("cardan.batch.engine.running.run", None)
     assert "--csv: the plan keeps no rows" in cardan("sweep", plan, "--csv").err
 
 
@@ -127,7 +127,7 @@ def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, 
         assert count == 120
         yield Stopping()
 
-    monkeypatch.setattr("cardan.batch.running.OFTEN", 0.0)
+    monkeypatch.setattr("cardan.batch.engine.running.OFTEN", 0.0)
     monkeypatch.setattr(torsion_parts, "keeping", stopped)
     done = cardan("sweep", small, "--into", folder)
     assert done.code == 130

@@ -6,7 +6,7 @@ import io
 import numpy as np
 import pytest
 
-from cardan.batch.pareto import pareto
+from cardan.batch.search.pareto import pareto
 from cardan.cli import sweep_asked
 from tests.batch.tables import SIZE, stored, whole
 from tests.cli.test_forces import widest

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.analysis.sampling import MonteCarlo
-from cardan.analysis.tolerance import WorstCase, tolerance
 from cardan.cli.allocating import target
 from cardan.errors import InputError
-from cardan.synthesis.allocation import allocate
+from cardan.questions.accuracy.allocation import allocate
+from cardan.questions.accuracy.sampling import MonteCarlo
+from cardan.questions.accuracy.tolerance import WorstCase, tolerance
 from cardan.units import arcmin, deg
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest

@@ -10,8 +10,8 @@ import pytest
 
 from cardan import io as files
 from cardan import stability, torsion_modes, torsion_response, transient
-from cardan.analysis import torsion_transient
 from cardan.cli.torsion_parts import keeping
+from cardan.questions.torsion.transient import torsion_transient
 from cardan.units import rpm
 from tests.cli.test_forces import plain, widest
 

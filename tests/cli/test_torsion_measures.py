@@ -11,9 +11,9 @@ import pytest
 
 from cardan import io as files
 from cardan.cli.torsion_band import band_remarks
-from cardan.synthesis import absorber as absorbers
-from cardan.synthesis import calm as calms
-from cardan.synthesis.calm import Grid
+from cardan.questions.torsion.absorber import absorber as absorbers
+from cardan.questions.torsion.calm import calm as calms
+from cardan.questions.torsion.calm.calm import Grid
 from cardan.units import rpm
 from tests.cli.test_forces import plain, widest
 
@@ -46,7 +46,7 @@ SEARCHED = {}
 def each_search_once(monkeypatch):
     """Let commands and tests that ask the same share the answer; what is asked otherwise is searched."""
     for name in ("absorber", "calm"):
-        module = importlib.import_module(f"cardan.synthesis.{name}")
+        module = importlib.import_module(f"cardan.questions.torsion.{name}.{name}")
         real = getattr(module, name)
 
         def once(drive, name=name, real=real, progress=None, **options):

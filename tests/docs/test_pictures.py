@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive
-from cardan.maths.frames import angle_about
+from cardan.maths.kernel.frames import angle_about
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -12,22 +12,22 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
 from cardan import figures
-from cardan.analysis.articulation import articulation
-from cardan.analysis.book import book_comparison
-from cardan.analysis.equivalence import after_each_joint, equivalent_joint
-from cardan.analysis.motion import motion
+from cardan.book.comparison import book_comparison
+from cardan.book.figures.comparison import book_figure
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
-from cardan.figures.book import book_figure
-from cardan.figures.equivalence import orders_figure
 from cardan.figures.figure import Bars, Curve
 from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names
-from cardan.synthesis.phases import phases
+from cardan.questions.motion.articulation import articulation
+from cardan.questions.motion.equivalence import after_each_joint, equivalent_joint
+from cardan.questions.motion.figures.equivalence import orders_figure
+from cardan.questions.motion.motion import motion
+from cardan.questions.phases.phases import phases
 from cardan.units import deg
 
 SIX = Drive.from_angles([0.1, 0.2, 0.3, 0.1, 0.2, 0.3], plane_twists=[1, 2, 3, -1, -2], yoke_angles=[1, 0, -1, 0.5, 0])
@@ -175,7 +175,7 @@ def test_each_phase_polygon_starts_in_the_middle_and_ends_at_its_irregularity():
 
 
 def test_sides_of_the_polygon_are_hyperbolic_lines_of_the_joints_lengths():
-    from cardan.drive.chain import chain
+    from cardan.drive.models.chain import chain
 
     found = phases(SIX)
     bend = chain(SIX).bend
@@ -195,7 +195,7 @@ def test_all_shafts_of_after_each_joint_find_their_figure():
 
 
 def test_a_layout_shows_bends_before_and_after():
-    from cardan.synthesis.layout import layout
+    from cardan.questions.phases.layout import layout
 
     boxed = replace(
         DRIVES["truck-printed-coordinates"].joints[2], move_within=((0.7, 0.71), (-0.06, -0.05), (0.0, 0.05))

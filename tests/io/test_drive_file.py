@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cardan import Drive, InputError, equivalent_joint, load, save
-from cardan.drive.tables import written
+from cardan.drive.fields.tables import written
 from cardan.io import dumps, edit, example, example_names, example_text, loads, starter
 from cardan.io.examples import example_file
 from cardan.texts import LANGUAGES, speaking

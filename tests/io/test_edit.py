@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from cardan import InputError
-from cardan.drive.paths import with_values
+from cardan.drive.fields.paths import with_values
 from cardan.io import edit, example_names, example_text, loads
 
 FORMS = """format = 1

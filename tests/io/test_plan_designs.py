@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from cardan.batch.boundary import Boundary
-from cardan.batch.optimise import Optimum
-from cardan.batch.pareto import ParetoSet
-from cardan.batch.sobol import Sensitivity
+from cardan.batch.search.boundary import Boundary
+from cardan.batch.search.optimise import Optimum
+from cardan.batch.search.pareto import ParetoSet
+from cardan.batch.search.sobol import Sensitivity
 from cardan.errors import InputError
 from cardan.io.plan_designs import design_of
 from cardan.io.plan_file import plan_of, read_plan

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import Drawn, InputError, Listed, Normal, Spaced, Uniform
-from cardan.batch.reductions import Reduce
+from cardan.batch.table.reductions import Reduce
 from cardan.io.plan_file import plan_of, read_plan
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -17,9 +17,9 @@ from cardan.drive.body import Lump
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits, Vehicle
+from cardan.drive.fields.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints import Hooke
-from cardan.drive.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.machine import (
     LAWS,
     AsynchronousMachine,

@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from cardan import example
-from cardan.analysis.torsional_train import torsional_train
 from cardan.drive.station import Absorber, Pendulum
 from cardan.io import example_text, loads
 from cardan.io.stations import put_station, station_text
-from cardan.synthesis.hosts import hosts, hung
+from cardan.questions.torsion.absorber.hosts import hosts, hung
+from cardan.questions.torsion.model.torsional_train import torsional_train
 
 THINGS = (
     Absorber(inertia=0.12002, stiffness=880.16, damping=2.2954),

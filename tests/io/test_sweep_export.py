@@ -8,9 +8,9 @@ import openpyxl
 import pyarrow.parquet as pq
 import pytest
 
-from cardan.batch.goals import Goal
-from cardan.batch.results import results
-from cardan.batch.running import run
+from cardan.batch.engine.running import run
+from cardan.batch.search.goals import Goal
+from cardan.batch.table.results import results
 from cardan.errors import InputError
 from cardan.io import sweep_export
 from cardan.io.sweep_export import export

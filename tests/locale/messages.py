@@ -21,7 +21,7 @@ from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
 from cardan.cli.example import about
-from cardan.drive.keys import fields_of
+from cardan.drive.fields.keys import fields_of
 from cardan.io import example_names, example_text, mechanism_names, recording_names
 from cardan.io.reference import SECTIONS
 from cardan.mechanism.mechanism import Mechanism

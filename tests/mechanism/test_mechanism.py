@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.maths import screws
+from cardan.maths.kernel import screws
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import PAIRS, axes
 from tests.builders.mechanisms import anyhow, hooke, pair

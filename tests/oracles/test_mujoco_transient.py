@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cardan.analysis.torsional_model import TorsionalModel, torsional_line
-from cardan.analysis.transient import Adaptive, simulate
+from cardan.questions.torsion.model.torsional_model import TorsionalModel, torsional_line
+from cardan.questions.torsion.transient.transient import Adaptive, simulate
 
 mujoco = pytest.importorskip("mujoco")
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cardan.analysis.straight_line import line_modes, line_response
+from cardan.book.straight_line import line_modes, line_response
 
 opentorsion = pytest.importorskip("opentorsion")
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 
 from cardan.checks import check
+from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.paths import place
+from cardan.drive.fields.paths import place
 from cardan.errors import InputError
 from cardan.io import edit, example, example_names, example_text, loads
 from cardan.report import subject as subjects
@@ -18,7 +19,6 @@ from cardan.report.lights import lights, sentence, with_cures
 from cardan.report.loaded import loaded
 from cardan.report.subject import Subject
 from cardan.report.turning import turning
-from cardan.synthesis.lever import key_of
 from cardan.units import deg
 
 SAME = {"forces", "losses", "accuracy", "life", "strength", "mobility", "assembly", "bending"}

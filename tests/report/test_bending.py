@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import pytest
 
 from cardan import example
-from cardan.analysis.bending import bending_speeds
 from cardan.drive.duty import Duty
 from cardan.figures.wording import significant
+from cardan.questions.bending.bending import bending_speeds
 from cardan.report.bending import whirling
 from cardan.report.block import Picture, Table
 from cardan.units import rpm

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from cardan.diagnosis.examination import examine
-from cardan.diagnosis.findings import diagnose
-from cardan.diagnosis.match import Signs
-from cardan.diagnosis.simulate import Runs, simulate_fault
 from cardan.io import example
+from cardan.questions.diagnosis.examination import examine
+from cardan.questions.diagnosis.findings import diagnose
+from cardan.questions.diagnosis.match import Signs
+from cardan.questions.diagnosis.simulate import Runs, simulate_fault
 from cardan.report.content import Excerpt
 from cardan.report.diagnosis import by_torque, diagnosed, diagnosed_by_signs, grows
 from cardan.report.renderer import RENDERERS

@@ -10,8 +10,8 @@ from cardan import motion
 from cardan.cli.main import main
 from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS, Hooke
-from cardan.figures.kinds import kind_name, too_steep
 from cardan.io import dumps, loads
+from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.report.report import page
 from cardan.units import deg
 

@@ -8,19 +8,19 @@ from functools import cache
 import numpy as np
 import pytest
 
-from cardan.analysis.assembly import assembly
-from cardan.analysis.forces import forces
-from cardan.analysis.losses import losses
-from cardan.analysis.moving_forces import moving_forces
-from cardan.analysis.tolerance import Linear, WorstCase, tolerance
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Hitch
-from cardan.figures.losses import watts
 from cardan.figures.wording import percent, significant
 from cardan.io import example, example_names
-from cardan.maths import frames
+from cardan.maths.kernel import frames
+from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance
+from cardan.questions.forces.assembly import assembly
+from cardan.questions.forces.forces import forces
+from cardan.questions.forces.moving_forces import moving_forces
+from cardan.questions.losses.figure import watts
+from cardan.questions.losses.losses import losses
 from cardan.report.assembly import straining
 from cardan.report.mobility import binding
 from cardan.report.report import page

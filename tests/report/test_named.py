@@ -6,7 +6,7 @@ import pytest
 
 from cardan.checks import check
 from cardan.checks.design import design
-from cardan.drive.keys import meant
+from cardan.drive.fields.keys import meant
 from cardan.io import example
 from cardan.report.block import Points
 from cardan.report.losses import rubbing

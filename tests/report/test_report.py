@@ -7,12 +7,12 @@ from html.parser import HTMLParser
 
 import pytest
 
-from cardan.analysis.equivalence import equivalent_joint
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.errors import InputError
 from cardan.figures.wording import percent
 from cardan.io import example, example_names, example_text
+from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.report.report import page, report
 from cardan.units import deg
 
@@ -178,8 +178,9 @@ def test_key_figures_name_the_pose_that_is_worst():
 
 
 def test_lengths_of_end_shafts_that_the_file_gives_are_shown():
-    from cardan.report.subject import asked
     from cardan.report.understood import understood
+
+    from cardan.report.subject import asked
 
     page_two = understood(asked(example("w-arrangement"), None, None))
     shafts = next(block for block in page_two.blocks if getattr(block, "title", "") == "Shafts")
@@ -225,9 +226,9 @@ def test_changes_come_with_the_most_helpful_first():
 
 def test_a_change_is_listed_once_and_told_to_concern_the_drive_as_drawn():
     """Spline teeth that allow setting A itself are no second change."""
+    from cardan.questions.phases.setting import YokeSetting
     from cardan.report.subject import asked
     from cardan.report.summary import changes
-    from cardan.synthesis.setting import YokeSetting
 
     on = asked(example("three-joints-unequal"), None, None)
     assert isinstance(on.best, YokeSetting)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from cardan import Drive, example
-from cardan.analysis.torsion_transient import transient
-from cardan.analysis.transient import Adaptive
 from cardan.drive.machine import Engine, RunUp
 from cardan.figures.wording import significant
+from cardan.questions.torsion.transient.torsion_transient import transient
+from cardan.questions.torsion.transient.transient import Adaptive
 from cardan.report.block import Page, Picture, Table
 from cardan.report.run_up import running_up
 from cardan.units import rpm

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from cardan.analysis.forces import forces
-from cardan.analysis.stability import Verdict
-from cardan.analysis.strength import strength
-from cardan.analysis.torsion_response import torsion_response
+from cardan.checks.strength.strength import strength
 from cardan.drive.duty import Duty
 from cardan.figures.wording import significant
 from cardan.io import example
+from cardan.questions.forces.forces import forces
+from cardan.questions.torsion.steady.run_stability import Verdict
+from cardan.questions.torsion.steady.torsion_response import torsion_response
 from cardan.report.block import Page, Points
 from cardan.report.report import page
 from cardan.report.strength import bearing_up

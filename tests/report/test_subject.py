@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from cardan.analysis.equivalence import SPECK
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Limits
 from cardan.io import example
+from cardan.questions.motion.equivalence import SPECK
 from cardan.report.key_figures import key_figures
 from cardan.report.phasing import phasing
 from cardan.report.subject import Subject

@@ -60,7 +60,7 @@ def _picture(name: str) -> Any:
 @cache
 def example_picture(name: str) -> str:
     """Return the picture of a shipped example as SVG; nothing where there is none of that name."""
-    from cardan.drive.solids import solids
+    from cardan.drive.bodies.solids import solids
     from cardan.figures.drive import space_figure
     from cardan.figures.render_svg import inline_svg
 

@@ -13,17 +13,17 @@ import numpy as np
 
 from cardan.catalogue import Catalogue, shortened
 from cardan.drive.drive import Drive
-from cardan.drive.tables import tree_of
+from cardan.drive.fields.tables import tree_of
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.threads import share
 from cardan.texts import _
 
-from .asking import STATUS_COLUMN, Asked, Device, ask_of
-from .axes import Axis, Listed, Points
-from .fields import TEXT_FEASIBLE, spread_out
-from .goals import Limit, check_names, excess, limit_of
-from .reductions import Reduce, States, at_work, reduce_of
+from .answering.asking import STATUS_COLUMN, Asked, Device, ask_of
+from .points.axes import Axis, Listed, Points
+from .points.fields import TEXT_FEASIBLE, spread_out
+from .search.goals import Limit, check_names, excess, limit_of
+from .table.reductions import Reduce, States, at_work, reduce_of
 from .work import FEASIBLE, STATUS, Column, Reduction, Rows, State, Status
 
 BLOCK = 2**13

@@ -9,14 +9,14 @@ from typing import Any
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 
-from .asking import Device
-from .axes import Axis
-from .engines import Engine, InProcess
-from .goals import Limit
+from .answering.asking import Device
+from .engine.engines import Engine, InProcess
+from .engine.running import Keeping, run
 from .plan import work_of
-from .reductions import Reduce
-from .running import Keeping, run
-from .swept import Sweep
+from .points.axes import Axis
+from .search.goals import Limit
+from .table.reductions import Reduce
+from .table.swept import Sweep
 
 
 def sweep(

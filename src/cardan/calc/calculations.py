@@ -10,40 +10,35 @@ from cardan.errors import refuse
 from cardan.texts import _, mark
 from cardan.units import nearest
 
-from . import (
-    absorbers,
+from .calculation import Calculation, given
+from .loads import assembly, bearings, forces, joint_forces, life, losses, part_strength, strength
+from .motion import (
     accuracy,
     angles,
-    assembly,
-    bearings,
-    bending,
     book,
     constant_velocity,
     couplings,
+    instruments,
+    kinematics,
+    moving,
+    practice,
+    structure,
+    synthesis,
+    varying,
+)
+from .vibration import (
+    absorbers,
+    bending,
     cracks,
     diagnosis,
     dynamic_book,
-    forces,
-    instruments,
-    joint_forces,
-    kinematics,
-    life,
-    losses,
     mathieu,
-    moving,
-    part_strength,
-    practice,
     run_up,
     simulation,
     steady,
     stepped,
     straight_line,
-    strength,
-    structure,
-    synthesis,
-    varying,
 )
-from .calculation import Calculation, given
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

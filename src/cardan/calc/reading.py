@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.ranges import in_range, out_of_range, range_code, shown
+from cardan.drive.fields.ranges import in_range, out_of_range, range_code, shown
 from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import factor, nearest

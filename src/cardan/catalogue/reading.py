@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
-from cardan.drive.keys import NAMED, Field, fields_of, spellings_of
-from cardan.drive.ranges import in_range, out_of_range
+from cardan.drive.fields.keys import NAMED, Field, fields_of, spellings_of
+from cardan.drive.fields.ranges import in_range, out_of_range
 from cardan.errors import InputError, Problem
 from cardan.texts import _
 from cardan.units import nearest

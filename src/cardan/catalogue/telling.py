@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
-from cardan.drive.keys import NAMED, fields_of
+from cardan.drive.fields.keys import NAMED, fields_of
 from cardan.texts import _
 
 from .rows import TABLES, Row

@@ -7,15 +7,15 @@ from functools import lru_cache
 
 import numpy as np
 
-from cardan.analysis.moving_chain import moving_shafts
-from cardan.analysis.moving_points import default_times, moving_points
-from cardan.drive.chain import Chain, turning
-from cardan.drive.geometry import geometry_from_points
 from cardan.drive.joints import Joint
+from cardan.drive.models.chain import Chain, turning
+from cardan.drive.models.geometry import geometry_from_points
 from cardan.drive.movement import Movement
-from cardan.maths import frames
 from cardan.maths.arrays import Array
-from cardan.maths.series import turning_points
+from cardan.maths.curves.series import turning_points
+from cardan.maths.kernel import frames
+from cardan.questions.motion.moving_chain import moving_shafts
+from cardan.questions.motion.moving_points import default_times, moving_points
 
 FEW = 40
 """Up to so many drives are looked at at all instants of a movement."""
@@ -96,7 +96,7 @@ def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array
 
     Notes
     -----
-    Up to `FEW` different drives exactly, as `cardan.analysis.articulation` has them; of more the parabola through the
+    Up to `FEW` different drives exactly, as `motion.articulation` has them; of more the parabola through the
     extreme instant and its neighbours.
     """
     count = points.shape[-2]

@@ -9,11 +9,11 @@ from functools import cached_property
 
 import numpy as np
 
-from cardan.analysis.turn_loads import TurnLoads, turn_loads
-from cardan.drive.chain import Chain
 from cardan.drive.duty import Harmonic
-from cardan.maths import mobius
+from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
+from cardan.questions.forces.turn_loads import TurnLoads, turn_loads
 
 BLOCK = 512
 """Drives looked at together: their positions fit the cache."""

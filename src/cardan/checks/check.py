@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from cardan.drive.joints import Hooke, Joint
-from cardan.drive.laws import mixed, unmapped
+from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design

@@ -13,34 +13,21 @@ from cardan.maths.arrays import ArrayLike
 from cardan.texts import _
 from cardan.units import nearest
 
-from . import (
-    acceleration,
-    angle_rule,
-    angle_table,
-    balance,
+from .angles import acceleration, angle_rule, angle_table, bend, bend_at_speed, irregularity, output_error, speed_angle
+from .check import Check
+from .design import Design, design
+from .moving import posed, worst_of_poses
+from .practice import layout, length, lubrication, part_accuracy, runout, spline_overlap
+from .speeds import balance, critical_speed, half_critical, max_speed, rim_speed
+from .strength import (
     bearing_life,
-    bend,
-    bend_at_speed,
     contact_pressure,
-    critical_speed,
     design_torque,
-    half_critical,
-    irregularity,
     joint_torque,
     journal_strength,
-    layout,
-    length,
-    lubrication,
-    max_speed,
     needle_static,
-    output_error,
-    part_accuracy,
     rated_torque,
-    rim_speed,
-    runout,
     small_oscillation,
-    speed_angle,
-    spline_overlap,
     spline_pressure,
     spline_strength,
     tube_buckling,
@@ -49,9 +36,6 @@ from . import (
     twist,
     yoke_strength,
 )
-from .check import Check
-from .design import Design, design
-from .moving import posed, worst_of_poses
 from .verdict import Verdict
 
 CHECKS: dict[str, Check] = {

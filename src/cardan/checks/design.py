@@ -10,22 +10,22 @@ from typing import Any
 
 import numpy as np
 
-from cardan.analysis.swing import Swing, swing
-from cardan.analysis.turn_loads import TurnLoads, at_bend
 from cardan.catalogue import Catalogue, catalogue, completed
-from cardan.drive.chain import Chain, given_chain, turning
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import geometry_from_points
+from cardan.drive.fields.keys import fields_of
+from cardan.drive.fields.parts import known_lengths
+from cardan.drive.fields.paths import bare_path, place
 from cardan.drive.joints import Joint
-from cardan.drive.keys import fields_of
-from cardan.drive.laws import unmapped
-from cardan.drive.parts import known_lengths
-from cardan.drive.paths import bare_path, place
+from cardan.drive.models.chain import Chain, given_chain, turning
+from cardan.drive.models.geometry import geometry_from_points
+from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError, refuse
-from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost
+from cardan.questions.forces.swing import Swing, swing
+from cardan.questions.forces.turn_loads import TurnLoads, at_bend
 from cardan.texts import _
 
 from .carried import largest_bends, largest_of

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.paths import bare_path, pose_drives
+from cardan.drive.fields.paths import bare_path, pose_drives
 from cardan.maths.arrays import Array
 from cardan.texts import _
 

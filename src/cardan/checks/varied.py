@@ -7,11 +7,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from cardan.drive.chain import Chain
 from cardan.drive.drive import Drive
-from cardan.drive.geometry import geometry, points_from_angles
-from cardan.maths import frames
+from cardan.drive.models.chain import Chain
+from cardan.drive.models.geometry import geometry, points_from_angles
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
 
 
 def varied_points(

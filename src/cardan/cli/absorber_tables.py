@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.absorber import Absorber
-    from cardan.synthesis.absorber_search import Setting
+    from cardan.questions.torsion.absorber.absorber import Absorber
+    from cardan.questions.torsion.absorber.absorber_search import Setting
 
     from .answer import Cell, Table
 

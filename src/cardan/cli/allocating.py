@@ -12,7 +12,7 @@ from cardan.texts import _
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.allocation import Allocation
+    from cardan.questions.accuracy.allocation import Allocation
 
     from .answer import Answer, Remark, Table
 
@@ -67,9 +67,9 @@ def answer(
     out: Path | None,
 ) -> Answer:
     """Find the cheapest tolerances, write them where asked to, and say so."""
-    from cardan.analysis.tolerance import Linear, WorstCase, tolerance
     from cardan.errors import InputError
-    from cardan.synthesis.allocation import allocate
+    from cardan.questions.accuracy.allocation import allocate
+    from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance
 
     from .answer import Answer
     from .asked import figures
@@ -112,14 +112,14 @@ def _kept(drive: Drive, keep: Sequence[str]) -> list[str]:
 
 def _unit(found: Allocation) -> tuple[float, str, str]:
     """Return the unit of the answer, its suffix and its sign."""
-    from cardan.synthesis.allocation import Of
+    from cardan.questions.accuracy.allocation import Of
     from cardan.units import arcmin
 
     return (1e-6, "um", " µm") if found.of is Of.SHIFT else (arcmin, "arcmin", "′")
 
 
 def _what(found: Allocation) -> str:
-    from cardan.synthesis.allocation import Of
+    from cardan.questions.accuracy.allocation import Of
 
     words = {Of.ANGLE: _("angle"), Of.CHANGE: _("angle over a turn"), Of.SHIFT: _("shift")}
     return words[found.of]
@@ -181,7 +181,7 @@ def _values(found: Allocation) -> dict[str, float]:
     """Return key -> value of the tolerances found, rounded down."""
     from math import floor, isfinite, log10
 
-    from cardan.synthesis.allocation import Of
+    from cardan.questions.accuracy.allocation import Of
 
     unit, suffix, _sign = _unit(found)
     if found.of is Of.SHIFT:
@@ -197,7 +197,7 @@ def _values(found: Allocation) -> dict[str, float]:
 
 
 def _write(drive: Drive, text: str, values: dict[str, float], out: Path) -> None:
-    from cardan.drive.paths import with_values
+    from cardan.drive.fields.paths import with_values
     from cardan.io import dumps, edit
 
     from .output import write_text
@@ -211,8 +211,8 @@ def _write(drive: Drive, text: str, values: dict[str, float], out: Path) -> None
 
 
 def _remarks(file: Path, found: Allocation, out: Path | None) -> Iterator[Remark]:
-    from cardan.analysis.tolerance import WorstCase
     from cardan.figures.wording import closely
+    from cardan.questions.accuracy.tolerance import WorstCase
 
     from .answer import Remark
     from .asked import degrees
@@ -238,8 +238,8 @@ def _remarks(file: Path, found: Allocation, out: Path | None) -> Iterator[Remark
 
 
 def _options(found: Allocation) -> list[str]:
-    from cardan.analysis.tolerance import WorstCase
-    from cardan.synthesis.allocation import Of
+    from cardan.questions.accuracy.allocation import Of
+    from cardan.questions.accuracy.tolerance import WorstCase
 
     options = ["--of", "change"] if found.of is Of.CHANGE else []
     options += ["--method", "worst"] if isinstance(found.method, WorstCase) else []
@@ -251,7 +251,7 @@ def _content(drive: Drive, file: Path, found: Allocation, values: dict[str, floa
 
     import numpy as np
 
-    from cardan.analysis.tolerance import WorstCase
+    from cardan.questions.accuracy.tolerance import WorstCase
 
     unit, suffix, _sign = _unit(found)
     return {

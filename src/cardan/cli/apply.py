@@ -14,7 +14,7 @@ from .convert import SUFFIXES
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.phases import Phasing, YokeSetting
+    from cardan.questions.phases.phases import Phasing, YokeSetting
 
     from .answer import Answer
 
@@ -48,9 +48,9 @@ def applied(
     also : mapping of str to value
         What else changes in the file, by paths with units.
     """
-    from cardan.drive.paths import with_values
+    from cardan.drive.fields.paths import with_values
     from cardan.io import dumps, edit
-    from cardan.synthesis.setting import values_of
+    from cardan.questions.phases.setting import values_of
 
     from .answer import Remark, percent
     from .output import write_text

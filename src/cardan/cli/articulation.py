@@ -13,8 +13,8 @@ from cardan.texts import _
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.articulation import Articulation, Worst
     from cardan.drive.drive import Drive
+    from cardan.questions.motion.articulation import Articulation, Worst
 
     from .answer import Answer, Remark, Table
 
@@ -57,7 +57,7 @@ def articulation(
     check_times(until, step)
     check_speed(speed_rpm)
 
-    from cardan.analysis.articulation import articulation as question
+    from cardan.questions.motion.articulation import articulation as question
     from cardan.units import rpm
 
     from .source import read
@@ -120,7 +120,7 @@ def _figures(found: Articulation) -> Any:
 
 
 def _turns(found: Articulation) -> bool:
-    from cardan.analysis.instants import Position
+    from cardan.questions.motion.instants import Position
 
     return bool((found.status < Position.IMPOSSIBLE).all())
 
@@ -130,7 +130,7 @@ def _worst(found: Articulation, what: str) -> Worst | None:
 
 
 def _sentence(drive: Drive, file: Path, found: Articulation) -> str:
-    from cardan.analysis.equivalence import SYNCHRONOUS
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     from .answer import percent, significant
     from .source import title

@@ -13,9 +13,9 @@ import typer
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.over_turn import Turn
     from cardan.drive.drive import Drive
     from cardan.errors import Problem
+    from cardan.maths.curves.over_turn import Turn
 
     from .answer import Cell, Table
 
@@ -101,7 +101,7 @@ def check_torque(torque: float | None) -> None:
     if not isfinite(torque):
         raise refuse("--torque-Nm", _("{value} is not a finite number").format(value=torque))
 
-    from cardan.drive.ranges import HUGE
+    from cardan.drive.fields.ranges import HUGE
 
     if abs(torque) > HUGE:
         raise refuse("--torque-Nm", _("{value} is not allowed; no drive has such a number").format(value=torque))
@@ -161,7 +161,7 @@ def key_of(field: str) -> str:
         unit = "Nm_per_rad"  # a shaft or a station twists
     if unit:
         return f"{field}_{unit}"
-    from cardan.drive.keys import spelled
+    from cardan.drive.fields.keys import spelled
 
     return spelled(field)
 
@@ -207,7 +207,7 @@ def size(vectors: Any) -> Any:
 
 def turn(angle: Any, values: Any) -> Turn:
     """Return least and largest of quantities (..., p) over a turn, rounding left out."""
-    from cardan.analysis.over_turn import over_turn
+    from cardan.maths.curves.over_turn import over_turn
 
     return over_turn(angle, tidy(values))
 

@@ -12,8 +12,8 @@ from .asked import CurveAngle, CurveStep
 from .options import AsCsv, AsJson, DriveFile, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.assembly import AssemblyForces, Peak
     from cardan.drive.drive import Drive
+    from cardan.questions.forces.assembly import AssemblyForces, Peak
 
     from .answer import Answer, Cell, Remark, Table
 
@@ -37,7 +37,7 @@ def assembly(
     check_common(json=json, csv=csv, plot=plot)
     check_positions(angle, step)
 
-    from cardan.analysis.assembly import assembly as question
+    from cardan.questions.forces.assembly import assembly as question
 
     from .source import read
 
@@ -52,7 +52,7 @@ def _answer(drive: Drive, file: Path, found: AssemblyForces, curves: AssemblyFor
     from .answer import Answer
 
     def drawn() -> Any:
-        from cardan.figures.assembly import assembly_figures
+        from cardan.questions.forces.figures.assembly import assembly_figures
 
         return assembly_figures(found, [one.name for one in drive.supports])
 

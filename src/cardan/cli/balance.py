@@ -13,8 +13,8 @@ from cardan.texts import _
 from .options import AsCsv, AsJson, DriveFile, MoreRows, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.shaft_balance import Balance
     from cardan.drive.drive import Drive
+    from cardan.questions.bending.shaft_balance import Balance
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -41,9 +41,9 @@ def balance(
 
     check_options(speed_rpm, json=json, csv=csv)
 
-    from cardan.analysis.shaft_balance import balance as question
     from cardan.errors import InputError
     from cardan.io.drive_file import known_to
+    from cardan.questions.bending.shaft_balance import balance as question
 
     from .source import STDIN, read
 

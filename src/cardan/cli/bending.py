@@ -13,9 +13,9 @@ from cardan.texts import _, plural
 from .options import AsCsv, AsJson, DriveFile, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.bending import CriticalSpeeds, Part
-    from cardan.analysis.speed_map import CriticalSpeedMap
     from cardan.drive.drive import Drive
+    from cardan.questions.bending.bending import CriticalSpeeds, Part
+    from cardan.questions.bending.speed_map import CriticalSpeedMap
 
     from .answer import Answer, Remark
 
@@ -44,9 +44,9 @@ def bending(
 
     check_common(json=json, csv=csv, plot=plot)
 
-    from cardan.analysis.bending import MOST, bending_speeds
-    from cardan.analysis.speed_map import critical_speed_map
     from cardan.errors import refuse
+    from cardan.questions.bending.bending import MOST, bending_speeds
+    from cardan.questions.bending.speed_map import critical_speed_map
 
     from .source import read
 
@@ -61,7 +61,7 @@ def bending(
 
 
 def _answer(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSpeedMap | None) -> Answer:
-    from cardan.analysis.bending import Running
+    from cardan.questions.bending.bending import Running
 
     from .answer import Answer
     from .asked import figures
@@ -99,7 +99,7 @@ def _said(drive: Drive, part: Part) -> str:
 
 
 def _sentence(drive: Drive, file: Path, found: CriticalSpeeds) -> str:
-    from cardan.analysis.bending import Running
+    from cardan.questions.bending.bending import Running
     from cardan.units import rpm
 
     from .answer import significant
@@ -155,7 +155,7 @@ def _remarks(drive: Drive, file: Path, found: CriticalSpeeds, varied: CriticalSp
 
 def _judged(drive: Drive, found: CriticalSpeeds) -> Iterator[Remark]:
     """Yield the rules that are broken, and what would keep them."""
-    from cardan.analysis.critical_speed import ARTICLE, CATALOGUE
+    from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
     from cardan.units import mm, rpm
 
     from .answer import Remark, significant

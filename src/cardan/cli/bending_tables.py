@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.bending import CriticalSpeeds, Part
-    from cardan.analysis.speed_map import CriticalSpeedMap
     from cardan.drive.drive import Drive
+    from cardan.questions.bending.bending import CriticalSpeeds, Part
+    from cardan.questions.bending.speed_map import CriticalSpeedMap
 
     from .answer import Cell, Table
 

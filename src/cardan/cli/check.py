@@ -57,8 +57,8 @@ def check(
         raise refuse("FILE", _("missing: the drive file to judge, or --list"))
 
     from cardan.checks import check as question
+    from cardan.choices.cure import cures
     from cardan.io.drive_file import known_to
-    from cardan.synthesis.cure import cures
 
     from .progress import watching
     from .source import STDIN, read

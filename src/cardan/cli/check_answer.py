@@ -14,8 +14,8 @@ from .answer import Answer, Column, Remark, Table, Tone, significant
 
 if TYPE_CHECKING:
     from cardan.checks import Verdict
+    from cardan.choices.cure import Cure
     from cardan.drive.drive import Drive
-    from cardan.synthesis.cure import Cure
 
     from .answer import Cell
 
@@ -214,7 +214,7 @@ def _cures(judged: Judged) -> Table:
 
 def figure(value: float | int | str) -> str:
     """Return a value of a key as a file has it."""
-    from cardan.synthesis.change import typed
+    from cardan.choices.change import typed
 
     return typed(value)
 
@@ -235,7 +235,7 @@ def effect(one: Cure) -> str:
 
 def _lacking(verdicts: Sequence[Verdict]) -> Iterator[list[Cell]]:
     """Yield keys to add, one a row, those that differ only by their number together, and what they tell."""
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     groups: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts:
@@ -264,7 +264,7 @@ def _plain(members: Sequence[Verdict]) -> str:
 
 
 def _remarks(judged: Judged) -> Iterator[Remark]:
-    from cardan.synthesis.cure import most_helpful
+    from cardan.choices.cure import most_helpful
 
     uncured = [one for one in judged.failed if all(cure.title != one.title for cure in judged.cures)]
     for one in uncured:
@@ -296,7 +296,7 @@ def _remarks(judged: Judged) -> Iterator[Remark]:
 
 def _rows(judged: Judged) -> Table:
     """Return every verdict, one a row."""
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     keys = ("check", "subject", "title", "state", "advice", "value", "sense", "limit", "limit_high", "unit")
     columns = tuple(Column(key=key) for key in (*keys, "utilisation", "source", "missing", "note"))
@@ -326,8 +326,8 @@ def _ends(one: Verdict) -> tuple[float | None, float | None]:
 def _content(judged: Judged) -> dict[str, Any]:
     from dataclasses import asdict
 
-    from cardan.synthesis.cure import most_helpful
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.cure import most_helpful
+    from cardan.choices.lever import key_of
 
     verdicts = []
     for one in judged.verdicts:
@@ -363,6 +363,6 @@ def _content(judged: Judged) -> dict[str, Any]:
 
 
 def _figures(judged: Judged) -> Any:
-    from cardan.figures.check import check_figures
+    from cardan.checks.figure import check_figures
 
     return check_figures(judged.verdicts, name=judged.drive.name)

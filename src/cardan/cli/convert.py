@@ -61,7 +61,7 @@ def convert(
         return _bodies(file, drive, out, json=json)
 
     from cardan import io
-    from cardan.drive.forms import in_form
+    from cardan.drive.models.forms import in_form
 
     moved = drive if form is None else in_form(drive, form)
     if out == STDIN:
@@ -82,9 +82,9 @@ def convert(
 
 def _bodies(file: Path, drive: Drive, out: Path, *, json: bool) -> int:
     """Write a drive as bodies that turn."""
-    from cardan.figures.render_gltf import render
-    from cardan.figures.scene import scene
     from cardan.files import write_bytes
+    from cardan.scene.gltf import render
+    from cardan.scene.scene import scene
 
     from .answer import Answer
     from .show import show

@@ -14,8 +14,8 @@ from .options import AsCsv, AsJson, MoreRows, Plot
 from .recording import FullScale, Places, Pulses, Rate, Tacho, Titles
 
 if TYPE_CHECKING:
-    from cardan.diagnosis.examination import Examination
-    from cardan.diagnosis.match import Signs
+    from cardan.questions.diagnosis.examination import Examination
+    from cardan.questions.diagnosis.match import Signs
 
     from .recording import Reading
 
@@ -155,8 +155,8 @@ def _files(recording: Path | None, file: Path | None) -> tuple[Path, Path]:
 
 def _signs(orders: str | None, symptom: str | None, torque_sensitive: bool | None) -> Signs:
     """Return what was seen, or refuse what is no sign; all at once."""
-    from cardan.diagnosis.match import Signs, symptoms
     from cardan.errors import InputError, Problem
+    from cardan.questions.diagnosis.match import Signs, symptoms
     from cardan.units import nearest
 
     problems = []
@@ -195,9 +195,9 @@ def _examined(
     catalogues: tuple[Path, ...],
 ) -> Examination:
     """Return what the recording tells of the drive; what is wrong with both files at once."""
-    from cardan.diagnosis.examination import examine
     from cardan.errors import InputError
     from cardan.io.drive_file import known_to
+    from cardan.questions.diagnosis.examination import examine
 
     from .failure import about
     from .progress import watching

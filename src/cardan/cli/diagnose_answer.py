@@ -12,9 +12,9 @@ from cardan.texts import _
 from .answer import Answer, Cell, Column, Remark, Table, Tone
 
 if TYPE_CHECKING:
-    from cardan.diagnosis.examination import Examination
-    from cardan.diagnosis.findings import Finding
-    from cardan.diagnosis.match import Signs
+    from cardan.questions.diagnosis.examination import Examination
+    from cardan.questions.diagnosis.findings import Finding
+    from cardan.questions.diagnosis.match import Signs
     from cardan.report.block import Page
     from cardan.report.renderer import Renderer
 
@@ -63,7 +63,7 @@ def report_form(path: Path) -> Renderer:
 def by_recording(found: Examination, drive_path: Path, again: tuple[str, ...] = ()) -> Diagnosed:
     """Return what a recording tells; ``again`` is the command that asks for it."""
     from cardan.figures import for_result
-    from cardan.figures.examination import verdict
+    from cardan.questions.diagnosis.figures.examination import verdict
 
     def page() -> Page:
         from cardan.report.diagnosis import diagnosed
@@ -91,8 +91,8 @@ def by_signs(signs: Signs, catalogues: Sequence[Path]) -> Diagnosed:
     """Return what orders and symptoms alone tell."""
     from cardan.catalogue import catalogue
     from cardan.catalogue.catalogue import with_files
-    from cardan.diagnosis.findings import diagnose
-    from cardan.figures.examination import causes_figure, verdict
+    from cardan.questions.diagnosis.figures.examination import causes_figure, verdict
+    from cardan.questions.diagnosis.findings import diagnose
 
     findings = diagnose(signs, known=with_files(catalogue(), catalogues) if catalogues else None)
 
@@ -125,7 +125,7 @@ def by_signs(signs: Signs, catalogues: Sequence[Path]) -> Diagnosed:
 
 
 def _tone(findings: Sequence[Finding]) -> Tone:
-    from cardan.figures.examination import LIKELY
+    from cardan.questions.diagnosis.figures.examination import LIKELY
 
     first = findings[0]
     if first.score < LIKELY:
@@ -157,8 +157,8 @@ def _rows(findings: Sequence[Finding]) -> Table:
 
 def _orders(found: Examination) -> Table:
     """Return the highest orders of every channel that shakes."""
-    from cardan.figures.diagnosis import UNITS, order_text
     from cardan.figures.wording import significant
+    from cardan.questions.diagnosis.figures.orders import UNITS, order_text
     from cardan.units import spoken
 
     rows: list[list[Cell]] = []
@@ -216,7 +216,7 @@ def _remarks(found: Examination, again: tuple[str, ...]) -> Iterator[Remark]:
 
 
 def _content(found: Examination, drive_path: Path) -> dict[str, Any]:
-    from cardan.figures.diagnosis import UNITS
+    from cardan.questions.diagnosis.figures.orders import UNITS
     from cardan.units import rpm
 
     shaft = found.rotation

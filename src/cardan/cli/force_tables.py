@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.forces import Forces
     from cardan.drive.drive import Drive
     from cardan.drive.joints.joint import Joint
+    from cardan.questions.forces.forces import Forces
 
     from .answer import Cell, Table
 
@@ -42,7 +42,7 @@ def tables(drive: Drive, found: Forces) -> list[Table]:
 
 def shaft_table(drive: Drive, found: Forces) -> Table:
     """Return torque and bending of every shaft."""
-    from cardan.analysis.over_turn import harmonics
+    from cardan.maths.curves.over_turn import harmonics
 
     from .answer import Column, Table, named
     from .asked import degrees, tidy, turn

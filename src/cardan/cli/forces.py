@@ -15,8 +15,8 @@ from .asked import CurveAngle, CurveStep, TorqueNm
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.forces import Forces
     from cardan.drive.drive import Drive
+    from cardan.questions.forces.forces import Forces
 
     from .answer import Answer, Remark, Table
 
@@ -64,7 +64,7 @@ def forces(
 
         return show(moving(drive, file, movement), json=json, csv=csv, plot=plot)
 
-    from cardan.analysis.forces import forces as question
+    from cardan.questions.forces.forces import forces as question
 
     with keys_of(file):
         found = question(drive)
@@ -77,7 +77,7 @@ def _answer(drive: Drive, file: Path, found: Forces, curves: Forces) -> Answer:
     from .force_tables import tables
 
     def drawn() -> Any:
-        from cardan.figures.forces import forces_figures
+        from cardan.questions.forces.figures.forces import forces_figures
 
         return forces_figures(found, drive)
 
@@ -148,8 +148,8 @@ def _sizes(found: Forces) -> Any:
 def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.analysis.reactions import Held
-    from cardan.analysis.solving_order import reaction_groups
+    from cardan.questions.forces.reactions import Held
+    from cardan.questions.forces.solving_order import reaction_groups
     from cardan.texts import plural
 
     from .answer import Remark, significant
@@ -279,9 +279,9 @@ def _trace(found: Forces) -> Table:
 
 
 def _content(drive: Drive, file: Path, found: Forces, curves: Forces) -> dict[str, Any]:
-    from cardan.analysis.over_turn import harmonics
-    from cardan.analysis.reactions import Held
-    from cardan.analysis.solving_order import reaction_groups
+    from cardan.maths.curves.over_turn import harmonics
+    from cardan.questions.forces.reactions import Held
+    from cardan.questions.forces.solving_order import reaction_groups
     from cardan.units import rpm
 
     from .asked import columns_of, tidy

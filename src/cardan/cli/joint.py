@@ -12,9 +12,9 @@ from cardan.texts import _, plural
 from .options import AsCsv, AsJson, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.joint_inside import Inside
-    from cardan.analysis.joint_law import JointBends, JointTurn
     from cardan.catalogue.rows import JointType
+    from cardan.questions.motion.joint_inside import Inside
+    from cardan.questions.motion.joint_law import JointBends, JointTurn
 
     from .answer import Answer, Cell, Remark, Table
     from .joint_kinds import Asked
@@ -74,8 +74,8 @@ def joint(
 
     from math import isfinite
 
-    from cardan.analysis.joint_law import joint_turn
     from cardan.errors import InputError, refuse
+    from cardan.questions.motion.joint_law import joint_turn
     from cardan.units import deg
 
     if not isfinite(bend_deg):
@@ -99,12 +99,12 @@ def _answer(several: Sequence[Asked], turns: Sequence[JointTurn], speed_rpm: flo
 
     @cache
     def bends() -> tuple[JointBends, ...]:
-        from cardan.analysis.joint_law import joint_bends
+        from cardan.questions.motion.joint_law import joint_bends
 
         return tuple(joint_bends(one.joint) for one in turns)
 
     def drawn() -> Any:
-        from cardan.figures.joint_law import joint_figures
+        from cardan.questions.motion.figures.joint_law import joint_figures
 
         return joint_figures(turns, bends(), labels)
 
@@ -203,7 +203,7 @@ def _acceleration(turn: JointTurn, speed_rpm: float) -> float:
 def _over_bends(turn: JointTurn, speed_rpm: float | None) -> Table:
     from math import degrees
 
-    from cardan.analysis.joint_law import joint_bends
+    from cardan.questions.motion.joint_law import joint_bends
     from cardan.units import deg, rpm
 
     from .answer import Column, Table
@@ -230,7 +230,7 @@ def _over_bends(turn: JointTurn, speed_rpm: float | None) -> Table:
 
 
 def _inside(turn: JointTurn) -> tuple[Inside, ...]:
-    from cardan.analysis.joint_inside import joint_inside
+    from cardan.questions.motion.joint_inside import joint_inside
 
     return joint_inside(turn.joint, turn.bend)
 
@@ -266,7 +266,7 @@ def _inner(inner: Sequence[tuple[str, Inside]], *, several: bool) -> Table:
 def _types(kind: str, turn: JointTurn, speed_rpm: float | None) -> Iterator[Table]:
     from math import degrees
 
-    from cardan.analysis.joint_law import types_of
+    from cardan.questions.motion.joint_law import types_of
 
     from .answer import Column, Table
 
@@ -351,7 +351,7 @@ def _content(
 
     import numpy as np
 
-    from cardan.analysis.joint_law import types_of
+    from cardan.questions.motion.joint_law import types_of
 
     return {
         "question": "joint",

@@ -115,9 +115,9 @@ def made(several: Sequence[Asked]) -> list[Joint]:
 
 
 def _made(one: Asked) -> Joint:
+    from cardan.drive.fields.keys import fields_of, spellings_of
     from cardan.drive.joints import JOINTS
     from cardan.drive.joints.joint import Joint
-    from cardan.drive.keys import fields_of, spellings_of
     from cardan.io.reader import drive_from_tree
 
     kind = JOINTS[one.kind]
@@ -135,8 +135,8 @@ def _named(key: str, spellings: dict[str, tuple[str, float]]) -> str:
 
 def _written(kind: type[Joint]) -> list[str]:
     """Return the keys of a kind's own sizes as we write them."""
+    from cardan.drive.fields.keys import fields_of
     from cardan.drive.joints.joint import Joint
-    from cardan.drive.keys import fields_of
 
     return [one.spelling for name, one in fields_of(kind).items() if name not in fields_of(Joint)]
 
@@ -145,10 +145,10 @@ def kinds_answer() -> Answer:
     """Return the list of all kinds, with their sizes."""
     from math import degrees
 
-    from cardan.analysis.joint_law import types_of
+    from cardan.drive.fields.keys import fields_of
     from cardan.drive.joints import JOINTS
     from cardan.drive.joints.joint import Joint
-    from cardan.drive.keys import fields_of
+    from cardan.questions.motion.joint_law import types_of
 
     from .answer import Answer, Column, Remark, Table
 

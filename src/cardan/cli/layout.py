@@ -12,14 +12,14 @@ from .phasing import command, setting_content, settings_table, spread
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.layout import Layout
+    from cardan.questions.phases.layout import Layout
 
     from .answer import Answer, Cell, Remark, Table
 
 
 def answer(drive: Drive, file: Path, found: Layout, held: Mapping[int, float], goal: str) -> Answer:
     """Return what to say of a layout; see `cardan.cli.phasing.answer`."""
-    from cardan.synthesis.layout import Status
+    from cardan.questions.phases.layout import Status
 
     from .answer import Answer
 
@@ -55,7 +55,7 @@ def _figures(found: Layout) -> Any:
 def _sentence(drive: Drive, file: Path, found: Layout) -> str:
     from math import degrees
 
-    from cardan.analysis.equivalence import equivalent_joint
+    from cardan.questions.motion.equivalence import equivalent_joint
 
     from .answer import percent
     from .source import title
@@ -104,7 +104,7 @@ def _table(found: Layout) -> Table:
 
 def _remarks(file: Path, found: Layout, held: Mapping[int, float], goal: str) -> Iterator[Remark]:
     from cardan.figures.wording import letters
-    from cardan.synthesis.layout import Status
+    from cardan.questions.phases.layout import Status
 
     from .answer import Remark
 

@@ -40,25 +40,32 @@ class Entry:
 
 
 @cache
-def _language_option(_spoken: str) -> Any:
-    """Return the option ``--lang`` of every command. `cardan.cli.main` obeys it before any command is imported."""
+def _reader_options(_spoken: str) -> list[Any]:
+    """Return the options of every command that `cardan.cli.main` obeys before any command is imported."""
     single = typer.Typer(add_completion=False)
-    text = _("Language of the answers: {languages}. CARDAN_LANG sets it for good.")
-    text = text.format(languages=", ".join(f"{code} ({name})" for code, name in LANGUAGES.items()))
+    languages = ", ".join(f"{code} ({name})" for code, name in LANGUAGES.items())
+    text = _("Language of the answers: {languages}. CARDAN_LANG sets it for good.").format(languages=languages)
+    units = _("Unit that a dimension is told in, such as length=in or torque=lbft; may be repeated.")
+    sign = _("Sign between whole and part, a point or a comma.")
+    unit: str = typer.Option("", "--unit", metavar="DIMENSION=UNIT", show_default=False, help=units)
+    decimal: str = typer.Option("", "--decimal", metavar="SIGN", show_default=False, help=sign)
     wanted: str = typer.Option("", "--lang", metavar="|".join(LANGUAGES), show_default=False, help=text)
 
     @single.command()
-    def command(lang: str = wanted) -> None:
+    def command(unit: str = unit, decimal: str = decimal, lang: str = wanted) -> None:
         pass
 
-    option = typer.main.get_command(single).params[0]
-    option.expose_value = False
-    return option
+    options = typer.main.get_command(single).params[:3]
+    for option in options:
+        option.expose_value = False
+    return options
 
 
 def _common(parameters: list[Any]) -> list[Any]:
-    """Return the parameters with the language before the help; a flag is a flag and needs no word for its type."""
-    parameters = [*parameters[:-1], _language_option(language()), *parameters[-1:]]
+    """Return the parameters with those of the reader before the help; a flag needs no word for its type."""
+    own = {one.name for one in parameters}
+    common = [one for one in _reader_options(language()) if one.name not in own]
+    parameters = [*parameters[:-1], *common, *parameters[-1:]]
     for parameter in parameters:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""
@@ -73,7 +80,7 @@ def _usage(command: Any, ctx: Any, formatter: Any) -> None:
 
 
 class Command(TyperCommand):
-    """A command that takes ``--lang``, whose help shows flags without ``<bool>`` and speaks our language."""
+    """A command that takes the options of the reader, and whose help speaks our language, flags without ``<bool>``."""
 
     def get_params(self, ctx: Any) -> list[Any]:
         """Return the parameters of the command."""

@@ -15,9 +15,9 @@ from .asked import TorqueNm
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.loss_parts import Uncounted
-    from cardan.analysis.losses import Losses, LossMap
     from cardan.drive.drive import Drive
+    from cardan.questions.losses.loss_parts import Uncounted
+    from cardan.questions.losses.losses import Losses, LossMap
 
     from .answer import Answer, Cell, Remark, Table
 
@@ -52,9 +52,9 @@ def losses(
     check_speed(speed_rpm)
     check_torque(torque)
 
-    from cardan.analysis.losses import loss_map
-    from cardan.analysis.losses import losses as question
     from cardan.errors import refuse
+    from cardan.questions.losses.losses import loss_map
+    from cardan.questions.losses.losses import losses as question
 
     from .source import read
 
@@ -71,7 +71,7 @@ def _answer(drive: Drive, file: Path, found: Losses, over: LossMap | None) -> An
     from .answer import Answer
 
     def drawn() -> Any:
-        from cardan.figures.losses import losses_figures, map_figures
+        from cardan.questions.losses.figure import losses_figures, map_figures
 
         return (*losses_figures(found, drive), *(() if over is None else map_figures(over)))
 

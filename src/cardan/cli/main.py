@@ -28,11 +28,38 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with speaking(os.environ.get("CARDAN_LANG", "")):
             asked, rest = _asked(given)
             with speaking(asked or language()), _all_speaking():
-                return _run(rest)
+                return _read(rest)
     except BaseException as error:
         from .failure import answer
 
         return answer(error, given)
+
+
+def _read(given: list[str]) -> int:
+    """Run one command for the reader that ``--unit`` and ``--decimal`` describe, wherever they stand."""
+    units, rest = _taken(given, "--unit")
+    signs, rest = _taken(rest, "--decimal")
+    if not units and not signs:
+        return _run(rest)
+    from cardan.answers.reader import chosen, reading
+
+    with reading(chosen(units, signs[-1] if signs else ".")):
+        return _run(rest)
+
+
+def _taken(given: Sequence[str], option: str) -> tuple[list[str], list[str]]:
+    """Return the values of an option that every command has, and all else; without a value the parser says so."""
+    end = given.index("--") if "--" in given else len(given)
+    values, rest, words = [], [], iter(given[:end])
+    for word in words:
+        if word == option or word.startswith(f"{option}="):
+            value = word.removeprefix(f"{option}=") if "=" in word else next(words, None)
+            if value is None:
+                return [], list(given)
+            values.append(value)
+        else:
+            rest.append(word)
+    return values, [*rest, *given[end:]]
 
 
 def _run(given: list[str]) -> int:
@@ -65,17 +92,8 @@ def _asked(given: Sequence[str]) -> tuple[str, list[str]]:
     InputError
         It is not one that we speak.
     """
-    end = given.index("--") if "--" in given else len(given)
-    asked, rest, words = "", [], iter(given[:end])
-    for word in words:
-        if word == "--lang" or word.startswith("--lang="):
-            value = word.removeprefix("--lang=") if "=" in word else next(words, None)
-            if value is None:
-                return asked, list(given)  # the parser says what is missing
-            asked = _known(value)
-        else:
-            rest.append(word)
-    return asked, [*rest, *given[end:]]
+    values, rest = _taken(given, "--lang")
+    return ([_known(value) for value in values] or [""])[-1], rest
 
 
 def _known(given: str) -> str:

@@ -14,11 +14,11 @@ from .mobility_content import Turned, content
 from .options import AsCsv, AsJson, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.mobility import Mobility
-    from cardan.analysis.repair import Repair
     from cardan.drive.drive import Drive
     from cardan.mechanism.mechanism import Mechanism
     from cardan.mechanism.partition import Partition
+    from cardan.questions.mobility.mobility import Mobility
+    from cardan.questions.mobility.repair import Repair
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -46,7 +46,7 @@ def mobility(
 
     check_common(json=json, csv=csv, plot=plot)
 
-    from cardan.analysis.mobility import mobility as question
+    from cardan.questions.mobility.mobility import mobility as question
 
     thing = _read(file)
     with keys_of(file), watching(_("following a turn")) as progress:
@@ -71,10 +71,10 @@ def _read(path: Path) -> Drive | Mechanism:
 
 
 def _around(thing: Drive | Mechanism, progress: Any) -> Turned:
-    from cardan.analysis.finite_mobility import finite_mobility
-    from cardan.analysis.mobility_turn import mobility_over_turn
     from cardan.errors import refuse
     from cardan.mechanism.mechanism import Mechanism
+    from cardan.questions.mobility.finite_mobility import finite_mobility
+    from cardan.questions.mobility.mobility_turn import mobility_over_turn
 
     if isinstance(thing, Mechanism) and not thing.input_link:
         raise refuse("--turn", _("the file names no input_link that could be turned"))
@@ -87,8 +87,8 @@ def _around(thing: Drive | Mechanism, progress: Any) -> Turned:
 
 
 def _answer(thing: Drive | Mechanism, file: Path, found: Mobility, around: Turned | None) -> Answer:
-    from cardan.analysis.repair import repairs
     from cardan.mechanism.partition import joins, partition
+    from cardan.questions.mobility.repair import repairs
 
     from .answer import Answer
 
@@ -146,8 +146,8 @@ def _sentence(thing: Drive | Mechanism, file: Path, found: Mobility) -> str:
 
 def _joints(found: Mobility, *, strained: bool) -> Table:
     """Return the table of the joints: those that can be strained, or all."""
-    from cardan.analysis.repair import strain
     from cardan.mechanism.pair import PAIRS
+    from cardan.questions.mobility.repair import strain
     from cardan.units import mm
 
     from .answer import Column, Table
@@ -269,7 +269,7 @@ def _turned(around: Turned | None) -> Iterator[Remark]:
 
 
 def _cure(thing: Drive | Mechanism, found: Mobility, cures: Sequence[Repair]) -> Iterator[Remark]:
-    from cardan.analysis.repair import advice
+    from cardan.questions.mobility.repair import advice
 
     from .answer import Remark
 
@@ -298,8 +298,8 @@ def _cure(thing: Drive | Mechanism, found: Mobility, cures: Sequence[Repair]) ->
 
 def _keys(thing: Drive | Mechanism, repair: Repair) -> Iterator[str]:
     """Yield what to write in a drive file for changes of its supports."""
-    from cardan.analysis.drive_mechanism import SUPPORT, support_name
     from cardan.drive.drive import Drive
+    from cardan.questions.mobility.drive_mechanism import SUPPORT, support_name
 
     if not isinstance(thing, Drive):
         return

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cardan.analysis.finite_mobility import FiniteMobility
-    from cardan.analysis.mobility import Mobility
-    from cardan.analysis.mobility_turn import MobilityTurn
-    from cardan.analysis.repair import Repair
     from cardan.mechanism.partition import Partition
+    from cardan.questions.mobility.finite_mobility import FiniteMobility
+    from cardan.questions.mobility.mobility import Mobility
+    from cardan.questions.mobility.mobility_turn import MobilityTurn
+    from cardan.questions.mobility.repair import Repair
 
 
 class Turned:
@@ -26,7 +26,7 @@ def content(
     file: Path, found: Mobility, counted: Partition | None, cures: Sequence[Repair], around: Turned | None
 ) -> dict[str, Any]:
     """Return the answer as JSON has it, in units of the keys."""
-    from cardan.analysis.repair import advice, strain
+    from cardan.questions.mobility.repair import advice, strain
     from cardan.units import deg, mm
 
     groups = None if counted is None or counted.groups is None else counted.groups

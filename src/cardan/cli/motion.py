@@ -13,9 +13,9 @@ from cardan.texts import _, plural
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
-    from cardan.analysis.motion import Motion
-    from cardan.analysis.swing import Evenness
     from cardan.drive.drive import Drive
+    from cardan.questions.forces.swing import Evenness
+    from cardan.questions.motion.motion import Motion
 
     from .answer import Answer, Remark, Table
 
@@ -67,8 +67,8 @@ def motion(
     check_positions(angle, step)
     check_speed(speed_rpm)
 
-    from cardan.analysis.motion import motion as question
-    from cardan.analysis.swing import each_shaft
+    from cardan.questions.forces.swing import each_shaft
+    from cardan.questions.motion.motion import motion as question
     from cardan.units import rpm
 
     from .source import read
@@ -129,15 +129,15 @@ def _answer(drive: Drive, file: Path, found: Motion, each: Evenness, drawn: Moti
 
 
 def _figures(drive: Drive, found: Motion) -> Any:
-    from cardan.analysis.equivalence import equivalent_joint
-    from cardan.drive.laws import unmapped
+    from cardan.drive.models.laws import unmapped
     from cardan.figures import for_result
+    from cardan.questions.motion.equivalence import equivalent_joint
 
     return for_result(found) if unmapped(drive.joints) else (*for_result(found), *for_result(equivalent_joint(drive)))
 
 
 def _even(each: Evenness) -> bool:
-    from cardan.analysis.equivalence import SYNCHRONOUS
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     return bool(each.irregularity[-1] < SYNCHRONOUS)
 
@@ -155,7 +155,7 @@ def sentence(drive: Drive, file: Path, each: Evenness) -> str:
         if drive.movements:
             text = _("{name}: {count}, the output turns exactly evenly as drawn, standing still.")
         return text.format(name=title(drive, file), count=count)
-    from cardan.drive.laws import unmapped
+    from cardan.drive.models.laws import unmapped
 
     if unmapped(drive.joints):
         text = _("{name}: {count}, {share} irregular, as much as one cross joint bent {bend:.2f}°.")
@@ -170,9 +170,9 @@ def sentence(drive: Drive, file: Path, each: Evenness) -> str:
 def _joint_table(drive: Drive) -> Table:
     import numpy as np
 
-    from cardan.analysis.motion import motion
-    from cardan.drive.chain import given_chain
-    from cardan.drive.laws import mixed
+    from cardan.drive.models.chain import given_chain
+    from cardan.drive.models.laws import mixed
+    from cardan.questions.motion.motion import motion
 
     from .answer import Column, Table, named
 
@@ -292,7 +292,7 @@ def _accelerations(found: Motion, each: Evenness, *, tidy: bool = False) -> list
 
     ``tidy`` makes it 0 where a shaft is even but for rounding.
     """
-    from cardan.analysis.equivalence import SYNCHRONOUS
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     scale = 1.0 if found.speed is None else float(found.speed) ** 2
     even = [tidy and bool(share < SYNCHRONOUS) for share in each.irregularity]
@@ -304,7 +304,7 @@ def _unit(found: Motion) -> str:
 
 
 def _remarks(drive: Drive, file: Path, found: Motion, each: Evenness) -> Iterator[Remark]:
-    from cardan.drive.laws import unmapped
+    from cardan.drive.models.laws import unmapped
     from cardan.units import deg, rpm
 
     from .answer import Remark, significant
@@ -339,8 +339,8 @@ def _remarks(drive: Drive, file: Path, found: Motion, each: Evenness) -> Iterato
 
 def steep_joints(drive: Drive) -> Iterator[Remark]:
     """Yield a warning for every joint that bends more than one of its kind can."""
-    from cardan.drive.chain import given_chain
-    from cardan.figures.kinds import too_steep
+    from cardan.drive.models.chain import given_chain
+    from cardan.questions.motion.kinds import too_steep
 
     from .answer import Remark
 
@@ -352,7 +352,7 @@ def steep_joints(drive: Drive) -> Iterator[Remark]:
 
 def _orders(each: Evenness) -> list[tuple[int, float]]:
     """Return orders of the output's angle error with their amplitudes [1/turn, rad]."""
-    from cardan.analysis.swing import Swing
+    from cardan.questions.forces.swing import Swing
 
     if isinstance(each, Swing):
         return each.orders(ORDERS)
@@ -361,7 +361,7 @@ def _orders(each: Evenness) -> list[tuple[int, float]]:
 
 def _own_motion(drive: Drive) -> Iterator[Remark]:
     """Yield what joints do beside turning."""
-    from cardan.figures.kinds import beside_turning
+    from cardan.questions.motion.kinds import beside_turning
 
     from .answer import Remark
 

@@ -10,9 +10,9 @@ from cardan.errors import refuse
 from cardan.texts import _, plural
 
 if TYPE_CHECKING:
-    from cardan.analysis.moving_forces import MovingForces
     from cardan.drive.drive import Drive
     from cardan.drive.movement import Movement
+    from cardan.questions.forces.moving_forces import MovingForces
 
     from .answer import Answer, Cell, Remark, Table
 
@@ -52,7 +52,7 @@ def chosen(drive: Drive, names: Sequence[str]) -> tuple[Movement, ...]:
 
 def answer(drive: Drive, file: Path, names: Sequence[str]) -> Answer:
     """Return what the drive carries while it moves."""
-    from cardan.analysis.moving_forces import moving_forces
+    from cardan.questions.forces.moving_forces import moving_forces
 
     from .answer import Answer
     from .asked import keys_of
@@ -63,7 +63,7 @@ def answer(drive: Drive, file: Path, names: Sequence[str]) -> Answer:
         found = moving_forces(drive, None, moves, progress=progress)
 
     def drawn() -> Any:
-        from cardan.figures.moving_forces import moving_forces_figures
+        from cardan.questions.forces.figures.moving_forces import moving_forces_figures
 
         return moving_forces_figures(found, [one.name for one in drive.supports])
 
@@ -176,7 +176,7 @@ def _bends(found: MovingForces) -> Any:
     """Return the bends of all joints, array (n, p) [rad]."""
     import numpy as np
 
-    from cardan.maths import frames
+    from cardan.maths.kernel import frames
 
     axis = np.asarray(found.forces.axis)
     return frames.angle_between(axis[:-1], axis[1:])
@@ -213,8 +213,8 @@ def _support_table(drive: Drive, found: MovingForces) -> Table:
 def _remarks(drive: Drive, file: Path, found: MovingForces) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.analysis.equivalence import WARN_BEND
-    from cardan.analysis.reactions import Held
+    from cardan.questions.forces.reactions import Held
+    from cardan.questions.motion.equivalence import WARN_BEND
 
     from .answer import Remark, significant
     from .force_tables import balanced
@@ -277,7 +277,7 @@ def _trace(drive: Drive, found: MovingForces) -> Table:
 
 
 def _content(drive: Drive, file: Path, found: MovingForces) -> dict[str, Any]:
-    from cardan.analysis.reactions import Held
+    from cardan.questions.forces.reactions import Held
     from cardan.units import rpm
 
     from .asked import columns_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 
@@ -74,43 +73,8 @@ def check_speed(speed_rpm: float | None) -> None:
     if not isfinite(speed_rpm):
         raise refuse("--speed-rpm", _("{value} is not a finite number").format(value=speed_rpm))
 
-    from cardan.drive.ranges import HUGE
+    from cardan.drive.fields.ranges import HUGE
     from cardan.units import rpm
 
     if abs(speed_rpm) * rpm > HUGE:
         raise refuse("--speed-rpm", _("{value} is not allowed; no drive has such a number").format(value=speed_rpm))
-
-
-def check_units(given: Sequence[str], decimal: str) -> dict[str, str]:
-    """Return the units that answers are to be told in, dimension -> unit, or refuse what is none of them.
-
-    Parameters
-    ----------
-    given : sequence of str
-        Each ``dimension=unit``.
-    decimal : str
-        Sign between whole and part.
-    """
-    from cardan.errors import InputError, Problem
-    from cardan.units import DIMENSIONS, nearest
-
-    units: dict[str, str] = {}
-    problems = []
-    for one in given:
-        dimension, sign, unit = one.partition("=")
-        known = DIMENSIONS.get(dimension, {})
-        if not sign or not known:
-            text = _("{text} is not dimension=unit, such as length=in; dimensions are {known}")
-            problems.append(Problem("--unit", text.format(text=one, known=", ".join(DIMENSIONS))))
-        elif unit not in known:
-            near = nearest(unit, known)
-            text = _("{unit} is no unit of {dimension}; known are {known}")
-            said = text.format(unit=unit, dimension=dimension, known=", ".join(known))
-            problems.append(Problem("--unit", said + (_(" - did you mean {near}?").format(near=near) if near else "")))
-        else:
-            units[dimension] = unit
-    if decimal not in (".", ","):
-        problems.append(Problem("--decimal", _("{sign} is neither a point nor a comma").format(sign=repr(decimal))))
-    if problems:
-        raise InputError(problems)
-    return units

@@ -14,8 +14,8 @@ from .options import AsCsv, AsJson, DriveFile, Force, Plot
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.layout import Layout
-    from cardan.synthesis.phases import Phasing
+    from cardan.questions.phases.layout import Layout
+    from cardan.questions.phases.phases import Phasing
 
 Goal: TypeAlias = Literal["intermediate", "nearest"]
 
@@ -147,8 +147,8 @@ def held_yokes(fix: Sequence[str]) -> dict[int, float]:
 
 def _ask(drive: Drive, held: dict[int, float], goal: Goal) -> Phasing:
     from cardan.errors import InputError
-    from cardan.synthesis.phases import NEAREST, SYNCHRONOUS
-    from cardan.synthesis.phases import phases as question
+    from cardan.questions.phases.phases import NEAREST, SYNCHRONOUS
+    from cardan.questions.phases.phases import phases as question
 
     from .progress import watching
 
@@ -164,8 +164,8 @@ def _with_layout(drive: Drive, held: dict[int, float], goal: Goal) -> Layout:
     from dataclasses import replace
 
     from cardan.errors import Problem, check
-    from cardan.synthesis.layout import layout as question
-    from cardan.synthesis.phases import NEAREST, SYNCHRONOUS
+    from cardan.questions.phases.layout import layout as question
+    from cardan.questions.phases.phases import NEAREST, SYNCHRONOUS
 
     from .progress import watching
 

@@ -10,7 +10,7 @@ from cardan.texts import _, plural
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.phases import Phasing, YokeSetting
+    from cardan.questions.phases.phases import Phasing, YokeSetting
 
     from .answer import Answer, Cell, Column, Remark, Table
 
@@ -40,7 +40,7 @@ def answer(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float], 
     goal : str
         As of ``--goal``.
     """
-    from cardan.analysis.equivalence import SYNCHRONOUS
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     from .answer import Answer
 
@@ -71,7 +71,7 @@ def every_setting(found: Phasing) -> tuple[YokeSetting, ...]:
 
 
 def _sentence(drive: Drive, file: Path, found: Phasing) -> str:
-    from cardan.analysis.equivalence import SYNCHRONOUS
+    from cardan.questions.motion.equivalence import SYNCHRONOUS
 
     from .answer import percent
     from .source import title
@@ -94,7 +94,7 @@ def _sentence(drive: Drive, file: Path, found: Phasing) -> str:
 
 
 def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float], goal: str) -> Iterator[Remark]:
-    from cardan.drive.laws import unmapped
+    from cardan.drive.models.laws import unmapped
     from cardan.figures.wording import letters
 
     from .answer import Remark
@@ -160,7 +160,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     """Yield why no yoke angles make the drive even, and what would."""
     from math import degrees
 
-    from cardan.drive.chain import given_chain
+    from cardan.drive.models.chain import given_chain
     from cardan.figures.wording import LITTLE, excess
     from cardan.units import deg
 

@@ -13,9 +13,9 @@ import typer
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.diagnosis.signal import Signal
     from cardan.drive.drive import Drive
     from cardan.errors import Problem
+    from cardan.questions.diagnosis.signals.signal import Signal
 
 Tacho: TypeAlias = Annotated[
     str | None,
@@ -209,8 +209,8 @@ def placed(recording: Signal, places: Sequence[str], drive: Drive) -> Signal:
 
 
 def _bad_places(recording: Signal, said: dict[str, str], drive: Drive) -> Iterator[Problem]:
-    from cardan.diagnosis.signal import DIRECTIONS
     from cardan.errors import InputError, Problem
+    from cardan.questions.diagnosis.signals.signal import DIRECTIONS
 
     for name, value in said.items():
         try:

@@ -34,33 +34,21 @@ def report(
     open_: Annotated[
         bool, typer.Option("--open", help=_("Open the report when it is written."), show_default=False)
     ] = False,
-    unit: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--unit",
-            metavar="DIMENSION=UNIT",
-            help=_("Unit that a dimension is told in, such as length=in or torque=lbft; may be repeated."),
-            show_default=False,
-        ),
-    ] = None,
-    decimal: Annotated[
-        str, typer.Option("--decimal", metavar="SIGN", help=_("Sign between whole and part, a point or a comma."))
-    ] = ".",
     speed_rpm: SpeedRpm = None,
     json: AsJson = False,
 ) -> int:
     """Put everything on one page."""
-    from .output import check_report_target, check_speed, check_units
+    from .output import check_report_target, check_speed
     from .source import STDIN, read_with_text
 
     place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
     check_report_target(place, interactive=interactive)
     check_speed(speed_rpm)
-    units = check_units(unit or (), decimal)
     drive, text = read_with_text(file)
 
     from dataclasses import replace
 
+    from cardan.answers.reader import reader
     from cardan.io.drive_file import known_to
     from cardan.report.report import report as write
     from cardan.units import rpm
@@ -69,6 +57,7 @@ def report(
 
     if speed_rpm is not None:
         drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
+    who = reader()
     with watching(_("writing the report")) as progress:
         known = known_to(drive, "." if file == STDIN else file.parent)
         write(
@@ -79,11 +68,11 @@ def report(
             interactive=interactive,
             progress=progress,
             known=known,
-            units=units,
-            decimal=decimal,
+            units=who.units,
+            decimal=who.decimal,
         )
 
-    from cardan.analysis.swing import each_shaft
+    from cardan.questions.forces.swing import each_shaft
 
     from .answer import Answer, Remark
     from .motion import sentence

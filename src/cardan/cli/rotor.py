@@ -14,11 +14,11 @@ from .options import AsCsv, AsJson, DriveFile, Plot
 from .torsion_parts import Speeds
 
 if TYPE_CHECKING:
-    from cardan.analysis.cracked_run import CrackedRun
-    from cardan.analysis.cracked_shafts import CrackedShafts
-    from cardan.analysis.rotor import Rotor
-    from cardan.analysis.rotor_response import RotorResponse
     from cardan.drive.drive import Drive
+    from cardan.questions.bending.cracked_run import CrackedRun
+    from cardan.questions.bending.cracked_shafts import CrackedShafts
+    from cardan.questions.bending.rotor import Rotor
+    from cardan.questions.bending.rotor_response import RotorResponse
 
     from .answer import Answer, Cell, Remark, Table
 
@@ -89,7 +89,7 @@ def rotor(
     if problems:
         raise InputError(problems)
 
-    from cardan.analysis.rotor_response import joined_rotors, rotor_response, rotor_run
+    from cardan.questions.bending.rotor_response import joined_rotors, rotor_response, rotor_run
     from cardan.units import rpm
 
     from .progress import watching
@@ -117,7 +117,7 @@ def rotor(
 
 def _steady(drive: Drive, file: Path, found: RotorResponse) -> Answer:
     from cardan.figures import for_result
-    from cardan.figures.rotor import sentence
+    from cardan.questions.bending.figures.rotor import sentence
 
     from .answer import Answer
     from .source import title
@@ -138,7 +138,7 @@ def _steady(drive: Drive, file: Path, found: RotorResponse) -> Answer:
 
 def _peaks(found: RotorResponse) -> Table:
     """Return the orders with where they are largest."""
-    from cardan.figures.rotor import ORDERS, order_name
+    from cardan.questions.bending.figures.rotor import ORDERS, order_name
     from cardan.units import rpm
 
     from .answer import Column, Table
@@ -289,7 +289,7 @@ def _content(drive: Drive, file: Path, found: RotorResponse) -> dict[str, Any]:
 
 
 def _run(drive: Drive, file: Path, one: Rotor, found: CrackedRun) -> Answer:
-    from cardan.figures.rotor import run_figure
+    from cardan.questions.bending.figures.rotor import run_figure
     from cardan.units import rpm
 
     from .answer import Answer, Column, Table
@@ -331,8 +331,8 @@ def _run(drive: Drive, file: Path, one: Rotor, found: CrackedRun) -> Answer:
 
 
 def _joined(drive: Drive, file: Path, first: Rotor, second: Rotor, found: CrackedShafts) -> Answer:
-    from cardan.figures.rotor import joined_figure
     from cardan.figures.wording import closely
+    from cardan.questions.bending.figures.rotor import joined_figure
     from cardan.units import rpm
 
     from .answer import Answer, Column, Remark, Table

@@ -15,8 +15,8 @@ from .options import AsCsv, AsJson, MoreRows, SpeedRpm
 
 if TYPE_CHECKING:
     from cardan.catalogue import Catalogue
-    from cardan.synthesis.selection import Candidate, Need
-    from cardan.synthesis.selection_reasons import SizeFit
+    from cardan.choices.selection import Candidate, Need
+    from cardan.choices.selection_reasons import SizeFit
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -79,9 +79,9 @@ def select(
     check_options(speed_rpm, torque, json=json, csv=csv)
 
     from cardan.catalogue import catalogue, with_files
+    from cardan.choices.selection import select_joint
+    from cardan.choices.selection_reasons import fitting_sizes
     from cardan.errors import InputError
-    from cardan.synthesis.selection import select_joint
-    from cardan.synthesis.selection_reasons import fitting_sizes
 
     files = tuple(more or ())
     changes = _changes(bend_deg, factor, outer_mm, synchronous, continuous)
@@ -145,8 +145,8 @@ def _changes(
 
 def _need(torque: float | None, speed_rpm: float | None, changes: dict[str, Any]) -> Need:
     """Return a need from options alone."""
+    from cardan.choices.selection import Need
     from cardan.errors import InputError, Problem, check
-    from cardan.synthesis.selection import Need
     from cardan.units import rpm
 
     given = {"--torque-Nm": torque, "--bend-deg": changes.get("bend"), "--speed-rpm": speed_rpm}
@@ -170,8 +170,8 @@ def _of_drive(
     """Return the need of a drive, what the options say in place of it."""
     from dataclasses import replace
 
+    from cardan.choices.selection_reasons import need_of
     from cardan.errors import InputError
-    from cardan.synthesis.selection_reasons import need_of
 
     from .asked import on_duty
 
@@ -223,7 +223,7 @@ TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "f
 
 
 def _tables(need: Need, found: Sequence[Candidate], sizes: Sequence[SizeFit]) -> Iterator[Table]:
-    from cardan.synthesis.selection_reasons import reasons
+    from cardan.choices.selection_reasons import reasons
 
     from .answer import Column, Table
 
@@ -288,7 +288,7 @@ def _remarks(need: Need, sizes: Sequence[SizeFit]) -> Iterator[Remark]:
 
 
 def _rows(need: Need, found: Sequence[Candidate]) -> Table:
-    from cardan.synthesis.selection_reasons import reasons
+    from cardan.choices.selection_reasons import reasons
 
     from .answer import Column, Table
 
@@ -311,7 +311,7 @@ def _rows(need: Need, found: Sequence[Candidate]) -> Table:
 def _content(need: Need, found: Sequence[Candidate], sizes: Sequence[SizeFit]) -> dict[str, Any]:
     from dataclasses import asdict
 
-    from cardan.synthesis.selection_reasons import reasons
+    from cardan.choices.selection_reasons import reasons
     from cardan.units import deg, mm, rpm
 
     return {

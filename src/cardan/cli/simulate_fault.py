@@ -13,9 +13,9 @@ from cardan.texts import _
 from .options import AsCsv, AsJson, DriveFile, Force, Plot
 
 if TYPE_CHECKING:
-    from cardan.diagnosis.expected import Expected
-    from cardan.diagnosis.signal import Signal
     from cardan.drive.drive import Drive
+    from cardan.questions.diagnosis.expected import Expected
+    from cardan.questions.diagnosis.signals.signal import Signal
 
     from .answer import Answer, Cell, Remark, Table
 
@@ -85,10 +85,10 @@ def simulate_fault(
         check_new(out, force=force, field="--out")
     drive = read(file)
 
-    from cardan.diagnosis.expected import expected_orders
-    from cardan.diagnosis.simulate import Runs
-    from cardan.diagnosis.simulate import simulate_fault as simulated
     from cardan.io import save
+    from cardan.questions.diagnosis.expected import expected_orders
+    from cardan.questions.diagnosis.simulate import Runs
+    from cardan.questions.diagnosis.simulate import simulate_fault as simulated
     from cardan.units import rpm
 
     names = {
@@ -119,9 +119,9 @@ def simulate_fault(
 
 def _refused(fault: str | None, out: Path | None, seed: int, run_up: float) -> Iterator[Any]:
     """Yield what is wrong with the options before anything is read."""
-    from cardan.diagnosis.expected import FAULTS
     from cardan.errors import Problem
     from cardan.io.signals import WRITERS
+    from cardan.questions.diagnosis.expected import FAULTS
     from cardan.units import nearest
 
     if fault is None:
@@ -144,7 +144,7 @@ def _words(fault: str) -> str:
     """Return what a fault is, in words."""
     from cardan.catalogue import catalogue
     from cardan.catalogue.rows import Fault
-    from cardan.diagnosis.expected import FAULTS
+    from cardan.questions.diagnosis.expected import FAULTS
 
     own = {"unbalance": _("unbalance of a shaft"), "lost_weight": _("balance weight lost")}
     if fault in own:
@@ -154,7 +154,7 @@ def _words(fault: str) -> str:
 
 
 def _listing() -> Answer:
-    from cardan.diagnosis.expected import FAULTS
+    from cardan.questions.diagnosis.expected import FAULTS
 
     from .answer import Answer, Column, Table
 
@@ -175,7 +175,7 @@ def _listing() -> Answer:
 
 def _answer(drive: Drive, file: Path, found: Expected, made: Signal | None, out: Path | None) -> Answer:
     from cardan.figures import for_result
-    from cardan.figures.expected import expected_figure
+    from cardan.questions.diagnosis.figures.expected import expected_figure
 
     from .answer import Answer
     from .source import title

@@ -13,8 +13,8 @@ from .answer import Answer, Column, Remark, Table, significant
 
 if TYPE_CHECKING:
     from cardan.catalogue import Catalogue
+    from cardan.choices.sized import Sizing
     from cardan.drive.drive import Drive
-    from cardan.synthesis.sized import Sizing
 
     from .answer import Cell, Tone
 
@@ -40,7 +40,7 @@ def _figure(drive: Drive, found: Sizing, known: Catalogue) -> Any:
 
     if found.part not in ("tube", "shaft") or _stepped(found):
         return figures(found)
-    from cardan.synthesis.trade_off import trade_off
+    from cardan.choices.trade_off import trade_off
 
     from .progress import watching
 
@@ -167,7 +167,7 @@ def _catalogued(found: Sizing) -> Table:
 
 
 def _remarks(file: Path, found: Sizing) -> Iterator[Remark]:
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     if not found.found:
         last = found.tried[-1]
@@ -203,7 +203,7 @@ def _rows(found: Sizing) -> Table:
 
 
 def _content(drive: Drive, file: Path, found: Sizing) -> dict[str, Any]:
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     from .check_answer import unit_factor
 
@@ -272,7 +272,7 @@ def written(
     catalogues : sequence of path
         Catalogue files beside those that it names.
     """
-    from cardan.drive.paths import with_values
+    from cardan.drive.fields.paths import with_values
     from cardan.errors import refuse
     from cardan.io import dumps, edit
 

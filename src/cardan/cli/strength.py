@@ -72,7 +72,7 @@ def strength(
 
         check_copy(out, file, force=force)
 
-    from cardan.analysis.strength import strength as question
+    from cardan.checks.strength.strength import strength as question
     from cardan.io.drive_file import known_to
 
     from .source import STDIN, read_with_text
@@ -88,8 +88,8 @@ def strength(
             found = question(drive, known=known)
         return show(answer(drive, file, found), json=json, csv=csv, plot=plot)
 
+    from cardan.choices.sizing import size
     from cardan.errors import InputError
-    from cardan.synthesis.sizing import size
 
     from .progress import watching
     from .sizing_answer import answer as sized

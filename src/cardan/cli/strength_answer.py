@@ -13,9 +13,9 @@ from cardan.texts import _, plural
 from .answer import Answer, Column, Remark, Table, named, significant
 
 if TYPE_CHECKING:
-    from cardan.analysis.strength import Strength
-    from cardan.analysis.strength_use import Use
     from cardan.checks import Verdict
+    from cardan.checks.strength.strength import Strength
+    from cardan.checks.strength.strength_use import Use
     from cardan.drive.drive import Drive
 
     from .answer import Cell, Tone
@@ -198,7 +198,7 @@ def _joints(drive: Drive, found: Strength) -> Table:
 
 def _lacking(found: Strength) -> Iterator[list[Cell]]:
     """Yield keys to add and what they tell, joints and shafts alike together."""
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     groups: dict[tuple[str, ...], list[Use]] = {}
     for one in found.uses:
@@ -279,7 +279,7 @@ def _sizable(use: Use) -> str:
 
 def _rows(found: Strength) -> Table:
     """Return every use of a limit, one a row."""
-    from cardan.synthesis.lever import key_of
+    from cardan.choices.lever import key_of
 
     from .check_answer import unit_factor
 

@@ -15,9 +15,9 @@ from cardan.units import thousands
 from .options import AsCsv, AsJson, MoreRows, Plot
 
 if TYPE_CHECKING:
-    from cardan.batch.engines import Engine
+    from cardan.batch.engine.engines import Engine
     from cardan.batch.plan import SweepWork
-    from cardan.batch.swept import Sweep
+    from cardan.batch.table.swept import Sweep
     from cardan.io.plan_file import Plan
 
     from .answer import Answer, Cell, Remark, Table, Tone
@@ -107,7 +107,7 @@ def sweep(
     check_common(json=json, csv=csv, plot=plot)
     _check(into, resume, engine, scheduler, device)
 
-    from cardan.batch.running import run
+    from cardan.batch.engine.running import run
     from cardan.io.plan_file import read_plan
 
     with about(str(plan)):
@@ -154,7 +154,7 @@ def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str |
         problems.append(Problem("--resume", _("missing; --into names the folder of the sweep")))
     check(problems)
     if resume and into is not None:
-        from cardan.batch.swept import read_sweep
+        from cardan.batch.table.swept import read_sweep
 
         read_sweep(into)
 
@@ -174,13 +174,13 @@ def _design(read: Plan, design: str | None, plot: Path | None) -> str:
 
 def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str | None) -> Engine:
     """Return where to work: as the options say, else as the plan says."""
-    from cardan.batch.engines import InProcess, Processes
+    from cardan.batch.engine.engines import InProcess, Processes
 
     address = scheduler or read.scheduler
     kind = engine or ("cluster" if scheduler else read.engine)
     count = workers or read.workers
     if kind == "cluster":
-        from cardan.batch.cluster import Cluster
+        from cardan.batch.engine.cluster import Cluster
 
         return Cluster(scheduler=address or None, workers=count)
     if kind == "processes":

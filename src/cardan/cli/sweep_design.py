@@ -10,10 +10,10 @@ from cardan.texts import _
 from cardan.units import thousands
 
 if TYPE_CHECKING:
-    from cardan.batch.boundary import Boundary
-    from cardan.batch.optimise import Optimum
-    from cardan.batch.pareto import ParetoSet
-    from cardan.batch.sobol import Sensitivity
+    from cardan.batch.search.boundary import Boundary
+    from cardan.batch.search.optimise import Optimum
+    from cardan.batch.search.pareto import ParetoSet
+    from cardan.batch.search.sobol import Sensitivity
     from cardan.batch.work import Column
     from cardan.io.plan_file import Plan
 
@@ -39,9 +39,9 @@ def designed(read: Plan, file: Path, name: str, *, json: bool, csv: bool, plot: 
     plot : Path or None
         ``--plot``.
     """
-    from cardan.batch.boundary import Boundary
-    from cardan.batch.optimise import Optimum
-    from cardan.batch.pareto import ParetoSet
+    from cardan.batch.search.boundary import Boundary
+    from cardan.batch.search.optimise import Optimum
+    from cardan.batch.search.pareto import ParetoSet
     from cardan.io.plan_designs import design_of
 
     from .failure import about

@@ -118,8 +118,8 @@ def sweep_show(
     kinds = tuple(kind or ())
     _check(best, pareto, query, kinds, out)
 
-    from cardan.batch.goals import goal_of, limit_of
-    from cardan.batch.results import results as read
+    from cardan.batch.search.goals import goal_of, limit_of
+    from cardan.batch.table.results import results as read
 
     from .sweep_asked import Asked
 

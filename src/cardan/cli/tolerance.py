@@ -12,7 +12,7 @@ from cardan.texts import _
 from .options import AsCsv, AsJson, DriveFile, Plot
 
 if TYPE_CHECKING:
-    from cardan.analysis.tolerance import Method
+    from cardan.questions.accuracy.tolerance import Method
 
 How: TypeAlias = Literal["squares", "worst", "samples"]
 What: TypeAlias = Literal["angle", "change"]
@@ -108,7 +108,7 @@ def tolerance(
         )
         return show(found, json=json, csv=csv, plot=plot)
 
-    from cardan.analysis.tolerance import tolerance as question
+    from cardan.questions.accuracy.tolerance import tolerance as question
 
     from .progress import watching
     from .tolerance_answer import answer
@@ -152,9 +152,9 @@ def _check(
 
 
 def _method(method: How, samples: int | None, seed: int | None) -> Method:
-    from cardan.analysis.sampling import MonteCarlo
-    from cardan.analysis.tolerance import Linear, WorstCase
     from cardan.errors import InputError
+    from cardan.questions.accuracy.sampling import MonteCarlo
+    from cardan.questions.accuracy.tolerance import Linear, WorstCase
 
     if method == "squares":
         return Linear()

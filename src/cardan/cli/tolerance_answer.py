@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.tolerance import Band, Contribution, ToleranceBand
     from cardan.drive.drive import Drive
+    from cardan.questions.accuracy.tolerance import Band, Contribution, ToleranceBand
 
     from .answer import Answer, Remark, Table
 
@@ -68,8 +68,8 @@ def _sentence(drive: Drive, file: Path, found: ToleranceBand) -> str:
 
 
 def _how(found: ToleranceBand) -> str:
-    from cardan.analysis.sampling import MonteCarlo
-    from cardan.analysis.tolerance import WorstCase
+    from cardan.questions.accuracy.sampling import MonteCarlo
+    from cardan.questions.accuracy.tolerance import WorstCase
 
     if isinstance(found.method, WorstCase):
         return _("worst case")
@@ -144,7 +144,7 @@ def _part_table(band: Band, *, length: bool) -> Table:
 
 
 def _remarks(drive: Drive, file: Path, found: ToleranceBand) -> Iterator[Remark]:
-    from cardan.analysis.sampling import MonteCarlo
+    from cardan.questions.accuracy.sampling import MonteCarlo
     from cardan.units import deg
 
     from .answer import Remark, significant
@@ -209,7 +209,7 @@ def _trace(found: ToleranceBand) -> Table:
 
 
 def _content(drive: Drive, file: Path, found: ToleranceBand) -> dict[str, Any]:
-    from cardan.analysis.sampling import MonteCarlo
+    from cardan.questions.accuracy.sampling import MonteCarlo
 
     from .asked import columns_of
 

@@ -16,7 +16,7 @@ from .torsion_band import Element, Out, SpeedBand
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.absorber import Absorber
+    from cardan.questions.torsion.absorber.absorber import Absorber
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -95,7 +95,7 @@ def torsion_absorber(
     check_out(out, file, force=force)
     band = band_of(speeds)
 
-    from cardan.synthesis.absorber import absorber as question
+    from cardan.questions.torsion.absorber.absorber import absorber as question
     from cardan.units import mm
 
     from .source import read_with_text

@@ -16,7 +16,7 @@ from .torsion_band import Element, Out, SpeedBand
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.synthesis.calm import Calm
+    from cardan.questions.torsion.calm.calm import Calm
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -74,9 +74,9 @@ def torsion_calm(
     check_out(out, file, force=force)
     band, ranges = band_of(speeds), ranges_of(free or [])
 
-    from cardan.synthesis.calm import Grid
-    from cardan.synthesis.calm import calm as question
-    from cardan.synthesis.evolution import Evolution
+    from cardan.maths.curves.evolution import Evolution
+    from cardan.questions.torsion.calm.calm import Grid
+    from cardan.questions.torsion.calm.calm import calm as question
 
     from .source import read_with_text
 

@@ -12,8 +12,8 @@ from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .torsion_parts import Pieces
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsion import TorsionModes
     from cardan.drive.drive import Drive
+    from cardan.questions.torsion.model.torsion import TorsionModes
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -46,7 +46,7 @@ def torsion_modes(
     check_common(json=json, csv=csv, plot=plot)
     check_speed(speed_rpm)
 
-    from cardan.analysis.torsion import torsion_modes as question
+    from cardan.questions.torsion.model.torsion import torsion_modes as question
 
     from .source import read
 

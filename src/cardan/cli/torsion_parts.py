@@ -12,7 +12,7 @@ import typer
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsional_train import TorsionalTrain
+    from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 
     from .answer import Remark
 
@@ -85,7 +85,7 @@ def values(text: str, option: str, *, count: int = COUNT, low: float | None = No
     if low is not None and first <= low:
         raise refuse(option, _("{first:g} is not allowed; allowed is more than {low:g}").format(first=first, low=low))
     if many > MOST:
-        from cardan.analysis.torsion_stability import PACE
+        from cardan.questions.torsion.stability.torsion_stability import PACE
 
         said = _("{count:,} values would take about {hours:,.0f} h; at most {most:,} are done")
         said = said.format(count=many, hours=many * PACE / 3600.0, most=MOST)

@@ -13,8 +13,8 @@ from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .torsion_parts import Pieces, Speeds
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsion_response import TorsionResponse
     from cardan.drive.drive import Drive
+    from cardan.questions.torsion.steady.torsion_response import TorsionResponse
 
     from .answer import Answer, Remark, Table, Tone
 
@@ -43,7 +43,7 @@ def torsion_response(
     check_torque(torque)
     asked = None if speeds is None else values(speeds, "--speeds", low=0.0)
 
-    from cardan.analysis.torsion_response import torsion_response as question
+    from cardan.questions.torsion.steady.torsion_response import torsion_response as question
     from cardan.units import rpm
 
     from .source import read
@@ -78,9 +78,9 @@ def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
 def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]:
     import numpy as np
 
-    from cardan.analysis.stability import Verdict
-    from cardan.analysis.torsion_response import level
     from cardan.maths.ties import foremost
+    from cardan.questions.torsion.steady.run_stability import Verdict
+    from cardan.questions.torsion.steady.torsion_response import level
     from cardan.units import rpm
 
     from .answer import significant
@@ -117,8 +117,8 @@ def _tables(found: TorsionResponse) -> list[Table]:
 def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]:
     import numpy as np
 
-    from cardan.analysis.stability import Verdict
     from cardan.maths.ties import foremost
+    from cardan.questions.torsion.steady.run_stability import Verdict
     from cardan.units import rpm
 
     from .answer import significant
@@ -214,7 +214,7 @@ def _engine(drive: Drive, found: TorsionResponse) -> Remark:
     """Return mean and strongest harmonics of the torque of an engine's crank drive."""
     import numpy as np
 
-    from cardan.analysis.excitation import engine_torque
+    from cardan.questions.torsion.model.excitation import engine_torque
 
     from .answer import Remark, significant
 
@@ -235,8 +235,8 @@ def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
     """Tell whether most of the swing is order 2 of joints that are not set to cancel each other."""
     import numpy as np
 
-    from cardan.analysis.equivalence import equivalent_joint
     from cardan.maths.ties import foremost
+    from cardan.questions.motion.equivalence import equivalent_joint
 
     if len(drive.joints) < 2 or not np.any(found.steady.found):
         return False

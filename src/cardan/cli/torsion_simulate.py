@@ -15,8 +15,8 @@ from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .torsion_parts import Pieces
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsion_transient import Transient
     from cardan.drive.drive import Drive
+    from cardan.questions.torsion.transient.torsion_transient import Transient
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
@@ -66,7 +66,7 @@ def torsion_simulate(
     check_torque(torque)
     _check_span(span)
 
-    from cardan.analysis.torsion_transient import transient as question
+    from cardan.questions.torsion.transient.torsion_transient import transient as question
 
     from .source import read
 
@@ -112,8 +112,8 @@ def _answer(drive: Drive, file: Path, found: Transient) -> Answer:
 def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, int]:
     import numpy as np
 
-    from cardan.analysis.simulation import Status
     from cardan.maths.ties import foremost
+    from cardan.questions.torsion.transient.simulation import Status
 
     from .answer import significant
     from .source import title
@@ -196,8 +196,8 @@ def _station_table(found: Transient) -> Table:
 def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.analysis.simulation import Status
     from cardan.figures.wording import closely
+    from cardan.questions.torsion.transient.simulation import Status
     from cardan.units import rpm
 
     from .answer import Remark, significant

@@ -14,13 +14,13 @@ from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .torsion_parts import Pieces, Speeds
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsion_stability import Stability
     from cardan.drive.drive import Drive
+    from cardan.questions.torsion.stability.torsion_stability import Stability
 
     from .answer import Answer, Cell, Remark, Table, Tone
 
 SIGNS = {0: "·", 1: "~", 2: "#", 3: " "}
-"""A point of a map in the terminal, by `cardan.analysis.stability.Verdict`."""
+"""A point of a map in the terminal, by `cardan.questions.torsion.steady.run_stability.Verdict`."""
 
 NAMED = 3
 """Zones named in the answer to a map."""
@@ -66,7 +66,7 @@ def torsion_stability(
     check_speed(speed_rpm)
     axes = _axes(speeds, bends, over or [])
 
-    from cardan.analysis.torsion_stability import stability as question
+    from cardan.questions.torsion.stability.torsion_stability import stability as question
 
     from .source import read
 
@@ -116,7 +116,7 @@ def _answer(drive: Drive, file: Path, found: Stability) -> Answer:
 
 
 def _sentence(drive: Drive, file: Path, found: Stability) -> tuple[Tone, str]:
-    from cardan.analysis.stability import Kind, Verdict
+    from cardan.questions.torsion.steady.run_stability import Kind, Verdict
     from cardan.units import rpm
 
     from .answer import significant
@@ -140,7 +140,7 @@ def _sentence(drive: Drive, file: Path, found: Stability) -> tuple[Tone, str]:
 def _mapped(drive: Drive, file: Path, found: Stability) -> tuple[Tone, str]:
     import numpy as np
 
-    from cardan.analysis.stability import Verdict
+    from cardan.questions.torsion.steady.run_stability import Verdict
 
     from .answer import percent
     from .source import title
@@ -206,7 +206,7 @@ def _tables(found: Stability) -> list[Table]:
 def _remarks(file: Path, found: Stability) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.analysis.stability import Verdict
+    from cardan.questions.torsion.steady.run_stability import Verdict
     from cardan.units import rpm
 
     from .answer import Remark, significant

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from cardan.texts import _
 
 if TYPE_CHECKING:
-    from cardan.analysis.torsion_response import TorsionResponse
+    from cardan.questions.torsion.steady.torsion_response import TorsionResponse
 
     from .answer import Cell, Table
 
@@ -15,15 +15,15 @@ SHOWN = 12
 """Speeds of a sweep in the terminal."""
 
 STATES = (_("stable"), _("neutral"), _("unstable"), _("unknown"))
-"""What becomes of a small disturbance, by `cardan.analysis.stability.Verdict`."""
+"""What becomes of a small disturbance, by `cardan.questions.torsion.steady.run_stability.Verdict`."""
 
 
 def element_table(found: TorsionResponse) -> Table:
     """Return mean, extremes and orders of the torque of every element."""
     import numpy as np
 
-    from cardan.analysis.torsion_response import level
     from cardan.maths.ties import foremost
+    from cardan.questions.torsion.steady.torsion_response import level
 
     from .answer import Column, Table, significant
     from .torsion_parts import short

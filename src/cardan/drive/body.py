@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from cardan.errors import Problem
-from cardan.maths.laminate import PlyStiffness, laminate_moduli
+from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
 from cardan.texts import _
 from cardan.units import mm, plain, quantity
 

@@ -74,7 +74,7 @@ class Drive:
     poses: tuple[Pose, ...] = plain((), doc="standing variants of the drive")
 
     def __post_init__(self) -> None:
-        from .validity import all_shafts, problems
+        from .fields.validity import all_shafts, problems
 
         check(problems(self))
         object.__setattr__(self, "shafts", all_shafts(self))
@@ -112,7 +112,7 @@ class Drive:
         name : str
             Name of the drive.
         """
-        from .validity import point_problems, wrong_count
+        from .fields.validity import point_problems, wrong_count
 
         rows = [tuple(float(x) for x in point) for point in points]
         check(point_problems(rows))
@@ -150,7 +150,7 @@ class Drive:
         name : str
             Name of the drive.
         """
-        from .validity import wrong_count
+        from .fields.validity import wrong_count
 
         between = max(len(bends) - 1, 0)
         check(

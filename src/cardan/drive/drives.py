@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from cardan.errors import BendLimitError, InputError, Problem, check, refuse
-from cardan.maths import frames
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.kernel import frames
 from cardan.texts import _
 
-from .chain import Chain, turning_chain
 from .drive import Drive
-from .geometry import geometry_from_points
-from .laws import refuse_kinds
-from .ranges import HUGE
-from .validity import COINCIDENT
+from .fields.ranges import HUGE
+from .fields.validity import COINCIDENT
+from .models.chain import Chain, turning_chain
+from .models.geometry import geometry_from_points
+from .models.laws import refuse_kinds
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -10,57 +10,57 @@ from typing import Any
 from .figure import Figure
 
 _MAKERS = {
-    "cardan.drive.drive.Drive": "drive.drive_figures",
-    "cardan.analysis.motion.Motion": "motion.motion_figures",
-    "cardan.analysis.equivalence.EquivalentJoint": "equivalence.equivalence_figures",
-    "cardan.analysis.drive_forces.Forces": "forces.forces_figures",
-    "cardan.analysis.moving_forces.MovingForces": "moving_forces.moving_forces_figures",
-    "cardan.analysis.assembly.AssemblyForces": "assembly.assembly_figures",
-    "cardan.analysis.mobility.Mobility": "mobility.mobility_figures",
-    "cardan.analysis.mobility_turn.MobilityTurn": "mobility.turn_figures",
-    "cardan.analysis.finite_mobility.FiniteMobility": "mobility.closure_figures",
-    "cardan.analysis.losses.Losses": "losses.losses_figures",
-    "cardan.analysis.losses.LossMap": "losses.map_figures",
-    "cardan.analysis.life.Life": "life.life_figures",
-    "cardan.analysis.strength.Strength": "strength.strength_figures",
-    "cardan.synthesis.sized.Sizing": "sizing.sizing_figures",
-    "cardan.synthesis.trade_off.TradeOff": "sizing.trade_off_figures",
-    "cardan.analysis.tolerance.ToleranceBand": "tolerance.tolerance_figures",
-    "cardan.analysis.accuracy.TransmissionError": "tolerance.error_figures",
-    "cardan.analysis.book.BookComparison": "book.book_figures",
-    "cardan.analysis.mathieu_reduction.MathieuReduction": "mathieu.reduction_figures",
-    "cardan.analysis.absorbers.AbsorberResponse": "absorbers.response_figures",
-    "cardan.analysis.absorber_tuning.Variants": "absorbers.variants_figures",
-    "cardan.analysis.run_up.RunUp": "run_up.run_up_figures",
-    "cardan.analysis.joint_run_up.JointRunUp": "run_up.joint_run_up_figures",
-    "cardan.analysis.torsion.TorsionModes": "torsion.modes_figures",
-    "cardan.analysis.torsion_response.TorsionResponse": "torsion_running.response_figures",
-    "cardan.analysis.torsion_stability.Stability": "torsion_map.stability_figures",
-    "cardan.analysis.torsion_transient.Transient": "torsion_transient.transient_figures",
-    "cardan.analysis.bending.CriticalSpeeds": "bending.bending_figures",
-    "cardan.analysis.speed_map.CriticalSpeedMap": "bending.speed_map_figures",
-    "cardan.analysis.rotor_response.RotorResponse": "rotor.rotor_figures",
-    "cardan.synthesis.phases.Phasing": "phases.phasing_figures",
-    "cardan.synthesis.layout.Layout": "layout.layout_figures",
-    "cardan.synthesis.absorber.Absorber": "calm.absorber_figures",
-    "cardan.synthesis.calm.Calm": "calm.calm_figures",
-    "cardan.analysis.articulation.Articulation": "articulation.articulation_figures",
-    "cardan.diagnosis.orders.OrderSpectrum": "diagnosis.spectrum_figures",
-    "cardan.diagnosis.orders.OrderMap": "diagnosis.map_figures",
-    "cardan.diagnosis.order_tracks.TrackedOrders": "diagnosis.tracks_figures",
-    "cardan.diagnosis.turning.Rotation": "diagnosis_motion.rotation_figures",
-    "cardan.diagnosis.orbit.Orbit": "diagnosis_motion.orbit_figures",
-    "cardan.diagnosis.torsional.TorsionalVibration": "diagnosis_motion.torsional_figures",
-    "cardan.diagnosis.examination.Examination": "examination.examination_figures",
-    "cardan.diagnosis.expected.Expected": "expected.expected_figures",
-    "cardan.batch.sobol.Sensitivity": "sweep_designs.sensitivity_figures",
-    "cardan.batch.sobol.Swings": "sweep_designs.swings_figures",
-    "cardan.batch.views.Ranks": "sweep_designs.ranks_figure",
-    "cardan.batch.boundary.Boundary": "sweep_designs.boundary_figure",
-    "cardan.batch.pareto.ParetoSet": "sweep_designs.pareto_set_figure",
-    "cardan.batch.optimise.Optimum": "sweep_designs.optimum_figure",
+    "drive.drive.Drive": "figures.drive.drive_figures",
+    "questions.motion.motion.Motion": "questions.motion.figures.motion.motion_figures",
+    "questions.motion.equivalence.EquivalentJoint": "questions.motion.figures.equivalence.equivalence_figures",
+    "questions.forces.drive_forces.Forces": "questions.forces.figures.forces.forces_figures",
+    "questions.forces.moving_forces.MovingForces": "questions.forces.figures.moving_forces.moving_forces_figures",
+    "questions.forces.assembly.AssemblyForces": "questions.forces.figures.assembly.assembly_figures",
+    "questions.mobility.mobility.Mobility": "questions.mobility.figure.mobility_figures",
+    "questions.mobility.mobility_turn.MobilityTurn": "questions.mobility.figure.turn_figures",
+    "questions.mobility.finite_mobility.FiniteMobility": "questions.mobility.figure.closure_figures",
+    "questions.losses.losses.Losses": "questions.losses.figure.losses_figures",
+    "questions.losses.losses.LossMap": "questions.losses.figure.map_figures",
+    "questions.life.life.Life": "questions.life.figure.life_figures",
+    "checks.strength.strength.Strength": "checks.strength.figure.strength_figures",
+    "choices.sized.Sizing": "choices.figure.sizing_figures",
+    "choices.trade_off.TradeOff": "choices.figure.trade_off_figures",
+    "questions.accuracy.tolerance.ToleranceBand": "questions.accuracy.figure.tolerance_figures",
+    "questions.accuracy.accuracy.TransmissionError": "questions.accuracy.figure.error_figures",
+    "book.comparison.BookComparison": "book.figures.comparison.book_figures",
+    "book.mathieu_reduction.MathieuReduction": "book.figures.mathieu.reduction_figures",
+    "formulas.absorbers.AbsorberResponse": "formulas.figures.absorbers.response_figures",
+    "formulas.absorber_tuning.Variants": "formulas.figures.absorbers.variants_figures",
+    "formulas.run_up.RunUp": "formulas.figures.run_up.run_up_figures",
+    "formulas.joint_run_up.JointRunUp": "formulas.figures.run_up.joint_run_up_figures",
+    "questions.torsion.model.torsion.TorsionModes": "questions.torsion.model.figure.modes_figures",
+    "questions.torsion.steady.torsion_response.TorsionResponse": "questions.torsion.steady.figure.response_figures",
+    "questions.torsion.stability.torsion_stability.Stability": "questions.torsion.stability.figure.stability_figures",
+    "questions.torsion.transient.torsion_transient.Transient": "questions.torsion.transient.figure.transient_figures",
+    "questions.bending.bending.CriticalSpeeds": "questions.bending.figures.bending.bending_figures",
+    "questions.bending.speed_map.CriticalSpeedMap": "questions.bending.figures.bending.speed_map_figures",
+    "questions.bending.rotor_response.RotorResponse": "questions.bending.figures.rotor.rotor_figures",
+    "questions.phases.phases.Phasing": "questions.phases.figures.phases.phasing_figures",
+    "questions.phases.layout.Layout": "questions.phases.figures.layout.layout_figures",
+    "questions.torsion.absorber.absorber.Absorber": "questions.torsion.calm.figure.absorber_figures",
+    "questions.torsion.calm.calm.Calm": "questions.torsion.calm.figure.calm_figures",
+    "questions.motion.articulation.Articulation": "questions.motion.figures.articulation.articulation_figures",
+    "questions.diagnosis.signals.orders.OrderSpectrum": "questions.diagnosis.figures.orders.spectrum_figures",
+    "questions.diagnosis.signals.orders.OrderMap": "questions.diagnosis.figures.orders.map_figures",
+    "questions.diagnosis.signals.order_tracks.TrackedOrders": "questions.diagnosis.figures.orders.tracks_figures",
+    "questions.diagnosis.signals.turning.Rotation": "questions.diagnosis.figures.motion.rotation_figures",
+    "questions.diagnosis.signals.orbit.Orbit": "questions.diagnosis.figures.motion.orbit_figures",
+    "questions.diagnosis.signals.torsional.TorsionalVibration": "questions.diagnosis.figures.motion.torsional_figures",
+    "questions.diagnosis.examination.Examination": "questions.diagnosis.figures.examination.examination_figures",
+    "questions.diagnosis.expected.Expected": "questions.diagnosis.figures.expected.expected_figures",
+    "batch.search.sobol.Sensitivity": "batch.figures.designs.sensitivity_figures",
+    "batch.search.sobol.Swings": "batch.figures.designs.swings_figures",
+    "batch.table.views.Ranks": "batch.figures.designs.ranks_figure",
+    "batch.search.boundary.Boundary": "batch.figures.designs.boundary_figure",
+    "batch.search.pareto.ParetoSet": "batch.figures.designs.pareto_set_figure",
+    "batch.search.optimise.Optimum": "batch.figures.designs.optimum_figure",
 }
-"""Result -> file and function of this folder that make its figures."""
+"""Result -> module and function that make its figures."""
 
 SUFFIXES = (".svg", ".png", ".pdf", ".html")
 """Kinds of picture that `save` writes."""
@@ -88,10 +88,10 @@ def for_result(result: Any) -> tuple[Figure, ...]:
     ['views', 'space', 'yokes']
     """
     for kind in type(result).__mro__:
-        maker = _MAKERS.get(f"{kind.__module__}.{kind.__qualname__}")
+        maker = _MAKERS.get(f"{kind.__module__}.{kind.__qualname__}".removeprefix("cardan."))
         if maker:
-            module, _dot, function = maker.partition(".")
-            made = getattr(import_module(f".{module}", __name__), function)(result)
+            module, _dot, function = maker.rpartition(".")
+            made = getattr(import_module(f"cardan.{module}"), function)(result)
             return (made,) if isinstance(made, Figure) else tuple(made)
     raise TypeError(f"no figure shows a {type(result).__name__}")
 
@@ -146,7 +146,12 @@ def drawn(figures: Figure | Sequence[Figure], suffix: str, name: str = "") -> by
     if suffix not in SUFFIXES:
         known = ", ".join(SUFFIXES)
         raise refuse("path", _("{path} should end in one of {known}").format(path=name or suffix, known=known))
-    several = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    from cardan.answers.reader import reader
+
+    from .for_reader import for_reader
+
+    given = (figures,) if isinstance(figures, Figure) else tuple(figures)
+    several = tuple(for_reader(one, reader()) for one in given)
     if suffix == ".html":
         from .render_plotly import render as page
 

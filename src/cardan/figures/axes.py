@@ -61,6 +61,7 @@ def axis(
     unit: str,
     values: Iterable[Array] = (),
     *,
+    dimension: str = "",
     include: Sequence[float] = (),
     least: float = 0.0,
     mirrored: float | None = None,
@@ -71,8 +72,8 @@ def axis(
 
     Parameters
     ----------
-    label, unit : str
-        What runs along it.
+    label, unit, dimension : str
+        What runs along it; see `Axis`.
     values : iterable of array
         What it is to hold.
     include : sequence of float
@@ -102,7 +103,7 @@ def axis(
         below = margin if low < 0.0 or low > 0.0 else 0.02  # a range from nought begins there
         low, high = low - min(below, margin) * span, high + margin * span
     ticks = steps(low, high, count)
-    return Axis(label=label, unit=unit, low=low, high=high, ticks=ticks, texts=written(ticks))
+    return Axis(label=label, unit=unit, dimension=dimension, low=low, high=high, ticks=ticks, texts=written(ticks))
 
 
 def clear_way(places: Array, rings: Sequence[float], first: complex) -> complex:
@@ -136,4 +137,4 @@ def clear_way(places: Array, rings: Sequence[float], first: complex) -> complex:
 def angle_axis(label: str, stop: float = 360.0) -> Axis:
     """Return the axis of an angle of rotation [°], marked every eighth of a turn."""
     ticks = tuple(float(k) for k in range(0, int(stop) + 1, 45 if stop <= 360.0 else 90))
-    return Axis(label=label, unit="°", low=0.0, high=stop, ticks=ticks, texts=written(ticks))
+    return Axis(label=label, unit="deg", dimension="angle", low=0.0, high=stop, ticks=ticks, texts=written(ticks))

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
-from cardan.drive.solids import Solids, solids
-from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
 from cardan.texts import _
 from cardan.units import mm
 

@@ -1,7 +1,8 @@
 """What a figure shows, whoever draws it: panels, series, axes, units, marks, and one sentence on what to see.
 
-A figure is made from a result by a function of this folder and drawn by a renderer; it knows neither. Values are in the
-units of their axes.
+A figure is made from a result by a function of its question and drawn by a renderer; it knows neither. Values are in
+the units of their axes; texts may hold quantities, which `for_reader` writes in the units of whoever looks, so that
+what a renderer gets holds words alone.
 """
 
 from __future__ import annotations
@@ -9,12 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from cardan.maths.arrays import Array
+from cardan.units import label as printed
 from cardan.units import spoken
+
+Text: TypeAlias = Any
+"""A `cardan.answers.quantity.Text` where a figure is made, a str where it is drawn."""
 
 Dash: TypeAlias = str
 Side: TypeAlias = Literal["left", "centre", "right"]
@@ -49,13 +54,13 @@ class Curve:
     x: Array
     y: Array
     z: Array | None = None
-    label: str = ""
+    label: Text = ""
     role: str = "ink"
     width: float = 1.5
     dash: Dash = "solid"
     marker: float = 0.0
     arrow: bool = False
-    text: str = ""
+    text: Text = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -64,8 +69,8 @@ class Bars:
 
     at: Array
     size: Array
-    texts: Sequence[str] = ()
-    label: str = ""
+    texts: Sequence[Text] = ()
+    label: Text = ""
     roles: Sequence[str] = ("accent",)
     thick: float = 0.6
     base: float = 0.0
@@ -89,7 +94,7 @@ class Shape:
     role: str = "accent"
     opacity: float = 1.0
     outline: float = 0.0
-    label: str = ""
+    label: Text = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -119,14 +124,14 @@ class Mesh:
     smooth: bool = False
     shade: float = 0.0
     opacity: float = 1.0
-    text: str = ""
+    text: Text = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Note:
     """A word at a point; ``shift`` moves it by points of print."""
 
-    text: str
+    text: Text
     x: float
     y: float
     z: float | None = None
@@ -145,7 +150,7 @@ class Rule:
 
     value: float
     upright: bool = False
-    text: str = ""
+    text: Text = ""
     role: str = "muted"
     width: float = 0.9
     dash: Dash = "dashed"
@@ -158,7 +163,7 @@ class Band:
     low: float
     high: float
     upright: bool = False
-    text: str = ""
+    text: Text = ""
     role: str = "accent"
     opacity: float = 0.12
 
@@ -200,8 +205,12 @@ class Axis:
 
     Parameters
     ----------
-    label, unit : str
-        What runs along it, and in which unit it is given.
+    label : Text
+        What runs along it.
+    unit : str
+        In which unit it is given: a unit of its dimension, as in keys, or as it is printed where it has none.
+    dimension : str
+        A key of `cardan.units.DIMENSIONS`, for what a reader may see in another unit.
     low, high : float
         Its range.
     ticks : tuple of float
@@ -217,12 +226,13 @@ class Axis:
         the drive.
     """
 
-    label: str = ""
+    label: Text = ""
     unit: str = ""
+    dimension: str = ""
     low: float = 0.0
     high: float = 1.0
     ticks: tuple[float, ...] = ()
-    texts: tuple[str, ...] = ()
+    texts: tuple[Text, ...] = ()
     log: bool = False
     grid: bool = True
     turning: bool = False
@@ -230,7 +240,13 @@ class Axis:
     @property
     def title(self) -> str:
         """Label with its unit in brackets."""
-        return f"{self.label} [{spoken(self.unit)}]" if self.unit else self.label
+        return headed(self.label, self.unit, self.dimension)
+
+
+def headed(title: Text, unit: str, dimension: str = "") -> str:
+    """Return words with a unit in brackets behind them."""
+    shown = printed(unit) if dimension else spoken(unit)
+    return f"{title} [{shown}]" if shown else f"{title}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -261,8 +277,10 @@ class Panel:
         From the back to the front.
     x, y : Axis
         Its axes; in a view they run along `View.right` and `View.up`.
-    title : str
+    title : Text
         Its heading; the title of the upright axis when empty.
+    dimension, unit : str
+        Of what its numbers are, where no axis says so; stands behind the title.
     equal : bool
         One unit is as long to the right as upwards.
     bare : bool
@@ -274,7 +292,9 @@ class Panel:
     series: tuple[Series, ...]
     x: Axis = field(default_factory=Axis)
     y: Axis = field(default_factory=Axis)
-    title: str = ""
+    title: Text = ""
+    dimension: str = ""
+    unit: str = ""
     equal: bool = False
     bare: bool = False
     view: View | None = None
@@ -282,7 +302,7 @@ class Panel:
     @property
     def heading(self) -> str:
         """What stands above the panel."""
-        return self.title or self.y.title
+        return headed(self.title, self.unit, self.dimension) if self.title else self.y.title
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -317,9 +337,9 @@ class Figure:
     """
 
     name: str
-    title: str
-    sentence: str
-    source: str
+    title: Text
+    sentence: Text
+    source: Text
     rows: tuple[Row, ...]
     legend: bool = True
     width: float = 7.4
@@ -332,7 +352,7 @@ class Figure:
     @property
     def entries(self) -> tuple[Curve | Bars | Shape, ...]:
         """Labelled series for the legend, each label once."""
-        seen: dict[str, Curve | Bars | Shape] = {}
+        seen: dict[Text, Curve | Bars | Shape] = {}
         for panel in self.panels:
             for item in panel.series:
                 if isinstance(item, Curve | Bars | Shape) and item.label:

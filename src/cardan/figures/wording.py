@@ -6,33 +6,16 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from cardan.answers.numbers import THIN as THIN
+from cardan.answers.numbers import fixed as fixed
+from cardan.answers.numbers import half_turn as half_turn
+from cardan.answers.numbers import raised
+from cardan.answers.numbers import significant as significant
 from cardan.maths.ties import power_of
 from cardan.texts import _, plural
-from cardan.units import thousands
 
 if TYPE_CHECKING:
-    from cardan.synthesis.phases import Phasing
-
-THIN = "\u202f"
-
-
-def significant(value: float, digits: int = 4) -> str:
-    """Return a number with so many significant digits, a true minus and thin grouping.
-
-    Examples
-    --------
-    >>> significant(0.125603), significant(-12.0, 3), significant(123456.0), significant(0.0)
-    ('0.1256', '−12.0', '123\u202f456', '0')
-    """
-    if not math.isfinite(value):
-        return "–"
-    if value == 0.0:
-        return "0"
-    size = math.floor(math.log10(abs(value)))
-    if not -5 <= size < 9:
-        mantissa, _sign, power = f"{value:.{digits - 1}e}".partition("e")
-        return f"{mantissa}·10{_raised(int(power))}".replace("-", "−")
-    return thousands(value, max(0, digits - 1 - size)).replace("-", "−")
+    from cardan.questions.phases.phases import Phasing
 
 
 def angular(value: float, digits: int = 4) -> str:
@@ -57,19 +40,6 @@ def given(value: float) -> str:
     """
     text = significant(value)
     return text.rstrip("0").rstrip(".") if "." in text and "·" not in text else text
-
-
-def fixed(value: float, decimals: int = 2) -> str:
-    """Return a number with so many decimals, never "-0".
-
-    Examples
-    --------
-    >>> fixed(-0.001), fixed(-22.918)
-    ('0.00', '−22.92')
-    """
-    if not math.isfinite(value):
-        return "–"
-    return f"{value:z,.{decimals}f}".replace(",", THIN).replace("-", "−")
 
 
 def used(share: float) -> str:
@@ -232,17 +202,6 @@ def letters(found: Phasing, *, nearest: bool = False) -> str:
     return _("A keeps the intermediate shafts calmest, B is its mirror image; C is nearest to the present yokes.")
 
 
-def half_turn(angle: float) -> float:
-    """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows.
-
-    Examples
-    --------
-    >>> half_turn(-90.0), half_turn(178.0)
-    (90.0, -2.0)
-    """
-    return 90.0 - (90.0 - angle) % 180.0
-
-
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
     """Return powers of ten, in full where all of them are short.
 
@@ -254,8 +213,4 @@ def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:
     powers = [round(math.log10(value)) for value in values]
     if all(-3 < power < 4 for power in powers):
         return tuple(f"{value:g}" for value in values)
-    return tuple(f"10{_raised(power)}" for power in powers)
-
-
-def _raised(number: int) -> str:
-    return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return tuple(f"10{raised(power)}" for power in powers)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any, TypeAlias, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, NAMED, fields_of, spellings_of
+from cardan.drive.fields.keys import KINDS, NAMED, fields_of, spellings_of
 from cardan.errors import refuse
 from cardan.texts import _
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, is_dataclass
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import Field, fields_of
+from cardan.drive.fields.keys import Field, fields_of
 from cardan.errors import refuse
 from cardan.texts import _
 from cardan.units import DIMENSIONS, label

@@ -10,7 +10,7 @@ from typing import Any
 
 from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_files
 from cardan.drive.drive import Drive
-from cardan.drive.tables import tree_of
+from cardan.drive.fields.tables import tree_of
 from cardan.errors import Problem, check, refuse
 from cardan.files import Enclosed, folder_of, refusal, write_text
 from cardan.mechanism.mechanism import Mechanism
@@ -189,7 +189,7 @@ def save(thing: Any, path: str | Path) -> None:
     """
     where = Path(path)
     if not isinstance(thing, Drive | Mechanism):
-        from cardan.diagnosis.signal import Signal
+        from cardan.questions.diagnosis.signals.signal import Signal
 
         if isinstance(thing, Signal):
             from .signals import write as write_signal

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cardan.drive.paths import place, read, with_values
+from cardan.drive.fields.paths import place, read, with_values
 from cardan.files import Enclosed
 
 from .drive_file import loads
@@ -24,7 +24,7 @@ def edit(
     text : str
         The drive file.
     values : mapping of str to value
-        Path with unit -> value in that unit, as in `cardan.drive.paths`. A field given in another unit, or by its
+        Path with unit -> value in that unit, as in `fields.paths`. A field given in another unit, or by its
         opposite (``yoke_lead``), is replaced; None takes it out.
     folder : str, Path or Enclosed
         Where files that the drive file names are looked for.

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, get_args
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, fields_of, spellings_of
+from cardan.drive.fields.keys import KINDS, fields_of, spellings_of
 from cardan.texts import _
 from cardan.units import DIMENSIONS, label, nearest
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from cardan.batch.axes import Axis, Drawn, Listed, Spaced
-from cardan.batch.designs import METHODS
-from cardan.batch.distributions import DISTRIBUTIONS, Distribution
-from cardan.batch.fields import present, spread_out
 from cardan.batch.plan import listed
+from cardan.batch.points.axes import Axis, Drawn, Listed, Spaced
+from cardan.batch.points.designs import METHODS
+from cardan.batch.points.distributions import DISTRIBUTIONS, Distribution
+from cardan.batch.points.fields import present, spread_out
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.texts import _

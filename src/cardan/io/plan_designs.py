@@ -8,15 +8,15 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from cardan.batch.asking import Asked, ask_of
-from cardan.batch.axes import Drawn
-from cardan.batch.boundary import Boundary, boundary
-from cardan.batch.distributions import Distribution
-from cardan.batch.goals import Goal, Limit, check_names, goal_of, limit_of
-from cardan.batch.optimise import Global, Local, Optimum, optimise
-from cardan.batch.pareto import ParetoSet, pareto_search
-from cardan.batch.pieces import Progress
-from cardan.batch.sobol import Sensitivity, sensitivity
+from cardan.batch.answering.asking import Asked, ask_of
+from cardan.batch.points.axes import Drawn
+from cardan.batch.points.distributions import Distribution
+from cardan.batch.search.boundary import Boundary, boundary
+from cardan.batch.search.goals import Goal, Limit, check_names, goal_of, limit_of
+from cardan.batch.search.optimise import Global, Local, Optimum, optimise
+from cardan.batch.search.pareto import ParetoSet, pareto_search
+from cardan.batch.search.pieces import Progress
+from cardan.batch.search.sobol import Sensitivity, sensitivity
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 
@@ -205,7 +205,7 @@ def _search(plan: Plan, table: Table) -> Search | None:
 
 def _start(ask: Asked, bounds: tuple[tuple[float, float], ...], given: Table | None) -> tuple[float, ...]:
     """Return where a search begins: as given, else where the drive stands, no farther out than the box."""
-    from cardan.batch.fields import present
+    from cardan.batch.points.fields import present
 
     found = []
     for column, (low, high) in zip(ask.points, bounds, strict=True):

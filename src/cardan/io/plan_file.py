@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cardan.batch.asking import Device
-from cardan.batch.axes import Axis
-from cardan.batch.fields import spots_of
-from cardan.batch.goals import limit_of
-from cardan.batch.kinds import KINDS
+from cardan.batch.answering.asking import Device
+from cardan.batch.answering.questions import asked
 from cardan.batch.plan import SweepWork, work_of
-from cardan.batch.questions import asked
-from cardan.batch.reductions import BINS, Reduce, reduce_of
+from cardan.batch.points.axes import Axis
+from cardan.batch.points.fields import spots_of
+from cardan.batch.search.goals import limit_of
+from cardan.batch.table.kinds import KINDS
+from cardan.batch.table.reductions import BINS, Reduce, reduce_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse

@@ -10,12 +10,22 @@ from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
-from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of, numbers_in, scaled, spelled, spellings_of
+from cardan.drive.fields.keys import (
+    KINDS,
+    NAMED,
+    WORD_OR_FLAG,
+    Field,
+    fields_of,
+    numbers_in,
+    scaled,
+    spelled,
+    spellings_of,
+)
+from cardan.drive.fields.ranges import in_range, out_of_range
+from cardan.drive.fields.validity import MAX_JOINTS
 from cardan.drive.machine import TorqueHistory
 from cardan.drive.movement import Table
-from cardan.drive.ranges import in_range, out_of_range
 from cardan.drive.shaft import Shaft
-from cardan.drive.validity import MAX_JOINTS
 from cardan.errors import InputError, Problem, check
 from cardan.files import Enclosed
 from cardan.texts import _

@@ -12,20 +12,20 @@ from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive, Input, Output
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
+from cardan.drive.fields.keys import NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.fields.ranges import allowed
+from cardan.drive.fields.tables import written
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
 from cardan.drive.joints import JOINTS, Profile
-from cardan.drive.keys import NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
-from cardan.drive.ranges import allowed
 from cardan.drive.settings import Settings
 from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
-from cardan.drive.tables import written
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
 from cardan.units import DIMENSIONS

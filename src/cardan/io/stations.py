@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.tables import tree_of
+from cardan.drive.fields.tables import tree_of
 
 from .drive_file import loads
 from .writer import toml_text, whole

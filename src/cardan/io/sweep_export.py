@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from cardan.batch.results import Results
-from cardan.batch.sql import only_select
+from cardan.batch.table.results import Results
+from cardan.batch.table.sql import only_select
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.files import refusal, write_bytes

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.maths import frames, screws
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames, screws
 
 from .mechanism import Mechanism
 from .pair import freedoms

@@ -10,8 +10,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.errors import Problem
-from cardan.maths import frames, screws
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames, screws
 from cardan.texts import _, mark
 from cardan.units import plain, quantity
 

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.accuracy import Course, TransmissionError, course, transmission_error
-from cardan.analysis.tolerance import Band, ToleranceBand, WorstCase, tolerance
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.tolerance import MICRON, band_figure, error_figure, pareto_figure, tolerance_name
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.questions.accuracy.accuracy import Course, TransmissionError, course, transmission_error
+from cardan.questions.accuracy.figure import MICRON, band_figure, error_figure, pareto_figure, tolerance_name
+from cardan.questions.accuracy.tolerance import Band, ToleranceBand, WorstCase, tolerance
 from cardan.texts import _
 from cardan.units import arcmin
 

@@ -51,6 +51,8 @@ def amount(cell: Cell, column: Column) -> Amount | None:
     Amount(value=-2e-13, form='0.0E+00')
     >>> amount(Cell(text="–"), numbers)
     """
+    if cell.amount is not None:
+        return Amount(value=cell.amount, form=cell.form)
     found = WRITTEN.fullmatch(cell.text)
     full = _number(cell.full)
     if full is None:

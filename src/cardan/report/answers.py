@@ -6,14 +6,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
-from cardan.analysis.machine_torques import turns_freely
-from cardan.analysis.mobility import mobility
-from cardan.analysis.strength import strength
+from cardan.answers.question import Question
+from cardan.answers.reader import USUAL
 from cardan.catalogue import Catalogue
 from cardan.checks import check
+from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
-from cardan.drive.laws import unmapped
+from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
+from cardan.questions.mobility.mobility import mobility
+from cardan.questions.torsion.model.machine_torques import turns_freely
+from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from . import lacking as lacks
@@ -25,10 +28,10 @@ from .block import Page
 from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
 from .forces import carrying
 from .lacking import Lacking, named, told
-from .life import lasting
 from .losses import rubbing
 from .mobility import binding
 from .moving import moving
+from .page import page
 from .phasing import phasing
 from .run_up import running_up
 from .selection import choosing, of_selection
@@ -105,6 +108,9 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:46]
     'This answer needs more in the drive file: duty'
     """
+    question = QUESTIONS.get(NAMES.get(name, name))
+    if question is not None and question.ready:
+        return page_of(question, on, progress, choices or {})
     asked = ANSWERS[name]
     missing = asked.lacking(on)
     if missing:
@@ -114,6 +120,25 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     except InputError as error:
         return refused(name, asked.title(), error)
     return page or Page(name=name, title=asked.title(), answer=asked.otherwise(on), blocks=())
+
+
+NAMES = {"movement": "articulation", "phases": "phasing", "limits": "check"}
+"""Name of a page -> name of its question, where these differ."""
+
+
+def page_of(question: Question, on: Subject, progress: Progress | None, choices: Choices) -> Page:
+    """Return the page of a question of the register; what it lacks or why it refuses, where it has no answer."""
+    title = _(question.title)
+    missing = question.lacking(on.drive)
+    if missing:
+        return Page(name=question.name, title=title, answer=told(missing), blocks=())
+    try:
+        result = question.ask(on.drive, known=on.known, progress=progress, **choices)
+    except InputError as error:
+        return refused(question.name, title, error)
+    if result is None:
+        return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
+    return page(question.answer(on.drive, result), USUAL)
 
 
 def _plain(made: Callable[[Subject], Page | None]) -> Callable[[Subject, Progress | None, Choices], Page | None]:
@@ -255,7 +280,6 @@ ANSWERS: dict[str, Answer] = {
         otherwise=_nothing,
         quick=False,
     ),
-    "life": Answer(title=lambda: _("Life"), page=_plain(lasting), lacking=_of(lacks.of_life), otherwise=_nothing),
     "strength": Answer(
         title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
     ),

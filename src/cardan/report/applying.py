@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cardan.analysis.equivalence import SYNCHRONOUS
 from cardan.errors import InputError
-from cardan.figures.kinds import kind_name
 from cardan.figures.wording import excess, percent
-from cardan.synthesis.phases import Phasing, phases
-from cardan.synthesis.setting import YokeSetting, values_of
+from cardan.questions.motion.equivalence import SYNCHRONOUS
+from cardan.questions.motion.kinds import kind_name
+from cardan.questions.phases.phases import Phasing, phases
+from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _
 
 from .subject import Subject

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.assembly import AssemblyForces, Peak, assembly
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.assembly import misfit_figure
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.maths.ties import foremost
+from cardan.questions.forces.assembly import AssemblyForces, Peak, assembly
+from cardan.questions.forces.figures.assembly import misfit_figure
 from cardan.texts import _
 from cardan.units import deg
 

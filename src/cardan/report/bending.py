@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from cardan.analysis.bending import CriticalSpeeds, Part, Running, bending_speeds
-from cardan.analysis.critical_speed import ARTICLE, CATALOGUE
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.bending import said, sentence, shapes_figure, speeds_figure
 from cardan.figures.wording import fixed, significant
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.questions.bending.bending import CriticalSpeeds, Part, Running, bending_speeds
+from cardan.questions.bending.figures.bending import said, sentence, shapes_figure, speeds_figure
 from cardan.texts import _
 from cardan.units import mm, rpm
 

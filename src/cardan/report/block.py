@@ -1,82 +1,51 @@
-"""What a page of the report is made of: words, tables, pictures. Only data; the template gives it its looks."""
+"""What a page of the report is made of: words, tables, pictures, written out for who reads here.
+
+Only data; the template gives it its looks. Texts may hold quantities: they are told in the units of the reader, see
+`cardan.answers.reader.reading`, as soon as they stand on a page.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, TypeAlias
 
+from cardan.answers import answer
+from cardan.answers.answer import Depth, Tone
+from cardan.answers.printed import SIGNS, Cell, Column, Table, printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import reader
 from cardan.figures import Figure
+from cardan.figures.for_reader import for_reader
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
 from cardan.texts import _
 from cardan.units import spoken
 
-Tone: TypeAlias = Literal["plain", "good", "warning", "failed"]
-
-SIGNS: dict[Tone, str] = {"plain": "○", "good": "✓", "warning": "▲", "failed": "✖"}
-"""Every tone by a sign too, never by colour alone."""
+Text: TypeAlias = Any
+"""A `cardan.answers.quantity.Text` where a page is made, a str on the page."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Cell:
-    """A cell of a table.
-
-    Parameters
-    ----------
-    text : str
-        What it says.
-    tone : str
-        How good that is.
-    full : str
-        The number in full precision, for whoever points at it.
-    chip : str
-        Colour of a chip before the text.
-    formula : str
-        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
-    """
-
-    text: str
-    tone: Tone = "plain"
-    full: str = ""
-    chip: str = ""
-    formula: str = ""
-
-    @property
-    def sign(self) -> str:
-        """Sign of the tone; none for plain words."""
-        return "" if self.tone == "plain" else SIGNS[self.tone]
+def shown(text: Text) -> str:
+    """Return a text as who reads here is told it."""
+    return told(text, reader())
 
 
-@dataclass(frozen=True, kw_only=True)
-class Column:
-    """A column of a table: its heading with the unit of its numbers, both in the language spoken here."""
-
-    heading: str
-    unit: str = ""
-    left: bool = False
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "unit", spoken(self.unit))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Table:
-    """A table with a line of words above it."""
-
-    columns: Sequence[Column]
-    rows: Sequence[Sequence[Cell]]
-    title: str = ""
-    note: str = ""
+def table(given: answer.Table, depth: Depth = "full") -> Table:
+    """Return a table as who reads here sees it."""
+    return printed(given, reader(), depth)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
     """A paragraph; with a tone, a boxed remark."""
 
-    text: str
+    text: Text
     tone: Tone = "plain"
     title: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", shown(self.text))
 
     @property
     def sign(self) -> str:
@@ -89,7 +58,10 @@ class Points:
     """A list of short remarks."""
 
     title: str
-    items: Sequence[str]
+    items: Sequence[Text]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "items", [shown(one) for one in self.items])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,9 +74,12 @@ class Listing:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
-    """A figure of the report."""
+    """A figure of the report, its texts in words."""
 
     figure: Figure
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "figure", for_reader(self.figure, reader()))
 
 
 Block: TypeAlias = Table | Words | Points | Listing | Picture
@@ -120,22 +95,28 @@ class Page:
         For links.
     title : str
         Heading.
-    answer : str
+    answer : Text
         What it comes to, in a sentence.
     blocks : sequence of block
         From the top.
-    keys : sequence of row
-        What of it stands on the first page, see `key`.
+    keys : sequence of KeyFigure
+        What of it stands on the first page.
     alarms : sequence of Words
         What of it the reader of the first page must not overlook.
     """
 
     name: str
     title: str
-    answer: str
+    answer: Text
     blocks: Sequence[Block]
-    keys: Sequence[Sequence[Cell]] = ()
+    keys: Sequence[Any] = ()
     alarms: Sequence[Words] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "answer", shown(self.answer))
+
+
+__all__ = ["SIGNS", "Block", "Cell", "Column", "Listing", "Page", "Picture", "Points", "Table", "Tone", "Words"]
 
 
 def words(text: str, tone: Tone = "plain") -> Cell:

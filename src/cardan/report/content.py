@@ -8,17 +8,19 @@ from dataclasses import dataclass, field, replace
 from typing import cast
 
 from cardan import __version__
+from cardan.answers.answer import KeyFigure
 from cardan.catalogue import Catalogue
+from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.laws import unmapped
-from cardan.drive.solids import Solids
+from cardan.drive.models.laws import unmapped
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
 from cardan.texts import _
 
 from .balance import refused
 from .block import Page, Table, Words
+from .description import description
 from .followed import (
     Followed,
     asked_by_laws,
@@ -30,7 +32,7 @@ from .followed import (
     warnings_by_laws,
     yokes_refused,
 )
-from .key_figures import key_figures
+from .key_figures import key_figures, key_table
 from .loaded import loaded
 from .method import method
 from .moving import moving
@@ -38,7 +40,6 @@ from .phasing import phasing
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
 from .turning import turning
-from .understood import understood
 from .verdicts import Judged, judged
 
 
@@ -144,7 +145,7 @@ def content(
     if unmapped(drive.joints):
         return _by_laws(replace(asked_by_laws(drive, duty), known=known), source_text)
     on = replace(asked(drive, duty, progress), known=known)
-    pages: list[Page] = [understood(on), turning(on), phasing(on)]
+    pages: list[Page] = [description(on), turning(on), phasing(on)]
     if on.moving is not None:
         pages.append(moving(on))
     if on.unmoved is not None:
@@ -169,7 +170,7 @@ def content(
 def _by_laws(on: Followed, source_text: str | None) -> Content:
     """Return the report of a drive with joints that turn by laws of their own."""
     alike = cast(Subject, on)  # what these pages ask for it has under the same names
-    pages = [understood(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
+    pages = [description(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
     limits = judged(alike)
     if limits.page is not None:
         pages.append(limits.page)
@@ -194,7 +195,7 @@ def _written(
     *,
     said: Words,
     warned: tuple[Words, ...],
-    figures: Table,
+    figures: Sequence[KeyFigure],
     changed: Table | Words,
 ) -> Content:
     return Content(
@@ -207,7 +208,7 @@ def _written(
         lights=limits.lights,
         cures=limits.changes,
         sketch=space_figure(drive, seen, name="sketch"),
-        figures=figures,
+        figures=key_table(figures),
         changes=changed,
         pages=tuple(pages),
     )

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import isfinite
 
-from cardan.diagnosis.examination import Examination
-from cardan.diagnosis.expected import Expected
-from cardan.diagnosis.findings import Finding
-from cardan.diagnosis.plant import plant
-from cardan.figures.diagnosis import UNITS, quantity_word, spectrum_figure, tracks_figure
-from cardan.figures.diagnosis_motion import orbit_figure, rotation_figure, torsional_figure
-from cardan.figures.examination import LIKELY, causes_figure, examined_map, verdict
 from cardan.figures.wording import percent, significant
 from cardan.maths.ties import foremost_of
+from cardan.questions.diagnosis.examination import Examination
+from cardan.questions.diagnosis.expected import Expected
+from cardan.questions.diagnosis.figures.examination import LIKELY, causes_figure, examined_map, verdict
+from cardan.questions.diagnosis.figures.motion import orbit_figure, rotation_figure, torsional_figure
+from cardan.questions.diagnosis.figures.orders import UNITS, quantity_word, spectrum_figure, tracks_figure
+from cardan.questions.diagnosis.findings import Finding
+from cardan.questions.diagnosis.plant import plant
 from cardan.texts import _
 from cardan.units import rpm
 

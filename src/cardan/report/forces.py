@@ -7,19 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.analysis.forces import Forces, forces
-from cardan.analysis.moving_forces import moving_forces
-from cardan.analysis.reactions import Held
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.force_arrows import loads_figures, senses, worst
-from cardan.figures.forces import reactions_figure, torques_figure
-from cardan.figures.moving_forces import moving_forces_figures
 from cardan.figures.palette import colour, shaft
 from cardan.figures.wording import significant
-from cardan.maths import frames
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost, foremost_on
+from cardan.questions.forces.figures.arrows import loads_figures, senses, worst
+from cardan.questions.forces.figures.forces import reactions_figure, torques_figure
+from cardan.questions.forces.figures.moving_forces import moving_forces_figures
+from cardan.questions.forces.forces import Forces, forces
+from cardan.questions.forces.moving_forces import moving_forces
+from cardan.questions.forces.reactions import Held
 from cardan.texts import _, plural
 from cardan.units import deg
 

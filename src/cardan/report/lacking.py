@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import islice
 from typing import TypeAlias
 
-import numpy as np
-
-from cardan.analysis.joint_bearings import joint_bearings
+from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
-from cardan.drive.keys import fields_of
-from cardan.synthesis.lever import key_of
+from cardan.drive.fields.keys import in_a_joint
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
@@ -54,7 +50,7 @@ def of_losses(drive: Drive) -> Lacking:
         (drive.duty.speed is not None, "duty.speed"),
         (
             joints or supports or splines,
-            *_in_a_joint(drive, "friction"),
+            *in_a_joint(drive, "friction"),
             "supports[0].friction",
             "shafts[1].spline.friction",
         ),
@@ -66,29 +62,10 @@ def of_strength(drive: Drive) -> Lacking:
     return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
 
 
-def of_life(drive: Drive) -> Lacking:
-    """Return what the life lacks."""
-    duty, parts = drive.duty, _in_parts(drive)
-    own = joint_bearings(drive)[0]
-    rated = bool(np.any(own.rated) or any(own.convention))
-    cross = _absent(
-        (not np.all(np.isnan(own.span)), *_in_a_joint(drive, "cross", ".span")),
-        (not np.all(np.isnan(own.capacity)), *_in_a_joint(drive, "needles", ".capacity")),
-    )
-    return (
-        *_absent(
-            (parts or duty.torque is not None, "duty.torque", *PARTLY),
-            (parts or duty.speed is not None, "duty.speed", *PARTLY),
-            (parts or duty.life is not None, "duty.life", *PARTLY),
-        ),
-        *(() if rated else cross or (("joints[0].rating.torque",),)),
-    )
-
-
 def of_accuracy(drive: Drive) -> Lacking:
     """Return what the accuracy lacks."""
     some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
-    keys = (*_in_a_joint(drive, "tolerance"), *_in_a_joint(drive, "error"))
+    keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
     return _absent((some, *(keys or ("joints[0].type",))))
 
 
@@ -149,12 +126,6 @@ Asked: TypeAlias = Callable[[Drive], Lacking]
 
 def _in_parts(drive: Drive) -> bool:
     return bool(drive.duty.blocks) or drive.duty.torque_history is not None
-
-
-def _in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
-    """Return the path of a key in the first joint that can have it; none where no joint of the drive can."""
-    able = (k for k, joint in enumerate(drive.joints) if key in fields_of(type(joint)))
-    return tuple(f"joints[{k}].{key}{inner}" for k in islice(able, 1))
 
 
 def _absent(*conditions: tuple[bool | str, ...]) -> Lacking:

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from cardan.checks import Verdict, check
 from cardan.checks.alike import alike, deciding_limits, title_of
+from cardan.choices.change import typed
+from cardan.choices.cure import Cure, cures
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, significant
-from cardan.synthesis.change import typed
-from cardan.synthesis.cure import Cure, cures
 from cardan.texts import _, plural
 from cardan.units import factor, label
 

@@ -2,41 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+
+from cardan.answers.question import Question
+from cardan.answers.reader import USUAL
+from cardan.errors import InputError
+from cardan.register import QUESTIONS
+from cardan.texts import _
 
 from .accuracy import erring
 from .assembly import straining
+from .balance import refused
 from .bending import whirling
 from .block import Page
 from .forces import carrying
-from .life import lasting
 from .losses import rubbing
 from .mobility import binding
+from .page import page as page_for
 from .rotor import whirling_cracked
 from .run_up import running_up
 from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
-PAGES = (
-    carrying,
-    rubbing,
-    bearing_up,
-    lasting,
-    erring,
-    binding,
-    straining,
-    twisting,
-    running_up,
-    whirling,
-    whirling_cracked,
-)
+PAGES: dict[str, Callable[[Subject], Page | None]] = {
+    "forces": carrying,
+    "losses": rubbing,
+    "strength": bearing_up,
+    "life": lambda _on: None,
+    "accuracy": erring,
+    "mobility": binding,
+    "assembly": straining,
+    "torsion": twisting,
+    "run-up": running_up,
+    "bending": whirling,
+    "rotor": whirling_cracked,
+    "balance": lambda _on: None,
+}
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
 
 
 def loaded(on: Subject) -> Iterator[Page]:
     """Yield the parts that the drive file asks for; none once the reader stopped the work."""
-    for made in PAGES if on.complete else ():
-        page = made(on)
+    for name, made in PAGES.items() if on.complete else ():
+        question = QUESTIONS[name]
+        page = _asked(question, on) if question.ready else made(on)
         if page is not None:
             yield page
+
+
+def _asked(question: Question, on: Subject) -> Page | None:
+    """Return the page of a question, None where the drive file does not ask it or nothing is to be told."""
+    if question.lacking(on.drive):
+        return None
+    try:
+        result = question.ask(on.drive, known=on.known)
+    except InputError as error:
+        return refused(question.name, _(question.title), error)
+    return None if result is None else page_for(question.answer(on.drive, result), USUAL)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cardan.analysis.losses import Losses, losses
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.losses import heat_figure, heat_parts
 from cardan.figures.palette import colour
 from cardan.figures.wording import percent, significant
+from cardan.questions.losses.figure import heat_figure, heat_parts
+from cardan.questions.losses.losses import Losses, losses
 from cardan.texts import _
 
 from .balance import ROUNDING, checks, refused

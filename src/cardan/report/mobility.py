@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from cardan.analysis.mobility import Mobility, mobility
-from cardan.analysis.repair import advice, repairs, strain
 from cardan.errors import InputError
-from cardan.figures.mobility import graph_figure
 from cardan.mechanism.pair import PAIRS
 from cardan.mechanism.partition import joins, partition
+from cardan.questions.mobility.figure import graph_figure
+from cardan.questions.mobility.mobility import Mobility, mobility
+from cardan.questions.mobility.repair import advice, repairs, strain
 from cardan.texts import _, plural
 
 from .balance import checks

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cardan.analysis.articulation import Articulation
-from cardan.figures.articulation import articulation_figures
 from cardan.figures.wording import fixed, percent, significant
+from cardan.questions.motion.articulation import Articulation
+from cardan.questions.motion.figures.articulation import articulation_figures
 from cardan.texts import _
 from cardan.units import deg, mm
 

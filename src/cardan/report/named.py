@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from cardan.drive.keys import meant
-from cardan.synthesis.lever import key_of
+from cardan.choices.lever import key_of
+from cardan.drive.fields.keys import meant
 from cardan.texts import _
 
 CLAUSE = re.compile(r"[;,，；(\[]")

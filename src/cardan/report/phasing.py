@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.drive.laws import is_even
-from cardan.figures.phases import phasing_figures
+from cardan.drive.models.laws import is_even
 from cardan.figures.wording import fixed, letters, noiseless, percent, significant
-from cardan.synthesis.setting import YokeSetting
+from cardan.questions.phases.figures.phases import phasing_figures
+from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _
 from cardan.units import deg
 

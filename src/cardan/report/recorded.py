@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TypeAlias
 
 from cardan.catalogue import Catalogue
-from cardan.diagnosis.examination import examine
-from cardan.diagnosis.signal import DIRECTIONS, TURNING, Channel, Signal
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.io.signals import SIGNAL_FORMATS, signal
+from cardan.questions.diagnosis.examination import examine
+from cardan.questions.diagnosis.signals.signal import DIRECTIONS, TURNING, Channel, Signal
 from cardan.texts import _
 
 from .block import Page, Points, Words

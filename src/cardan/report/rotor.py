@@ -6,11 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.analysis.rotor_response import RotorResponse, rotor_response
 from cardan.errors import InputError
-from cardan.figures.rotor import MICRO, ORDERS, UNIT, orbits_figure, order_name, response_figure, sentence
 from cardan.figures.wording import fixed, significant
 from cardan.maths.ties import foremost_of
+from cardan.questions.bending.figures.rotor import (
+    MICRO,
+    ORDERS,
+    UNIT,
+    orbits_figure,
+    order_name,
+    response_figure,
+    sentence,
+)
+from cardan.questions.bending.rotor_response import RotorResponse, rotor_response
 from cardan.texts import _
 from cardan.units import rpm
 

@@ -7,16 +7,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.analysis.fixed_steps import FixedStep
-from cardan.analysis.machine_torques import turns_freely
-from cardan.analysis.torsion import TorsionModes, torsion_modes
-from cardan.analysis.torsion_transient import AFTER, Transient, transient
 from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
 from cardan.errors import InputError
-from cardan.figures.torsion_transient import transient_figure
 from cardan.figures.wording import significant
 from cardan.maths.ties import foremost
+from cardan.questions.torsion.model.machine_torques import turns_freely
+from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.transient.figure import transient_figure
+from cardan.questions.torsion.transient.fixed_steps import FixedStep
+from cardan.questions.torsion.transient.torsion_transient import AFTER, Transient, transient
 from cardan.texts import _
 from cardan.units import rpm
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from cardan.choices.selection import Candidate, Need, select_joint
+from cardan.choices.selection_reasons import SizeFit, fitting_sizes, need_of, reasons
 from cardan.errors import InputError
 from cardan.figures.wording import significant
-from cardan.synthesis.selection import Candidate, Need, select_joint
-from cardan.synthesis.selection_reasons import SizeFit, fitting_sizes, need_of, reasons
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm
 

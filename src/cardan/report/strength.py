@@ -7,15 +7,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.analysis.forces import forces
-from cardan.analysis.stability import Verdict
-from cardan.analysis.strength import Strength, strength
+from cardan.checks.strength.figure import strength_figures
+from cardan.checks.strength.strength import Strength, strength
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.figures.force_arrows import senses
-from cardan.figures.strength import strength_figures
 from cardan.figures.wording import fixed, significant
 from cardan.maths.ties import foremost, foremost_of
+from cardan.questions.forces.figures.arrows import senses
+from cardan.questions.forces.forces import forces
+from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.texts import _, plural
 from cardan.units import deg, rpm
 

@@ -9,24 +9,24 @@ from functools import cached_property
 
 import numpy as np
 
-from cardan.analysis.articulation import Articulation, articulation
-from cardan.analysis.book import BookComparison, book_comparison
-from cardan.analysis.closure import Closure, closure
-from cardan.analysis.equivalence import SPECK, SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
-from cardan.analysis.evidence import SelfCheck, evidence, swing_by_vectors
-from cardan.analysis.motion import Motion, motion, phase_angles
-from cardan.analysis.torsion_response import TorsionResponse, torsion_response
+from cardan.book.comparison import BookComparison, book_comparison
+from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
-from cardan.drive.chain import Chain, as_hooke, turning_chain
+from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.geometry import Geometry, geometry
-from cardan.drive.laws import mixed
-from cardan.drive.solids import Solids, solids
+from cardan.drive.models.chain import Chain, as_hooke, turning_chain
+from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.laws import mixed
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
-from cardan.synthesis.phases import Phasing, phases
-from cardan.synthesis.setting import YokeSetting
+from cardan.questions.motion.articulation import Articulation, articulation
+from cardan.questions.motion.closure import Closure, closure
+from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
+from cardan.questions.motion.motion import Motion, motion, phase_angles
+from cardan.questions.phases.phases import Phasing, phases
+from cardan.questions.phases.setting import YokeSetting
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
 
 Progress = Callable[[float], object]
 

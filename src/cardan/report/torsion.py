@@ -7,18 +7,18 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.analysis.stability import Verdict
-from cardan.analysis.torsion import TorsionModes, torsion_modes
-from cardan.analysis.torsion_response import TorsionResponse, torsion_response
-from cardan.analysis.torsion_stability import BEND, Stability, stability
-from cardan.drive.chain import given_chain
 from cardan.drive.drive import Drive
+from cardan.drive.models.chain import given_chain
 from cardan.errors import InputError
-from cardan.figures.torsion import campbell_figure, shapes_figure
-from cardan.figures.torsion_map import map_figure
-from cardan.figures.torsion_running import response_figure, sweep_figure, waterfall_figure
 from cardan.figures.wording import fixed, significant
 from cardan.maths.ties import foremost
+from cardan.questions.torsion.model.figure import campbell_figure, shapes_figure
+from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
+from cardan.questions.torsion.stability.figure import map_figure
+from cardan.questions.torsion.stability.torsion_stability import BEND, Stability, stability
+from cardan.questions.torsion.steady.figure import response_figure, sweep_figure, waterfall_figure
+from cardan.questions.torsion.steady.run_stability import Verdict
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
 from cardan.texts import _
 from cardan.units import deg, rpm
 
@@ -126,7 +126,7 @@ def _said(blocks: Sequence[Block]) -> str:
     """Return the sentence under the first figure, or what stands instead of one."""
     for one in blocks:
         if isinstance(one, (Picture, Words)):
-            return one.figure.sentence if isinstance(one, Picture) else one.text
+            return str(one.figure.sentence if isinstance(one, Picture) else one.text)
     return ""
 
 

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cardan.figures.book import book_figure
-from cardan.figures.equivalence import orders_figure
-from cardan.figures.motion import motion_figure
+from cardan.book.figures.comparison import book_figure
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
+from cardan.questions.motion.figures.equivalence import orders_figure
+from cardan.questions.motion.figures.motion import motion_figure
 from cardan.texts import _
 from cardan.units import deg
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from cardan.checks import Verdict, check
 from cardan.checks.alike import alike, deciding_limits, title_of
+from cardan.checks.figure import check_figures
+from cardan.choices.change import typed
+from cardan.choices.cure import Cure, cures, most_helpful
+from cardan.choices.lever import key_of
 from cardan.errors import InputError
-from cardan.figures.check import check_figures
 from cardan.figures.wording import fixed, given, significant
-from cardan.synthesis.change import typed
-from cardan.synthesis.cure import Cure, cures, most_helpful
-from cardan.synthesis.lever import key_of
 from cardan.texts import _, plural
 from cardan.units import factor, label
 

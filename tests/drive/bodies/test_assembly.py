@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from cardan.analysis.motion import motion
 from cardan.drive import joints as kinds
 from cardan.drive.bodies.assembly import assembled
 from cardan.drive.drive import Drive, Input, Output
-from cardan.drive.geometry import geometry
+from cardan.drive.joints.laws.profile_coupling import Circle, profile_contact
+from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Segment, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station
 from cardan.drive.support import Support
-from cardan.maths import frames, meshes
-from cardan.maths.profile_coupling import Circle, profile_contact
-from tests.maths.test_meshes import closed
+from cardan.maths.kernel import frames, meshes
+from cardan.questions.motion.motion import motion
+from tests.maths.kernel.test_meshes import closed
 
 BEND = math.radians(20.0)
 KINDS = {

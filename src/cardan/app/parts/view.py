@@ -14,9 +14,9 @@ from cardan.app.state.jobs import own_fault
 from cardan.app.state.session import Session
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError
-from cardan.figures.scene import Scene, scene
-from cardan.figures.scene_words import in_words_of
 from cardan.report.preferred import names_in
+from cardan.scene.scene import Scene, scene
+from cardan.scene.words import in_words_of
 from cardan.texts import _, speaking
 
 from .menus import drop_down

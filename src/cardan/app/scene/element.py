@@ -1,6 +1,6 @@
 """The 3-D view as an element of the page.
 
-Python describes a scene (``cardan.figures.scene``) and says what to show of it; the browser draws, turns the drive
+Python describes a scene (``cardan.scene.scene``) and says what to show of it; the browser draws, turns the drive
 between the frames it was given and tells what was touched. Everything asked for is kept here, so a page that is
 loaded again, or a part of it that was taken away and comes back, shows the same.
 """
@@ -18,7 +18,7 @@ from typing import Any, Literal
 import nicegui.elements.scene  # noqa: F401  registers the three.js that NiceGUI ships, as "nicegui-scene"
 from nicegui.element import Element
 
-from ...texts import _
+from cardan.texts import _
 
 PIECE = 400_000
 """Characters of a picture in one message; a message of a megabyte would break the connection."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, is_dataclass
 from typing import Any, Literal, TypeAlias, get_args, get_origin
 
 from cardan.drive.drive import Drive
-from cardan.drive.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
+from cardan.drive.fields.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.errors import Problem
 from cardan.texts import _
 

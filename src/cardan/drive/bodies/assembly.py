@@ -8,16 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.drive.body import body_length
-from cardan.drive.chain import Chain, given_chain
 from cardan.drive.drive import Drive
-from cardan.drive.geometry import Geometry, geometry, geometry_from_points
+from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import ConstantVelocity
-from cardan.drive.parts import known_lengths
-from cardan.drive.solids import Arms, arms
+from cardan.drive.models.chain import Chain, given_chain
+from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
 from cardan.drive.station import Station
-from cardan.maths import frames
 from cardan.maths.arrays import Array
-from cardan.maths.meshes import placed
+from cardan.maths.kernel import frames
+from cardan.maths.kernel.meshes import placed
 from cardan.texts import _
 
 from .build import Build, Track, length_text
@@ -25,6 +24,7 @@ from .crossed import double_joint, hooke, offset_cross, offset_shaft
 from .even import MAKERS
 from .shaft import disc, flange, ring, shaft_pieces, shaft_stretches, washer
 from .sizes import bearing_radius, sizes
+from .solids import Arms, arms
 from .support import bearing, bracket, floor_frame, rubber
 
 FRAMES = 120

@@ -8,16 +8,16 @@ from functools import cached_property
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.geometry import Geometry
 from cardan.drive.joints import Joint
-from cardan.drive.solids import Arms
-from cardan.maths import frames
+from cardan.drive.models.geometry import Geometry
 from cardan.maths.arrays import Array
-from cardan.maths.meshes import Surface, joined, placed, quaternions
+from cardan.maths.kernel import frames
+from cardan.maths.kernel.meshes import Surface, joined, placed, quaternions
 from cardan.texts import _
 from cardan.units import mm
 
 from .sizes import ROOM, JointSize, Sizes
+from .solids import Arms
 
 BACK = np.diag([-1.0, 1.0, -1.0])
 """Turns a yoke round, so that its hub lies against the power flow."""

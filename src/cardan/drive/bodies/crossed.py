@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from cardan.drive.joints import DoubleCardan, OffsetCross
-from cardan.maths import double_cardan, frames
-from cardan.maths.meshes import ball, placed, revolved
+from cardan.drive.joints.laws import double_cardan
+from cardan.maths.kernel import frames
+from cardan.maths.kernel.meshes import ball, placed, revolved
 from cardan.texts import _
 
 from .build import BACK, Build, cross_text, forks, length_text, name_of

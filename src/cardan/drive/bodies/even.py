@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from cardan.drive.joints import Clemens, ElasticHalfCardan, HalfCardan, PinCoupling, Rzeppa, Tripod, Weiss
-from cardan.maths import frames, tripod
+from cardan.drive.joints.laws import tripod
 from cardan.maths.arrays import Array
-from cardan.maths.meshes import Surface, ball, circle, joined, placed, plate, revolved
+from cardan.maths.kernel import frames
+from cardan.maths.kernel.meshes import Surface, ball, circle, joined, placed, plate, revolved
 from cardan.texts import _
 
 from .build import BACK, Build, forks, name_of
@@ -236,7 +237,7 @@ def half_cardan(build: Build, i: int) -> None:
         )
         flat = head * np.stack((np.cos(turn), np.sin(turn)), axis=-1)
     else:
-        from cardan.maths.meshes import toothed
+        from cardan.maths.kernel.meshes import toothed
 
         flat = toothed(0.9 * head, head, min(corners, 48))
     block = placed(plate(flat, -0.42 * head, 0.42 * head, bevel=0.08 * head), ACROSS)

@@ -12,7 +12,7 @@ import numpy as np
 
 from cardan.drive.body import pieces
 from cardan.drive.shaft import Shaft, Spline
-from cardan.maths.meshes import Surface, joined, placed, plate, revolved, toothed
+from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
 
 from .yoke import ACROSS, bolt_ring
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cardan.drive.drive import Drive
-from cardan.drive.geometry import Geometry
 from cardan.drive.joints import Joint
+from cardan.drive.models.geometry import Geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.meshes import Surface, box, circle, joined, placed, plate, revolved, swept
+from cardan.maths.kernel.meshes import Surface, box, circle, joined, placed, plate, revolved, swept
 
 from .shaft import ring, washer
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.maths.arrays import Array
-from cardan.maths.meshes import Surface, circle, joined, placed, plate, revolved, swept
+from cardan.maths.kernel.meshes import Surface, circle, joined, placed, plate, revolved, swept
 
 Y_FIRST = np.asarray([(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
 """Carries what is turned about x to y."""
@@ -45,7 +45,7 @@ def fork(
 
     Examples
     --------
-    >>> from cardan.maths.meshes import volume
+    >>> from cardan.maths.kernel.meshes import volume
     >>> volume(fork(0.05, 0.02, 0.02, 0.014, 0.045, 0.09, 0.05)) > 0.0
     True
     """

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths import mobius, profile_coupling
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.texts import _
 from cardan.units import plain, quantity
 
 from .joint import CROSS_ONLY, Joint
+from .laws import profile_coupling
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

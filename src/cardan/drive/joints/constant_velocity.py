@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.maths import mobius
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 
 from .joint import CROSS_ONLY, Joint
 

@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.maths import double_cardan, mobius
 from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
 from cardan.units import plain
 
 from .joint import CROSS_ONLY, Joint
+from .laws import double_cardan
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

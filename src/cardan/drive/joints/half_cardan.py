@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.maths import mobius, shared_turn
 from cardan.maths.arrays import Array, unit_complex
+from cardan.maths.kernel import mobius
 from cardan.units import plain, quantity
 
 from .joint import CROSS_ONLY, Joint
+from .laws import shared_turn
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -48,7 +49,7 @@ class ElasticHalfCardan(Joint):
         return mobius.turn(0.0 * bend) if self.pairs is None else None
 
     def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
-        """Return the mean of what the pairs of links ask for; `cardan.maths.half_cardan`."""
+        """Return the mean of what the pairs of links ask for; `cardan.drive.joints.laws.half_cardan`."""
         if self.pairs is None:
             return mobius.course(mobius.turn(0.0 * bend), unit_complex(2.0 * angle))
         tau = mobius.tau(mobius.hooke(bend))

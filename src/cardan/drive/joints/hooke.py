@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.maths import mobius
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 
 from .joint import Joint
 
@@ -20,5 +20,5 @@ class Hooke(Joint):
     crossed: ClassVar[bool] = True
 
     def pair(self, bend: Array) -> mobius.Pair:
-        """Return the joint's Möbius map, see `cardan.maths.mobius`."""
+        """Return the joint's Möbius map, see `cardan.maths.kernel.mobius`."""
         return mobius.hooke(bend)

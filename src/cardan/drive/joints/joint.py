@@ -14,8 +14,8 @@ from cardan.drive.cross import Cross
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.errors import Problem
-from cardan.maths import mobius
 from cardan.maths.arrays import Array, unit_complex
+from cardan.maths.kernel import mobius
 from cardan.texts import _
 from cardan.units import plain, quantity
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths import mobius
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.texts import _
 from cardan.units import quantity
 

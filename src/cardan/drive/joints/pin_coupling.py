@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths import mobius, pin_coupling
 from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
 from cardan.texts import _
 from cardan.units import quantity
 
 from .joint import CROSS_ONLY, Joint, both_or_none
+from .laws import pin_coupling
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

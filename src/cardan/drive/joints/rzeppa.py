@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths import dividing_lever, mobius, shared_turn, tilted_plane
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.texts import _
 from cardan.units import plain, quantity
 
 from .joint import CROSS_ONLY, Joint, both_or_none
+from .laws import dividing_lever, shared_turn, tilted_plane
 from .weiss import groove_course
 
 LEVER = ("lever_b", "lever_c")

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.errors import Problem
-from cardan.maths import mobius, tracta
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.units import quantity
 
 from .joint import CROSS_ONLY, Joint, both_or_none
+from .laws import tracta
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

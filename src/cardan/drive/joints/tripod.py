@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cardan.maths import mobius
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.units import quantity
 
 from .joint import CROSS_ONLY, Joint

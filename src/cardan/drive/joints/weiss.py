@@ -10,11 +10,12 @@ from typing import ClassVar
 import numpy as np
 
 from cardan.errors import Problem
-from cardan.maths import mobius, offset_grooves, smooth_law
 from cardan.maths.arrays import Array
+from cardan.maths.kernel import mobius
 from cardan.units import plain, quantity
 
 from .joint import CROSS_ONLY, Joint, both_or_none
+from .laws import offset_grooves, smooth_law
 
 
 def groove_course(

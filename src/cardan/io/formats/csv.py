@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from cardan.analysis.articulation import Articulation
-from cardan.analysis.motion import Motion
 from cardan.errors import refuse
+from cardan.questions.motion.articulation import Articulation
+from cardan.questions.motion.motion import Motion
 from cardan.texts import _
 
 suffix = ".csv"

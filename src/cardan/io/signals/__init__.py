@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from cardan.diagnosis.quality import sound
-from cardan.diagnosis.signal import TURNING, Channel, Signal
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.files import write_bytes
+from cardan.questions.diagnosis.signals.quality import sound
+from cardan.questions.diagnosis.signals.signal import TURNING, Channel, Signal
 from cardan.texts import _
 from cardan.units import nearest
 

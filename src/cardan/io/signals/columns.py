@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from cardan.diagnosis.signal import DIRECTIONS, QUANTITIES
 from cardan.errors import refuse
+from cardan.questions.diagnosis.signals.signal import DIRECTIONS, QUANTITIES
 from cardan.texts import _
 from cardan.units import DIMENSIONS, inch, nearest
 
@@ -101,13 +101,13 @@ class Meaning:
     name : str
         What is left of the title without quantity and unit.
     quantity : str
-        One of `cardan.diagnosis.signal.QUANTITIES`, or ``time``.
+        One of `cardan.questions.diagnosis.signals.signal.QUANTITIES`, or ``time``.
     factor : float
         To SI.
     unit : str
         As written.
     place, direction : str
-        As in `cardan.diagnosis.signal.Channel`.
+        As in `cardan.questions.diagnosis.signals.signal.Channel`.
     """
 
     name: str

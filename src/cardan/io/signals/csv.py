@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from cardan.diagnosis.quality import evened
-from cardan.diagnosis.signal import Signal
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.quality import evened
+from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _
 
 from .columns import meaning, title_of

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from cardan.diagnosis.quality import evened
-from cardan.diagnosis.signal import Signal
 from cardan.errors import MissingExtraError, Problem, check, refuse
+from cardan.questions.diagnosis.signals.quality import evened
+from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _
 
 from .columns import title_of

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from cardan.diagnosis.signal import Signal
 from cardan.errors import check, refuse
+from cardan.questions.diagnosis.signals.signal import Signal
 from cardan.texts import _
 
 from .csv import unlike

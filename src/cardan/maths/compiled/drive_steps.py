@@ -1,6 +1,6 @@
 """What eight drives with joints do at one moment: formulas of the balance of torques and of its slopes.
 
-As in `cardan.analysis.torsional_balance`, one station, element or torque at a time. Angles are held as what they are
+As in `model.torsional_balance`, one station, element or torque at a time. Angles are held as what they are
 ahead of the even rotation φ. Written on the array-API standard; a kernel applies them to registers.
 """
 

@@ -1,6 +1,6 @@
 """Kernel: periodic motion and monodromy matrix of drives with joints, eight at a time.
 
-The motion by harmonic balance, the matrix by collocation, as in `cardan.maths.periodic` and `cardan.maths.floquet`; the
+The motion by harmonic balance, the matrix by collocation, as in `periodic.harmonics` and `periodic.floquet`; the
 matrices are factored without pivots, and a drive whose Newton steps do not come to rest is left to the plain form.
 """
 

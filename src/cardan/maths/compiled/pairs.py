@@ -1,4 +1,4 @@
-"""Kernel: the Möbius pairs of 64 chains at a time; what `cardan.maths.mobius.partial_products` ends with."""
+"""Kernel: the Möbius pairs of 64 chains at a time; what `cardan.maths.kernel.mobius.partial_products` ends with."""
 
 from __future__ import annotations
 

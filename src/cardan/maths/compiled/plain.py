@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cardan.maths import mobius
 from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
 
 
 def traces(pair: mobius.Pair, angle: Array, speed: Array, acceleration: Array, w: Array) -> tuple[Array, Array, Array]:

@@ -32,7 +32,7 @@ def link(phase: Any, e1: Any, e2: Any, e3: Any, e4: Any, cb: Any, sb: Any) -> tu
     Notes
     -----
     α_1, α_2, α_3 are right angles but for their errors, α_4 is the bend but for its own; see
-    `cardan.maths.loops.fourth_angle`.
+    `cardan.maths.kernel.loops.fourth_angle`.
     """
     c1, s1, c2, c3, s3 = -sine(e1), cosine(e1), -sine(e2), -sine(e3), cosine(e3)
     c, s = cosine(e4), sine(e4)

@@ -1,4 +1,4 @@
-"""Kernel: forced response of many chains, eight frequencies at a time; see `cardan.maths.tridiagonal`."""
+"""Kernel: forced response of many chains, eight frequencies at a time; see `cardan.maths.linear.tridiagonal`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NUMBERS = 9
 """Numbers of a place: mass, ground (real, imaginary, drag), load (real, imaginary), coupling to the next (the same)."""
 
 TINY = 1e-100
-"""As in `cardan.maths.tridiagonal`."""
+"""As in `cardan.maths.linear.tridiagonal`."""
 
 
 def own(w: Any, mass: Any, gr: Any, gi: Any, gd: Any) -> tuple[Any, Any]:

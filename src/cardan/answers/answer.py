@@ -1,0 +1,315 @@
+"""What an answer is made of: a sentence, key figures, tables of quantities, remarks, figures. Only data, all of it SI.
+
+A renderer writes it: the terminal, JSON, CSV, HTML, PDF, a workbook, the app. How deep a part goes is a mark on it,
+not another text: what is ``"brief"`` stands everywhere, what is ``"full"`` in the report and in files, what is
+``"data"`` in files alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from .quantity import Joined, Quantity, Text, told
+from .reader import Reader
+
+Tone: TypeAlias = Literal["plain", "good", "warning", "failed", "next"]
+"""How good it is; ``"next"`` is a step to take."""
+
+Depth: TypeAlias = Literal["brief", "full", "data"]
+
+FILE = "FILE"
+"""In a command to type next: the file that was asked about."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """A value of a table that is more than its number: how good it is, a chip of colour before it.
+
+    Attributes
+    ----------
+    value : float, int, str, bool, Text or None
+        In the unit of its column, or with a unit of its own where it is a `Quantity`.
+    tone : str
+        How good it is.
+    chip : str
+        Colour of a chip before it.
+    formula : str
+        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
+    before, after : str
+        Signs before and behind it: ``≤ ``, brackets.
+    """
+
+    value: Any
+    tone: Tone = "plain"
+    chip: str = ""
+    formula: str = ""
+    before: str = ""
+    after: str = ""
+
+
+Value: TypeAlias = float | int | str | bool | Text | Cell | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """A column of a table: its name for programs, its heading for people, its values in SI.
+
+    Attributes
+    ----------
+    key : str
+        Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
+    heading : str
+        What stands above it, in the language spoken where it was made.
+    values : sequence of Value, or array
+        From the top; numbers in SI.
+    dimension, unit : str
+        As of `Quantity`.
+    digits, decimals, most, trim
+        As of `Quantity`.
+    left : bool
+        Align to the left: words. Columns of words are so by themselves.
+    wrap : bool
+        The last column may be prose, broken into lines.
+    depth : str
+        How deep it goes.
+    """
+
+    key: str
+    heading: str = ""
+    values: Any
+    dimension: str = ""
+    unit: str = ""
+    digits: int = 4
+    decimals: int | None = None
+    most: float = float("inf")
+    trim: bool = False
+    left: bool = False
+    wrap: bool = False
+    depth: Depth = "brief"
+
+    def name(self, reader: Reader) -> str:
+        """Return the key with its unit."""
+        return self.quantity(0.0).key(self.key, reader)
+
+    def label(self, reader: Reader) -> str:
+        """Return the unit as it is printed."""
+        return reader.label(self.dimension, self.unit)
+
+    def quantity(self, value: float) -> Quantity:
+        """Return a value of this column as a quantity."""
+        return Quantity(value, self.dimension, self.digits, self.decimals, self.unit, self.most, self.trim)
+
+    @property
+    def words(self) -> bool:
+        """Whether it holds words and is set to the left."""
+        first = next((bare(one) for one in self.values if bare(one) is not None), None)
+        return self.left or (not self.dimension and not isinstance(first, bool | int | float | np.number | Quantity))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """Quantities side by side.
+
+    Attributes
+    ----------
+    name : str
+        For programs; a table without a name stands in no JSON.
+    title : str
+        Heading.
+    columns : sequence of Column
+        All of one length.
+    note : Text
+        What stands below it.
+    depth : str
+        How deep it goes.
+    fixed : int
+        So many first columns are repeated where the table is parted.
+    tones : sequence of str
+        How good each row is; its first cell has that colour.
+    records : bool
+        In JSON a list of rows; otherwise one of columns.
+    """
+
+    name: str = ""
+    title: str = ""
+    columns: Sequence[Column]
+    note: Text = ""
+    depth: Depth = "brief"
+    fixed: int = 1
+    tones: Sequence[Tone] = ()
+    records: bool = False
+
+    def __post_init__(self) -> None:
+        lengths = {len(column.values) for column in self.columns}
+        if len(lengths) > 1:
+            said = ", ".join(f"{column.key} {len(column.values)}" for column in self.columns)
+            raise ValueError(f"columns of table {self.name or self.title!r} differ in length: {said}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Remark:
+    """A sentence below the tables: what it means, what to mind, what to do next.
+
+    Attributes
+    ----------
+    text : Text
+        The sentence.
+    tone : str
+        How good it is.
+    command : tuple of str
+        What to type next, with `FILE` for the file asked about.
+    code : str
+        What it is about, in one word for programs.
+    depth : str
+        How deep it goes.
+    alarm : bool
+        Whether the reader of the first page must not overlook it.
+    """
+
+    text: Text
+    tone: Tone = "plain"
+    command: tuple[str, ...] = ()
+    code: str = ""
+    depth: Depth = "brief"
+    alarm: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class KeyFigure:
+    """A figure by which drives are judged and compared.
+
+    Attributes
+    ----------
+    name : str
+        For programs and for comparing.
+    title : Text
+        What it is: the same for every drive.
+    value : Quantity
+        What it comes to.
+    place : Text
+        Where, when or in which condition it is so.
+    limit : Quantity, optional
+        What it is allowed.
+    better : str
+        ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty.
+    verdict : str
+        How good that is, in a word.
+    tone : str
+        How good that is.
+    """
+
+    name: str
+    title: Text
+    value: Quantity
+    place: Text = ""
+    limit: Quantity | None = None
+    better: Literal["more", "less", ""] = "less"
+    verdict: str = ""
+    tone: Tone = "plain"
+
+    @property
+    def called(self) -> Text:
+        """What it is, and where."""
+        return Joined([self.title, self.place])
+
+    @property
+    def utilisation(self) -> float | None:
+        """Share of the limit that is used; None without a limit."""
+        if self.limit is None:
+            return None
+        over, under = (self.limit, self.value) if self.better == "more" else (self.value, self.limit)
+        return float(over.value) / float(under.value) if under.value else float("inf") if over.value else 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Listing:
+    """Text as it stands in a file."""
+
+    title: str
+    text: str
+    depth: Depth = "full"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Answer:
+    """Everything that is said of one question, whoever shows it.
+
+    Attributes
+    ----------
+    name : str
+        Of the question.
+    title : str
+        Heading of its page.
+    sentence : Text
+        What it comes to.
+    tone : str
+        How good that is.
+    tables, remarks, listings : sequences
+        Below each other.
+    keys : sequence of KeyFigure
+        What of it stands on the first page.
+    figures : callable
+        Makes its figures when they are asked for.
+    facts : mapping
+        What else a program is told: a tree of mappings, lists, quantities, words and numbers without a unit. A quantity
+        gets the unit of the reader behind its key.
+    full : callable, optional
+        Makes the table of everything, for CSV and, under its name, for JSON.
+    code : int
+        Exit code of the command: 1 where a limit is broken.
+    """
+
+    name: str
+    title: str
+    sentence: Text
+    tone: Tone = "plain"
+    tables: Sequence[Table] = ()
+    remarks: Sequence[Remark] = ()
+    listings: Sequence[Listing] = ()
+    keys: Sequence[KeyFigure] = ()
+    figures: Callable[[], Sequence[Any]] = tuple
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    full: Callable[[], Table] | None = None
+    code: int = 0
+
+
+def heads(heading: str, names: Sequence[str], *, chips: Sequence[str] = ()) -> tuple[Column, ...]:
+    """Return the columns that head a table of parts counted from 1: number with name for people, each for programs.
+
+    Parameters
+    ----------
+    heading : str
+        What they are.
+    names : sequence of str
+        Their names, empty where they have none.
+    chips : sequence of str
+        Colours before them.
+
+    Examples
+    --------
+    >>> [list(column.values) for column in heads("joint", ["front", ""])]
+    [['1 front', '2'], [1, 2], ['front', '']]
+    """
+    numbers = list(range(1, len(names) + 1))
+    shown: list[Any] = [f"{number} {name}".strip() for number, name in zip(numbers, names, strict=True)]
+    if chips:
+        shown = [Cell(value=text, chip=chip) for text, chip in zip(shown, chips, strict=True)]
+    return (
+        Column(key="", heading=heading, values=shown, left=True),
+        Column(key="number", values=numbers, depth="data"),
+        Column(key="name", values=list(names), depth="data"),
+    )
+
+
+def bare(value: Value) -> Any:
+    """Return the value of a cell without its looks."""
+    return value.value if isinstance(value, Cell) else value
+
+
+def words_of(value: Any, reader: Reader) -> Any:
+    """Return a text of an answer as words; anything else as it is."""
+    return told(value, reader) if hasattr(value, "told") else value

@@ -1,0 +1,191 @@
+"""Tables as they are printed for one reader: every cell in words, beside the number it shows.
+
+This is what the renderers write: terminal, HTML, PDF, workbook, app. Nothing reads a number out of the words again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cardan.texts import _
+from cardan.units import spoken
+
+from . import answer
+from .answer import Depth, Tone
+from .numbers import spreadsheet
+from .quantity import Quantity, told
+from .reader import Reader
+
+SIGNS: dict[Tone, str] = {"plain": "○", "good": "✓", "warning": "▲", "failed": "✖", "next": "→"}
+"""Every tone by a sign too, never by colour alone."""
+
+SHOWN: dict[Depth, tuple[Depth, ...]] = {
+    "brief": ("brief",),
+    "full": ("brief", "full"),
+    "data": ("brief", "full", "data"),
+}
+"""How deep a renderer goes -> which parts it shows."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """A cell as it is printed.
+
+    Attributes
+    ----------
+    text : str
+        What it says.
+    tone : str
+        How good that is.
+    full : str
+        The number in full precision, for whoever points at it.
+    chip : str
+        Colour of a chip before the text.
+    formula : str
+        The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
+    amount : float, optional
+        The number it shows, in the unit it is shown in.
+    form : str
+        Number format of spreadsheets.
+    """
+
+    text: str
+    tone: Tone = "plain"
+    full: str = ""
+    chip: str = ""
+    formula: str = ""
+    amount: float | None = None
+    form: str = ""
+
+    @property
+    def sign(self) -> str:
+        """Sign of the tone; none for plain words."""
+        return "" if self.tone == "plain" else SIGNS[self.tone]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """The head of a column as it is printed: heading and unit, both in the language spoken here."""
+
+    heading: str
+    unit: str = ""
+    left: bool = False
+    wrap: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "unit", spoken(self.unit))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A table as it is printed, with a line of words above it and one below."""
+
+    columns: Sequence[Column]
+    rows: Sequence[Sequence[Cell]]
+    title: str = ""
+    note: str = ""
+    fixed: int = 1
+
+
+def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table:
+    """Return a table as a reader sees it.
+
+    Parameters
+    ----------
+    table : Table
+        Quantities in SI.
+    reader : Reader
+        Units and decimal sign.
+    depth : str
+        Which columns stand in it.
+
+    Examples
+    --------
+    >>> force = answer.Column(key="force", heading="force", values=[1234.5, None], dimension="force")
+    >>> shown = printed(answer.Table(columns=[force]), Reader(units={"force": "kN"}, decimal=","))
+    >>> shown.columns[0].unit, [row[0].text for row in shown.rows]
+    ('kN', ['1,234', '–'])
+    """
+    columns = [one for one in table.columns if one.depth in SHOWN[depth]]
+    cells = [[cell(value, column, reader) for value in _plain(column.values)] for column in columns]
+    rows = [list(row) for row in zip(*cells, strict=True)]
+    if table.tones:
+        rows = [[_toned(row[0], tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
+    return Table(
+        columns=[Column(heading=one.heading, unit=one.label(reader), left=one.words, wrap=one.wrap) for one in columns],
+        rows=rows,
+        title=table.title,
+        note=told(table.note, reader),
+        fixed=table.fixed,
+    )
+
+
+def cell(value: answer.Value, column: answer.Column, reader: Reader) -> Cell:
+    """Return one value as it is printed in a column."""
+    if isinstance(value, answer.Cell):
+        inner = cell(value.value, column, reader)
+        return Cell(
+            text=value.before + inner.text + value.after,
+            tone=value.tone,
+            full=inner.full,
+            chip=value.chip,
+            formula=value.formula,
+            amount=inner.amount,
+            form=framed(inner.form, value.before, value.after),
+        )
+    if value is None:
+        return Cell(text="–")
+    if isinstance(value, bool | np.bool_):
+        return Cell(text=_("yes") if value else _("no"))
+    if isinstance(value, int | np.integer):
+        return Cell(text=str(value).replace("-", "−"), full=str(value), amount=float(value), form="0")
+    if isinstance(value, float | np.floating):
+        return number(column.quantity(float(value)), reader, unit=False)
+    if isinstance(value, Quantity):
+        return number(value, reader, unit=value.dimension != column.dimension)
+    return Cell(text=told(value, reader))
+
+
+def number(quantity: Quantity, reader: Reader, *, unit: bool = True) -> Cell:
+    """Return a quantity as a cell, with its unit behind it where no column names it."""
+    shown = quantity.shown(reader)
+    amount = float(quantity.number(reader))
+    if not math.isfinite(amount):
+        return Cell(text=shown.number)
+    decimals = reader.decimals(quantity.decimals, quantity.dimension, quantity.unit)
+    form = spreadsheet(amount, quantity.digits, decimals)
+    if unit and shown.unit:
+        form += f'" {shown.unit}"'
+    return Cell(text=str(shown) if unit else shown.number, full=repr(amount), amount=amount, form=form)
+
+
+def framed(form: str, before: str, after: str = "") -> str:
+    """Return a number format of spreadsheets with signs around the number.
+
+    Examples
+    --------
+    >>> framed("0.0", "≤ "), framed("0.0", "(", ")"), framed("", "≤ ")
+    ('"≤ "0.0', '"("0.0")"', '')
+    """
+    return "".join((f'"{before}"' if before else "", form, f'"{after}"' if after else "")) if form else ""
+
+
+def _toned(one: Cell, tone: Tone) -> Cell:
+    return Cell(
+        text=one.text,
+        tone=tone,
+        full=one.full,
+        chip=one.chip,
+        formula=one.formula,
+        amount=one.amount,
+        form=one.form,
+    )
+
+
+def _plain(values: Any) -> Any:
+    return values.tolist() if isinstance(values, np.ndarray) else values

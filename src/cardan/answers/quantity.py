@@ -1,0 +1,226 @@
+"""Quantities in SI and sentences with places for them: written for a reader when they are shown, never before."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from cardan.texts import _
+
+from .numbers import THIN
+from .reader import Reader
+
+ROUNDING = 1e-13
+"""A share below this is nothing but rounding."""
+
+TOUCHING = ("°", "′", "″")
+"""Units that stand right behind their number."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """A number and its unit as they are printed."""
+
+    number: str
+    unit: str = ""
+
+    def __str__(self) -> str:
+        if not self.unit or self.number == "–":
+            return self.number
+        if self.unit in TOUCHING:
+            gap = THIN if "·" in self.number else ""  # 10⁻⁷° would be read as a power of ⁻⁷⁰
+            return f"{self.number}{gap}{self.unit}"
+        return f"{self.number} {self.unit}"
+
+    def __format__(self, form: str) -> str:
+        """Return all of it, or what a place asks for: ``{low:bare}`` the number, ``{low:unit}`` the unit."""
+        return {"": str(self), "bare": self.number, "unit": self.unit}[form]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number in SI, or an array of them for a program, with its dimension and with how exactly it is told.
+
+    Attributes
+    ----------
+    value : float or array
+        In SI.
+    dimension : str
+        A key of `cardan.units.DIMENSIONS`; empty for counts and ratios.
+    digits : int
+        Significant digits.
+    decimals : int, optional
+        Decimals in the usual unit, instead of significant digits.
+    unit : str
+        The usual unit of this quantity, where it is not the first of its dimension.
+    most : float
+        What is beyond this is told as "> most"; in SI.
+    trim : bool
+        Without zeros at the end of the decimals: for what was given, as in a file.
+
+    Examples
+    --------
+    >>> Quantity(0.0125, "length").told(Reader())
+    '12.50 mm'
+    >>> Quantity(0.0254, "length").told(Reader(units={"length": "in"}, decimal=","))
+    '1,000 in'
+    >>> Quantity(0.3, "angle", decimals=2).told(Reader())
+    '17.19°'
+    >>> Quantity(25000.0, most=1000.0).told(Reader())
+    '> 1\u202f000'
+    """
+
+    value: Any
+    dimension: str = ""
+    digits: int = 4
+    decimals: int | None = None
+    unit: str = ""
+    most: float = math.inf
+    trim: bool = False
+
+    def shown(self, reader: Reader) -> Shown:
+        """Return number and unit as a reader sees them."""
+        if not self.dimension:
+            return Shown(number=self._number(float(self.value), reader, 1.0))
+        factor = reader.unit(self.dimension, self.unit)[1]
+        return Shown(
+            number=self._number(float(self.value), reader, factor), unit=reader.label(self.dimension, self.unit)
+        )
+
+    def _number(self, value: float, reader: Reader, factor: float) -> str:
+        if value > self.most:
+            return f"> {reader.number(self.most / factor, trim=True)}"
+        if self.dimension == "share" and abs(value) < ROUNDING:
+            value = 0.0
+        decimals = reader.decimals(self.decimals, self.dimension, self.unit)
+        return reader.number(value / factor, self.digits, decimals, trim=self.trim)
+
+    def told(self, reader: Reader) -> str:
+        """Return number and unit in words."""
+        return str(self.shown(reader))
+
+    def key(self, name: str, reader: Reader) -> str:
+        """Return a name for programs with the unit behind it: ``torque_Nm``."""
+        return f"{name}_{reader.unit(self.dimension, self.unit)[0]}" if self.dimension else name
+
+    def number(self, reader: Reader) -> Any:
+        """Return the value in the reader's unit, in full precision."""
+        factor = reader.unit(self.dimension, self.unit)[1] if self.dimension else 1.0
+        return self.value if factor == 1.0 or self.value is None else _over(self.value, factor)
+
+
+def _over(value: Any, factor: float) -> Any:
+    """Return a number, an array or a list of numbers over a factor."""
+    return [_over(one, factor) for one in value] if isinstance(value, list | tuple) else value / factor
+
+
+@dataclass(frozen=True)
+class Say:
+    """A sentence in the language spoken where it was made, with named places that are filled when it is shown.
+
+    A place takes a quantity (``{force}``; ``{force:bare}`` its number alone, ``{force:unit}`` its unit alone), another
+    sentence, a word or a whole number.
+
+    Examples
+    --------
+    >>> text = say("from {low:bare} to {high}", low=Quantity(1e3, "torque"), high=Quantity(2e3, "torque"))
+    >>> text.told(Reader(units={"torque": "kNm"}, decimal=","))
+    'from 1,000 to 2,000 kN·m'
+    """
+
+    text: str
+    values: Mapping[str, Any] = field(default_factory=dict)
+
+    def told(self, reader: Reader) -> str:
+        """Return the sentence for a reader."""
+        return self.text.format(**{name: _place(value, reader) for name, value in self.values.items()})
+
+
+@dataclass(frozen=True)
+class Joined:
+    """Several texts in a row.
+
+    Attributes
+    ----------
+    parts : sequence of Text
+        What is told one after the other; the empty ones are left out.
+    between, last : str
+        What stands between them, and before the last one where that is another word.
+
+    Examples
+    --------
+    >>> Joined(["a", "b", "c"], last=" and ").told(Reader())
+    'a, b and c'
+    >>> Joined([Quantity(1.5), Quantity(2.5)]).told(Reader(decimal=","))
+    '1,500; 2,500'
+    """
+
+    parts: Sequence[Text]
+    between: str = ", "
+    last: str = ""
+
+    def told(self, reader: Reader) -> str:
+        """Return the texts for a reader; a list of decimal commas is parted by semicolons."""
+        every = [text for text in (told(part, reader) for part in self.parts) if text]
+        numbers = any(isinstance(part, Quantity) for part in self.parts)
+        between = "; " if self.between == ", " and reader.decimal == "," and numbers else self.between
+        if self.last and len(every) > 1:
+            return between.join(every[:-1]) + self.last + every[-1]
+        return between.join(every)
+
+
+Text: TypeAlias = str | Say | Joined | Quantity
+"""Anything that is told: words as they stand, or what is written for a reader when it is shown."""
+
+
+def say(text: str, **values: Any) -> Say:
+    """Return a sentence; see `Say`."""
+    return Say(text, values)
+
+
+def told(text: Text, reader: Reader) -> str:
+    """Return a text for a reader.
+
+    Examples
+    --------
+    >>> told("as it stands", Reader()), told(Quantity(0.5, "share"), Reader())
+    ('as it stands', '50.00 %')
+    """
+    return text if isinstance(text, str) else text.told(reader)
+
+
+def numbered(number: int, name: str = "") -> str:
+    """Return the number of a part with its name, as a sentence has it.
+
+    Examples
+    --------
+    >>> numbered(4, "pinion, front"), numbered(2)
+    ('4 (pinion, front)', '2')
+    """
+    return f"{number} ({name})" if name else str(number)
+
+
+def listed(numbers: Sequence[int]) -> str:
+    """Return numbers of parts, a run of more than two as a range.
+
+    Examples
+    --------
+    >>> listed([1, 4]), listed([1, 2, 3])
+    ('1, 4', '1 to 3')
+    """
+    if len(numbers) > 2 and numbers[-1] - numbers[0] == len(numbers) - 1:
+        return _("{first} to {last}").format(first=numbers[0], last=numbers[-1])
+    return ", ".join(str(one) for one in numbers)
+
+
+def _place(value: Any, reader: Reader) -> Any:
+    """Return what fills a place of a sentence."""
+    if isinstance(value, Quantity):
+        return value.shown(reader)
+    if isinstance(value, Say | Joined):
+        return value.told(reader)
+    if isinstance(value, float):
+        raise TypeError(f"a number in a sentence is a Quantity: {value!r}")
+    return value

@@ -1,0 +1,129 @@
+"""What a question about a drive is: one folder, one entry in the register `cardan.register.QUESTIONS`.
+
+The module that a question names holds, by these names:
+
+``lacking(drive)``
+    Paths that the drive file lacks for it, see `Lacking`.
+``ask(drive, **choices)``
+    The result, frozen and in SI.
+``answer(drive, result)``
+    What there is to say of it, an `Answer`.
+
+and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing, and ``COLUMNS``,
+what a sweep may ask of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from cardan.drive.conditions import Gathering
+    from cardan.drive.drive import Drive
+
+    from .answer import Answer
+
+Lacking: TypeAlias = tuple[tuple[str, ...], ...]
+"""Paths of the drive file that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """An entry of the register: light, so that help costs nothing; its module is imported when it is asked.
+
+    Attributes
+    ----------
+    name : str
+        Of command, page, tab and module: ``life``.
+    module : str
+        Where it is answered: ``cardan.questions.life.answer``.
+    title : str
+        Heading of its page, marked for translation.
+    group : str
+        Heading of the tab it stands on, marked for translation.
+    help : str
+        What it answers, marked for translation.
+    gathers : str
+        How it gathers over conditions.
+    quick : bool
+        Whether its answer is there at once; the others are worth a process of their own.
+    report : bool
+        Whether the report has a page of it.
+    takes : tuple of str
+        What ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose.
+    command : str
+        Command that asks it, its words parted by blanks; the name of the question by default.
+    """
+
+    name: str
+    module: str
+    title: str
+    group: str
+    help: str = ""
+    gathers: Gathering = "each"
+    quick: bool = True
+    report: bool = True
+    takes: tuple[str, ...] = ()
+    command: str = ""
+
+    @property
+    def home(self) -> ModuleType:
+        """The module that answers it."""
+        return import_module(self.module)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it is answered in a folder of its own."""
+        try:
+            return find_spec(self.module) is not None
+        except ModuleNotFoundError:
+            return False
+
+    def lacking(self, drive: Drive) -> Lacking:
+        """Return what a drive file lacks for it."""
+        found: Lacking = self.home.lacking(drive)
+        return found
+
+    def ask(self, drive: Drive, **given: Any) -> Any:
+        """Return its result, None where nothing can be told.
+
+        Parameters
+        ----------
+        drive : Drive
+            What is asked about.
+        **given
+            What there is to give; the question takes what it wants.
+        """
+        return self.home.ask(drive, **{name: given[name] for name in self.takes if given.get(name) is not None})
+
+    def answer(self, drive: Drive, result: Any) -> Answer:
+        """Return what there is to say of its result."""
+        found: Answer = self.home.answer(drive, result)
+        return found
+
+
+def absent(*conditions: tuple[bool | str, ...]) -> Lacking:
+    """Return the paths of the conditions that are not met: whether it is met, then what would meet it.
+
+    Examples
+    --------
+    >>> absent((False, "duty.torque"), (True, "supports"))
+    (('duty.torque',),)
+    """
+    return tuple(tuple(map(str, paths)) for met, *paths in conditions if not met and paths)
+
+
+def all_of(paths: Sequence[str]) -> Lacking:
+    """Return paths all of which are missing, each once.
+
+    Examples
+    --------
+    >>> all_of(["duty.torque", "duty.torque"])
+    (('duty.torque',),)
+    """
+    return tuple((path,) for path in dict.fromkeys(paths))

@@ -1,0 +1,272 @@
+"""Questions asked of a drive wherever its fields stand: the rows of a table, whatever chose the points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from cardan.batch.points.fields import TEXT_STATUS, Maker, Spot, spots_of
+from cardan.batch.work import STATUS, Column, Rows, Status
+from cardan.catalogue import Catalogue, catalogue
+from cardan.drive.drive import Drive
+from cardan.drive.models.laws import unmapped
+from cardan.errors import CardanError, InputError, MissingExtraError, Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.compiled.method import Compiled, Method, Plain, has_numba
+from cardan.texts import _
+
+from .many import Many, many, one
+from .questions import Question, asked
+
+Device: TypeAlias = Literal["cpu", "gpu"]
+"""What computes questions about motion: NumPy and the kernels, or JAX on its default device."""
+
+COMPILED = 20_000
+"""Points of a whole sweep that are worth the kernel; of the whole, so that every part of it is computed alike."""
+
+_FAILURES = (CardanError, ArithmeticError, np.linalg.LinAlgError)
+
+
+@cache
+def _named(names: tuple[str, ...]) -> tuple[Question, ...]:
+    """Return questions by their names; they hold functions, which no other process could be sent."""
+    return asked(names)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """Questions about a drive in which some fields vary.
+
+    Attributes
+    ----------
+    drive : Drive
+        With grades and sizes filled in.
+    spots : tuple of Spot
+        What varies.
+    questions : tuple of str
+        Names of the questions.
+    known : Catalogue
+        Where names in the drive are looked up.
+    device : {"cpu", "gpu"}
+    many_points : bool
+        Whether so many points are asked that the kernel pays.
+    """
+
+    drive: Drive
+    spots: tuple[Spot, ...]
+    questions: tuple[str, ...]
+    known: Catalogue = field(default_factory=catalogue)
+    device: Device = "cpu"
+    many_points: bool = False
+
+    @property
+    def _asked(self) -> tuple[Question, ...]:
+        return _named(self.questions)
+
+    @property
+    def points(self) -> tuple[Column, ...]:
+        """Columns of what varies."""
+        return tuple(spot.column for spot in self.spots)
+
+    @cached_property
+    def answers(self) -> tuple[Column, ...]:
+        """Columns of the answers."""
+        return tuple(told.column for question in self._asked for told in question.told(self.drive))
+
+    @cached_property
+    def fast(self) -> bool:
+        """Whether all points are answered at once: motion is all that is asked, places and angles all that varies."""
+        alike = all(spot.moves for spot in self.spots) and not unmapped(self.drive.joints)
+        return alike and all(question.of_many for question in self._asked)
+
+    @cached_property
+    def _maker(self) -> Maker:
+        return Maker(drive=self.drive, spots=self.spots, known=self.known)
+
+    @property
+    def _method(self) -> Method:
+        return Compiled(threads=1) if self.many_points and has_numba() else Plain()
+
+    def rows(self, values: Mapping[str, Array], count: int) -> Rows:
+        """Return answers and status of points.
+
+        Parameters
+        ----------
+        values : mapping of str to array (count,)
+            Path -> values in its unit.
+        count : int
+
+        Returns
+        -------
+        dict of str to array (count,)
+            The columns of the answers, and the status.
+        """
+        return self._together(values, count) if self.fast else self._singly(values, count)
+
+    def __call__(self, points: Array) -> Rows:
+        """Return the rows of points (n, d), in the order and the units of the fields."""
+        given = np.asarray(points, dtype=float)
+        return self.rows({spot.path: given[:, k] for k, spot in enumerate(self.spots)}, len(given))
+
+    def _together(self, values: Mapping[str, Array], count: int) -> Rows:
+        with np.errstate(all="ignore"):
+            si = {spot.bare: spot.si(np.asarray(values[spot.path], dtype=float)) for spot in self.spots}
+            fits = np.ones(count, dtype=bool)
+            for spot in self.spots if count else ():
+                fits &= spot.fits(si[spot.bare])
+            found, real = (self._on_gpu if self.device == "gpu" else self._on_cpu)(si, count)
+            status = np.where(fits & real, int(Status.ANSWERED), int(Status.NO_DRIVE)).astype(np.int8)
+            rows: Rows = {}
+            for told, column in found:
+                rows[told] = column if fits.all() and real.all() else np.where(fits & real, column, np.nan)
+        rows[STATUS] = status
+        return rows
+
+    def _on_cpu(self, si: Mapping[str, Array], count: int) -> tuple[list[tuple[str, Array]], Array]:
+        found, real = many(self.drive, si, count, method=self._method)
+        return [(name, np.broadcast_to(column, (count,))) for name, column in self._told(found)], real
+
+    def _on_gpu(self, si: Mapping[str, Array], count: int) -> tuple[list[tuple[str, Array]], Array]:
+        from .gpu import answered
+
+        return answered(self.drive, self.questions, si, count)
+
+    def _told(self, found: Many) -> Iterator[tuple[str, Array]]:
+        """Yield the columns of questions about motion."""
+        for question in self._asked:
+            assert question.of_many is not None
+            for told, column in zip(question.told(self.drive), question.of_many(found), strict=True):
+                yield told.name, column if told.factor == 1.0 else column / told.factor
+
+    def _singly(self, values: Mapping[str, Array], count: int) -> Rows:
+        rows: Rows = {column.name: np.full(count, math.nan) for column in self.answers}
+        status = np.zeros(count, dtype=np.int8)
+        for k in range(count):
+            answers, status[k], _why = self.at({path: column[k] for path, column in values.items()})
+            for name, value in answers.items():
+                rows[name][k] = value
+        rows[STATUS] = status
+        return rows
+
+    def at(self, values: Mapping[str, Any]) -> tuple[dict[str, float], int, tuple[Problem, ...]]:
+        """Return the answers at one point, the drive made anew there, with its status and what stood in the way.
+
+        Parameters
+        ----------
+        values : mapping of str to value
+            Path -> value in its unit.
+        """
+        try:
+            drive = self._maker.drive_at(values)
+        except InputError as error:
+            return {}, int(Status.NO_DRIVE), error.problems
+        answers: dict[str, float] = {}
+        problems: list[Problem] = []
+        motion: Many | None = None
+        for question in self._asked:
+            told = question.told(self.drive)
+            try:
+                if question.of_many is not None:
+                    motion = motion or one(drive)
+                    found: Sequence[Any] = [np.ravel(column)[0] for column in question.of_many(motion)]
+                else:
+                    assert question.of_one is not None
+                    found = question.of_one(drive)
+            except MissingExtraError:
+                raise
+            except InputError as error:
+                problems += [Problem(f"{question.name}: {one.field}", one.message, one.code) for one in error.problems]
+                continue
+            except _FAILURES as error:
+                problems.append(Problem(question.name, str(error)))
+                continue
+            answers.update({item.name: float(value) / item.factor for item, value in zip(told, found, strict=True)})
+        return answers, int(Status.NO_ANSWER if problems else Status.ANSWERED), tuple(problems)
+
+
+STATUS_COLUMN = Column(name=STATUS, unit="", role="status", text=TEXT_STATUS)
+"""The column of states."""
+
+
+def ask_of(
+    drive: Drive,
+    paths: Sequence[str],
+    ask: Sequence[str],
+    *,
+    known: Catalogue | None = None,
+    device: Device = "cpu",
+    size: int = 0,
+) -> Asked:
+    """Return what answers questions about a drive at any values of some of its fields.
+
+    Parameters
+    ----------
+    drive : Drive
+    paths : sequence of str
+        What varies, with units, as in the drive file.
+    ask : sequence of str
+        Names of questions.
+    known : Catalogue, optional
+        The shipped one when not given.
+    device : {"cpu", "gpu"}
+        What computes motion; the GPU answers nothing else.
+    size : int
+        How many points will be asked in all.
+
+    Returns
+    -------
+    Asked
+        points (n, d) in the units of the paths -> arrays (n,) of answers and the status.
+
+    Raises
+    ------
+    InputError
+        Paths that lead nowhere, names that are no question, and what a question needs and the drive does not give.
+
+    Examples
+    --------
+    >>> asked = ask_of(Drive.from_angles([0.3, 0.3]), ["joints[1].bend_deg"], ["alpha_eq"])
+    >>> rows = asked(np.asarray([[10.0], [95.0]]))
+    >>> rows["alpha_eq_deg"], rows["status"]
+    (array([14.05239431,         nan]), array([0, 1], dtype=int8))
+    """
+    problems: list[Problem] = []
+    spots: tuple[Spot, ...] = ()
+    named: tuple[Question, ...] = ()
+    try:
+        spots = spots_of(drive, paths)
+    except InputError as error:
+        problems += error.problems
+    try:
+        named = asked(ask)
+    except InputError as error:
+        problems += error.problems
+    check(problems)
+    if device not in ("cpu", "gpu"):
+        text = _("{value} is none of {choices}")
+        problems.append(Problem("device", text.format(value=repr(device), choices="cpu, gpu")))
+    varied = {spot.bare for spot in spots}
+    if drive.duty.speed is None and "duty.speed" not in varied:
+        wanting = [one.name for one in named if one.needs_speed]
+        problems += [Problem("duty.speed", _("missing; the question {name} needs it").format(name=n)) for n in wanting]
+    if drive.form != "points":
+        text = _("only drives given by joint centres have lengths here")
+        problems += [Problem("ask.length", text) for one in named if one.name == "length"]
+    made = Asked(
+        drive=drive,
+        spots=spots,
+        questions=tuple(ask),
+        known=known or catalogue(),
+        device=device,
+        many_points=size >= COMPILED,
+    )
+    if device == "gpu" and not made.fast:
+        text = _("the GPU answers questions about motion alone, where places and angles alone vary; ask the cpu")
+        problems.append(Problem("device", text))
+    check(problems)
+    return made

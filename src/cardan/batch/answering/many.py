@@ -1,0 +1,300 @@
+"""Many drives that differ in places and angles alone, as arrays: the fast way to questions about motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, reduce
+from typing import Any
+
+import numpy as np
+
+from cardan.checks.angles.acceleration import swings
+from cardan.drive.drive import Drive
+from cardan.drive.fields.validity import COINCIDENT, TINY, axis_points
+from cardan.drive.models.chain import Chain, given_chain, turning
+from cardan.drive.models.columns import Number, Vector, columns, table
+from cardan.drive.models.geometry import geometry, polyline
+from cardan.drive.models.laws import mixed, unmapped
+from cardan.errors import InputError, refuse
+from cardan.maths.arrays import Array
+from cardan.maths.compiled.method import Method
+from cardan.questions.forces.swing import Evenness, Swing, swing
+from cardan.questions.motion.equivalence import after_each_joint
+from cardan.questions.motion.extremes import Extremes, extremes
+from cardan.texts import _
+
+RIGHT = 1e-15
+"""Bends nearer to a right angle than this are none: the cosine that the loader refuses."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OneShaft:
+    """How even one shaft turns, arrays (n,), under the names of `Extremes`."""
+
+    irregularity: Array
+    bend: Array
+    ratio_min: Array
+    ratio_max: Array
+    max_lead: Array
+    max_acceleration: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Many:
+    """Drives in arrays (n,), one of each attribute for all.
+
+    Attributes
+    ----------
+    chain : Chain (n, joints)
+        The Hooke joints that turn alike.
+    bend : array (n, joints) [rad]
+        Bends of the joints themselves.
+    length : array (n, joints + 1) [m] or None
+        Lengths of the shafts, where the joint centres give them.
+    speed, acceleration : arrays (n,) or float [rad/s, rad/s²]
+        Of the input; nan where the drive does not say.
+    method : Plain or Compiled, optional
+        How extremes are computed.
+    """
+
+    chain: Chain
+    bend: Array
+    length: Array | None
+    speed: Array | float
+    method: Method | None = None
+
+    @cached_property
+    def output(self) -> Extremes | OneShaft:
+        """How even the output turns, axes (n,)."""
+        return extremes(self.chain, method=self.method)
+
+    @cached_property
+    def each(self) -> Evenness:
+        """How even the shafts that joints drive turn, axes (n, joints)."""
+        return after_each_joint(self.chain)
+
+    @property
+    def lengths(self) -> Array:
+        """Lengths of the shafts between two joints, array (n, joints - 1) [m].
+
+        Raises
+        ------
+        InputError
+            The joint centres do not give them.
+        """
+        if self.length is None:
+            raise refuse("joints", _("only drives given by joint centres have lengths here"))
+        return self.length[..., 1:-1]
+
+    @cached_property
+    def swings(self) -> Array:
+        """Largest accelerations over the square of the speed: output, inside shafts in drive and coast (n, 1 or 3)."""
+        return swings(self.chain)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Seen(Many):
+    """One drive with joints that turn by laws of their own, as its motion over a turn shows it; n = 1."""
+
+    seen: Swing
+
+    @property
+    def output(self) -> OneShaft:
+        """How even the output turns."""
+        return OneShaft(**{one.name: getattr(self.seen, one.name)[-1:] for one in fields(OneShaft)})
+
+    @property
+    def each(self) -> Evenness:
+        """How even the shafts that joints drive turn, arrays (joints,)."""
+        return self.seen
+
+    @property
+    def swings(self) -> Array:
+        """Refused: inside shafts in coast have no closed form here."""
+        raise refuse("joints", _("not answered for joints that turn by laws of their own"))
+
+
+def one(drive: Drive) -> Many:
+    """Return a single drive, n = 1.
+
+    Examples
+    --------
+    >>> one(Drive.from_angles([0.3])).output.bend
+    array([0.3])
+    """
+    if not unmapped(drive.joints):
+        return many(drive, {}, 1)[0]
+    given = given_chain(drive)
+    rows = replace(given, **{f: getattr(given, f)[None] for f in ("bend", "plane_twist", "yoke_angle", "start_phase")})
+    place = geometry(drive)
+    return Seen(
+        chain=rows,
+        bend=rows.bend,
+        length=place.length[None] if drive.form == "points" else None,
+        speed=float("nan") if drive.duty.speed is None else drive.duty.speed,
+        seen=swing(drive),
+    )
+
+
+def many(
+    drive: Drive, varied: Mapping[str, Array], count: int, *, method: Method | None = None, xp: Any = np
+) -> tuple[Many, Array]:
+    """Return drives that differ in places and angles, and which of them are drives.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive in which values vary.
+    varied : mapping of str to array (count,)
+        Path without unit -> values in SI.
+    count : int
+    method : Plain or Compiled, optional
+    xp : array-API namespace, optional
+        Library that computes.
+
+    Returns
+    -------
+    Many
+        Where there is no drive, its arrays hold the drive as it is.
+    real : array of bool (count,)
+        Whether bends are below 90°, points do not coincide and joints turn at their bends.
+
+    Examples
+    --------
+    >>> pair = Drive.from_angles([0.3, 0.3])
+    >>> found, real = many(pair, {"joints[1].bend": np.asarray([0.3, 2.0])}, 2)
+    >>> found.bend, real
+    (array([[0.3, 0.3],
+           [0.3, 0.3]]), array([ True, False]))
+    """
+    here = {path: xp.asarray(values, dtype=xp.float64) for path, values in varied.items()}
+
+    def spread(path: str, own: float | None) -> Array:
+        value = here.get(path)
+        return xp.broadcast_to(xp.asarray(own or 0.0, dtype=xp.float64), (count,)) if value is None else value
+
+    def row(paths_and_own: list[tuple[str, float | None]]) -> Array:
+        if not paths_and_own:
+            return xp.zeros((count, 0), dtype=xp.float64)
+        return xp.stack([spread(path, own) for path, own in paths_and_own], axis=-1)
+
+    yokes = row([(f"shafts[{k}].yoke_angle", drive.shafts[k].yoke_angle) for k in range(1, len(drive.joints))])
+    start = spread("input.start_phase", drive.input.start_phase)
+    bend, twist, length, real = _lie(drive, here, row, count, xp)
+    given = Chain(bend=bend, plane_twist=twist, yoke_angle=yokes, start_phase=start)
+    chain, real = _turning(drive, given, real, xp)
+    speed = spread("duty.speed", float("nan") if drive.duty.speed is None else drive.duty.speed)
+    return Many(chain=chain, bend=bend, length=length, speed=speed, method=method), real
+
+
+def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any) -> tuple[Array, Array, Any, Array]:
+    """Return bends, plane twists and lengths, and which drives there are."""
+    n = len(drive.joints)
+    if drive.form == "angles":
+        bend = row([(f"joints[{i}].bend", drive.joints[i].bend) for i in range(n)])
+        twist = row([(f"joints[{i}].plane_twist", drive.joints[i].plane_twist) for i in range(1, n)])
+        real = xp.all((bend >= 0.0) & (bend < 0.5 * xp.pi), axis=-1)
+        own = np.asarray([joint.bend for joint in drive.joints])
+        return _mended(bend, own, real, xp), twist, None, real
+    if xp is np:
+        return _lie_in_columns(drive, here, count)
+    points, own = _points(drive, row, xp)
+    apart = xp.linalg.vector_norm(points[:, 1:, :] - points[:, :-1, :], axis=-1)
+    least = xp.maximum(COINCIDENT * xp.max(apart, axis=-1), xp.asarray(TINY))
+    real = xp.all(apart > least[:, None], axis=-1)
+    points = _mended(points, own, real, xp)
+    found = polyline(points)
+    real = real & xp.all(found.bend < 0.5 * xp.pi - RIGHT, axis=-1)
+    base = polyline(np.asarray(own))
+    bend = _mended(found.bend, base.bend, real, xp)
+    twist = _mended(found.plane_twist, base.plane_twist, real, xp)
+    return bend, twist, found.length if drive.form == "points" else None, real
+
+
+def _lie_in_columns(drive: Drive, here: Mapping[str, Array], count: int) -> tuple[Array, Array, Any, Array]:
+    """Return the same by NumPy, coordinate by coordinate."""
+    found = columns(_vectors(drive, here), count)
+    most = reduce(np.maximum, found.length)
+    least = np.maximum(COINCIDENT * most, TINY)
+    fits = [one > least for one in found.length] + [one < 0.5 * np.pi - RIGHT for one in found.bend]
+    real = np.array(np.broadcast_to(reduce(np.logical_and, fits), (count,)))
+    base = geometry(drive)
+    bend = _mended(table(found.bend, count), base.bend, real, np)
+    twist = _mended(table(found.plane_twist, count), base.plane_twist, real, np)
+    return bend, twist, table(found.length, count) if drive.form == "points" else None, real
+
+
+def _vectors(drive: Drive, here: Mapping[str, Array]) -> list[Vector]:
+    """Return the points of the axes, an array where a coordinate varies and a number where it does not."""
+    n = len(drive.joints)
+
+    def value(path: str, own: float) -> Number:
+        return here.get(path, own)
+
+    if drive.form == "points":
+        names = ["input.point", *(f"joints[{i}].centre" for i in range(n)), "output.point"]
+        own = axis_points(drive)
+        return [
+            (value(f"{name}[0]", point[0]), value(f"{name}[1]", point[1]), value(f"{name}[2]", point[2]))
+            for name, point in zip(names, own, strict=True)
+        ]
+    found: list[Vector] = [(0.0, 0.0, 0.0)]
+    for k, shaft in enumerate(drive.shafts):
+        slopes = [
+            np.tan(value(f"shafts[{k}].{name}", getattr(shaft, name) or 0.0)) for name in ("plan_slope", "side_slope")
+        ]
+        x, y, z = found[-1]
+        found.append((x + 1.0, y + slopes[0], z + slopes[1]))
+    return found
+
+
+def _mended(values: Array, own: Array, real: Array, xp: Any) -> Array:
+    """Return values (count, ...) with those of the drive as it is where there is no drive."""
+    if xp is np and bool(real.all()):
+        return values
+    return xp.where(xp.reshape(real, (-1, *(1 for _axis in values.shape[1:]))), values, xp.asarray(own))
+
+
+def _points(drive: Drive, row: Any, xp: Any) -> tuple[Array, Array]:
+    """Return points of the axes (count, n+2, 3), and those of the drive as it is (n+2, 3)."""
+    n = len(drive.joints)
+    if drive.form == "points":
+        named = [
+            ("input.point", drive.input.point),
+            *((f"joints[{i}].centre", drive.joints[i].centre) for i in range(n)),
+            ("output.point", drive.output.point),
+        ]
+        own = [[float(x) for x in point] for _path, point in named if point is not None]
+        columns = [
+            (f"{path}[{k}]", point[k]) for (path, _point), point in zip(named, own, strict=True) for k in range(3)
+        ]
+        whole = row(columns)
+        return xp.reshape(whole, (whole.shape[0], n + 2, 3)), np.asarray(own)
+    slopes = {
+        name: row([(f"shafts[{k}].{name}", getattr(drive.shafts[k], name)) for k in range(n + 1)])
+        for name in ("plan_slope", "side_slope")
+    }
+    steps = xp.stack(
+        (xp.ones_like(slopes["plan_slope"]), xp.tan(slopes["plan_slope"]), xp.tan(slopes["side_slope"])), axis=-1
+    )
+    after = xp.cumulative_sum(steps, axis=1)
+    points = xp.concat((0.0 * after[:, :1, :], after), axis=1)
+    own_slopes = [(1.0, np.tan(shaft.plan_slope or 0.0), np.tan(shaft.side_slope or 0.0)) for shaft in drive.shafts]
+    return points, np.concatenate((np.zeros((1, 3)), np.cumsum(own_slopes, axis=0)))
+
+
+def _turning(drive: Drive, given: Chain, real: Array, xp: Any) -> tuple[Chain, Array]:
+    """Return the Hooke joints that turn alike, where a joint does not turn those of the drive as it is."""
+    if not mixed(drive.joints):
+        return given, real
+    for _joint in range(len(drive.joints) + 1):
+        try:
+            return turning(given, drive.joints), real
+        except InputError as error:
+            if error.where is None:
+                raise
+            stuck = error.where
+            real = real & ~stuck
+            given = replace(given, bend=xp.where(stuck[:, None], 0.0 * given.bend, given.bend))
+    return turning(given, drive.joints), real

@@ -1,0 +1,1 @@
+"""Where the pieces of a sweep are worked on."""

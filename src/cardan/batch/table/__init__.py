@@ -1,0 +1,1 @@
+"""The table of a sweep: kept in a folder, read, summed up."""

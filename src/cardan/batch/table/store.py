@@ -1,0 +1,321 @@
+"""The folder of a sweep: one file for each chunk that is done, and a manifest that says what they are chunks of.
+
+What counts as done is what is there and whole, nothing else: there is no list that could be wrong. So a run may be
+ended at any moment and in any way, and the next one goes on.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from cardan.batch.chunks import Chunk, Chunks
+from cardan.batch.work import Column, Rows, State, Work
+from cardan.errors import refuse
+from cardan.files import refusal
+from cardan.texts import _, plural
+
+from .parquet import PART, SUFFIX, Label, flaw, library, put, states_of, write_chunk
+
+FORMAT = 1
+MANIFEST, SUMMARY, LOCK = "manifest.json", "summary.json", ".lock"
+
+FEW = 3
+"""How many names a message tells."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Folder:
+    """Where the chunks of a sweep lie; small enough to go to every worker.
+
+    Attributes
+    ----------
+    path : Path
+        The folder, from the root of the files.
+    label : Label
+        Of its files.
+    """
+
+    path: Path
+    label: Label
+
+    def file(self, chunk: Chunk) -> Path:
+        """Return the file of a chunk."""
+        return self.path / f"{chunk.name}{SUFFIX}"
+
+    def put(self, chunk: Chunk, rows: Rows | None, states: Sequence[State]) -> None:
+        """Write a chunk.
+
+        Raises
+        ------
+        OSError
+            It cannot be written.
+        """
+        write_chunk(self.file(chunk), chunk, self.label, rows, states)
+
+    def states(self, chunk: Chunk) -> list[State]:
+        """Return the states of the reductions of a chunk that is there."""
+        return states_of(self.file(chunk))
+
+    def seen(self) -> bool:
+        """Whether this machine sees the folder that is meant, and no other one by that name."""
+        with suppress(OSError, ValueError, KeyError):
+            return bool(read_json(self.path / MANIFEST)["work"] == self.label.work)
+        return False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Store:
+    """An open folder that nobody else writes to.
+
+    Attributes
+    ----------
+    folder : Folder
+        Where the chunks lie.
+    chunks : Chunks
+        All chunks of the sweep, cut as they were at the first run.
+    done : set of int
+        Indices of those that are there and whole.
+    damaged : tuple of str
+        Files that were not whole and have been taken away; their chunks are to be done again.
+    """
+
+    folder: Folder
+    chunks: Chunks
+    done: set[int]
+    damaged: tuple[str, ...] = field(default=())
+
+    def keep(self, summary: Mapping[str, Any]) -> None:
+        """Write what came out; a disk without room for it keeps the one before."""
+        with suppress(OSError):
+            write_json(self.folder.path / SUMMARY, summary)
+
+
+@contextmanager
+def opened(
+    path: Path,
+    work: Work,
+    *,
+    keeps: bool,
+    cut: Callable[[], int],
+    heard: Callable[[], object] = lambda: None,
+) -> Iterator[Store]:
+    """Open the folder of a sweep and keep others from it; what is there and whole is known afterwards.
+
+    Parameters
+    ----------
+    path : Path
+        The folder; it is made where it is missing.
+    work : Work
+        The sweep.
+    keeps : bool
+        Whether rows are kept.
+    cut : function
+        Gives the rows of a chunk; asked only where nothing was begun before.
+    heard : function, optional
+        Called for every file that is looked through.
+
+    Raises
+    ------
+    InputError
+        The folder holds another sweep or other tables, is in use, or cannot be written.
+    MissingExtraError
+        The library for the files is not installed.
+    """
+    library()
+    path = path.resolve()
+    with ExitStack() as stack:
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(_alone(path))
+            manifest = _manifest(path, work, keeps, cut)
+            label = Label(work=work.name, columns=tuple(work.columns), provenance=manifest["provenance"], keeps=keeps)
+            chunks = Chunks(work.name, work.size, int(manifest["chunk_rows"]))
+            _clear(path)
+            stack.callback(_clear, path)
+            done, damaged = _whole(Folder(path=path, label=label), chunks, heard)
+        except OSError as error:
+            raise refuse(str(path), _("cannot be written: {why}").format(why=refusal(error))) from None
+        yield Store(folder=Folder(path=path, label=label), chunks=chunks, done=done, damaged=damaged)
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Return what a JSON file holds.
+
+    Raises
+    ------
+    OSError, ValueError
+        It cannot be read, or is none.
+    """
+    content = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(content, dict):
+        raise ValueError(path)
+    return content
+
+
+def write_json(path: Path, content: Mapping[str, Any]) -> None:
+    """Write a JSON file as a whole or not at all.
+
+    Raises
+    ------
+    OSError
+        It cannot be written.
+    """
+    text = json.dumps(content, ensure_ascii=False, indent=1, default=_plain)
+    put(path, lambda stream: stream.write(text.encode() + b"\n"))
+
+
+def names_in(path: Path) -> list[str]:
+    """Return the names of the chunks in a folder, those of damaged files too."""
+    return sorted(file.name.removesuffix(SUFFIX) for file in path.glob(f"*{SUFFIX}") if not file.name.startswith("."))
+
+
+def manifest_of(path: Path) -> dict[str, Any]:
+    """Return the manifest of a folder.
+
+    Raises
+    ------
+    InputError
+        There is none, or it cannot be read.
+    """
+    try:
+        content = read_json(path / MANIFEST)
+        if content["format"] != FORMAT:
+            raise refuse(str(path), _("was written by another version of cardan"))
+        content["columns"] = tuple(Column(**column) for column in content["columns"])
+        if not (isinstance(content["chunk_rows"], int) and content["chunk_rows"] >= 1 and int(content["size"]) >= 0):
+            raise ValueError(path)
+        return {key: content[key] for key in ("work", "size", "chunk_rows", "rows", "columns", "provenance")}
+    except FileNotFoundError:
+        raise refuse(str(path), _("holds no sweep")) from None
+    except OSError as error:
+        raise refuse(str(path / MANIFEST), _("cannot be read: {why}").format(why=refusal(error))) from None
+    except (ValueError, KeyError, TypeError):
+        raise refuse(str(path / MANIFEST), _("is no manifest of a sweep")) from None
+
+
+def _manifest(path: Path, work: Work, keeps: bool, cut: Callable[[], int]) -> dict[str, Any]:
+    """Return the manifest, a new one where nothing was begun here."""
+    rows = "kept" if keeps else "none"
+    if not (path / MANIFEST).exists():
+        if strangers := names_in(path):
+            raise refuse(str(path), _strangers(strangers))
+        new = {
+            "format": FORMAT,
+            "work": work.name,
+            "size": work.size,
+            "chunk_rows": cut(),
+            "rows": rows,
+            "columns": [asdict(column) for column in work.columns],
+            "provenance": dict(work.provenance),
+        }
+        write_json(path / MANIFEST, new)
+    found = manifest_of(path)
+    here = json.loads(json.dumps(dict(work.provenance), default=_plain))
+    if found["work"] != work.name or found["size"] != work.size:
+        raise refuse(str(path), _another(found["provenance"], here))
+    same = json.dumps(found["provenance"]) == json.dumps(here)  # as texts: nan is no other nan
+    if not same or found["columns"] != tuple(work.columns):
+        raise refuse(str(path / MANIFEST), _("has been changed; put it back as it was, or choose another folder"))
+    if found["rows"] != rows:
+        raise refuse(
+            str(path),
+            _("keeps no rows: choose another folder to keep them")
+            if keeps
+            else _("keeps all rows: choose another folder to keep none"),
+        )
+    return found
+
+
+def _another(there: Any, here: Any) -> str:
+    names = sorted(name for name in {*there, *here} if there.get(name) != here.get(name))
+    if names:
+        return _("holds another sweep, which differs in {names}: choose another folder").format(names=", ".join(names))
+    return _("holds another sweep: choose another folder")
+
+
+def _strangers(names: Sequence[str]) -> str:
+    shown = ", ".join(f"{name}{SUFFIX}" for name in names[:FEW]) + (" …" if len(names) > FEW else "")
+    return plural(
+        "holds a table that is not of this sweep ({names}): choose another folder",
+        "holds {count} tables that are not of this sweep ({names}): choose another folder",
+        len(names),
+    ).format(count=len(names), names=shown)
+
+
+def _whole(folder: Folder, chunks: Chunks, heard: Callable[[], object]) -> tuple[set[int], tuple[str, ...]]:
+    """Return the chunks that are there and whole, and the names of files that were not; these are taken away."""
+    done: set[int] = set()
+    damaged: list[str] = []
+    strangers: list[str] = []
+    for name in names_in(folder.path):
+        chunk = _chunk(chunks, name)
+        if chunk is None:
+            strangers.append(name)
+        elif flaw(folder.file(chunk), chunk, folder.label):
+            damaged.append(folder.file(chunk).name)
+        else:
+            done.add(chunk.index)
+        if heard() == "stop":
+            break
+    if strangers:
+        raise refuse(str(folder.path), _strangers(strangers))
+    for name in damaged:
+        (folder.path / name).unlink(missing_ok=True)
+    return done, tuple(damaged)
+
+
+def _chunk(chunks: Chunks, name: str) -> Chunk | None:
+    """Return the chunk of a name, None where there is none."""
+    start = name.partition("-")[0]
+    index = int(start) // chunks.rows if start.isdecimal() else len(chunks)
+    return chunks[index] if index < len(chunks) and chunks[index].name == name else None
+
+
+def _clear(path: Path) -> None:
+    """Take away what was being written when a run was ended."""
+    for file in path.glob(f".*{PART}"):
+        with suppress(OSError):
+            file.unlink()
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Keep other runs from a folder; the system lets go of it when this process ends, however it ends."""
+    with open(path / LOCK, "a+", encoding="utf-8") as file:
+        if not _locked(file.fileno()):
+            file.seek(0)
+            raise refuse(str(path), _("is in use by another run ({who})").format(who=file.read().strip() or "?"))
+        file.truncate(0)
+        file.write(_("process {number} on {machine}").format(number=os.getpid(), machine=socket.gethostname()))
+        file.flush()
+        yield
+        file.truncate(0)
+
+
+def _locked(handle: int) -> bool:
+    """Lock a file; true where it is ours now, or where no lock is to be had on such a disk."""
+    try:
+        import fcntl
+    except ImportError:  # another system
+        return True
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _plain(value: Any) -> Any:
+    """Return a number or an array as JSON can hold it."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(value)

@@ -1,0 +1,1 @@
+"""Comparisons with the literature, and formulas that nothing else uses."""

@@ -1,0 +1,301 @@
+"""How near do the classical approximations come? The book's series for a chain, and the rule of practice.
+
+The exact motion needs none of this. It is here to be compared with, by name.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from cardan.drive.drive import Drive
+from cardan.drive.drives import Drives, kinematics
+from cardan.drive.models.chain import Chain
+from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
+from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.motion import TURN, motion, phase_angles
+
+Amplitude: TypeAlias = Literal["quarter", "tau"]
+"""Amplitude c_i1 of a joint: book's α²/4, or the exact tan²(α/2)."""
+
+Phases: TypeAlias = Literal["exact", "mean", "without_theta"]
+"""Which angles ν_i the series takes: ψ_i - Θ_{i-1} with exact ψ_i, mean phases Ψ_i, or ψ_i alone as in Book (90)."""
+
+_Wave: TypeAlias = tuple[float, Array, Array]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BookSeries:
+    """A chain's output angle as a short Fourier sum; leading axes are those of the drives.
+
+    Attributes
+    ----------
+    constant : array (...) [rad]
+        Θ_n.
+    a1, b1 : array (...) [rad]
+        Coefficients of sin 2φ_1 and cos 2φ_1.
+    a2, b2 : array (...) [rad]
+        Coefficients of sin 4φ_1 and cos 4φ_1; zero in the first order.
+    """
+
+    constant: Array
+    a1: Array
+    b1: Array
+    a2: Array
+    b2: Array
+
+    @property
+    def amplitude(self) -> Array:
+        """s_n1, array (...) [rad]; Book (70)."""
+        xp = namespace(self.a1)
+        return xp.hypot(self.a1, self.b1)
+
+    @property
+    def phase(self) -> Array:
+        """δ_n1 of s_n1 sin 2(φ_1 + δ_n1), array (...) [rad]; Book (70)."""
+        xp = namespace(self.a1)
+        return 0.5 * xp.atan2(self.b1, self.a1)
+
+    @property
+    def irregularity(self) -> Array:
+        """δ ≈ 4 s_n1, array (...); Book (80)."""
+        return 4.0 * self.amplitude
+
+    def lead(self, angle: ArrayLike) -> Array:
+        """Return φ_{n+1} - φ_1 at input angles (p,) [rad], array (..., p) [rad]; Book (59), (63), (69), (71)."""
+        one, two, phi, xp = self._waves(angle)
+        return -self.constant[..., None] + sum(
+            a[..., None] * xp.sin(k * phi) + b[..., None] * xp.cos(k * phi) for k, a, b in (one, two)
+        )
+
+    def ratio(self, angle: ArrayLike) -> Array:
+        """Return ω_{n+1}/ω_1 at input angles (p,) [rad], array (..., p); Book (73)."""
+        one, two, phi, xp = self._waves(angle)
+        return 1.0 + sum(
+            k * (a[..., None] * xp.cos(k * phi) - b[..., None] * xp.sin(k * phi)) for k, a, b in (one, two)
+        )
+
+    def slope(self, angle: ArrayLike) -> Array:
+        """Return ε_{n+1}/ω_1² of uniform input at input angles (p,) [rad], array (..., p); Book (74)."""
+        one, two, phi, xp = self._waves(angle)
+        return -sum(k * k * (a[..., None] * xp.sin(k * phi) + b[..., None] * xp.cos(k * phi)) for k, a, b in (one, two))
+
+    def _waves(self, angle: ArrayLike) -> tuple[_Wave, _Wave, Array, Any]:
+        xp = namespace(self.a1, angle)
+        return (2.0, self.a1, self.b1), (4.0, self.a2, self.b2), real(angle, xp), xp
+
+
+def book_series(
+    drive: Drive | Drives | Chain,
+    order: Literal[1, 2] = 1,
+    *,
+    amplitude: Amplitude = "quarter",
+    phases: Phases = "exact",
+) -> BookSeries:
+    """Return the classical series of a chain, of first or second order in the joints' amplitudes.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+        One drive, or many as arrays.
+    order : 1 or 2
+        2 adds the fourth harmonic of the turn and corrects Θ_n.
+    amplitude : "quarter" or "tau"
+        c_i1 = α_i²/4 as in the book, or tan²(α_i/2).
+    phases : "exact", "mean" or "without_theta"
+        What stands for ν_i. "mean" and "without_theta" are forms of the first order.
+
+    Returns
+    -------
+    BookSeries
+        arrays (...).
+
+    Raises
+    ------
+    ValueError
+        The second order with phases other than "exact".
+
+    Notes
+    -----
+    Book (47)-(62), (69), (70); second order (63)-(68), (71), (72) with c_i2 = c_i1²/2, the sign of the b term in (64)
+    put right and (67), (68) derived anew. With mean phases s_n1 e^(2iδ_n1) = Σ c_i1 e^(2iΨ_i), whatever the start.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> series = book_series(Drive.from_angles([12 * deg, 20 * deg]))
+    >>> round(float(series.irregularity), 6)
+    0.077982
+    """
+    if order == 2 and phases != "exact":
+        raise ValueError("the second order takes exact phases")
+    chain = kinematics(drive)
+    xp = namespace(chain.bend)
+    psi = mean_phases(chain) if phases == "mean" else phase_angles(chain)
+    c = 0.25 * chain.bend**2 if amplitude == "quarter" else xp.tan(0.5 * chain.bend) ** 2
+    zero = 0.0 * c[..., 0]
+    theta, a1, b1, a2, b2 = zero, zero, zero, zero, zero
+    for i in range(chain.joints):
+        c1, angle = c[..., i], psi[..., i]
+        c2 = 0.5 * c1 * c1
+        nu = angle - theta if phases == "exact" else angle
+        sine, cosine = xp.sin(2.0 * nu), xp.cos(2.0 * nu)
+        theta = theta + c1 * xp.sin(2.0 * angle)
+        if order == 2:
+            theta = theta + c2 * xp.sin(4.0 * angle) + c1 * (a1 * sine - b1 * cosine)
+            a2 = a2 + c2 * xp.cos(4.0 * nu) + c1 * (a1 * cosine - b1 * sine)
+            b2 = b2 + c2 * xp.sin(4.0 * nu) + c1 * (a1 * sine + b1 * cosine)
+        a1 = a1 + c1 * cosine
+        b1 = b1 + c1 * sine
+    return BookSeries(constant=b1 if phases == "mean" else theta, a1=a1, b1=b1, a2=a2, b2=b2)
+
+
+def mean_phases(drive: Drive | Drives | Chain) -> Array:
+    """Return the mean phases Ψ_i = ψ_1 + Σ_{k≤i} (π/2 - γ_k - β_k) of the joints, array (..., n) [rad]."""
+    turn = kinematics(drive).turn_before
+    xp = namespace(turn)
+    sums = [turn[..., 0]]
+    for i in range(1, turn.shape[-1]):
+        sums.append(sums[-1] + turn[..., i])
+    return xp.stack(sums, axis=-1)
+
+
+def rule_of_practice(drive: Drive | Drives | Chain) -> Array:
+    """Return the equivalent angle by the rule of practice, α_eq² ≈ |Σ α_i² e^(2iΨ_i)|; array (...) [rad].
+
+    Notes
+    -----
+    For collinear phases this is the workshop's √\\|Σ ±α_i²\\|: + where the yokes of a joint stand as those of the first
+    joint, - where they are a quarter turn off. First order in α²; `equivalent_joint` is exact.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> round(float(rule_of_practice(Drive.from_angles([12 * deg, 20 * deg])) / deg), 3)
+    16.0
+    """
+    chain = kinematics(drive)
+    xp = namespace(chain.bend)
+    arms = chain.bend**2 * unit_complex(2.0 * mean_phases(chain))
+    return xp.sqrt(xp.abs(xp.sum(arms, axis=-1)))
+
+
+def collinear_bend(bend: ArrayLike, sign: ArrayLike) -> Array:
+    """Return the exact equivalent angle of joints with collinear phases, array (...) [rad].
+
+    Parameters
+    ----------
+    bend : array (..., n) [rad]
+        α_i.
+    sign : array (..., n)
+        +1 where a joint works like the first one, -1 where it works against it.
+
+    Notes
+    -----
+    cos α_eq = Π cos^{±1} α_i, or its inverse where that is above 1; no dearer than the rule of practice. Evaluated as
+    α_eq = 2 atan √tanh(L/2) with L = |Σ ± ln cos α_i|, accurate for small angles.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> round(float(collinear_bend([10 * deg, 20 * deg, 30 * deg], [1, -1, 1]) / deg), 3)
+    24.824
+    """
+    xp = namespace(bend, sign)
+    length = xp.abs(xp.sum(real(sign, xp) * xp.log(xp.cos(real(bend, xp))), axis=-1))
+    return 2.0 * xp.atan(xp.sqrt(xp.tanh(0.5 * length)))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BookComparison:
+    """Exact motion of the output beside the classical approximations; leading axes are those of the drives.
+
+    Attributes
+    ----------
+    angle : array (p,) [rad]
+        Input angle φ_1.
+    exact, first_order, second_order : array (..., p) [rad]
+        Angle error φ_{n+1} - φ_1: exact; Book (59) with c = α²/4; Book (63) with c = tan²(α/2).
+    irregularity : array (...)
+        δ, exact.
+    irregularity_80 : array (...)
+        δ ≈ 4 s_n1 by Book (80), exact phase angles.
+    irregularity_mean_phases : array (...)
+        The same with mean phases, independent of the start position.
+    irregularity_without_theta : array (...)
+        The same without Θ, as the book works in (90).
+    bend : array (...) [rad]
+        Equivalent angle, exact.
+    rule_of_practice : array (...) [rad]
+        Equivalent angle √|Σ ±α_i²|.
+    """
+
+    angle: Array
+    exact: Array
+    first_order: Array
+    second_order: Array
+    irregularity: Array
+    irregularity_80: Array
+    irregularity_mean_phases: Array
+    irregularity_without_theta: Array
+    bend: Array
+    rule_of_practice: Array
+
+    @property
+    def worst_first_order(self) -> Array:
+        """Largest error of the first order over the given angles, array (...) [rad]."""
+        xp = namespace(self.exact)
+        return xp.max(xp.abs(self.first_order - self.exact), axis=-1)
+
+    @property
+    def worst_second_order(self) -> Array:
+        """Largest error of the second order over the given angles, array (...) [rad]."""
+        xp = namespace(self.exact)
+        return xp.max(xp.abs(self.second_order - self.exact), axis=-1)
+
+
+def book_comparison(drive: Drive | Drives | Chain, angle: ArrayLike | None = None) -> BookComparison:
+    """Return the exact angle error of the output beside the book's series, and what each says of the irregularity.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+        One drive, or many as arrays.
+    angle : array (p,) [rad], optional
+        Input angle φ_1; one turn in steps of a degree by default.
+
+    Returns
+    -------
+    BookComparison
+        Curves (..., p) and numbers (...).
+
+    Notes
+    -----
+    The second order takes c = tan²(α/2): with α²/4 the neglected rest of the amplitude is itself of second order.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> drive = Drive.from_angles([20 * deg, 15 * deg, 10 * deg])
+    >>> seen = book_comparison(drive)
+    >>> bool(seen.worst_second_order < seen.worst_first_order)
+    True
+    """
+    chain = kinematics(drive)
+    xp = namespace(chain.bend, angle)
+    phi = xp.linspace(0.0, 2.0 * xp.pi, TURN, dtype=xp.float64) if angle is None else real(angle, xp)
+    phi = phi if phi.ndim else phi[None]
+    first = book_series(chain)
+    joint = equivalent_joint(chain)
+    return BookComparison(
+        angle=phi,
+        exact=motion(chain, phi).lead[..., -1, :],
+        first_order=first.lead(phi),
+        second_order=book_series(chain, 2, amplitude="tau").lead(phi),
+        irregularity=joint.irregularity,
+        irregularity_80=first.irregularity,
+        irregularity_mean_phases=book_series(chain, phases="mean").irregularity,
+        irregularity_without_theta=book_series(chain, phases="without_theta").irregularity,
+        bend=joint.bend,
+        rule_of_practice=rule_of_practice(chain),
+    )

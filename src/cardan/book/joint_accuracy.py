@@ -1,0 +1,247 @@
+"""How do the tolerances of one joint move its cross and its driven shaft?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.curves.peaks import peaks
+from cardan.maths.kernel import loops
+from cardan.questions.accuracy.accuracy import one_turn
+from cardan.questions.accuracy.sampling import MonteCarlo, drawn
+from cardan.texts import _
+
+LEVELS = (0.0015, 0.025, 0.975, 0.9985)
+"""Shares of the quantiles given: those around 99.7 % and around 95 %."""
+
+DRAWS = MonteCarlo()
+"""How errors are drawn where nothing else is said."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stack:
+    """What tolerances of one joint add up to; rows 2, 3, 4 are the arms of the cross and the driven shaft.
+
+    Attributes
+    ----------
+    worst_angle, worst_slide : array (..., 3) [rad], [m]
+        Worst case Σ \\|C\\| t of φ_2, φ_3, φ_4 and of s_2, s_3, s_4.
+    square_angle, square_slide : array (..., 3) [rad], [m]
+        Root of the sum of squares √Σ (C t)².
+    share_angle : array (..., 3, 4)
+        Share of each of α_1 … α_4 in the sum of squares; nan where there is none.
+    share_slide : array (..., 3, 5)
+        Share of each of s_1, a_1 … a_4.
+    """
+
+    worst_angle: Array
+    worst_slide: Array
+    square_angle: Array
+    square_slide: Array
+    share_angle: Array
+    share_slide: Array
+
+
+def joint_stack(bend: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, turns: ArrayLike) -> Stack:
+    """Return worst case and root of the sum of squares of one joint's tolerances.
+
+    Parameters
+    ----------
+    bend, angle : array (...) [rad]
+        α and φ_1 from the plane of the shafts.
+    ways : array (..., 5) [m]
+        Tolerances of s_1, a_1 … a_4.
+    turns : array (..., 4) [rad]
+        Tolerances of α_1 … α_4.
+
+    Notes
+    -----
+    C from `cardan.maths.kernel.loops.influence`; Book (171), (180), pp. 186-190.
+
+    Examples
+    --------
+    >>> stack = joint_stack(0.5, 0.0, ways=[1.0, 0.0, 0.0, 0.0, 0.0], turns=[0.0, 3.0, 4.0, 0.0])
+    >>> stack.worst_angle.round(3), stack.worst_slide.round(3)
+    (array([6.197, 0.   , 5.604]), array([0.546, 0.   , 1.139]))
+    """
+    xp = namespace(bend, angle, ways, turns)
+    table = loops.influence(bend, angle)
+    slides = xp.abs(table * real(ways, xp)[..., None, :])
+    angles = xp.abs(table[..., 1:] * real(turns, xp)[..., None, :])
+
+    def share(parts: Array) -> Array:
+        total = xp.sum(parts * parts, axis=-1, keepdims=True)
+        return parts * parts / xp.where(total > 0.0, total, xp.nan + total)
+
+    return Stack(
+        worst_angle=xp.sum(angles, axis=-1),
+        worst_slide=xp.sum(slides, axis=-1),
+        square_angle=xp.sqrt(xp.sum(angles * angles, axis=-1)),
+        square_slide=xp.sqrt(xp.sum(slides * slides, axis=-1)),
+        share_angle=share(angles),
+        share_slide=share(slides),
+    )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StackOverTurn:
+    """The largest that tolerances of one joint add up to over a turn, at the driven shaft.
+
+    Attributes
+    ----------
+    worst_angle, square_angle : float [rad]
+        Worst case and root of the sum of squares of φ_4.
+    worst_slide, square_slide : float [m]
+        The same of s_4.
+    equal_turns : array (4,) [rad]
+        What each of α_1 … α_4 may be if all have an equal share in a target of 1 rad of φ_4, by the sum of squares.
+    equal_ways : array (5,) [m]
+        What each of s_1, a_1 … a_4 may be if all have an equal share in a target of 1 m of s_4.
+    """
+
+    worst_angle: float
+    square_angle: float
+    worst_slide: float
+    square_slide: float
+    equal_turns: Array
+    equal_ways: Array
+
+
+def stack_over_turn(bend: float, *, ways: ArrayLike, turns: ArrayLike) -> StackOverTurn:
+    """Return the largest stack of one joint's tolerances over a turn.
+
+    Parameters
+    ----------
+    bend : float [rad]
+        α.
+    ways : array (5,) [m]
+        Tolerances of s_1, a_1 … a_4.
+    turns : array (4,) [rad]
+        Tolerances of α_1 … α_4.
+
+    Notes
+    -----
+    Equal shares: target/(√N max \\|C\\|) for each of N tolerances.
+
+    Examples
+    --------
+    >>> found = stack_over_turn(0.5, ways=np.zeros(5), turns=[0.1, 0.0, 0.0, 0.0])
+    >>> round(found.worst_angle / 0.1, 6), round(float(np.sin(0.5)), 6)
+    (0.479426, 0.479426)
+    """
+    places = one_turn()
+
+    def curves(angle: Array) -> Array:
+        stack = joint_stack(bend, angle, ways=ways, turns=turns)
+        rows = (stack.worst_angle, stack.square_angle, stack.worst_slide, stack.square_slide)
+        return np.stack([row[..., 2] for row in rows])
+
+    def sizes(angle: Array) -> Array:
+        found: Array = np.abs(loops.influence(bend, angle)[..., 2, :]).T
+        return found
+
+    largest = peaks(curves, places, curves(places))[1]
+    most = peaks(sizes, places, sizes(places))[1]
+    least = np.where(most > 0.0, most, np.nan)
+    return StackOverTurn(
+        worst_angle=float(largest[0]),
+        square_angle=float(largest[1]),
+        worst_slide=float(largest[2]),
+        square_slide=float(largest[3]),
+        equal_turns=1.0 / (2.0 * least[1:]),
+        equal_ways=1.0 / (np.sqrt(5.0) * least),
+    )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointSample:
+    """What errors drawn at random do to one joint; rows 2, 3, 4, [rad] for angles, [m] for slides.
+
+    Attributes
+    ----------
+    angle_mean, angle_deviation, slide_mean, slide_deviation : array (3,)
+        Mean and standard deviation of what the errors add to φ_i and s_i.
+    angle_levels, slide_levels : array (4, 3)
+        Their quantiles at the shares `LEVELS`.
+    count : int
+        Samples that could be assembled.
+    lost : int
+        Samples that could not.
+    """
+
+    angle_mean: Array
+    angle_deviation: Array
+    angle_levels: Array
+    slide_mean: Array
+    slide_deviation: Array
+    slide_levels: Array
+    count: int
+    lost: int
+
+
+def joint_samples(
+    bend: float,
+    angle: float,
+    *,
+    ways: ArrayLike,
+    turns: ArrayLike,
+    distribution: str = "normal",
+    method: MonteCarlo = DRAWS,
+) -> JointSample:
+    """Return what random errors within the tolerances of one joint do, by the exact loop.
+
+    Parameters
+    ----------
+    bend, angle : float [rad]
+        α and φ_1 from the plane of the shafts.
+    ways : array (5,) [m]
+        Tolerances of s_1, a_1 … a_4.
+    turns : array (4,) [rad]
+        Tolerances of α_1 … α_4.
+    distribution : str
+        "normal" with σ a third of the tolerance, "uniform" or "triangular".
+    method : MonteCarlo
+        How many, which seed, which points.
+
+    Raises
+    ------
+    InputError
+        Of the errors drawn, none can be assembled.
+
+    Examples
+    --------
+    >>> found = joint_samples(0.5, 0.0, ways=np.zeros(5), turns=[0.0, 0.003, 0.0, 0.0])
+    >>> f"{found.angle_deviation[2] / 0.001:.3f}"
+    '1.140'
+    """
+    limits = np.concatenate((np.asarray(ways, dtype=float), np.asarray(turns, dtype=float)))
+    right = 0.5 * np.pi
+    perfect = np.asarray([right, right, right, bend])
+    begin = loops.rccc(perfect, angle).angle
+    found: list[Array] = []
+    count = 0
+    for errors in drawn(limits, [distribution] * 9, method.samples, seed=method.seed, points=method.points):
+        loop = loops.rccc(perfect + errors[:, 5:], angle, length=errors[:, 1:5], slide=errors[:, 0])
+        off = loop.angle - begin
+        off = off - 2.0 * np.pi * np.round(off / (2.0 * np.pi))
+        good = loop.status == int(loops.Status.CLOSED)
+        found.append(np.concatenate((off, loop.slide), axis=-1)[good])
+        count += len(errors)
+    rows = np.concatenate(found)
+    if len(rows) < 2:
+        raise refuse("turns", _("none of {count} joints with such errors can be assembled").format(count=count))
+    levels = np.quantile(rows, LEVELS, axis=0)
+    mean, deviation = np.mean(rows, axis=0), np.std(rows, axis=0, ddof=1)
+    return JointSample(
+        angle_mean=mean[:3],
+        angle_deviation=deviation[:3],
+        angle_levels=levels[:, :3],
+        slide_mean=mean[3:],
+        slide_deviation=deviation[3:],
+        slide_levels=levels[:, 3:],
+        count=len(rows),
+        lost=count - len(rows),
+    )

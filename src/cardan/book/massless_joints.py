@@ -1,0 +1,363 @@
+"""The exact drive behind Mathieu's equation: its steady motion and stability.
+
+Two inertias with springs and massless joints between them: the angles between follow from those of the ends by the
+balance of torques.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.errors import CardanError, InputError, refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .mathieu_reduction import MathieuReduction
+
+ROUNDS = 12
+"""Steps of Newton's method at most."""
+
+RESTS = 1e-13
+"""Change of an angle at which the joints are in balance [rad], a share of one and the angle."""
+
+CLOSED = 1e-11
+"""How far the ends of a steady motion may be apart [rad]."""
+
+LEAST_STEP = 1 / 32
+"""Smallest step of the bend by which a steady motion is followed up, or of the twist by which a balance is, a share of
+the whole."""
+
+FAR = 0.5
+"""A motion further than this from where it is looked for is another one [rad, or a share of the speed]."""
+
+FROM_AFAR = 0.4
+"""How far off, a share of the speed, a motion in resonance is looked for first."""
+
+TOLERANCE = 1e-12
+"""Error of a step of the integration."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Balance:
+    """What lies between the two inertias at an instant.
+
+    Attributes
+    ----------
+    yokes : tuple of n floats [rad]
+        Angles of the driving yokes.
+    torques : tuple of n + 1 floats [N·m]
+        Torques in the springs, positive when they carry power on.
+    stiffness : tuple of 3 floats [N·m/rad]
+        K_11, K_12, K_22: derivatives of the torques that hold the two inertias.
+    """
+
+    yokes: tuple[float, ...]
+    torques: tuple[float, ...]
+    stiffness: tuple[float, float, float]
+
+
+_Held: TypeAlias = tuple[list[float], list[tuple[float, float, float]], list[float], list[float], list[float]]
+
+
+def _lead(theta: float, tau: float) -> float:
+    return theta + math.atan2(tau * math.sin(2.0 * theta), 1.0 - tau * math.cos(2.0 * theta))
+
+
+def _law(angle: float, joint: tuple[float, float, float, float, float]) -> tuple[float, float, float]:
+    """Return the output angle of a joint and its first two derivatives by the input angle."""
+    tau, cos, sin2, psi, start = joint
+    theta = angle + psi
+    under = 1.0 - sin2 * math.cos(theta) ** 2
+    return _lead(theta, tau) - start, cos / under, -cos * sin2 * math.sin(2.0 * theta) / under**2
+
+
+def _solved(pivots: list[float], beside: list[float], right: list[float]) -> list[float]:
+    """Return the solution of a symmetric tridiagonal system that is eliminated already."""
+    n = len(pivots)
+    x = list(right)
+    for k in range(1, n):
+        x[k] -= beside[k] / pivots[k - 1] * x[k - 1]
+    x[-1] /= pivots[-1]
+    for k in range(n - 2, -1, -1):
+        x[k] = (x[k] - beside[k + 1] * x[k + 1]) / pivots[k]
+    return x
+
+
+def _snapped() -> InputError:
+    return refuse("torque", _("the torque snaps a joint through: no stable balance of the joints is left"))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MasslessDrive:
+    """Two inertias with springs and massless joints between them.
+
+    Attributes
+    ----------
+    reduction : MathieuReduction
+        The drive's numbers.
+    torque : float [N·m]
+        Constant drive torque on the first inertia; the last one is held back by the same.
+    """
+
+    reduction: MathieuReduction
+    torque: float = 0.0
+
+    @cached_property
+    def _joints(self) -> tuple[tuple[float, float, float, float, float], ...]:
+        """Return τ, cos α, sin²α, ψ and the lead at the start of each joint, as plain numbers."""
+        found = []
+        for alpha, psi, tau in zip(self.reduction.bend, self.reduction.phase, self.reduction.tau, strict=True):
+            start = _lead(float(psi), float(tau))
+            found.append((float(tau), math.cos(alpha), math.sin(alpha) ** 2, float(psi), start))
+        return tuple(found)
+
+    @cached_property
+    def _springs(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        return tuple(map(float, self.reduction.springs)), tuple(map(float, self.reduction.share))
+
+    def balance(self, first: float, last: float) -> Balance:
+        """Return angles and torques between the inertias, and how stiff they hold together.
+
+        Parameters
+        ----------
+        first, last : float [rad]
+            Angles of the two inertias.
+
+        Raises
+        ------
+        InputError
+            The torque snaps a joint through: its balance is not stable.
+
+        Notes
+        -----
+        c_k (F_(k-1) - f_k) = F_k' c_(k+1) (F_k - f_(k+1)) at each joint, by Newton's method; its matrix is tridiagonal
+        and symmetric, and positive where the balance is stable. Where that fails the twist is raised from nought.
+        """
+        joints, (c, share) = self._joints, self._springs
+        n = len(joints)
+        angles, ahead = [first], first
+        for k in range(n):  # as if the shafts were rigid
+            angles.append(ahead)
+            ahead = _law(ahead, joints[k])[0]
+        angles.append(ahead)
+        done, step = 0.0, 1.0
+        while done < 1.0:
+            moved = step * (last - ahead)
+            tried = self._newton([one + by * moved for one, by in zip(angles, (0.0, *share, 1.0), strict=True)])
+            if tried is not None:
+                found, done, angles = tried, done + step, tried[0]
+                step = min(2.0 * step, 1.0 - done)
+            elif step > LEAST_STEP:
+                step *= 0.5
+            else:
+                raise _snapped()
+        angles, laws, torque, pivots, beside = found
+        one = _solved(pivots, beside, [c[0]] + [0.0] * (n - 1))
+        pull = c[n] * laws[-1][1]
+        two = _solved(pivots, beside, [0.0] * (n - 1) + [pull])
+        stiffness = (c[0] - c[0] * one[0], -pull * one[-1], c[n] - pull * two[-1])
+        return Balance(yokes=tuple(angles[1:-1]), torques=tuple(torque), stiffness=stiffness)
+
+    def _newton(self, angles: list[float]) -> _Held | None:
+        """Return the balance near some angles, None where Newton's method does not lead to a stable one."""
+        c, joints = self._springs[0], self._joints
+        n = len(joints)
+        rests = RESTS * (1.0 + abs(angles[0]))
+        moved = math.inf
+        for _round in range(ROUNDS):
+            laws = [_law(angles[k + 1], joints[k]) for k in range(n)]
+            torque = [c[0] * (angles[0] - angles[1])]
+            torque += [c[k + 1] * (laws[k][0] - angles[k + 2]) for k in range(n)]
+            pivots: list[float] = []
+            beside = [0.0]
+            for k, (_out, slope, bent) in enumerate(laws):
+                direct = c[k] + c[k + 1] * slope * slope + torque[k + 1] * bent
+                pivots.append(direct - beside[k] ** 2 / pivots[k - 1] if k else direct)
+                beside.append(-c[k + 1] * slope)
+                if pivots[k] <= 0.0:
+                    return None
+            if moved < rests:
+                return angles, laws, torque, pivots, beside
+            step = _solved(pivots, beside, [torque[k] - laws[k][1] * torque[k + 1] for k in range(n)])
+            moved = max(map(abs, step))
+            angles = [angles[0], *(angle + one for angle, one in zip(angles[1:-1], step, strict=True)), angles[-1]]
+        return None
+
+    def _rate(self, _angle: float, y: Array) -> Array:
+        """Return the derivative by the mean angle φ of ends, speeds over Ω, and the course of small changes."""
+        first, last, w1, w2 = y[:4]
+        red = self.reduction
+        square = red.speed**2
+        found = self.balance(float(first), float(last))
+        one, two = 1.0 / (red.first_inertia * square), 1.0 / (red.last_inertia * square)
+        k11, k12, k22 = found.stiffness
+        out = np.empty(20)
+        out[:4] = w1, w2, one * (self.torque - found.torques[0]), two * (found.torques[-1] - self.torque)
+        out[4:12] = y[12:]
+        out[12:16] = -one * (k11 * y[4:8] + k12 * y[8:12])
+        out[16:] = -two * (k12 * y[4:8] + k22 * y[8:12])
+        return out
+
+    def half_turn(self, start: Array) -> tuple[Array, Array]:
+        """Return the state (4,) half a turn on, and its derivatives (4, 4) by the state before.
+
+        Parameters
+        ----------
+        start : array (4,)
+            Angles of the two inertias [rad], their speeds over the mean speed.
+        """
+        from scipy.integrate import solve_ivp
+
+        begin = np.concatenate((start, np.eye(4).ravel()))
+        scale = max(1.0, float(np.max(np.abs(start))))
+        found = solve_ivp(
+            self._rate, (0.0, np.pi), begin, method="DOP853", rtol=TOLERANCE, atol=1e-2 * TOLERANCE * scale
+        )
+        return found.y[:4, -1], found.y[4:, -1].reshape(4, 4)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SteadyTwist:
+    """Steady motion of a drive with massless joints.
+
+    Attributes
+    ----------
+    drive : MasslessDrive
+    start : array (4,)
+        Angles of the two inertias [rad] and their speeds over the mean speed, where the first angle is zero.
+    monodromy : array (4, 4)
+        What becomes of a small change over half a turn.
+    gap : float [rad]
+        How far the motion is from closing.
+    """
+
+    drive: MasslessDrive
+    start: Array
+    monodromy: Array
+    gap: float
+
+    @property
+    def half_trace(self) -> float:
+        """½(ρ + 1/ρ) of the elastic pair of multipliers: ½(tr P - 2); the other pair is 1, 1."""
+        return 0.5 * (float(np.trace(self.monodromy)) - 2.0)
+
+    @property
+    def residual(self) -> float:
+        """How far the determinant of the monodromy matrix is from 1: a check, as nothing damps."""
+        return abs(float(np.linalg.det(self.monodromy)) - 1.0)
+
+
+def steady_twist(reduction: MathieuReduction, torque: float = 0.0) -> SteadyTwist:
+    """Return the exact steady motion of a drive with massless joints, and its stability.
+
+    Parameters
+    ----------
+    reduction : MathieuReduction
+        The drive; its speed is the mean speed of the motion.
+    torque : float [N·m]
+        Constant drive torque on the first inertia, and load on the last.
+
+    Returns
+    -------
+    SteadyTwist
+
+    Raises
+    ------
+    InputError
+        No steady motion is found from that of the straight drive, or the torque snaps a joint through.
+
+    Notes
+    -----
+    Shooting over half a turn with Newton's method; derivatives by the variational equations, integrated beside the
+    motion (Dormand and Prince, order 8). Where the first try fails the bend is raised from nought, then the speed
+    changed from one well off.
+
+    Examples
+    --------
+    >>> from cardan.book.mathieu_reduction import mathieu_reduction
+    >>> values = {"first_inertia": 1.0, "last_inertia": 0.4, "speed": np.sqrt(2800.0)}
+    >>> found = steady_twist(mathieu_reduction([0.3], [0.0], [1000.0, 4000.0], **values))
+    >>> print(f"{found.half_trace:.8f}")
+    -1.00068073
+    """
+    if not np.isfinite(torque):
+        raise refuse("torque", _("{value} is not a finite number").format(value=torque))
+    for way in (_bent, _slowed, _sped):
+        found = _followed(reduction, torque, way)
+        if found is not None:
+            return found
+    raise refuse("speed", _("no steady motion is found, neither from the straight drive nor from other speeds"))
+
+
+_Way: TypeAlias = Callable[[MathieuReduction, float], MathieuReduction]
+"""From a drive and a share of the way to it to a drive on that way."""
+
+
+def _bent(reduction: MathieuReduction, share: float) -> MathieuReduction:
+    return replace(reduction, bend=2.0 * np.arctan(np.sqrt(share * reduction.tau)))
+
+
+def _slowed(reduction: MathieuReduction, share: float) -> MathieuReduction:
+    return replace(reduction, speed=reduction.speed * (1.0 + FROM_AFAR * (1.0 - share)))
+
+
+def _sped(reduction: MathieuReduction, share: float) -> MathieuReduction:
+    return replace(reduction, speed=reduction.speed / (1.0 + FROM_AFAR * (1.0 - share)))
+
+
+def _followed(reduction: MathieuReduction, torque: float, way: _Way) -> SteadyTwist | None:
+    """Return the steady motion followed up along a way: at once if that works, else from its beginning."""
+    found = _closed(reduction, torque, _straight(reduction, torque)) if way is _bent else None
+    reached, step = 0.0, 0.5
+    begin = way(reduction, 0.0)
+    at = _straight(begin, torque)
+    if found is None and way is not _bent:
+        first = _closed(begin, torque, at)
+        if first is None:
+            return None
+        at = first.start
+    while found is None:
+        share = min(1.0, reached + step)
+        tried = _closed(way(reduction, share), torque, at)
+        if tried is not None:
+            reached, at = share, tried.start
+            found = tried if share == 1.0 else None
+        elif step < LEAST_STEP:
+            break
+        else:
+            step *= 0.5
+    return found
+
+
+def _straight(reduction: MathieuReduction, torque: float) -> Array:
+    """Return where the drive would be, were its joints straight but for their mean lag."""
+    return np.asarray([0.0, -torque / reduction.stiffness - reduction.lag, 1.0, 1.0])
+
+
+def _closed(reduction: MathieuReduction, torque: float, start: Array) -> SteadyTwist | None:
+    """Return the steady motion near a start, None where Newton's method does not find one."""
+    drive = MasslessDrive(reduction=reduction, torque=torque)
+    before, begin = np.inf, start
+    for _round in range(ROUNDS - 4):
+        try:
+            end, change = drive.half_turn(start)
+        except CardanError:
+            return None
+        rest = end - start - np.asarray([np.pi, np.pi, 0.0, 0.0])
+        gap = float(np.max(np.abs(rest)))
+        if np.max(np.abs(start - begin)) > FAR:
+            return None
+        if gap < CLOSED or (gap < 1e3 * CLOSED and gap > 0.5 * before):
+            return SteadyTwist(drive=drive, start=start, monodromy=change, gap=gap)
+        if not np.isfinite(gap) or gap > 1e3 * max(1.0, before):
+            return None
+        before = gap
+        step = np.linalg.lstsq((change - np.eye(4))[:, 1:], -rest, rcond=1e-13)[0]
+        start = start + np.concatenate(([0.0], step))
+    return None

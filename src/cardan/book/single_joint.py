@@ -1,0 +1,167 @@
+"""What is there to know about one Hooke joint: its extremes and its Fourier series."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
+from cardan.questions.motion.equivalence import (
+    angle_of_largest_acceleration,
+    angle_of_largest_lead,
+    largest_acceleration,
+)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointExtremes:
+    """One row of Book Table 4 for each bend, and the angles at which the extremes stand.
+
+    Attributes
+    ----------
+    ratio_max, ratio_min : array (...)
+        Largest and smallest speed ratio.
+    irregularity : array (...)
+        δ = sin α tan α.
+    lead : array (...) [rad]
+        Largest lead of the driven shaft when the driving yoke starts in the plane of the joint.
+    angle_of_lead : array (...) [rad]
+        First joint angle θ of that lead.
+    acceleration : array (...)
+        Largest |ε_2|/ω_1² at uniform input.
+    angle_of_acceleration : array (...) [rad]
+        First joint angle θ of that acceleration, a negative one.
+    """
+
+    ratio_max: Array
+    ratio_min: Array
+    irregularity: Array
+    lead: Array
+    angle_of_lead: Array
+    acceleration: Array
+    angle_of_acceleration: Array
+
+
+def joint_extremes(bend: Array) -> JointExtremes:
+    """Return the extremes of single joints, exactly.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Bend angles α in [0, π/2).
+
+    Returns
+    -------
+    JointExtremes
+        arrays (...).
+
+    Notes
+    -----
+    i_max = 1/cos α, i_min = cos α, δ = sin α tan α, lead arcsin tan²(α/2) at tan θ = √cos α; Book (20)-(22), Table 4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from cardan.units import deg
+    >>> joint_extremes(np.asarray([20 * deg])).acceleration
+    array([0.12496558])
+    """
+    xp = namespace(bend)
+    return JointExtremes(
+        ratio_max=1.0 / xp.cos(bend),
+        ratio_min=xp.cos(bend),
+        irregularity=xp.sin(bend) * xp.tan(bend),
+        lead=xp.asin(mobius.tau(mobius.hooke(bend))),
+        angle_of_lead=angle_of_largest_lead(bend),
+        acceleration=largest_acceleration(bend),
+        angle_of_acceleration=angle_of_largest_acceleration(bend),
+    )
+
+
+def fourier(bend: Array, count: int) -> Array:
+    """Return the exact Fourier amplitudes of the angle error of single joints.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Bend angles α in [0, π/2).
+    count : int
+        How many, of orders 2, 4 … 2·count of the input turn.
+
+    Returns
+    -------
+    array (..., count) [rad]
+
+    Notes
+    -----
+    φ_2 - φ_1 = Σ_k (τ^k/k) (sin 2kθ - sin 2kψ_1), τ = tan²(α/2). Where the book expands in tan² α, Book (39)-(46),
+    this is closed, and converges for every bend below 90°.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from cardan.units import deg
+    >>> fourier(np.asarray(20 * deg), 2)
+    array([0.0310912 , 0.00048333])
+    """
+    xp = namespace(bend)
+    k = xp.arange(1, count + 1, dtype=xp.float64)
+    return (xp.tan(0.5 * bend) ** 2)[..., None] ** k / k
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BookCoefficients:
+    """Book's series for the Fourier amplitudes of a single joint, as far as the book writes them.
+
+    Attributes
+    ----------
+    c11_quarter : array (...) [rad]
+        α²/4, the amplitude of order 2 that the book works with.
+    c11, c12, c13 : array (...) [rad]
+        Book (44) with three, two and one terms.
+    constant : array (...)
+        Book (43) with four terms; its true value is exactly 1.
+    """
+
+    c11_quarter: Array
+    c11: Array
+    c12: Array
+    c13: Array
+    constant: Array
+
+
+def book_coefficients(bend: Array) -> BookCoefficients:
+    """Return book's truncated series for the Fourier amplitudes of single joints.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Bend angles α in [0, π/2); the series themselves converge below 45° only.
+
+    Returns
+    -------
+    BookCoefficients
+        arrays (...).
+
+    Notes
+    -----
+    Book (43), (44) with T = tan² α: c_11 = (T/4 - T²/4 + 15T³/64)/cos α, c_12 = (T²/32 - 3T³/64)/cos α,
+    c_13 = (T³/192)/cos α.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from cardan.units import deg
+    >>> book_coefficients(np.asarray([20 * deg])).c11
+    array([0.03115498])
+    """
+    xp = namespace(bend)
+    t = xp.tan(bend) ** 2
+    c = xp.cos(bend)
+    return BookCoefficients(
+        c11_quarter=0.25 * bend * bend,
+        c11=t * (0.25 - t * (0.25 - t * (15.0 / 64.0))) / c,
+        c12=t * t * (1.0 / 32.0 - t * (3.0 / 64.0)) / c,
+        c13=t * t * t / 192.0 / c,
+        constant=(1.0 - t * (0.5 - t * (0.375 - t * 0.3125))) / c,
+    )

@@ -1,0 +1,345 @@
+"""How does a joint turn while its bend changes? Closed forms for shafts that stay in one plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.curves import paths
+from cardan.maths.curves.paths import Jet
+from cardan.questions.motion.moving_chain import moving_axes
+
+FREEZE = 0.3
+"""A bend may be frozen while its rate stays below this share of α ω_1: δ is then at most 5 % too small."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class VaryingBend:
+    """Motion of the driven shaft of one or more joints with varying bends.
+
+    Attributes
+    ----------
+    bend, bend_rate, bend_acceleration : arrays (...) or (..., n) [rad, rad/s, rad/s²]
+        α, α', α''.
+    angle : array (...) [rad]
+        φ_1 of the input shaft.
+    driven_speed, driven_acceleration : arrays (...) [rad/s, rad/s²]
+        ω and ε of the last shaft.
+    """
+
+    bend: Array
+    bend_rate: Array
+    bend_acceleration: Array
+    angle: Array
+    driven_speed: Array
+    driven_acceleration: Array
+
+
+def driven_motion(
+    bend: Jet, joint_angle: ArrayLike, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
+) -> tuple[Array, Array]:
+    """Return speed and acceleration of the driven shaft of one joint while its bend changes, exactly.
+
+    Parameters
+    ----------
+    bend : Jet (...) [rad, rad/s, rad/s²]
+        α, α', α''; the plane of the two shafts does not turn.
+    joint_angle : array (...) [rad]
+        θ, angle of the driving yoke from that plane.
+    speed, acceleration : array (...) [rad/s, rad/s²]
+        ω_1, ε_1.
+
+    Returns
+    -------
+    driven_speed, driven_acceleration : arrays (...) [rad/s, rad/s²]
+
+    Notes
+    -----
+    With c = cos α, s = sin α, D = 1 - s² cos²θ: ω_2 = (c ω_1 + ½ s sin 2θ α')/D, Book (97), and
+    ε_2 = [c D ε_1 + ½ s D sin 2θ α'' - c s² sin 2θ ω_1² + 2 s (c² cos²θ - sin²θ) ω_1 α'
+    + ½ c (1 + s² cos²θ) sin 2θ α'²]/D², Book (98) with the terms it drops.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> float(driven_motion((np.asarray(0.2), np.asarray(3.0), np.asarray(0.0)), 0.7, speed=100.0)[0])
+    100.623625
+    """
+    xp = namespace(*bend, joint_angle)
+    alpha, rate, curve = (real(part, xp) for part in bend)
+    theta = real(joint_angle, xp)
+    omega, epsilon = real(speed, xp), real(acceleration, xp)
+    c, s = xp.cos(alpha), xp.sin(alpha)
+    near, far = xp.cos(theta) ** 2, xp.sin(theta) ** 2
+    double = xp.sin(2.0 * theta)
+    d = 1.0 - s * s * near
+    driven_speed = (c * omega + 0.5 * s * double * rate) / d
+    driven_acceleration = (
+        d * (c * epsilon + 0.5 * s * double * curve)
+        - c * s * s * double * omega**2
+        + 2.0 * s * (c * c * near - far) * omega * rate
+        + 0.5 * c * (1.0 + s * s * near) * double * rate**2
+    ) / d**2
+    return driven_speed, driven_acceleration
+
+
+def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: ArrayLike) -> Array:
+    """Return the output speed of a planar double joint with parallel yokes while both bends change, exactly.
+
+    Parameters
+    ----------
+    first, second : Jet (...) [rad, rad/s, rad/s²]
+        The bends; accelerations do not matter.
+    angle : array (...) [rad]
+        φ_1, with ψ_1 = 0 and γ_2 + β_2 = 0.
+    speed : array (...) [rad/s]
+        ω_1.
+
+    Notes
+    -----
+    ω_3 = [c_1 c_2 ω_1 + ½ sin 2φ_1 (s_1 c_2 α_1' - c_1 s_2 α_2')]/(c_1² cos²φ_1 + c_2² sin²φ_1), Book (99). Uniform
+    only if the bends are equal at all times; equal at one instant is not enough.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> swing = (np.asarray(0.3), np.asarray(2.0), np.asarray(0.0))
+    >>> float(double_joint_speed(swing, swing, 0.7, speed=100.0))
+    100.0
+    """
+    xp = namespace(*first, *second, angle)
+    (a1, r1), (a2, r2) = ((real(jet[0], xp), real(jet[1], xp)) for jet in (first, second))
+    phi = real(angle, xp)
+    c1, s1, c2, s2 = xp.cos(a1), xp.sin(a1), xp.cos(a2), xp.sin(a2)
+    turning = c1 * c2 * real(speed, xp) + 0.5 * xp.sin(2.0 * phi) * (s1 * c2 * r1 - c1 * s2 * r2)
+    return turning / ((c1 * xp.cos(phi)) ** 2 + (c2 * xp.sin(phi)) ** 2)
+
+
+def planar_chain(
+    bends: Jet,
+    angle: ArrayLike,
+    *,
+    yoke_angle: ArrayLike,
+    speed: ArrayLike,
+    acceleration: ArrayLike = 0.0,
+    start_phase: float = 0.0,
+) -> VaryingBend:
+    """Return speed and acceleration of the output of a planar drive while its bends change, exactly.
+
+    Parameters
+    ----------
+    bends : Jet (..., n) [rad, rad/s, rad/s²]
+        Bends of the joints, negative ones the other way: all of one sign is a W-arrangement (β = 0), signs in turn a
+        Z-arrangement.
+    angle : array (...) [rad]
+        φ_1.
+    yoke_angle : array (n-1,) [rad]
+        γ_2 … γ_n.
+    speed, acceleration : array (...) [rad/s, rad/s²]
+        ω_1, ε_1.
+    start_phase : float [rad]
+        ψ_1.
+
+    Returns
+    -------
+    VaryingBend
+        Of the last shaft.
+
+    Notes
+    -----
+    The general method of `moving_axes` on axes that turn in one plane; input axis along x, plane normal y.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> bends = (np.asarray([0.3, 0.3]), np.asarray([2.0, 2.0]), np.asarray([5.0, 5.0]))
+    >>> round(float(planar_chain(bends, 0.7, yoke_angle=[0.0], speed=100.0).driven_speed), 9)
+    100.0
+    """
+    alpha, rate, curve = (np.asarray(part, dtype=float) for part in bends)
+    phi = np.asarray(angle, dtype=float)
+
+    def summed(part: Array) -> Array:
+        return np.concatenate((np.zeros((*part.shape[:-1], 1)), np.cumsum(part, axis=-1)), axis=-1)
+
+    tilt, tilt_rate, tilt_curve = summed(alpha), summed(rate), summed(curve)
+    cosine, sine, zero = np.cos(tilt), np.sin(tilt), np.zeros_like(tilt)
+    along = np.stack((cosine, zero, -sine), axis=-1)
+    across = np.stack((-sine, zero, -cosine), axis=-1)
+    axes = (
+        along,
+        tilt_rate[..., None] * across,
+        tilt_curve[..., None] * across - tilt_rate[..., None] ** 2 * along,
+    )
+    theta = phi + start_phase
+    arm = np.stack((np.zeros_like(theta), np.sin(theta), -np.cos(theta)), axis=-1)
+    spins = moving_axes(axes, arm, yoke_angle=yoke_angle, speed=speed, acceleration=acceleration)
+    return VaryingBend(
+        bend=alpha,
+        bend_rate=rate,
+        bend_acceleration=curve,
+        angle=phi,
+        driven_speed=spins.spin[..., -1],
+        driven_acceleration=spins.spin_acceleration[..., -1],
+    )
+
+
+def swinging_joint(
+    times: ArrayLike,
+    *,
+    mean: float,
+    amplitude: float,
+    frequency: float,
+    phase: float = 0.0,
+    speed: float,
+    acceleration: float = 0.0,
+    start_phase: float = 0.0,
+) -> VaryingBend:
+    """Return the motion of one joint whose bend swings harmonically, the plane of the shafts at rest.
+
+    Parameters
+    ----------
+    times : array (t,) or float [s]
+        Instants.
+    mean, amplitude : float [rad]
+        α(t) = mean + amplitude · sin(frequency · t + phase).
+    frequency, phase : float [rad/s, rad]
+        Of the swing.
+    speed, acceleration : float [rad/s, rad/s²]
+        ω_1 at time zero and ε_1; φ_1 = ω_1 t + ½ ε_1 t².
+    start_phase : float [rad]
+        ψ_1.
+
+    Returns
+    -------
+    VaryingBend
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = swinging_joint(0.0137, mean=12 * deg, amplitude=4 * deg, frequency=40.0, speed=150.0)
+    >>> round(float(found.driven_speed), 6)
+    147.140135
+    """
+    at = np.asarray(times, dtype=float)
+    bend = paths.plus(
+        (np.asarray(mean), np.asarray(0.0), np.asarray(0.0)), paths.swing(amplitude, frequency, phase, at)
+    )
+    angle = speed * at + 0.5 * acceleration * at**2
+    omega = speed + acceleration * at
+    driven = driven_motion(bend, angle + start_phase, speed=omega, acceleration=acceleration)
+    return VaryingBend(
+        bend=bend[0],
+        bend_rate=bend[1],
+        bend_acceleration=bend[2],
+        angle=angle,
+        driven_speed=driven[0],
+        driven_acceleration=driven[1],
+    )
+
+
+def swinging_chain(
+    times: ArrayLike,
+    *,
+    mean: ArrayLike,
+    amplitude: ArrayLike,
+    frequency: float,
+    phase: ArrayLike = 0.0,
+    yoke_angle: ArrayLike,
+    speed: float,
+    acceleration: float = 0.0,
+    start_phase: float = 0.0,
+) -> VaryingBend:
+    """Return the output motion of a planar drive whose bends swing harmonically.
+
+    Parameters
+    ----------
+    times : array (t,) or float [s]
+        Instants.
+    mean, amplitude : array (n,) [rad]
+        α_i(t) = mean_i + amplitude_i · sin(frequency · t + phase_i); signs as in `planar_chain`.
+    frequency : float [rad/s]
+        Of the swing.
+    phase : float or array (n,) [rad]
+        A quarter turn makes the sine a cosine.
+    yoke_angle : array (n-1,) [rad]
+        γ_2 … γ_n.
+    speed, acceleration : float [rad/s, rad/s²]
+        ω_1 at time zero and ε_1; φ_1 = ω_1 t + ½ ε_1 t².
+    start_phase : float [rad]
+        ψ_1.
+
+    Returns
+    -------
+    VaryingBend
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = swinging_chain(
+    ...     0.0123, mean=[15 * deg, 12 * deg], amplitude=[5 * deg, 3 * deg], frequency=60.0, phase=[0.0, np.pi / 2],
+    ...     yoke_angle=[0.0], speed=100.0,
+    ... )
+    >>> round(float(found.driven_speed), 6), round(float(found.driven_acceleration), 4)
+    (98.92662, -547.0246)
+    """
+    at = np.asarray(times, dtype=float)
+    middle = np.asarray(mean, dtype=float)
+    size, shift = np.asarray(amplitude, dtype=float), np.broadcast_to(np.asarray(phase, dtype=float), middle.shape)
+    bends = paths.plus(paths.resting(middle), paths.swing(size, frequency, shift, at))
+    return planar_chain(
+        bends,
+        speed * at + 0.5 * acceleration * at**2,
+        yoke_angle=yoke_angle,
+        speed=speed + acceleration * at,
+        acceleration=acceleration,
+        start_phase=start_phase,
+    )
+
+
+def rate_effect(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> Array:
+    """Return by how much a changing bend raises the irregularity of a joint over the frozen value.
+
+    Parameters
+    ----------
+    bend, bend_rate : array (...) [rad, rad/s]
+        α and α' at an instant.
+    speed : array (...) [rad/s]
+        ω_1.
+
+    Returns
+    -------
+    array (...)
+        δ with the rate over δ without.
+
+    Notes
+    -----
+    √(1 + (α'/(ω_1 sin α))²), exact: over all yoke positions the ratio of ω_2, Book (97), spreads over
+    δ = tan α √(sin²α + (α'/ω_1)²), see `speed_range`. For small bends
+    √(1 + (α'/(α ω_1))²): below `FREEZE` · α ω_1 it adds less than 5 %. Book's threshold α' < 0.1 … 0.2 ω_1 holds for
+    the speed, not for its irregularity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.round(rate_effect(np.deg2rad([5.0, 10.0, 20.0]), 10.0, speed=100.0), 2)
+    array([1.52, 1.15, 1.04])
+    """
+    xp = namespace(bend, bend_rate, speed)
+    alpha, rate, omega = (real(part, xp) for part in (bend, bend_rate, speed))
+    return xp.sqrt(1.0 + (rate / (omega * xp.sin(alpha))) ** 2)
+
+
+def may_freeze(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> Array:
+    """Tell whether a bend may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...).
+
+    Examples
+    --------
+    >>> bool(may_freeze(0.2, 5.0, speed=100.0)), bool(may_freeze(0.05, 5.0, speed=100.0))
+    (True, False)
+    """
+    xp = namespace(bend, bend_rate, speed)
+    alpha, rate, omega = (real(part, xp) for part in (bend, bend_rate, speed))
+    return xp.abs(rate) <= FREEZE * alpha * xp.abs(omega)

@@ -1,0 +1,1 @@
+"""Capabilities about forces, strength, life and losses."""

@@ -1,0 +1,1 @@
+"""Checks of how far and how evenly joints turn."""

@@ -1,0 +1,80 @@
+"""Whether joints make the output and the shafts between swing no harder than the norm of joint angles allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.catalogue.rows import AngleNorm
+from cardan.checks.case import Case
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.told import at_top_speed, joined
+from cardan.checks.verdict import Verdict
+from cardan.drive.models.chain import Chain
+from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
+from cardan.questions.motion.equivalence import after_each_joint, largest_acceleration
+from cardan.texts import _, mark
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    norm = design.known.row(AngleNorm, design.drive.settings.norm, field="settings.norm")
+    speed = design.top_speed
+    output = f"shafts[{design.joints}]"
+    said = [(_("torsional acceleration of the output"), output, norm.torsional)]
+    if design.joints > 1:
+        said.append((_("acceleration of inside shafts in drive"), "", norm.inertia_drive))
+        said.append((_("acceleration of inside shafts in coast"), "", norm.inertia_coast))
+    drawn_swings = None if speed is None else swings(design.chain)
+    moved = None if speed is None else design.while_moving(swings)
+    for k, (title, subject, limit) in enumerate(said):
+        made = partial(
+            Verdict,
+            check="acceleration",
+            subject=subject,
+            title=title,
+            dimension="angular_acceleration",
+            unit="rad_s2",
+            limit=limit,
+            source=norm.source,
+        )
+        if speed is None or drawn_swings is None:
+            yield made(missing=("duty.speed",))
+            continue
+        drawn = drawn_swings[..., k]
+        most = drawn if moved is None else moved[..., k]
+        yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
+        yield made(
+            value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
+            levers=(*yokes, *design.bend_levers, *design.speed_levers),
+            note=joined((at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else "")),
+        )
+
+
+def swings(chain: Chain) -> Array:
+    """Return the largest accelerations over the square of the speed: of the output, in drive, in coast (..., k).
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+        k is 3, or 1 where there is one joint and no shaft inside.
+    """
+    each: Array = after_each_joint(chain).max_acceleration
+    n = chain.joints
+    if n == 1:
+        return each
+    coast = [largest_acceleration(mobius.bend(Case(chain=chain).between(i, n))) for i in range(1, n)]
+    xp = namespace(each)
+    inside = xp.max(each[..., :-1], axis=-1), xp.max(xp.stack(coast, axis=-1), axis=-1)
+    return xp.stack((each[..., -1], *inside), axis=-1)
+
+
+CHECK = Check(
+    name="acceleration",
+    doc=mark("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
+    judge=_judge,
+    crosses="map",
+)

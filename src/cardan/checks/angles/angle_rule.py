@@ -1,0 +1,42 @@
+"""The rule of thumb for joint angles: none above 6°, and two joints within 1.5° of each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.moving import at_its_most
+from cardan.checks.verdict import Verdict
+from cardan.questions.motion.angle_limits import RULE_ANGLE, RULE_DIFFERENCE
+from cardan.texts import _, mark
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    source = _("web articles on drive shafts: 6° and 1.5°")
+    made = partial(
+        Verdict,
+        check="angle_rule",
+        dimension="angle",
+        unit="deg",
+        source=source,
+        advice=True,
+        levers=design.bend_levers,
+    )
+    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    yield made(title=_("largest bend, rule of thumb"), value=largest[..., 0], limit=RULE_ANGLE, note=note)
+    if design.joints == 2:
+        apart, note = at_its_most(design, lambda bend: np.abs(bend[..., :1] - bend[..., 1:]))
+        title = _("difference of the bends, rule of thumb")
+        yield made(title=title, value=apart[..., 0], limit=RULE_DIFFERENCE, note=note)
+
+
+CHECK = Check(
+    name="angle_rule",
+    doc=mark("rule of thumb: bends at most 6°, those of two joints within 1.5°"),
+    judge=_judge,
+    crosses="all",
+)

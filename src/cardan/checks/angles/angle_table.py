@@ -1,0 +1,72 @@
+"""The articles' table of joint angles: which second angle a first one and a speed allow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.moving import at_its_most
+from cardan.checks.told import at_top_speed, bendable, joined
+from cardan.checks.verdict import Verdict
+from cardan.maths.arrays import Array
+from cardan.questions.motion.angle_limits import TABLE_TORSIONAL, angle_limits
+from cardan.texts import _, mark
+
+SET = 1e-3
+"""Yokes this far [rad] from their place count as set right."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    if design.joints != 2 or not _phased(design):
+        return
+    made = partial(
+        Verdict,
+        check="angle_table",
+        title=_("larger bend beside the smaller, table of angles"),
+        dimension="angle",
+        unit="deg",
+        source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
+        advice=True,
+    )
+    speed = design.top_speed
+    if speed is None:
+        yield made(missing=("duty.speed",))
+        return
+    if np.any(np.asarray(speed) == 0.0):
+        return
+    high, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    low = np.min(design.bend, axis=-1)
+    if design.drive.movements:
+        # √(low² + a/ω²) is kept where high² - low² is at most a/ω²: the largest difference decides. Where a joint
+        # comes to bend 90° both are infinite: beside the drawn bend the limit stays a number.
+        apart = at_its_most(design, lambda bend: np.abs(bend[..., :1] ** 2 - bend[..., 1:] ** 2))[0]
+        finite = np.isfinite(high) & np.isfinite(apart)
+        square = np.where(finite, high, 0.0) ** 2 - np.where(finite, apart, 0.0)
+        low = np.where(finite, np.sqrt(np.maximum(square, 0.0)), low[..., None])[..., 0]
+    second = np.where(np.isfinite(high[..., 0]), high[..., 0], low)
+    most: Array = angle_limits(speed, low, second, torsional=TABLE_TORSIONAL).most
+    most, said = bendable(design, most)
+    yield made(
+        value=high[..., 0],
+        limit=most,
+        levers=(*design.bend_levers, *design.speed_levers),
+        note=joined((at_top_speed(design), said, note)),
+    )
+
+
+def _phased(design: Design) -> bool:
+    """Tell whether the yokes of two joints are set so that their bends cancel."""
+    turned = design.chain.turn_before[..., 1]
+    return bool(np.all(np.abs(np.cos(turned)) < SET))
+
+
+CHECK = Check(
+    name="angle_table",
+    doc=mark("table of joint angles by speed, for two joints set right"),
+    judge=_judge,
+    crosses="all",
+)

@@ -1,0 +1,56 @@
+"""The largest bend of one joint that practice allows at a speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.catalogue.rows import MaxBend
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.moving import at_its_most
+from cardan.checks.told import bendable, joined
+from cardan.checks.verdict import Verdict
+from cardan.maths.arrays import Array
+from cardan.texts import _, mark
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    rows = sorted(design.known.rows(MaxBend).values(), key=lambda row: row.speed)
+    made = partial(
+        Verdict,
+        check="bend_at_speed",
+        title=_("largest bend at the highest speed"),
+        dimension="angle",
+        unit="deg",
+        source=rows[0].source if rows else "",
+        advice=True,
+    )
+    speed = design.top_speed
+    if speed is None:
+        yield made(missing=("duty.speed",))
+        return
+    if not rows:
+        return
+    # Speed times angle hardly changes along the table: straight in that product, and constant beyond its ends.
+    at = np.asarray([row.speed for row in rows])
+    turning = np.maximum(np.asarray(speed, dtype=float), 1e-9)
+    limit: Array = np.interp(turning, at, at * np.asarray([row.max_bend for row in rows])) / turning
+    limit, said = bendable(design, limit)
+    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    yield made(
+        value=largest[..., 0],
+        limit=limit,
+        levers=(*design.bend_levers, *design.speed_levers),
+        note=joined((said, note)),
+    )
+
+
+CHECK = Check(
+    name="bend_at_speed",
+    doc=mark("largest bend of one joint at the highest speed, a maker's guide"),
+    judge=_judge,
+    crosses="all",
+)

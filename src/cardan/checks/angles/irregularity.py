@@ -1,0 +1,47 @@
+"""Whether the output turns as evenly as it must."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.case import largest
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.texts import _, mark
+
+EVEN = 0.0027
+"""Largest irregularity of a drive that counts as even: that of one joint bent by 2.98°."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    own = design.value("limits.irregularity")
+    made = partial(
+        Verdict,
+        check="irregularity",
+        subject=f"shafts[{design.joints}]",
+        title=_("irregularity of the output"),
+        dimension="share",
+        unit="percent",
+    )
+    if own is None and not design.duty.synchronous:
+        yield made(missing=("limits.irregularity",))
+        return
+    drawn = equivalent_joint(design.chain).irregularity if design.swing is None else design.swing.irregularity[-1]
+    moved = design.while_moving(lambda chain: equivalent_joint(chain).irregularity[..., None])
+    yield made(
+        value=drawn if moved is None else largest([drawn, moved[..., 0]]),
+        limit=EVEN if own is None else own,
+        source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
+        levers=(*design.yoke_levers, *design.bend_levers),
+        note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else "",
+    )
+
+
+CHECK = Check(
+    name="irregularity", doc=mark("unevenness of the output against the limit of the user"), judge=_judge, crosses="law"
+)

@@ -1,0 +1,41 @@
+"""Whether the output runs ahead and back no more than it may."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.texts import _, mark
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    own = design.value("limits.output_error")
+    made = partial(
+        Verdict,
+        check="output_error",
+        subject=f"shafts[{design.joints}]",
+        title=_("error of the output angle"),
+        dimension="angle",
+        unit="deg",
+    )
+    if own is None:
+        yield made(missing=("limits.output_error",))
+        return
+    yield made(
+        value=equivalent_joint(design.chain).max_lead if design.swing is None else design.swing.max_lead[-1],
+        limit=own,
+        source=_("limits of the drive file"),
+        levers=(*design.yoke_levers, *design.bend_levers),
+    )
+
+
+CHECK = Check(
+    name="output_error",
+    doc=mark("how far the output runs ahead and back against the limit of the user"),
+    judge=_judge,
+    crosses="law",
+)

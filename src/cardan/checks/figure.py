@@ -1,0 +1,87 @@
+"""How much of every limit a drive uses: bars like traffic lights."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cardan.figures.axes import steps, written
+from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
+from cardan.figures.wording import used
+from cardan.texts import _, plural
+
+from . import Verdict
+
+MOST = 40
+"""Bars in a figure; the least used limits are left out."""
+
+WIDEST = 10.0
+"""Utilisation at which bars are cut; an arrow at the end of what uses more says so."""
+
+ROLES = {"passed": "good", "close": "warning", "failed": "failed"}
+
+SIGNS = {"passed": "●", "close": "▲", "failed": "✖"}
+
+
+def check_figures(verdicts: Sequence[Verdict], *, name: str = "") -> tuple[Figure, ...]:
+    """Return the figure of the verdicts of one drive; none where nothing was judged.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+    name : str
+        Of the drive.
+    """
+    run = sorted((one for one in verdicts if one.run and not one.advice), key=lambda one: -float(one.utilisation))
+    return (_figure(run, name),) if run else ()
+
+
+def _figure(run: Sequence[Verdict], name: str) -> Figure:
+    shown = run[:MOST]
+    shares = np.asarray([float(one.utilisation) for one in shown])
+    top = min(max(1.15, 1.1 * float(np.max(shares))), WIDEST)
+    at = np.arange(len(shown), 0, -1, dtype=float)
+    bars = Bars(
+        at=at,
+        size=shares,
+        texts=tuple(
+            f"{'▶ ' if share > WIDEST else ''}{SIGNS[one.state]} {used(share)}"
+            for one, share in zip(shown, shares, strict=True)
+        ),
+        roles=tuple(ROLES[one.state] for one in shown),
+        thick=0.62,
+        lying=True,
+        most=WIDEST,
+    )
+    limit = Curve(x=np.asarray([1.0, 1.0]), y=np.asarray([0.4, len(shown) + 0.6]), role="ink", dash="dashed")
+    ticks = steps(0.0, top, 5)
+    titles = tuple(one.title for one in shown)
+    upright = Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=titles, grid=False)
+    along = Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks))
+    panel = Panel(series=(bars, limit), x=along, y=upright, title=_("Share of the limit that is used"))
+    failed = sum(one.state == "failed" for one in run)
+    if failed and len(run) == 1:
+        sentence = _("The one limit that could be judged is not kept.")
+    elif failed:
+        text = plural("{count} of {all} limits is not kept.", "{count} of {all} limits are not kept.", failed)
+        sentence = text.format(count=failed, all=len(run))
+    else:
+        text = plural(
+            "The one limit is kept; {title} uses {used} of it.",
+            "All {all} limits are kept; {title} uses most, {used}.",
+            len(run),
+        )
+        sentence = text.format(all=len(run), title=run[0].title, used=used(float(run[0].utilisation)))
+    if len(run) > MOST:
+        sentence += " " + _("The {count} that use most are shown.").format(count=MOST)
+    return Figure(
+        name="checks",
+        title=_("Limits of {name}").format(name=name) if name else _("Limits"),
+        sentence=sentence,
+        source=_(
+            "Utilisation: value over limit, or limit over value where it must be at least that; green keeps its limit, "
+            "amber comes near, red fails"
+        ),
+        rows=(Row(panels=(panel,), height=0.25 * len(shown) + 0.3),),
+    )

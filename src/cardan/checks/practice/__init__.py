@@ -1,0 +1,1 @@
+"""Checks by rules of practice: sizes, places, accuracy, upkeep."""

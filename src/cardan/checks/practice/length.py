@@ -1,0 +1,41 @@
+"""The rule of thumb for the distance of two joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.texts import _, mark
+
+LONGEST = 1.5
+"""Distance of two joints beyond which unbalance becomes a problem [m]."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for k in range(1, design.joints):
+        made = partial(
+            Verdict,
+            check="length",
+            subject=f"shafts[{k}]",
+            title=_("length of shaft {number}").format(number=k + 1),
+            dimension="length",
+            unit="mm",
+            advice=True,
+        )
+        length = design.length(k)
+        if length is None:
+            yield made(missing=(f"shafts[{k}].length",))
+            continue
+        yield made(
+            value=length,
+            limit=LONGEST,
+            source=_("web articles on drive shafts: at most 1.5 m between joints"),
+            levers=design.levers(f"shafts[{k}].length") if design.drive.form != "points" else (),
+            note=_("a composite tube may be longer") if design.drive.shafts[k].layup is not None else "",
+        )
+
+
+CHECK = Check(name="length", doc=mark("rule of thumb: at most 1.5 m between two joints"), judge=_judge)

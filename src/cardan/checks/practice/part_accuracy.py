@@ -1,0 +1,52 @@
+"""Whether yokes and crosses are as accurate as the norm asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+from cardan.catalogue.rows import PartLimit
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.drive.inspection import Inspection
+from cardan.texts import _, mark
+
+NAMES = {
+    "axis_offset": mark("offset of the axes of the yokes of joint {number}"),
+    "yoke_perpendicularity": mark("squareness of the yokes of joint {number}, on 100 mm"),
+    "face_symmetry": mark("symmetry of the faces of the yokes of joint {number}"),
+    "half_height_difference": mark("difference of the halves of the cross of joint {number}"),
+    "cross_perpendicularity": mark("squareness of the cross of joint {number}, on 100 mm"),
+    "coplanarity": mark("journals of the cross of joint {number} in one plane"),
+    "coaxiality": mark("journals of the cross of joint {number} on one axis"),
+}
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    rows = design.known.rows(PartLimit)
+    for i, joint in enumerate(design.drive.joints):
+        for one in fields(Inspection) if joint.inspection is not None else ():
+            path = f"joints[{i}].inspection.{one.name}"
+            value, row = design.value(path), rows.get(one.name)
+            if value is None or row is None:
+                continue
+            yield Verdict(
+                check="part_accuracy",
+                subject=f"joints[{i}]",
+                title=_(NAMES[one.name]).format(number=i + 1),
+                dimension="length",
+                unit="mm",
+                value=value,
+                limit=row.limit,
+                source=row.source,
+                levers=(path,),
+            )
+
+
+CHECK = Check(
+    name="part_accuracy",
+    doc=mark("what was measured on yokes and crosses against GOST 2752-74"),
+    judge=_judge,
+    crosses="each",
+)

@@ -1,0 +1,88 @@
+"""Whether every sliding spline stays engaged and does not bottom, as drawn and while the drive moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.carried import extreme_lengths
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.maths.arrays import Array
+from cardan.texts import _, mark
+from cardan.units import mm
+
+TOUCH = 1e-3 * mm
+"""Way that must be left to bottoming [m]."""
+
+ROUNDING = 1e-12
+"""Way [m] that rounding alone makes."""
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    splined = [k for k, shaft in enumerate(design.drive.shafts) if shaft.spline is not None]
+    if not splined:
+        return
+    slides = _slid(design)
+    own = design.value("limits.spline_overlap")
+    for k in splined:
+        path = f"shafts[{k}].spline"
+        out, back, stood = slides.get(k, (0.0, 0.0, 0.0))
+        made = partial(Verdict, check="spline_overlap", subject=f"shafts[{k}]", dimension="length", unit="mm")
+        made = partial(made, sense="at_least")
+        moved = _("while the drive moves")
+        engaged, gap = design.value(f"{path}.engaged"), design.value(f"{path}.gap")
+        title = _("engaged length of the spline of shaft {number}").format(number=k + 1)
+        if engaged is None or (own is None and k not in slides):
+            lacking = design.missing(f"{path}.engaged")
+            yield made(title=title, missing=lacking or ("limits.spline_overlap",))
+        else:
+            yield made(
+                title=title,
+                value=np.asarray(engaged) - out,
+                limit=TOUCH if own is None else own,
+                source=_("it must not come apart") if own is None else _("limits of the drive file"),
+                levers=(f"{path}.engaged",),
+                note=moved if np.all(out > stood + ROUNDING) else "",
+            )
+        if gap is not None and k in slides:
+            yield made(
+                title=_("way left to bottoming of the spline of shaft {number}").format(number=k + 1),
+                value=np.asarray(gap) - back,
+                limit=TOUCH,
+                source=_("it must not bottom"),
+                levers=(f"{path}.gap",),
+                note=moved if np.all(back > ROUNDING - stood) else "",
+            )
+
+
+def _slid(design: Design) -> dict[int, tuple[Array, Array, Array]]:
+    """Return how far each splined shaft gets longer and shorter than drawn [m], and how much longer it is standing.
+
+    None where no shaft slides.
+
+    Engaged length and gap hold in the drive as drawn; a pose that says them anew means its own place.
+    """
+    moves, drawn = design.drive.movements, design.drawn
+    if not moves and not design.drive.poses and drawn is None:
+        return {}
+    reach = extreme_lengths(design.points, moves) if moves else None
+    ways = {}
+    for k, shaft in enumerate(design.drive.shafts):
+        origin = design if drawn is None or shaft.spline != drawn.drive.shafts[k].spline else drawn
+        standing, zero = design.length(k), origin.length(k)
+        if shaft.spline is None or standing is None or zero is None:
+            continue
+        low = high = np.asarray(standing, dtype=float)
+        if reach is not None:
+            low, high = (np.where(np.isfinite(one[..., k]), one[..., k], standing) for one in reach)
+        ways[k] = high - zero, zero - low, np.asarray(standing - zero)
+    return ways
+
+
+CHECK = Check(
+    name="spline_overlap", doc=mark("engaged length and way left of every spline while the drive moves"), judge=_judge
+)

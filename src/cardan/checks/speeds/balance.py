@@ -1,0 +1,99 @@
+"""Whether every shaft is balanced as well as a grade or a norm asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.catalogue.rows import BalanceGrade, BalanceNorm
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.strength.section import modulus, sections
+from cardan.checks.verdict import Verdict
+from cardan.maths.arrays import Array
+from cardan.questions.bending.balance import SLOW, allowed_unbalance
+from cardan.texts import _, mark
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    grade, norm = design.duty.balance_grade, design.duty.balance_class
+    for k, shaft in enumerate(design.drive.shafts):
+        if not shaft.unbalance and (not (grade or norm) or not 0 < k < design.joints):
+            continue
+        made = partial(
+            Verdict,
+            check="balance",
+            subject=f"shafts[{k}]",
+            title=_("unbalance of shaft {number}").format(number=k + 1),
+            dimension="unbalance",
+            unit="g_mm",
+        )
+        lacking = [] if shaft.unbalance else [f"shafts[{k}].unbalance"]
+        if not grade and not norm:
+            lacking.append("duty.balance_grade")
+        mass = _mass(design, k)
+        if grade:
+            lacking += design.unmoved
+            lacking += [] if mass is not None else [f"shafts[{k}].mass"]
+        if lacking:
+            yield made(missing=tuple(lacking))
+            continue
+        amount = _amount(design, k)
+        levers = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
+        slow = design.top_speed is not None and bool(np.all(np.asarray(design.top_speed) < SLOW))
+        if grade:
+            row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
+            top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
+            yield made(
+                value=amount,
+                limit=allowed_unbalance(mass, top, row.speed).whole,
+                source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
+                levers=(*levers, *design.speed_levers),
+                note=_("below 500 rpm makers do not balance") if slow else "",
+                advice=slow,
+            )
+        if norm:
+            limit = design.known.row(BalanceNorm, norm, field="duty.balance_class")
+            yield made(
+                title=_("unbalance of shaft {number}, the book's norm").format(number=k + 1),
+                value=amount,
+                limit=limit.max_unbalance,
+                source=f"{limit.source}, {limit.note}",
+                levers=levers,
+            )
+
+
+def _mass(design: Design, k: int) -> Array | None:
+    """Return the mass of a shaft with the parts it carries [kg]; None where the drive does not say it."""
+    shaft = design.drive.shafts[k]
+    given = design.value(f"shafts[{k}].mass")
+    if given is None:
+        body = list(sections(design, k))
+        if not body or any(one.length is None for one in body):
+            return None
+        given = sum(
+            0.25 * np.pi * np.asarray(modulus(design, one, "density")) * (one.outer**2 - one.inner**2) * one.length
+            for one in body
+        )
+    mass: Array = np.asarray(given) + sum(lump.mass for lump in shaft.masses)
+    return mass if np.all(mass > 0.0) else None
+
+
+def _amount(design: Design, k: int) -> Array:
+    """Return the unbalance that counts: the resultant, or twice that of the worst plane where there are several."""
+    planes = design.drive.shafts[k].unbalance
+    path = f"shafts[{k}].unbalance"
+    amounts = [np.asarray(design.value(f"{path}[{j}].amount"), dtype=float) for j in range(len(planes))]
+    angles = [np.asarray(design.value(f"{path}[{j}].angle"), dtype=float) for j in range(len(planes))]
+    whole: Array = np.hypot(
+        sum(u * np.cos(a) for u, a in zip(amounts, angles, strict=True)),
+        sum(u * np.sin(a) for u, a in zip(amounts, angles, strict=True)),
+    )
+    for one in amounts if len(amounts) > 1 else ():
+        whole = np.maximum(whole, 2.0 * one)
+    return whole
+
+
+CHECK = Check(name="balance", doc=mark("unbalance of every shaft against its balance grade or norm"), judge=_judge)

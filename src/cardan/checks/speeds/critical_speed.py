@@ -1,0 +1,85 @@
+"""Whether every shaft stays far enough below the speed at which it whirls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.told import turning
+from cardan.checks.verdict import Verdict
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.texts import _, mark
+
+from .whirl import Whirl, whirls
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for one in whirls(design):
+        made = partial(
+            Verdict,
+            check="critical_speed",
+            subject=f"shafts[{one.shaft}]",
+            title=_("critical speed of shaft {number} over the highest speed").format(number=one.shaft + 1),
+        )
+        if one.missing or design.unmoved:
+            yield made(missing=(*one.missing, *design.unmoved))
+            continue
+        if one.speed is None:
+            continue
+        top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
+        own = design.value("limits.critical_speed")
+        source = _("web articles on drive shafts: 60 % above the highest speed")
+        yield made(
+            value=one.wear * one.speed / top,
+            limit=ARTICLE if own is None else own,
+            sense="at_least",
+            source=source if own is None else _("limits of the drive file"),
+            levers=(*one.levers, *design.speed_levers),
+            note=_note(one),
+        )
+        application = design.duty.application
+        makers = {
+            "automotive": _("IMS catalogue, automotive drives: 70 %"),
+            "industrial": _("IMS catalogue, industrial drives: 65 %"),
+        }
+        yield made(
+            title=_("highest speed over the computed critical speed of shaft {number}").format(number=one.shaft + 1),
+            value=top / one.speed,
+            limit=CATALOGUE[application],
+            dimension="share",
+            unit="percent",
+            source=makers[application],
+            levers=(*(path for path in one.levers if "wear" not in path), *design.speed_levers),
+            note=_computed(one),
+        )
+
+
+def _note(one: Whirl) -> str:
+    """Return which critical speed of one shaft counts, as computed and as the real shaft has it."""
+    if one.speed is None or np.ndim(one.speed) or np.ndim(one.wear) or float(one.wear) == 1.0:
+        return _computed(one)
+    text = _("{factor:g} of the {speed} rpm computed for the whole line")
+    if not one.exact:
+        text = _("{factor:g} of the {speed} rpm computed for the tube between its joints")
+    return text.format(factor=float(one.wear), speed=turning(float(one.speed)))
+
+
+def _computed(one: Whirl) -> str:
+    """Return the critical speed of one shaft as computed."""
+    if one.speed is not None and np.ndim(one.speed) and one.exact:
+        return _("scaled from the speed of the drive as it is, computed for the whole line")
+    if one.speed is None or np.ndim(one.speed):
+        return ""
+    text = _("{speed} rpm, computed for the whole line")
+    if not one.exact:
+        text = _("{speed} rpm, computed for the tube between its joints")
+    return text.format(speed=turning(float(one.speed)))
+
+
+CHECK = Check(
+    name="critical_speed", doc=mark("critical speed of every shaft in bending against the highest speed"), judge=_judge
+)

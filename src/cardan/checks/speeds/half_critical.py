@@ -1,0 +1,70 @@
+"""Whether the drive keeps away from half the critical speed, where the secondary couples shake its shafts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.formulas.critical_speed import HALF_BAND
+from cardan.maths.arrays import Array
+from cardan.texts import _, mark
+
+from .whirl import whirls
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for one in whirls(design):
+        k, speed, lacking, levers = one.shaft, one.speed, one.missing, one.levers
+        running = [case.speed for case in design.cases if case.speed is not None]
+        between = design.duty.speed_range
+        made = partial(
+            Verdict,
+            check="half_critical",
+            subject=f"shafts[{k}]",
+            title=_("speed beside half the critical speed of shaft {number}").format(number=k + 1),
+            dimension="angular_speed",
+            unit="rpm",
+            sense="outside",
+            source=_("a maker's rule: 8 % to either side; couples of the joints come twice a turn"),
+        )
+        if lacking or not (running or between):
+            yield made(missing=(*lacking, *(() if running or between else ("duty.speed",))))
+            continue
+        if speed is None:
+            continue
+        middle = 0.5 * np.asarray(one.wear * speed)
+        low, high = middle * (1.0 - HALF_BAND), middle * (1.0 + HALF_BAND)
+        if running:
+            yield made(
+                value=_nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
+                limit=(low, high),
+                levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
+            )
+        if between is not None:
+            nearest = np.clip(middle, design.value("duty.speed_range[0]"), design.value("duty.speed_range[1]"))
+            yield made(
+                title=_("range of speeds about half the critical speed of shaft {number}").format(number=k + 1),
+                value=nearest,
+                limit=(low, high),
+                levers=levers,
+                note=_("pass through it quickly") if np.all((nearest > low) & (nearest < high)) else "",
+                advice=True,
+            )
+
+
+def _nearest(speeds: list[Array], middle: Array) -> Array:
+    """Return of some speeds the one whose ratio to the middle is nearest to 1."""
+    rows = np.stack(np.broadcast_arrays(*speeds, middle)[:-1])
+    off = np.abs(np.log(np.maximum(rows, 1e-9) / middle))
+    found: Array = np.take_along_axis(rows, np.argmin(off, axis=0)[None], axis=0)[0]
+    return found
+
+
+CHECK = Check(
+    name="half_critical", doc=mark("speeds of running against the band about half the critical speed"), judge=_judge
+)

@@ -1,0 +1,1 @@
+"""Checks of what parts carry, and how much a drive may carry."""

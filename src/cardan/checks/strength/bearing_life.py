@@ -1,0 +1,103 @@
+"""Whether the needle bearings of every joint last as long as the duty asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache, partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.formulas.joint_rating import POWER
+from cardan.formulas.needle_bearing import needle_rating
+from cardan.maths.arrays import Array
+from cardan.questions.life.bearing_life import swing_damage
+from cardan.questions.life.life import life
+from cardan.texts import _, mark
+
+SIZES = ("needles.count", "needles.diameter", "needles.length", "cross.journal")
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    plain = Design(drive=design.drive, duty=design.duty, known=design.known)
+    for i in range(design.joints):
+        given, span = f"joints[{i}].needles.capacity", f"joints[{i}].cross.span"
+        sizes = tuple(f"joints[{i}].{name}" for name in SIZES)
+        made = partial(
+            Verdict,
+            check="bearing_life",
+            subject=f"joints[{i}]",
+            title=_("life of the bearings of joint {number}").format(number=i + 1),
+            dimension="time",
+            unit="h",
+            sense="at_least",
+        )
+        rated = design.value(given) is not None
+        lacking = list(design.missing(span, "duty.life"))
+        if not rated and design.missing(*sizes):
+            lacking.insert(0, given)
+        lacking += [*design.unloaded, *design.unmoved]
+        if lacking:
+            yield made(missing=tuple(lacking))
+            continue
+        found = _lives(design.drive)
+        if isinstance(found, tuple):
+            yield made(missing=tuple(path for path, _message in found), note="; ".join(text for _path, text in found))
+            continue
+        value = np.asarray(found[i])
+        if design.varied:
+            value = found[i] * _relative(plain, i) / np.maximum(_relative(design, i), 1e-300)
+        yield made(
+            value=value,
+            limit=design.value("duty.life"),
+            source=_("ISO 281 over the swing of the journals, reliability {share:g} %").format(
+                share=100.0 * design.duty.reliability
+            ),
+            levers=(
+                *((given,) if rated else sizes),
+                span,
+                *design.bends_of(i),
+                *design.torque_levers,
+                *design.speed_levers,
+                "duty.life",
+            ),
+        )
+
+
+@lru_cache(maxsize=64)
+def _lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
+    """Return the life of every joint by ISO 281, array (n,) [s]; or what is wrong, path and message."""
+    try:
+        return life(drive, method="iso").of("iso")
+    except InputError as error:
+        return tuple((problem.field, problem.message) for problem in error.problems)
+
+
+def _relative(design: Design, i: int) -> Array:
+    """Return the damage of a joint in a time apart from a constant, by torque, speed, bend and sizes, array (...)."""
+    capacity = design.value(f"joints[{i}].needles.capacity")
+    if capacity is None:
+        capacity = needle_rating(*(design.value(f"joints[{i}].{name}") for name in SIZES)).dynamic
+    strength = np.asarray(capacity) * design.value(f"joints[{i}].cross.span") / design.shock
+    damage = np.zeros((2, *design.shape))
+    swung: dict[tuple[int, str], tuple[Array, Array]] = {}
+    for case in design.running:
+        turned = id(case.chain), case.torque_at
+        if turned not in swung:
+            swung[turned] = swing_damage(case.bend[..., i], torque_at=case.torque_at)
+        load = np.asarray(case.share) * case.speed * (np.asarray(case.torque) / strength) ** POWER
+        damage = damage + np.stack([np.broadcast_to(load * swing, design.shape) for swing in swung[turned]])
+    found: Array = np.max(damage, axis=0)
+    return found
+
+
+CHECK = Check(
+    name="bearing_life",
+    doc=mark("life of the needle bearings of every joint by ISO 281 against the life asked for"),
+    judge=_judge,
+    crosses="each",
+)

@@ -1,0 +1,170 @@
+"""What every part of a drive uses of its limits, and where its shafts stand under the line of fatigue."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.figures.axes import axis, steps, written
+from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule
+from cardan.figures.palette import shaft
+from cardan.figures.wording import percent, significant
+from cardan.texts import _
+
+from .strength import Strength
+from .strength_use import Use
+
+SHOWN = 16
+"""Limits with a bar of their own, those used most."""
+
+SAME = 1e-9
+"""Share by which two uses may differ that are the same."""
+
+AMBER = 0.9
+"""Share of a limit from which it is close."""
+
+
+def strength_figures(found: Strength) -> tuple[Figure, ...]:
+    """Return the figures of the strength of a drive."""
+    tired = [one for one in found.shafts if one.fatigue is not None and float(one.fatigue.mean) > 0.0]
+    return (uses_figure(found), fatigue_figure(found)) if tired else (uses_figure(found),)
+
+
+def tone(one: Use) -> str:
+    """Return the colour of a use: how near it is to its limit."""
+    if one.advice:
+        return "muted"
+    return "failed" if one.utilisation > 1.0 else "warning" if one.utilisation >= AMBER else "good"
+
+
+def uses_figure(found: Strength) -> Figure:
+    """Return what every part uses of its limits, the most used first.
+
+    Parameters
+    ----------
+    found : Strength
+    """
+    order = sorted(found.judged, key=lambda one: -one.utilisation)[:SHOWN]
+    source = _("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")
+    if len(order) < len(found.judged):
+        text = _("; the {shown} nearest of {all} limits")
+        source += text.format(shown=len(order), all=len(found.judged))
+    if any(one.advice for one in order):
+        source += _("; grey: rules of thumb, which fail no drive")
+    return Figure(
+        name="strength",
+        title=_("What every part uses of its limit"),
+        sentence=_sentence(found),
+        source=source,
+        rows=(
+            Row(
+                panels=(bars_of([(one.title, one.utilisation, tone(one)) for one in order]),),
+                height=0.24 * max(len(order), 1) + 0.4,
+            ),
+        ),
+    )
+
+
+def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
+    """Return bars of utilisations with the limit drawn in.
+
+    Parameters
+    ----------
+    rows : list of (str, float, str)
+        Name, utilisation and role, from the top.
+    """
+    size = np.asarray([100.0 * min(used, 1e3) for _name, used, _role in rows])
+    at = np.arange(len(rows), 0, -1, dtype=float)
+    top = max(float(np.max(size, initial=0.0)), 100.0)
+    ticks = steps(0.0, top, 5)
+    bars = Bars(
+        at=at,
+        size=size,
+        texts=tuple(percent(used) for _name, used, _role in rows),
+        roles=tuple(role for _name, _used, role in rows) or ("muted",),
+        thick=0.62,
+        lying=True,
+    )
+    names = tuple(name for name, _used, _role in rows)
+    return Panel(
+        series=(bars, Rule(value=100.0, upright=True, role="failed", dash="solid")),
+        x=Axis(low=0.0, high=1.14 * top, ticks=ticks, texts=written(ticks)),
+        y=Axis(low=0.4, high=max(len(rows), 1) + 0.6, ticks=tuple(at), texts=names, grid=False),
+        title=_("Share of the limit [%]"),
+    )
+
+
+def _sentence(found: Strength) -> str:
+    first = found.governing
+    if first is None:
+        return _("Nothing could be judged.")
+    text = _("The drive carries {rated} N·m of the {torque} N·m asked for; then {title} ends it.")
+    if found.enough:
+        text = _("The drive carries {torque} N·m, and up to {rated} N·m until {title} ends it.")
+    said = text.format(rated=significant(found.rated_torque), torque=significant(found.torque), title=first.title)
+    if found.enough and first.utilisation < found.utilisation * (1.0 - SAME):
+        said += " " + _(
+            "Another limit is used more now, but {title} comes first as the torque grows: a life falls with the power "
+            "10/3 of the torque, a contact pressure grows with its root."
+        ).format(title=first.title)
+    return said
+
+
+def fatigue_figure(found: Strength) -> Figure:
+    """Return where the shafts stand under Goodman's line: swinging over mean stress, both over what they may be alone.
+
+    Parameters
+    ----------
+    found : Strength
+        With the fatigue of a shaft at least.
+    """
+    places = []
+    for one in found.shafts:
+        if one.fatigue is not None:
+            swing = float(one.fatigue.alternating) / float(one.fatigue.endurance)
+            places.append((one.number, 1.0 / float(one.fatigue.safety) - swing, swing, float(one.fatigue.safety)))
+    most = max(1.0, *(1.1 * max(mean, swing) for _number, mean, swing, _safety in places))
+    asked = next((one.limit for one in found.uses if one.check == "tube_fatigue" and one.judged), 1.5)
+    line = np.asarray([0.0, 1.0])
+    series: list[Curve | Note | Band] = [
+        Curve(x=line, y=1.0 - line, role="failed", label=_("breaks in the end")),
+        Curve(
+            x=line / asked,
+            y=(1.0 - line) / asked,
+            role="muted",
+            dash="dashed",
+            label=_("safety {safety}").format(safety=significant(asked, 2)),
+        ),
+    ]
+    for number, mean, swing, _safety in places:
+        series.append(Curve(x=np.asarray([0.0, mean]), y=np.asarray([0.0, swing]), role=shaft(number), width=0.8))
+        series.append(
+            Curve(
+                x=np.asarray([mean]),
+                y=np.asarray([swing]),
+                role=shaft(number),
+                marker=6.0,
+                width=0.0,
+                label=_("shaft {number}").format(number=number),
+            )
+        )
+    worst = min(places, key=lambda one: one[3])
+    return Figure(
+        name="fatigue",
+        title=_("Where the shafts stand under the line of fatigue"),
+        sentence=_("Shaft {number} has a safety of {safety} against fatigue; {asked} is asked for.").format(
+            number=worst[0], safety=significant(worst[3], 3), asked=significant(asked, 2)
+        ),
+        source=_("Goodman's line with Marin's factors, Shigley chapter 6"),
+        rows=(
+            Row(
+                panels=(
+                    Panel(
+                        series=tuple(series),
+                        x=axis(_("mean stress over tensile strength"), "", [np.asarray([0.0, most])], include=(0.0,)),
+                        y=axis(_("Swinging stress over fatigue limit"), "", [np.asarray([0.0, most])], include=(0.0,)),
+                    ),
+                ),
+                height=2.6,
+            ),
+        ),
+    )

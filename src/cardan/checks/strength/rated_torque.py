@@ -1,0 +1,68 @@
+"""Whether the rated torque of every joint, by its maker's convention, is enough for the life asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.formulas.joint_rating import LEAST_BEND, NOMINAL, POWER, rated_bend
+from cardan.maths.arrays import Array
+from cardan.questions.life.bearing_life import CONVENTIONS
+from cardan.texts import _, mark
+
+SOURCES = {
+    "Tc": mark("rating by T_c: 5000 h at 3° and 100 rpm; L = 1.5·10⁶/(nα)·(T_c/M)^(10/3)"),
+    "CR": mark("rating by C·R: L = 1.5·10⁷/(nα)·(C·R/M)^(10/3)"),
+    "book": mark("Book (267): 5000 h at 3° and 33.3 rpm"),
+}
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for i, joint in enumerate(design.drive.joints):
+        torque = f"joints[{i}].rating.torque"
+        made = partial(
+            Verdict,
+            check="rated_torque",
+            subject=f"joints[{i}]",
+            title=_("rated torque of joint {number} for its life").format(number=i + 1),
+            dimension="torque",
+            unit="Nm",
+        )
+        running = design.running
+        lacking = (*design.missing(torque, "duty.life"), *design.unloaded, *design.unmoved)
+        if lacking or not running or joint.rating is None:
+            yield made(missing=tuple(dict.fromkeys(lacking)) or ("duty.torque",))
+            continue
+        convention = joint.rating.convention
+        rated = np.asarray(design.value(torque), dtype=float)
+        if convention == "book":
+            rated = rated / NOMINAL
+        # Torque that does the damage of the whole duty at its mean speed times bend.
+        pace: Array = sum(np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) for one in running)
+        worn: Array = sum(
+            np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) * one.joint_torque[..., i] ** POWER
+            for one in running
+        )
+        whole: Array = sum(np.asarray(one.share) for one in running)
+        value = design.shock * (worn / pace) ** (1.0 / POWER)
+        allowed = rated * (CONVENTIONS[convention] / (pace / whole * design.value("duty.life"))) ** (1.0 / POWER)
+        yield made(
+            value=value,
+            limit=allowed,
+            source=_(SOURCES[convention]),
+            levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
+            note=_("a bend below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
+        )
+
+
+CHECK = Check(
+    name="rated_torque",
+    doc=mark("torque of the duty against the rated torque of every joint for the life"),
+    judge=_judge,
+    crosses="each",
+)

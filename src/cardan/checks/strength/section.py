@@ -1,0 +1,86 @@
+"""The cross sections of the shafts of a design: sizes, material, and the paths that change them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cardan.checks.design import Design
+from cardan.drive.body import body_material
+from cardan.drive.material import Material
+from cardan.maths.arrays import Array
+
+STEEL = Material()
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Section:
+    """Cross section of a stretch of a shaft.
+
+    Attributes
+    ----------
+    path : str
+        Of the stretch: that of the shaft, or of one of its segments.
+    outer, inner : float or array (...) [m]
+    length : float or array (...) or None [m]
+        Of the stretch; None where the drive does not say it.
+    levers : tuple of str
+        Paths that change its sizes.
+    """
+
+    path: str
+    outer: Array | float
+    inner: Array | float
+    length: Array | float | None
+    levers: tuple[str, ...]
+
+    def of_material(self, name: str) -> str:
+        """Return the path of a figure of its material."""
+        return f"{self.path}.material.{name}"
+
+
+def sections(design: Design, k: int) -> Iterator[Section]:
+    """Yield the cross sections of a shaft, counted from 0; none where the drive does not say its body."""
+    shaft, path = design.drive.shafts[k], f"shafts[{k}]"
+    whole = design.length(k)
+    for s, _segment in enumerate(shaft.segments):
+        one = f"{path}.segments[{s}]"
+        outer, inner, length = (design.value(f"{one}.{name}") for name in ("outer", "inner", "length"))
+        yield Section(path=one, outer=outer, inner=inner, length=length, levers=design.levers(f"{one}.outer"))
+    outer = design.value(f"{path}.outer")
+    if outer is None:
+        return
+    inner, wall = design.value(f"{path}.inner"), design.value(f"{path}.wall")
+    if shaft.layup is not None:
+        thin = design.value(f"{path}.layup.ply_thickness")
+        inside = outer - 2.0 * len(shaft.layup.angles) * thin
+        levers = design.levers(f"{path}.outer", f"{path}.layup.ply_thickness")
+    else:
+        inside = inner if inner is not None else 0.0 if wall is None else outer - 2.0 * wall
+        levers = design.levers(f"{path}.outer", f"{path}.wall")
+    yield Section(path=path, outer=outer, inner=inside, length=whole, levers=levers)
+
+
+def modulus(design: Design, section: Section, name: str) -> float | Array:
+    """Return "youngs", "shear_modulus" or "density" of a stretch; those of steel where none is given."""
+    if "segments" not in section.path and design.value(f"{section.path}.layup") is not None:
+        tube = body_material(design.value(section.path))
+        return float(getattr(tube, name))
+    path = f"{section.path}.material"
+    if name != "shear_modulus":
+        given = design.value(f"{path}.{name}")
+        return getattr(STEEL, name) if given is None else given
+    material = design.value(path) or STEEL
+    shear = design.value(f"{path}.shear")
+    return material.shear_modulus if shear is None else shear
+
+
+def number_of(path: str) -> int:
+    """Return the number of a stretch from its path.
+
+    Examples
+    --------
+    >>> number_of("shafts[1].segments[2]")
+    3
+    """
+    return int(path.rpartition("[")[2].rstrip("]")) + 1

@@ -1,0 +1,71 @@
+"""Whether the teeth of every spline bear their pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.formulas.spline_strength import SplineStress, spline_stress
+from cardan.texts import _, mark
+
+SIZES = ("outer", "root", "teeth", "tooth_width", "length")
+
+
+def stresses(design: Design, k: int) -> tuple[SplineStress, str]:
+    """Return the stresses of the spline of a shaft, counted from 0, and a sentence on what decides them."""
+    path = f"shafts[{k}].spline"
+    torque, note = design.most(lambda case: case.shaft_torque[..., k])
+    outer, root, teeth, width, length = (design.value(f"{path}.{name}") for name in SIZES)
+    found = spline_stress(
+        np.asarray(torque) * design.shock,
+        outer=outer,
+        root=root,
+        teeth=teeth,
+        tooth_width=width,
+        length=length,
+        chamfer=design.value(f"{path}.chamfer"),
+        load_share=design.value(f"{path}.load_share"),
+    )
+    return found, note
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    for k, shaft in enumerate(design.drive.shafts):
+        if shaft.spline is None:
+            continue
+        path = f"shafts[{k}].spline"
+        made = partial(
+            Verdict,
+            check="spline_pressure",
+            subject=f"shafts[{k}]",
+            title=_("pressure on the spline of shaft {number}").format(number=k + 1),
+            dimension="stress",
+            unit="MPa",
+        )
+        lacking = (
+            *design.missing(*(f"{path}.{name}" for name in SIZES), "limits.spline_pressure"),
+            *design.unloaded,
+        )
+        if lacking:
+            yield made(missing=lacking)
+            continue
+        found, note = stresses(design, k)
+        yield made(
+            value=found.pressure,
+            limit=design.value("limits.spline_pressure"),
+            source=_("2T/(d_m z ψ h l); limits of the drive file, no source gives one"),
+            levers=(f"{path}.length", f"{path}.outer", f"{path}.teeth", *design.torque_levers),
+            note=note,
+        )
+
+
+CHECK = Check(
+    name="spline_pressure",
+    doc=mark("pressure on the teeth of every spline against the limit of the user"),
+    judge=_judge,
+)

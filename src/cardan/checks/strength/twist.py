@@ -1,0 +1,58 @@
+"""Whether the shafts twist no more than they may."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from cardan.checks.check import Check
+from cardan.checks.design import Design
+from cardan.checks.verdict import Verdict
+from cardan.formulas.shaft_strength import RATED_TWIST, polar_moment
+from cardan.maths.arrays import Array
+from cardan.texts import _, mark
+
+from .section import modulus, sections
+
+
+def _judge(design: Design) -> Iterator[Verdict]:
+    made = partial(Verdict, check="twist", title=_("twist of the shafts under torque"), dimension="angle", unit="deg")
+    soft: dict[int, Array | float] = {}
+    levers: list[str] = []
+    lacking = list(design.unloaded)
+    for k in range(design.joints + 1):
+        between = 0 < k < design.joints
+        given = design.value(f"shafts[{k}].stiffness")
+        found = list(sections(design, k))
+        if given is not None:
+            soft[k] = 1.0 / np.asarray(given)
+            levers.append(f"shafts[{k}].stiffness")
+        elif found and all(one.length is not None for one in found):
+            soft[k] = sum(
+                one.length / (modulus(design, one, "shear_modulus") * polar_moment(one.outer, one.inner))
+                for one in found
+            )
+            levers += [path for one in found for path in one.levers]
+        elif between:
+            lacking += [] if found else [f"shafts[{k}].outer"]
+            lacking += [f"shafts[{k}].length"] if design.length(k) is None or found else []
+    if lacking or not soft:
+        if lacking:
+            yield made(missing=tuple(lacking))
+        return
+    value, note = design.most(lambda case: sum(case.shaft_torque[..., k] * one for k, one in soft.items()))
+    own = design.value("limits.twist")
+    yield made(
+        value=value,
+        limit=RATED_TWIST if own is None else own,
+        source=_("Book (262): 9°") if own is None else _("limits of the drive file"),
+        levers=(*levers, *design.torque_levers),
+        note=note,
+    )
+
+
+CHECK = Check(
+    name="twist", doc=mark("twist of all shafts under their largest torque against 9° or the limit"), judge=_judge
+)

@@ -1,0 +1,251 @@
+"""Why a type or size of joint is taken or not: each reason with its figure, its limit and where that comes from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, catalogue, filled
+from cardan.catalogue.rows import JointSize
+from cardan.checks import design
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.models.chain import given_chain
+from cardan.errors import Problem, check
+from cardan.questions.forces.turn_loads import case_loads, load_cases
+from cardan.texts import _
+from cardan.units import factor, label
+
+from .selection import SLACK, Candidate, Need
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reason:
+    """One reason.
+
+    Attributes
+    ----------
+    code : str
+        Cause or condition, as in `Candidate`.
+    message : str
+        In a sentence, without its full stop.
+    value, limit : float or None
+        In SI, where figures decide.
+    source : str
+        Where the limit comes from.
+    """
+
+    code: str
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    source: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeFit:
+    """A size of the catalogue and what its maker's figures say of a need.
+
+    Attributes
+    ----------
+    row : JointSize
+    reasons : tuple of Reason
+        Why it is too small; none where it fits.
+    headroom : float
+        Largest torque over the torque needed; nan where the catalogue gives none.
+    """
+
+    row: JointSize
+    reasons: tuple[Reason, ...]
+    headroom: float
+
+    @property
+    def fits(self) -> bool:
+        """Whether no figure of its maker is exceeded."""
+        return not self.reasons
+
+
+def need_of(
+    drive: Drive, duty: Duty | None = None, *, joint: int | None = None, known: Catalogue | None = None
+) -> Need:
+    """Return what the joints of a drive must do: the largest torque, bend and speed of one joint or of all of them.
+
+    Parameters
+    ----------
+    drive : Drive
+    duty : Duty, optional
+        That of the drive by default.
+    joint : int, optional
+        Number of a joint; all of them by default.
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    Need
+        Torque without the factor for shocks, which is its service factor.
+
+    Raises
+    ------
+    InputError
+        There is no torque or no speed; no such joint.
+
+    Examples
+    --------
+    >>> found = need_of(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))
+    >>> print(f"{found.torque:.3f} {found.bend} {found.service_factor}")
+    104.675 0.3 1.5
+    """
+    rows = known or catalogue()
+    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
+    n = len(whole.joints)
+    made = design(whole, known=rows)
+    cases = tuple(load_cases(whole.duty))
+    problems = [] if cases else [Problem("duty.torque", _("missing; the choice depends on it"), "missing")]
+    if made.top_speed is None:
+        problems.append(Problem("duty.speed", _("missing; the choice depends on it"), "missing"))
+    if joint is not None and not 1 <= joint <= n:
+        problems.append(
+            Problem("joint", _("there is no joint {number}; the joints are 1 to {last}").format(number=joint, last=n))
+        )
+    check(problems)
+    own = list(range(n)) if joint is None else [joint - 1]
+    base = given_chain(whole)
+    torque, bend = [], []
+    for case in cases:
+        loads = case_loads(whole, case).torque
+        torque.append(np.maximum(loads[:-1], loads[1:])[own])
+        bend.append(np.asarray(base.bend if case.bend is None else np.full(n, case.bend), dtype=float)[own])
+    outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]
+    outer = max((one for one in outers if one is not None), default=None)
+    used = whole.duty
+    return Need(
+        torque=float(np.max(torque)),
+        bend=float(np.max(bend)),
+        speed=float(np.max(made.top_speed if made.top_speed is not None else 0.0)),
+        synchronous=used.synchronous,
+        service_factor=used.shock_factor,
+        continuous=used.continuous,
+        outer=outer,
+    )
+
+
+def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
+    """Return why a type of joint is rejected, or under which conditions it is accepted.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        Of `select_joint` for this need.
+    need : Need
+
+    Examples
+    --------
+    >>> from cardan.choices.selection import select_joint
+    >>> from cardan.units import deg
+    >>> need = Need(torque=50.0, bend=20 * deg, speed=10.0)
+    >>> print(next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light"))
+    50 N·m is more than its 12.5 N·m
+    """
+    return tuple(_reason(code, candidate, need) for code in (*candidate.causes, *candidate.flags))
+
+
+def _reason(code: str, candidate: Candidate, need: Need) -> Reason:
+    row, torque = candidate.row, need.torque * need.service_factor
+    figures = {
+        "torque": (torque, row.max_torque, "torque", "Nm"),
+        "angle": (need.bend, row.max_bend, "angle", "deg"),
+        "n_alpha": (need.speed * need.bend, row.max_speed_angle, "speed_angle", "rpm_deg"),
+        "rim_speed": (0.5 * need.speed * (need.outer or math.nan), row.max_rim_speed, "speed", "m_s"),
+    }
+    if code in figures:
+        value, limit, dimension, unit = figures[code]
+        text = _("{value} is more than its {limit}")
+        if code == "n_alpha":
+            text = _("speed times bend is {value}, more than its {limit}")
+        if code == "rim_speed":
+            text = _("its rim runs at {value}, faster than {limit}")
+        by = factor(dimension, unit)
+        said = text.format(value=_short(value / by, unit), limit=_short((limit or math.nan) / by, unit))
+        return Reason(code=code, message=said, value=value, limit=limit, source=row.source)
+    if code == "oversized":
+        said = _("made for {least} and more").format(least=_short(row.min_torque or 0.0, "Nm"))
+        return Reason(code=code, message=said, value=torque, limit=row.min_torque, source=row.source)
+    texts = {
+        "synchronous": _("it turns unevenly, in a pair too"),
+        "pair_needed": _("even only as a pair with the right yoke angle"),
+        "approx_synchronous": _("nearly even"),
+        "unverified_torque": _("no largest torque given"),
+        "unverified_angle": _("no largest bend given"),
+        "unverified_rim_speed": _("limited in rim speed, no outer diameter given"),
+    }
+    return Reason(code=code, message=texts[code], source=row.source)
+
+
+def fitting_sizes(need: Need, *, known: Catalogue | None = None) -> tuple[SizeFit, ...]:
+    """Return every size of the catalogue with what its maker's figures say, those that fit first, the smallest first.
+
+    Parameters
+    ----------
+    need : Need
+    known : Catalogue, optional
+        The shipped one when not given.
+
+    Returns
+    -------
+    tuple of SizeFit
+        Only ratings are compared; whether a size lasts is for `cardan.size` and `cardan.life` to say.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = fitting_sizes(Need(torque=700.0, bend=10 * deg, speed=100.0))
+    >>> found[0].row.id, round(found[0].headroom, 2)
+    ('example-58', 1.26)
+    """
+    rows = (known or catalogue()).rows(JointSize).values()
+    found = []
+    for row in rows:
+        limit = row.rating.max_torque if row.rating is not None else None
+        room = math.nan if limit is None else limit / (need.torque * need.service_factor)
+        found.append(SizeFit(row=row, reasons=tuple(_size_reasons(row, need)), headroom=room))
+    return tuple(sorted(found, key=lambda one: (not one.fits, _outer(one.row), one.row.id)))
+
+
+def _size_reasons(row: JointSize, need: Need) -> Iterator[Reason]:
+    rating = row.rating
+    if rating is None:
+        return
+    rim = 0.5 * need.speed * (rating.outer or math.nan)
+    for code, value, limit, dimension, unit in (
+        ("torque", need.torque * need.service_factor, rating.max_torque, "torque", "Nm"),
+        ("angle", need.bend, rating.max_bend, "angle", "deg"),
+        ("speed", need.speed, rating.max_speed, "angular_speed", "rpm"),
+        ("n_alpha", need.speed * need.bend if need.continuous else 0.0, rating.speed_angle, "speed_angle", "rpm_deg"),
+        ("rim_speed", rim, rating.rim_speed, "speed", "m_s"),
+    ):
+        if limit is not None and value > limit * (1.0 + SLACK):
+            by = factor(dimension, unit)
+            text = _("{value} is more than its {limit}")
+            said = text.format(value=_short(value / by, unit), limit=_short(limit / by, unit))
+            yield Reason(code=code, message=said, value=value, limit=limit, source=row.source)
+
+
+def _outer(row: JointSize) -> float:
+    return math.inf if row.rating is None or row.rating.outer is None else row.rating.outer
+
+
+def _short(value: float, unit: str) -> str:
+    """Return a figure with up to four digits, thin grouping and its unit.
+
+    Examples
+    --------
+    >>> _short(12.5, "Nm"), _short(29999.7, "rpm_deg"), _short(9.0, "deg")
+    ('12.5 N·m', '30\u202f000 rpm·°', '9°')
+    """
+    text = f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
+    sign = label(unit)
+    return text.replace(",", "\u202f") + (sign if sign == "°" else f" {sign}")

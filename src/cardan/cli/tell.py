@@ -1,0 +1,159 @@
+"""Tells an answer: for the eye, as JSON, as CSV, as a figure; in the units of the reader."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from shlex import join
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+from rich.text import Text
+
+from cardan.answers.answer import FILE, Answer, Remark
+from cardan.answers.data import as_csv, as_json, data
+from cardan.answers.printed import SHOWN, Column, Table, printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import Reader, reader
+from cardan.figures import save
+from cardan.texts import _
+
+from .show import GAP, NARROWEST, SIGNS, WIDEST, _blocks, _filled, print_lines, print_text
+
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+
+
+def tell(
+    answer: Answer,
+    file: Path | None = None,
+    drive: Drive | None = None,
+    *,
+    json: bool = False,
+    csv: bool = False,
+    plot: Path | None = None,
+) -> int:
+    """Tell an answer the way the user asked for and return its exit code.
+
+    Parameters
+    ----------
+    answer : Answer
+        What to say.
+    file : path, optional
+        The file that was asked about.
+    drive : Drive, optional
+        What it describes.
+    json, csv : bool
+        ``--json`` and ``--csv``.
+    plot : path, optional
+        ``--plot``; drawn first, so that nothing is printed when it cannot be.
+    """
+    who = reader()
+    figures = answer.figures() if plot is not None else ()
+    if plot is not None and figures:
+        save(figures, plot)
+    drawn = plot if figures else None
+    if json:
+        about = {} if file is None else {"drive": drive.name if drive else "", "file": str(file)}
+        content = data(answer, who)
+        first = {"answer": content.pop("answer"), "question": content.pop("question"), **about}
+        last = {**({} if drawn is None else {"plot": str(drawn)}), "exit_code": answer.code}
+        print_text(as_json({**first, **content, **last}) + "\n")
+    elif csv and (answer.full is not None or answer.tables):
+        print_lines(as_csv(answer.full() if answer.full is not None else answer.tables[-1], who))
+    else:
+        name = "" if drive is None and file is None else _name(drive, file)
+        _write(answer, who, name, file, drawn)
+    return answer.code
+
+
+def _name(drive: Drive | None, file: Path | None) -> str:
+    """Return what to call a drive in a sentence: its name, else that of its file."""
+    if drive is not None and drive.name:
+        return drive.name
+    return "" if file is None or str(file) == "-" else file.name
+
+
+def _write(answer: Answer, who: Reader, name: str, file: Path | None, plot: Path | None) -> None:
+    """Print an answer for the eye."""
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=False)
+    wide = min(console.width, WIDEST)
+    sign, colour = SIGNS[answer.tone]
+    said = told(answer.sentence, who)
+    first = _filled(f"{sign} {name + ': ' if name else ''}{said}".strip(), wide)
+    console.print(Text(first, style=f"bold {colour}".strip()), soft_wrap=True)
+    for table in answer.tables:
+        if table.depth in SHOWN["brief"]:
+            console.print()
+            _print_table(console, printed(table, who, "brief"))
+    for listing in answer.listings:
+        if listing.depth in SHOWN["brief"]:
+            console.print()
+            console.print(Text(listing.title, style="bold"))
+            console.print(Text(listing.text), soft_wrap=True)
+    remarks = [one for one in answer.remarks if one.depth in SHOWN["brief"]]
+    if plot is not None:
+        remarks.append(Remark(text=_("Figure drawn: {path}").format(path=plot)))
+    if remarks:
+        console.print()
+    for remark in remarks:
+        _print_remark(console, remark, who, wide, file)
+    sys.stdout.flush()
+
+
+def _print_remark(console: Console, remark: Remark, who: Reader, wide: int, file: Path | None) -> None:
+    """Print a remark, with what to type next on a line of its own."""
+    mark, tint = SIGNS[remark.tone]
+    line = Text(
+        _filled(f"{mark} {told(remark.text, who)}".strip(), wide),
+        style=tint if remark.tone in ("failed", "warning") else "",
+    )
+    line.stylize(tint, 0, len(mark))
+    console.print(line, soft_wrap=True)
+    if remark.command:
+        words = [str(file) if word == FILE else word for word in remark.command]
+        console.print(Text(f"    {join(words)}", style=tint), soft_wrap=True)
+
+
+def _print_table(console: Console, table: Table) -> None:
+    """Print a table, parted where it is wider than the terminal."""
+    if table.title:
+        console.print(Text(table.title, style="bold"))
+    columns = table.columns
+    cells = [[cell.text for cell in row] for row in table.rows]
+    headings = [[column.heading for column in columns], [column.unit for column in columns]]
+    widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
+    if columns and columns[-1].wrap:
+        room = console.width - GAP - sum(GAP + width for width in widths[:-1])
+        widths[-1] = min(widths[-1], max(NARROWEST, room))
+    for place, block in enumerate(_blocks(widths, table.fixed, console.width)):
+        if place:
+            console.print()
+        for row in headings:
+            if any(row[k] for k in block):
+                console.print(Text(_line(row, widths, columns, block), style="dim"), soft_wrap=True)
+        for row, shown in zip(cells, table.rows, strict=True):
+            for line in _lines(row, widths, columns, block):
+                text = Text(line)
+                text.stylize(SIGNS[shown[0].tone][1], 0, GAP + widths[0])
+                console.print(text, soft_wrap=True)
+    if table.note:
+        console.print(Text(_filled(table.note, min(console.width, WIDEST)), style="dim"), soft_wrap=True)
+
+
+def _lines(row: list[str], widths: Sequence[int], columns: Sequence[Column], block: list[int]) -> list[str]:
+    """Return the lines of a row: one, or several where its last cell is prose."""
+    last = len(columns) - 1
+    parts = wrap(row[-1], widths[-1]) if columns[-1].wrap and last in block else []
+    every: list[list[str]] = [
+        [*row[:-1], part] if k == 0 else [*[""] * last, part] for k, part in enumerate(parts or row[-1:])
+    ]
+    return [_line(one, widths, columns, block) for one in every]
+
+
+def _line(cells: Sequence[str], widths: Sequence[int], columns: Sequence[Any], block: list[int]) -> str:
+    """Return one line of a table."""
+    parts = [cells[k].ljust(widths[k]) if columns[k].left else cells[k].rjust(widths[k]) for k in block]
+    return (" " * GAP + (" " * GAP).join(parts)).rstrip()

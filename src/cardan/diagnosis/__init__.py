@@ -1,6 +1,0 @@
-"""From what is measured and noticed on a running drive to what may be wrong with it."""
-
-from .match import Cause, Signs, likely_causes
-from .signal import Channel, Signal
-
-__all__ = ["Cause", "Channel", "Signal", "Signs", "likely_causes"]

@@ -1,0 +1,304 @@
+"""Yokes, crosses and tubes as simple bodies: what a drive looks like, at any input angle.
+
+A file rarely gives dimensions yet, so the bodies are drawn in proportion to the shafts; only their places and
+directions are the drive's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.joints import Hooke, Joint
+from cardan.drive.models.chain import Chain, given_chain
+from cardan.drive.models.geometry import Geometry, geometry
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.kernel import frames
+
+Part: TypeAlias = Literal["driving yoke", "driven yoke", "cross", "tube"]
+
+SIDES = 10
+"""Faces around a tube."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Arms:
+    """Where the yokes stand, at one input angle or many (...).
+
+    Attributes
+    ----------
+    driving : array (n, ..., 3)
+        u_i, direction of the cross arm that the driving yoke of joint i holds; the yoke is part of shaft i.
+    driven : array (n, ..., 3)
+        v_{i+1}, direction of the cross arm that the driven yoke of joint i holds; the yoke is part of shaft i+1.
+        Joints without a cross have marks instead.
+    """
+
+    driving: Array
+    driven: Array
+
+
+def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence[Joint] = ()) -> Arms:
+    """Return the directions of all cross arms.
+
+    Parameters
+    ----------
+    place : Geometry
+        Where the drive lies.
+    train : Chain
+        Its yoke angles and start phase.
+    angle : array (...) [rad]
+        Input angle φ_1 from the start position.
+    joints : sequence of n Joint
+        Their kinds; Hooke joints when empty.
+
+    Returns
+    -------
+    Arms
+        driving, driven : arrays (n, ..., 3).
+
+    Notes
+    -----
+    Positions alone, by plain vectors: u_1 stands φ_1 + ψ_1 from N_1 × a_1, v_{i+1} = unit(a_{i+1} × u_i), and u_i is
+    v_i turned by -γ_i about a_i. No planes are needed, so straight joints are nothing special. Joints of another kind
+    turn by their own law, counted from their plane.
+
+    Examples
+    --------
+    >>> drive = Drive.from_angles([0.2, 0.2])
+    >>> found = arms(geometry(drive), given_chain(drive))
+    >>> np.abs(np.round(found.driven[0], 12))
+    array([0., 1., 0.])
+    """
+    axis = place.axis
+    first = frames.cross(place.normal[0], axis[0])
+    start = np.asarray(angle, dtype=float) + train.start_phase
+    driving, driven = [frames.rotate(first, axis[0], start)], []
+    for i in range(train.joints):
+        if joints and type(joints[i]) is not Hooke:
+            driven.append(_driven_mark(joints[i], place, i, driving[-1], np.asarray(train.bend)[i]))
+        else:
+            driven.append(frames.unit(frames.cross(axis[i + 1], driving[-1])))
+        if i + 1 < train.joints:
+            driving.append(frames.rotate(driven[-1], axis[i + 1], -train.yoke_angle[i]))
+    return Arms(driving=np.stack(driving), driven=np.stack(driven))
+
+
+def _driven_mark(joint: Joint, place: Geometry, i: int, driving: Array, bend: Array) -> Array:
+    """Return the direction of the driven mark of a joint that turns by a law of its own, array (..., 3)."""
+    normal, before, after = place.normal[i], place.axis[i], place.axis[i + 1]
+    across = frames.cross(normal, before)
+    theta = np.arctan2(frames.dot(driving, normal), frames.dot(driving, across))
+    turned = theta + joint.deviation(theta, bend)[0] + (0.5 * np.pi if joint.crossed else 0.0)
+    plane = frames.cross(normal, after)
+    found: Array = np.cos(turned)[..., None] * plane + np.sin(turned)[..., None] * normal
+    return found
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Body:
+    """One solid, its surface as flat faces with outward normals by the right-hand rule.
+
+    Attributes
+    ----------
+    part : str
+        What it is.
+    number : int
+        Number of the shaft it belongs to; of the joint for a cross.
+    corners : array (m, 3) [m]
+        Its corners.
+    faces : tuple of tuple of int
+        Corners of each face in order; a face may be concave.
+    triangles : tuple of tuple of int
+        The same surface as triangles.
+    smooth : bool
+        Faces stand for a round surface: their edges are not drawn.
+    """
+
+    part: Part
+    number: int
+    corners: Array
+    faces: tuple[tuple[int, ...], ...]
+    triangles: tuple[tuple[int, int, int], ...]
+    smooth: bool = False
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Solids:
+    """The bodies of a drive and the sizes they were given.
+
+    Attributes
+    ----------
+    bodies : tuple of Body
+        Tubes, yokes and crosses.
+    centres : array (n, 3) [m]
+        Joint centres.
+    ends : array (2, 3) [m]
+        Where the drawing cuts the input and the output shaft.
+    radius : float [m]
+        Half the distance between the ears of a yoke, assumed.
+    place : Geometry
+        Where the drive lies.
+    arms : Arms
+        Where its yokes stand.
+    """
+
+    bodies: tuple[Body, ...]
+    centres: Array
+    ends: Array
+    radius: float
+    place: Geometry
+    arms: Arms
+
+
+def solids(drive: Drive, angle: float = 0.0) -> Solids:
+    """Return a drive as bodies in space.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    angle : float [rad]
+        Input angle φ_1 from the start position.
+
+    Returns
+    -------
+    Solids
+        Sizes are in proportion to the shafts; the end shafts are cut or lengthened to show a yoke and a piece of tube.
+
+    Examples
+    --------
+    >>> drive = Drive.from_angles([0.2, 0.2])
+    >>> sorted({body.part for body in solids(drive).bodies})
+    ['cross', 'driven yoke', 'driving yoke', 'tube']
+    """
+    place, train = geometry(drive), given_chain(drive)
+    stand = arms(place, train, angle, drive.joints)
+    centres = place.points[1:-1]
+    size, radius = _sizes(place)
+    reach = np.clip(place.length[[0, -1]], 2.4 * radius, size)
+    ends = np.stack((centres[0] - reach[0] * place.axis[0], centres[-1] + reach[1] * place.axis[-1]))
+    stations = np.concatenate((ends[:1], centres, ends[1:]))
+    bodies: list[Body] = []
+    for k, along in enumerate(place.axis):
+        start = stations[k] + (_NECK * radius * along if k else 0.0)
+        end = stations[k + 1] - (_NECK * radius * along if k < len(centres) else 0.0)
+        bodies.append(_tube(k + 1, start, end, 0.42 * radius))
+    for i, centre in enumerate(centres):
+        u, v = stand.driving[i], stand.driven[i]
+        before, after = place.axis[i], place.axis[i + 1]
+        if not drive.joints[i].crossed:
+            bodies += _bells(i, centre, before, after, radius)
+            continue
+        bodies.append(_yoke("driving yoke", i + 1, centre, -before, u, radius))
+        bodies.append(_yoke("driven yoke", i + 2, centre, after, v, radius))
+        bodies.append(_beam(i + 1, centre, u, frames.unit(frames.cross(v, u)), radius))
+        bodies.append(_beam(i + 1, centre, v, frames.unit(frames.cross(u, v)), radius))
+    return Solids(bodies=tuple(bodies), centres=centres, ends=ends, radius=radius, place=place, arms=stand)
+
+
+_NECK = 1.35
+"""Where a yoke ends and its tube begins, in yoke radii from the joint centre."""
+
+
+_FORK = (
+    *((0.72, -0.34), (1.0, -0.34), (1.0, 0.62), (0.46, 1.36), (-0.46, 1.36), (-1.0, 0.62), (-1.0, -0.34)),
+    *((-0.72, -0.34), (-0.72, 0.5), (-0.34, 0.86), (0.34, 0.86), (0.72, 0.5)),
+)
+"""Outline of a yoke in yoke radii: along its arm, and outward from the joint centre."""
+
+
+def _sizes(place: Geometry) -> tuple[float, float]:
+    """Return how long end shafts are drawn at most, and the yoke radius."""
+    between = place.length[1:-1]
+    if not between.size:
+        size = 1.5 * float(np.min(place.length))
+        return size, 0.11 * size
+    size = max(0.6 * float(np.max(between)), float(np.min(between)))
+    whole = float(np.sum(between)) + 2.0 * size
+    return size, min(0.045 * whole, 0.3 * float(np.min(between)))
+
+
+def _yoke(part: Part, shaft: int, centre: Array, outward: Array, arm: Array, radius: float) -> Body:
+    """Return a fork: two ears at the ends of the arm, joined behind the joint.
+
+    Parameters
+    ----------
+    outward : array (3,)
+        From the joint centre into the yoke's own shaft.
+    arm : array (3,)
+        Direction of the cross arm it holds.
+    """
+    half = np.asarray(_FORK)
+    across = frames.cross(arm, outward)
+    flat = radius * (half[:, :1] * arm + half[:, 1:] * outward)
+    thick = 0.3 * radius * across
+    corners = centre + np.concatenate((flat + thick, flat - thick))
+    count = len(half)
+    cap = (
+        (0, 1, 2),
+        (0, 2, 11),
+        (2, 3, 11),
+        (3, 10, 11),
+        (3, 4, 10),
+        (4, 9, 10),
+        (4, 5, 9),
+        (5, 8, 9),
+        (5, 6, 8),
+        (6, 7, 8),
+    )
+    return _prism(part, shaft, corners, count, cap)
+
+
+def _bells(joint: int, centre: Array, before: Array, after: Array, radius: float) -> list[Body]:
+    """Return a joint without a cross: a bell on the driving shaft and a thinner piece on the driven one."""
+    return [
+        _tube(
+            joint + 1, centre - _NECK * radius * before, centre + 0.35 * radius * before, 0.95 * radius, "driving yoke"
+        ),
+        _tube(joint + 2, centre - 0.1 * radius * after, centre + _NECK * radius * after, 0.7 * radius, "driven yoke"),
+    ]
+
+
+def _beam(joint: int, centre: Array, arm: Array, across: Array, radius: float) -> Body:
+    """Return one arm of a cross, from ear to ear."""
+    third = frames.cross(arm, across)
+    width = 0.2 * radius
+    square = np.asarray([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+    flat = width * (square[:, :1] * across + square[:, 1:] * third)
+    corners = centre + np.concatenate((flat + 1.06 * radius * arm, flat - 1.06 * radius * arm))
+    return _prism("cross", joint, corners, 4, ((0, 1, 2), (0, 2, 3)))
+
+
+def _tube(shaft: int, start: Array, end: Array, radius: float, part: Part = "tube") -> Body:
+    """Return a round bar; of no length where the yokes of a short shaft meet."""
+    along = frames.unit(end - start) if float(np.linalg.norm(end - start)) > 0.0 else np.asarray([1.0, 0.0, 0.0])
+    one = frames.perpendicular(along)
+    two = frames.cross(along, one)
+    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    ring = radius * (np.cos(turn)[:, None] * one + np.sin(turn)[:, None] * two)
+    cap = tuple((0, k, k + 1) for k in range(1, SIDES - 1))
+    return _prism(part, shaft, np.concatenate((end + ring, start + ring)), SIDES, cap, smooth=True)
+
+
+def _prism(
+    part: Part, number: int, corners: Array, count: int, cap: tuple[tuple[int, ...], ...], *, smooth: bool = False
+) -> Body:
+    """Return a prism between two congruent caps: corners 0 … count-1 of the upper one, then those of the lower one."""
+    upper = tuple(range(count))
+    lower = tuple(range(2 * count - 1, count - 1, -1))
+    walls = tuple((k, count + k, count + (k + 1) % count, (k + 1) % count) for k in range(count))
+    rest = tuple((a + count, c + count, b + count) for a, b, c in cap)
+    halves = tuple(triangle for a, b, c, d in walls for triangle in ((a, b, c), (a, c, d)))
+    return Body(
+        part=part,
+        number=number,
+        corners=corners,
+        faces=(upper, lower, *walls),
+        triangles=(*cap, *rest, *halves),  # type: ignore[arg-type]
+        smooth=smooth,
+    )

@@ -1,0 +1,1 @@
+"""Fields of the drive file: their keys, their paths, and what they must satisfy."""

@@ -1,0 +1,1 @@
+"""How each kind of joint turns, as formulas on arrays."""

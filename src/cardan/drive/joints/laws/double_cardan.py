@@ -1,0 +1,284 @@
+"""Double cardan joints whose middle is held by a centring device: two joints that share one bend.
+
+The joint centres O1 and O3 stand at the distance l; the axes of the outer shafts meet at O under the bend α, the first
+joint bends α12, the second α23, and α12 + α23 = α. A lever with a slotted sphere at O, or a slotted frame, halves the
+bend exactly. A ball on one shaft does so nearly: |OO1| = λl is fixed, |OO3| = x slides. All three axes lie in one plane
+and the inner yokes too, so that the whole is one map of the circle, see `cardan.maths.kernel.mobius`.
+"""
+
+from __future__ import annotations
+
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
+from cardan.maths.kernel import mobius
+
+from . import tilted_plane
+
+
+def lag(bend: ArrayLike, share: ArrayLike) -> Array:
+    """Return by how much a ball on one shaft misses half the bend, Δ = (α23 - α12)/2.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1): distance of the ball from the first centre over that of the two centres.
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Notes
+    -----
+    Δ = arcsin(λ sin α) - α/2 from the triangle O1 O O3, written without a difference of near numbers:
+    sin Δ = sin(α/2) (4λ² cos²(α/2) - 1)/(2λ cos²(α/2) + √(1 - λ² sin² α)). Exact where Book (12) is not.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> lag([10 * deg, 50 * deg], 0.5) / deg
+    array([-0.01907468, -2.47898788])
+    """
+    alpha, ratio = floats(bend, share)
+    xp = namespace(alpha, ratio)
+    half = xp.cos(0.5 * alpha)
+    twice = 2.0 * ratio * half
+    below = twice * half + xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2)
+    return xp.asin(xp.sin(0.5 * alpha) * (twice - 1.0) * (twice + 1.0) / below)
+
+
+def lag_book(bend: ArrayLike, share: ArrayLike) -> Array:
+    """Return the book's approximation of `lag`, for comparison.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Notes
+    -----
+    Book (12), which takes Δ for small, with its fraction turned over so that it never reads 0/0:
+    t (2λ² (1 + cos α) - 1)/(1 + 2λ √(1 - λ² sin² α)), t = tan(α/2). Off by 0.0015° at 50° and λ = 1/2.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> lag_book([10 * deg, 50 * deg], 0.5) / deg
+    array([-0.01907468, -2.48053593])
+    """
+    alpha, ratio = floats(bend, share)
+    xp = namespace(alpha, ratio)
+    root = xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2)
+    above = 2.0 * ratio * ratio * (1.0 + xp.cos(alpha)) - 1.0
+    return xp.tan(0.5 * alpha) * above / (1.0 + 2.0 * ratio * root)
+
+
+def split(bend: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
+    """Return the bends of the first and the second joint where a ball on one shaft centres them.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    first, second : arrays (...) [rad]
+        α12 and α23.
+
+    Notes
+    -----
+    sin α23 = λ sin α, α12 = α - α23: the sines of the triangle, exact; Book (9).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> first, second = split(30 * deg, 0.5)
+    >>> print(f"{first:.8f} {second:.8f}")
+    0.27091852 0.25268026
+    """
+    (alpha,) = floats(bend)
+    missed = lag(alpha, share)
+    return 0.5 * alpha - missed, 0.5 * alpha + missed
+
+
+def slide(bend: ArrayLike, share: ArrayLike) -> Array:
+    """Return where the ball stands on the shaft it slides on, x/l: |OO3| over the distance of the centres.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    x/l = sin α12/sin α, the positive root of Book (8), in the form in which a straight joint is no exception:
+    √(1 - λ² sin² α) - λ cos α.
+
+    Examples
+    --------
+    >>> import math
+    >>> slide([0.0, math.pi / 6], 0.5)
+    array([0.5       , 0.53523313])
+    """
+    alpha, ratio = floats(bend, share)
+    xp = namespace(alpha, ratio)
+    return xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2) - ratio * xp.cos(alpha)
+
+
+def even_share(bend: ArrayLike) -> Array:
+    """Return the centring ratio that halves one bend exactly.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    λ = 1/(2 cos(α/2)), the closed form of what Book p. 55 leaves as an equation.
+
+    Examples
+    --------
+    >>> import math
+    >>> print(f"{even_share(math.pi / 6):.6f}")
+    0.517638
+    """
+    (alpha,) = floats(bend)
+    return 0.5 / namespace(alpha).cos(0.5 * alpha)
+
+
+def pair(bend: ArrayLike, share: ArrayLike) -> mobius.Pair:
+    """Return the map of the circle of a double joint centred by a ball on the driving shaft, over its whole bend.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    Pair of arrays (...)
+
+    Notes
+    -----
+    tan φ3 = κ tan φ1 with κ = cos α23/cos α12, angles from the driving yoke in the plane of the axes: the first joint
+    leads by 1/cos α12, the second takes cos α23 of it back. It turns as contact in a plane Δ off the middle would.
+
+    Examples
+    --------
+    At 30°, a ball in the middle leaves 1 % of irregularity:
+
+    >>> import math
+    >>> print(f"{mobius.irregularity(pair(math.pi / 6, 0.5)):.6f}")
+    0.009774
+    """
+    alpha, ratio = floats(bend, share)
+    return tilted_plane.pair(alpha, lag(alpha, ratio))
+
+
+def deviation(angle: ArrayLike, bend: ArrayLike, share: ArrayLike) -> Array:
+    """Return how far the output of a double joint centred by a ball runs ahead of its input, φ3 - φ1.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        Input angle φ1, from the driving yoke in the plane of the axes.
+    bend : array (...) [rad]
+        Whole bend α in [0, π/2).
+    share : array (...)
+        Centring ratio λ in (0, 1).
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Examples
+    --------
+    >>> import math
+    >>> deviation([0.0, math.pi / 4], math.pi / 6, 0.5)
+    array([0.        , 0.00244354])
+    """
+    phi, alpha, ratio = floats(angle, bend, share)
+    return tilted_plane.deviation(phi, alpha, lag(alpha, ratio))
+
+
+def gain(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
+    """Return the ratio κ between which and 1/κ two joints in one plane swing.
+
+    Parameters
+    ----------
+    first, second : arrays (...) [rad]
+        Bends α12 and α23, each in [0, π/2).
+    crossed : bool
+        Whether the inner yokes stand at right angles: what the joints do then adds up, instead of cancelling.
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    κ = cos α23/cos α12, crossed 1/(cos α12 cos α23).
+
+    Examples
+    --------
+    >>> print(f"{gain(0.2, 0.3):.6f}")
+    0.974767
+    """
+    one, other = floats(first, second)
+    xp = namespace(one, other)
+    return 1.0 / (xp.cos(one) * xp.cos(other)) if crossed else xp.cos(other) / xp.cos(one)
+
+
+def unevenness(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
+    """Return κ - 1/κ of `gain`, whose size is the irregularity δ.
+
+    Parameters
+    ----------
+    first, second : arrays (...) [rad]
+        Bends α12 and α23, each in [0, π/2).
+    crossed : bool
+        Whether the inner yokes stand at right angles.
+
+    Returns
+    -------
+    array (...)
+
+    Notes
+    -----
+    sin(α12 + α23) sin(α12 - α23)/(cos α12 cos α23), crossed (1 - c²)/c with c = cos α12 cos α23, both without a
+    difference of near numbers. With α12, α23 = α/2 ∓ Δ its size is about 4 |Δ| tan(α/2).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(f"{unevenness(15 * deg, 14 * deg):.9f}")
+    0.009027732
+    """
+    one, other = floats(first, second)
+    xp = namespace(one, other)
+    both = xp.cos(one) * xp.cos(other)
+    if crossed:
+        return (xp.sin(one) ** 2 + (xp.cos(one) * xp.sin(other)) ** 2) / both
+    return xp.sin(one + other) * xp.sin(one - other) / both

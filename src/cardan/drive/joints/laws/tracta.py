@@ -1,0 +1,140 @@
+"""The Tracta joint: two forks with grooves, and a tongue between them that turns about the line of the fork centres.
+
+The centres A and B of the two grooves lie on the axes of the shafts, at OA and OB from their intersection. The tongue
+lies in a plane through AB: a double joint with AB as its middle shaft, even exactly where OA = OB.
+"""
+
+from __future__ import annotations
+
+from cardan.maths.arrays import Array, ArrayLike, floats, namespace
+from cardan.maths.kernel import mobius
+
+from . import tilted_plane
+
+
+def tilt(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return by how much the angle at A exceeds half the bend.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        α in [0, π/2), angle between the shafts.
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    array (...) [rad]
+        η = arctan[(OB - OA)/(OB + OA) tan(α/2)], by the law of tangents; exactly 0 for equal lengths.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(tilt(30 * deg, 0.020, [0.020, 0.021]) / deg)
+    [0.         0.37444242]
+    """
+    alpha, one, two = floats(bend, first, second)
+    xp = namespace(alpha, one, two)
+    return xp.atan((two - one) / (two + one) * xp.tan(0.5 * alpha))
+
+
+def bends(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, Array]:
+    """Return the angles between the shafts and the line of the fork centres.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        α in [0, π/2).
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    at_first, at_second : arrays (...) [rad]
+        α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the bend and the tilt.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> one, two = bends(30 * deg, 0.020, 0.021)
+    >>> print(one / deg, two / deg)
+    15.37444242 14.62555757
+    """
+    alpha, one, two = floats(bend, first, second)
+    eta = tilt(alpha, one, two)
+    return 0.5 * alpha + eta, 0.5 * alpha - eta
+
+
+def pair(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
+    """Return the map of the circle, tan φ_2 = (cos α_2/cos α_1) tan φ_1.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        α in [0, π/2).
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    Pair of arrays (...)
+        The identity where OA = OB.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(mobius.irregularity(pair(30 * deg, 0.020, [0.020, 0.021])))
+    [0.         0.00700458]
+    """
+    alpha, one, two = floats(bend, first, second)
+    return tilted_plane.pair(alpha, -tilt(alpha, one, two))
+
+
+def deviation(angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return how far shaft 2 runs ahead of shaft 1, φ_2 - φ_1.
+
+    Parameters
+    ----------
+    angle : array (...) [rad]
+        φ_1, from the plane of the shafts, of the axis about which the tongue's block swivels in its fork.
+    bend : array (...) [rad]
+        α in [0, π/2).
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    array (...) [rad]
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(deviation([0.0, 45 * deg], 30 * deg, 0.020, 0.021))
+    [0.         0.00175114]
+    """
+    alpha, one, two = floats(bend, first, second)
+    return tilted_plane.deviation(angle, alpha, -tilt(alpha, one, two))
+
+
+def irregularity(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+    """Return δ = \\|κ - 1/κ\\|, κ = cos α_2/cos α_1: largest less smallest speed ratio.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        α in [0, π/2).
+    first, second : arrays (...) [m]
+        OA, OB > 0.
+
+    Returns
+    -------
+    array (...)
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> print(irregularity(30 * deg, 0.020, 0.021))
+    0.00700458
+    """
+    alpha, one, two = floats(bend, first, second)
+    return tilted_plane.irregularity(alpha, tilt(alpha, one, two))

@@ -1,0 +1,1 @@
+"""A drive as arrays: the forms in which questions compute with it."""

@@ -1,0 +1,232 @@
+"""How joints of every kind turn: each that has a Möbius map as the Hooke joint that turns alike.
+
+The map of such a joint is tan θ' = κ tan θ. Where κ ≥ 1 it is that of a Hooke joint with cos α = 1/κ; where κ < 1 that
+of one with cos α = κ whose driving yoke stands a quarter turn ahead. So a chain of mixed kinds is a chain of Hooke
+joints with other bends and plane twists, and all that is known of those holds for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cardan.drive.joints import Hooke, Joint
+from cardan.drive.joints.joint import PLACES
+from cardan.errors import InputError, Problem, check
+from cardan.maths.arrays import Array, namespace, unit_complex
+from cardan.maths.kernel import mobius
+from cardan.texts import _
+
+if TYPE_CHECKING:
+    from cardan.drive.drive import Drive
+
+NEGLIGIBLE = 1e-6
+"""What a joint may leave beside its nearest map [rad] to be taken by it: a fifth of a second of arc."""
+
+STEP = 1e-5
+"""Step [rad] of the bend in the central difference of `growth`; what it leaves is of order 1e-10."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Laws:
+    """The joints as they are, of a chain given by the Hooke joints that turn alike.
+
+    Attributes
+    ----------
+    bend : array (..., n) [rad]
+        α_i, bends of the joints themselves.
+    steepness : array (..., n)
+        κ_i of tan θ' = κ tan θ.
+    growth : array (..., n) [1/rad]
+        dκ_i/dα_i.
+    ahead : array (..., n) [rad]
+        How far the driving yoke of the Hooke joint stands ahead of the driving mark: 0 or π/2.
+    own : tuple of bool (n)
+        Which joints are of another kind.
+    """
+
+    bend: Array
+    steepness: Array
+    growth: Array
+    ahead: Array
+    own: tuple[bool, ...]
+
+
+def mixed(joints: Sequence[Joint]) -> bool:
+    """Tell whether any joint is of another kind than Hooke's.
+
+    Examples
+    --------
+    >>> mixed([Hooke(bend=0.1)])
+    False
+    """
+    return any(type(joint) is not Hooke for joint in joints)
+
+
+def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
+    """Return the indices of joints whose motion is no Möbius map, so that no Hooke joint turns alike."""
+    return tuple(i for i, joint in enumerate(joints) if not has_map(joint))
+
+
+def has_map(joint: Joint) -> bool:
+    """Tell whether a joint turns by tan θ' = κ tan θ, as a Hooke joint of some bend does."""
+    return type(joint) is Hooke or joint.pair(np.asarray(0.1)) is not None
+
+
+def is_even(joint: Joint) -> bool:
+    """Tell whether a joint turns its driven shaft as its driving one, at every bend.
+
+    Examples
+    --------
+    >>> from cardan.drive.joints import Tripod
+    >>> is_even(Tripod()), is_even(Hooke())
+    (True, False)
+    """
+    pair = None if type(joint) is Hooke else joint.pair(np.asarray(0.1))
+    return pair is not None and bool(abs(pair[1]) == 0.0)
+
+
+def left_over(joint: Joint, bend: float) -> float:
+    """Return how far the turn of a joint is at most from that of its nearest Möbius map [rad]; 0 where it has a map.
+
+    Parameters
+    ----------
+    joint : Joint
+    bend : float [rad]
+
+    Examples
+    --------
+    Six balls whose cage misses the middle share what they ask for, and nothing is left but a trace of order 6:
+
+    >>> from cardan.drive.joints import PinCoupling, Rzeppa
+    >>> left_over(Rzeppa(lever_b=0.35, lever_c=0.65), 0.5) < NEGLIGIBLE
+    True
+    >>> left_over(PinCoupling(driving_distance=0.05, driven_distance=0.052), 0.3) < NEGLIGIBLE
+    False
+    """
+    if has_map(joint):
+        return 0.0
+    theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+    alpha = np.asarray(bend)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        lead = joint.deviation(theta, alpha)[0] - mobius.lead(joint.near_pair(alpha), unit_complex(2.0 * theta))
+    return float(np.max(np.abs(lead)))
+
+
+def refuse_kinds(
+    drive: Drive, question: str, *, known: Callable[[Joint], bool] = lambda joint: type(joint) is Hooke
+) -> None:
+    """Refuse a drive with joints of a kind that a question does not know.
+
+    Parameters
+    ----------
+    drive : Drive
+    question : str
+        What was asked, in words.
+    known : function
+        Whether the question knows the kind of a joint; Hooke joints alone when not given.
+
+    Raises
+    ------
+    InputError
+        Names every such joint, its kind and the question.
+
+    Examples
+    --------
+    >>> from cardan.drive.drive import Drive
+    >>> refuse_kinds(Drive.from_angles([0.1]), "losses")
+    """
+    check(unknown_kinds(drive.joints, question, known))
+
+
+def unknown_kinds(joints: Sequence[Joint], question: str, known: Callable[[Joint], bool]) -> Iterator[Problem]:
+    """Yield a problem for every joint of a kind that a question does not know."""
+    yield from (kind_problem(i, joint, question) for i, joint in enumerate(joints) if not known(joint))
+
+
+def kind_problem(i: int, joint: Joint, question: str) -> Problem:
+    """Return the problem that a question does not know the kind of a joint, counted from 0."""
+    text = _("{question}: not answered for a joint of kind {kind}")
+    return Problem(f"joints[{i}].kind", text.format(question=question, kind=joint.kind), "unknown_kind")
+
+
+def alike(
+    joints: Sequence[Joint], bend: Array, plane_twist: Array, *, near: bool = False
+) -> tuple[Array, Array, Array, Laws]:
+    """Return bends, plane twists and start of the Hooke joints that turn like joints of other kinds.
+
+    Parameters
+    ----------
+    joints : sequence of n Joint
+        All with a Möbius map.
+    bend : array (..., n) [rad]
+        α_i.
+    plane_twist : array (..., n-1) [rad]
+        β_2 … β_n.
+    near : bool
+        Take a joint without a Möbius map by the nearest one.
+
+    Returns
+    -------
+    bend, plane_twist : arrays (..., n), (..., n-1) [rad]
+        Of the Hooke joints, with the same yoke angles.
+    start : array (...) [rad]
+        What to add to the start phase.
+    laws : Laws
+        The joints as they are.
+
+    Raises
+    ------
+    InputError
+        A joint has no Möbius map, or does not turn at its bend.
+
+    Notes
+    -----
+    The driving yoke of the Hooke joint stands λ ahead of the driving mark, and so does the driven one, which stands a
+    quarter turn ahead of its own: β_i becomes β_i + (π/2 - q_{i-1}) + λ_{i-1} - λ_i, q = π/2 for a cross, else 0.
+    """
+    xp = namespace(bend)
+    columns: list[tuple[Array, ...]] = []
+    for i, joint in enumerate(joints):
+        alpha = bend[..., i]
+        here = _steepness(joint, alpha, i, near)
+        tau = (here - 1.0) / (here + 1.0)
+        if type(joint) is Hooke:
+            columns.append((alpha, here, xp.sin(alpha) * here * here, 0.0 * alpha))
+            continue
+        growth = (_steepness(joint, alpha + STEP, i, near) - _steepness(joint, alpha - STEP, i, near)) / (2.0 * STEP)
+        ahead = xp.where(tau < 0.0, 0.5 * xp.pi, 0.0 * alpha)
+        columns.append((2.0 * xp.atan(xp.sqrt(xp.abs(tau))), here, growth, ahead))
+    equal, steepness, growths, aheads = (xp.stack(column, axis=-1) for column in zip(*columns, strict=True))
+    quarter = xp.asarray([0.0 if joint.crossed else 0.5 * np.pi for joint in joints[:-1]], dtype=xp.float64)
+    twist = plane_twist + quarter + aheads[..., :-1] - aheads[..., 1:]
+    own = tuple(type(joint) is not Hooke for joint in joints)
+    laws = Laws(bend=bend, steepness=steepness, growth=growths, ahead=aheads, own=own)
+    return equal, twist, aheads[..., 0], laws
+
+
+def _steepness(joint: Joint, bend: Array, i: int, near: bool) -> Array:
+    """Return κ = (1 + τ)/(1 - τ), τ = -b/a, of a joint with a Möbius map."""
+    xp = namespace(bend)
+    pair = joint.near_pair(bend) if near else joint.pair(bend)
+    if pair is None:
+        text = _("its kind, {kind}, turns by a law of its own; this question needs one of the form tan θ' = κ tan θ")
+        raise InputError([Problem(f"joints[{i}].kind", text.format(kind=joint.kind), "unknown_kind")])
+    a, b = (xp.real(part) for part in pair)
+    found: Array = (a - b) / (a + b)
+    _turns(joint, bend, found, i)
+    return found
+
+
+def _turns(joint: Joint, bend: Array, values: Array, i: int) -> None:
+    """Refuse a joint that does not turn at its bend."""
+    xp = namespace(bend, values)
+    stuck = ~xp.isfinite(values)
+    if bool(xp.any(stuck)):
+        most = float(xp.max(xp.where(stuck, bend, 0.0)))
+        text = _("a joint of kind {kind} with these sizes does not turn at its bend of {bend:.6g}°")
+        message = text.format(kind=joint.kind, bend=np.degrees(most))
+        raise InputError([Problem(f"joints[{i}].bend", message, "out_of_range")], where=stuck)

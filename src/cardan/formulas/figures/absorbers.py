@@ -1,0 +1,156 @@
+"""What absorbers and dampers make of a resonance, and one of them before and after."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.figures.axes import axis, written
+from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
+from cardan.figures.wording import significant
+from cardan.formulas.absorber_tuning import Variants
+from cardan.formulas.absorbers import AbsorberResponse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+ACROSS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+"""Amplifications marked along the axis."""
+
+LOOKS = {
+    "none": ("muted", "dashed"),
+    "undamped": ("first order", "dotted"),
+    "viscous": ("second order", "dashdot"),
+    "den_hartog": ("ink", "dashed"),
+    "h_infinity": ("accent", "solid"),
+}
+"""Role and dash of each variant."""
+
+
+def _names() -> dict[str, str]:
+    return {
+        "none": _("without absorber"),
+        "undamped": _("absorber without damping"),
+        "viscous": _("best viscous damper"),
+        "den_hartog": _("absorber by fixed points"),
+        "h_infinity": _("absorber with the smallest peak"),
+    }
+
+
+def variants_figures(found: Variants) -> tuple[Figure, ...]:
+    """Return the figures of a comparison of absorbers and dampers."""
+    return (variants_figure(found),)
+
+
+def response_figures(found: AbsorberResponse) -> tuple[Figure, ...]:
+    """Return the figures of the response with one absorber."""
+    return (before_after_figure(found),)
+
+
+def variants_figure(found: Variants) -> Figure:
+    """Return the amplification over the frequency with each absorber and damper.
+
+    Parameters
+    ----------
+    found : Variants
+        Of one inertia ratio.
+    """
+    best = float(np.min(found.peak))
+    curves = tuple(
+        Curve(
+            x=found.beta,
+            y=_open(row),
+            label=_names()[kind],
+            role=LOOKS[kind][0],
+            dash=LOOKS[kind][1],
+            width=2.2 if kind == "h_infinity" else 1.4,
+        )
+        for kind, row in zip(found.kinds, found.amplification, strict=True)
+    )
+    panel = Panel(
+        series=(*curves, Rule(value=best, text=significant(best, 3))),
+        x=_along(found.beta),
+        y=_upright(found.amplification, best),
+    )
+    return Figure(
+        name="absorber-variants",
+        title=_("Absorbers and dampers of the same inertia"),
+        sentence=_(
+            "With {share} of the system's inertia an absorber leaves {best} times the static angle, a viscous damper "
+            "{loose} times."
+        ).format(
+            share=significant(found.inertia_ratio, 3),
+            best=significant(best, 3),
+            loose=significant(float(found.peak[found.kinds.index("viscous")]), 3),
+        ),
+        source=_("Book (249)–(252); smallest peak by Nishihara and Asami; exact for one mode"),
+        rows=(Row(panels=(panel,), height=2.6),),
+    )
+
+
+def before_after_figure(found: AbsorberResponse) -> Figure:
+    """Return the amplification with an absorber beside that without, and the twist of its spring.
+
+    Parameters
+    ----------
+    found : AbsorberResponse
+        Of one setting.
+    """
+    size, bare = np.asarray(found.amplification), np.asarray(found.bare)
+    twist = np.abs(np.asarray(found.twist))
+    most = float(np.max(size[np.isfinite(size)], initial=0.0))
+    upper = Panel(
+        series=(
+            Curve(x=found.beta, y=_open(bare), label=_("without absorber"), role="muted", dash="dashed", width=1.4),
+            Curve(x=found.beta, y=_open(size), label=_("with absorber"), role="accent", width=2.0),
+        ),
+        x=_along(found.beta, named=False),
+        y=_upright(np.stack((bare, size)), most),
+    )
+    lower = Panel(
+        series=(Curve(x=found.beta, y=_open(twist), role="accent", width=1.4),),
+        x=_along(found.beta),
+        y=axis(_("Twist between absorber and system over the static angle"), "–", [twist], include=(0.0,), count=4),
+    )
+    undamped = not np.any(np.asarray(found.main)[np.isfinite(size)].imag)
+    return Figure(
+        name="absorber",
+        title=_("Vibration before and after"),
+        sentence=_(
+            "Nothing damps the absorber: the vibration has no bound at {low} and {high} times the frequency."
+        ).format(low=significant(float(found.natural[..., 0]), 3), high=significant(float(found.natural[..., 1]), 3))
+        if undamped
+        else _("With the absorber the amplitude stays below {most} times the static angle here.").format(
+            most=significant(most, 3)
+        ),
+        source=_("Book (249), (252); exact for one mode"),
+        rows=(Row(panels=(upper,), height=2.2), Row(panels=(lower,), height=1.3)),
+    )
+
+
+def _open(row: Array) -> Array:
+    """Return a curve that breaks off where it is infinite."""
+    return np.where(np.isfinite(row), row, np.nan)
+
+
+def _along(beta: Array, *, named: bool = True) -> Axis:
+    return axis(_("frequency over the system's own, β = ω/ω₀") if named else "", "", [beta], margin=0.0, count=8)
+
+
+def _upright(rows: Array, peak: float) -> Axis:
+    """Return the logarithmic axis of amplifications, from what is seen of them to well above the peak."""
+    there = rows[np.isfinite(rows) & (rows > 0.0)]
+    high = max(4.0 * peak if np.isfinite(peak) else 0.0, 10.0)
+    low = max(float(np.min(there, initial=0.5)), high / 1000.0) * 0.9
+    ticks = tuple(value for value in ACROSS if low <= value <= high)
+    return Axis(
+        label=_("Amplitude over the static angle"),
+        unit="–",
+        low=low,
+        high=high,
+        ticks=ticks,
+        texts=_texts(ticks),
+        log=True,
+    )
+
+
+def _texts(ticks: tuple[float, ...]) -> tuple[str, ...]:
+    return tuple(written((value,))[0] if value >= 1.0 else f"{value:g}" for value in ticks)

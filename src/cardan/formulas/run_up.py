@@ -1,0 +1,269 @@
+"""What does passing a resonance cost? Peak amplitude of an oscillator while the frequency of its force rises.
+
+A steady amplitude takes time to build up: the faster the run-up, the lower the peak, and the later it comes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.peaks import brackets, level
+from cardan.maths.periodic.oscillator import CHUNK, chirp, stepped
+from cardan.texts import _
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
+
+STEPS = 20_000_000
+"""More steps than this are refused: hours of vibration."""
+
+CHECKED = 400_000
+"""Runs of fewer steps are also followed step by step, to check the closed form."""
+
+_SCAN = 2.0 * math.pi / 12.0
+"""Phase between the places where a peak is looked for."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RunUp:
+    """Response of an oscillator while the frequency of its force rises through its own, over the static one.
+
+    Attributes
+    ----------
+    natural_frequency : float [rad/s]
+        ω_0.
+    damping_ratio : float
+        ζ.
+    acceleration : float [rad/s²]
+        a_s: the frequency of the force is a_s t.
+    time : array (p,) [s]
+        Instants.
+    response : array (p,)
+        y there.
+    peak : float
+        Largest \\|y\\|.
+    peak_time : float [s]
+        When.
+    residual : float
+        Closed form against the impulse response summed step by step, at the peak; nan where the run is too long for
+        that.
+    cancelled : bool
+        Whether ``progress`` stopped the search; the peak is that of what was searched.
+    """
+
+    natural_frequency: float
+    damping_ratio: float
+    acceleration: float
+    time: Array
+    response: Array
+    peak: float
+    peak_time: float
+    residual: float
+    cancelled: bool = False
+
+    @property
+    def passing_time(self) -> float:
+        """When the frequency of the force passes the natural one [s]."""
+        return self.natural_frequency / self.acceleration
+
+    @property
+    def steady_peak(self) -> float:
+        """Largest steady amplitude, what an infinitely slow run-up comes to."""
+        zeta = self.damping_ratio
+        return 0.5 / (zeta * math.sqrt(1.0 - zeta * zeta)) if zeta < math.sqrt(0.5) else 1.0
+
+
+def run_up(
+    natural_frequency: float,
+    damping_ratio: float,
+    acceleration: float,
+    end: float,
+    *,
+    time: ArrayLike | None = None,
+    progress: Progress | None = None,
+) -> RunUp:
+    """Return the response of an oscillator to a force of rising frequency, and its peak.
+
+    Parameters
+    ----------
+    natural_frequency : float [rad/s]
+        ω_0.
+    damping_ratio : float
+        ζ, between 0 and 1.
+    acceleration : float [rad/s²]
+        a_s.
+    end : float [s]
+        The peak is looked for up to here.
+    time : array (p,), optional [s]
+        Instants of the response; evenly up to the end by default.
+    progress : function, optional
+        Told the share done; when it answers "stop" the search ends.
+
+    Returns
+    -------
+    RunUp
+
+    Raises
+    ------
+    InputError
+        ω_0, a_s or the end not positive, ζ not between 0 and 1, times that are negative.
+
+    Notes
+    -----
+    y'' + 2ζω_0 y' + ω_0² y = ω_0² cos(½ a_s t²), at rest at t = 0; exact, see `cardan.maths.periodic.oscillator.chirp`.
+
+    Examples
+    --------
+    >>> found = run_up(20.0, 0.02, 8.0, 6.0)
+    >>> print(f"{found.peak:.6f} at {found.peak_time:.6f} s, steady {found.steady_peak:.2f}")
+    7.773220 at 3.180880 s, steady 25.01
+    """
+    given = {"natural_frequency": natural_frequency, "acceleration": acceleration, "end": end}
+    problems = not_positive(given)
+    if not 0.0 < damping_ratio < 1.0:
+        problems.append(Problem("damping_ratio", _("needs to be between 0 and 1")))
+    check(problems + bad_times(time))
+    omega, zeta, rate = float(natural_frequency), float(damping_ratio), float(acceleration)
+    at = instants(time, end, omega / (2.0 * math.pi))
+
+    def slope(t: Array) -> Array:
+        return chirp(t, omega, zeta, rate)[1].real
+
+    best, best_time = 0.0, 0.0
+    runs = [run for begin, stop in _windows(omega, zeta, rate, end) for run in _scan(begin, stop, omega, rate)]
+    count = sum(run.count for run in runs)
+    if count > STEPS:
+        text = _("{count:.3g} places would have to be searched, at most {most:.0e} are; end soon after {time:.4g} s")
+        raise refuse("end", text.format(count=count, most=STEPS, time=omega / rate))
+    cancelled, done = False, 0
+    for piece in (piece for run in runs for piece in run.pieces()):
+        x, v = chirp(piece, omega, zeta, rate)
+        left, right = brackets(piece, x.real, v.real)
+        places = np.concatenate(([piece[0], piece[-1]], level(slope, left, right)))
+        height = np.abs(chirp(places, omega, zeta, rate)[0].real)
+        highest = int(np.argmax(height))
+        if height[highest] > best:
+            best, best_time = float(height[highest]), float(places[highest])
+        done += piece.size - 1
+        if progress is not None and progress(done / count) == "stop":
+            cancelled = done < count
+            break
+    return RunUp(
+        natural_frequency=omega,
+        damping_ratio=zeta,
+        acceleration=rate,
+        time=at,
+        response=chirp(at, omega, zeta, rate)[0].real,
+        peak=best,
+        peak_time=best_time,
+        residual=_sweep_residual(omega, zeta, rate, best_time),
+        cancelled=cancelled,
+    )
+
+
+def _windows(omega: float, zeta: float, rate: float, end: float) -> list[tuple[float, float]]:
+    """Return the times in which the largest response may be.
+
+    A slow run with little damping peaks where the frequency is within a dozen √a of the natural one. Later than four
+    times the natural frequency, or one and a half times where the run is not fast, everything only dies away.
+    """
+    slow, passing, width = omega * omega / rate, omega / rate, 12.0 / math.sqrt(rate)
+    if slow > 1e4 and zeta < 0.2 and passing + width < end:
+        peak = passing * math.sqrt(1.0 - 2.0 * zeta * zeta)
+        return [(peak - width, peak + width)]
+    over = 1.5 * passing if slow > 100.0 else 4.0 * passing + 4.0 * math.pi / omega
+    return [(0.0, min(end, over))]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Run:
+    """Times from one to another, evenly spread or evenly in their squares."""
+
+    first: float
+    last: float
+    count: int
+    power: float = 1.0
+
+    def pieces(self) -> Iterator[Array]:
+        """Yield the times, in pieces that share their end points."""
+        step = (self.last - self.first) / self.count
+        for k in range(0, self.count, CHUNK):
+            row = np.arange(k, min(k + CHUNK, self.count) + 1)
+            yield (self.first + step * row) ** self.power
+
+
+def _scan(begin: float, end: float, omega: float, rate: float) -> list[_Run]:
+    """Return times that follow the swings of force and oscillator."""
+    passing, fast = omega / rate, 2000.0 * omega / rate
+    runs = []
+    if begin < passing:
+        stop = min(passing, end)
+        runs.append(_Run(first=begin, last=stop, count=math.ceil((stop - begin) * omega / _SCAN) + 1))
+    if end > passing and begin < fast:
+        first, last = max(begin, passing) ** 2, min(end, fast) ** 2
+        runs.append(_Run(first=first, last=last, count=math.ceil(0.5 * rate * (last - first) / _SCAN) + 1, power=0.5))
+    if end > fast:  # the force is too quick to be seen: its share is below 1e-6
+        runs.append(_Run(first=fast, last=end, count=math.ceil((end - fast) * 2000.0 * omega / _SCAN) + 1))
+    return runs
+
+
+def _sweep_residual(omega: float, zeta: float, rate: float, end: float) -> float:
+    steps = math.ceil(end * max(omega, rate * end) / 0.4) + 1
+    if not end or steps > CHECKED:
+        return math.nan
+
+    def force(t: Array) -> Array:
+        found: Array = omega * omega * np.cos(0.5 * rate * t * t)
+        return found
+
+    *_before, (_t, x, _v) = stepped(force, end, steps, omega, zeta)
+    return float(abs(x[-1] - chirp(end, omega, zeta, rate)[0].real))
+
+
+def not_positive(given: dict[str, float]) -> list[Problem]:
+    """Return what is wrong with numbers that need to be positive."""
+    return [
+        Problem(name, _("needs to be positive and finite"))
+        for name, value in given.items()
+        if not 0.0 < value < math.inf
+    ]
+
+
+def negative(given: dict[str, float]) -> list[Problem]:
+    """Return what is wrong with amounts, which may be nought."""
+    return [
+        Problem(name, _("needs to be a number that is not negative"), "negative")
+        for name, value in given.items()
+        if not 0.0 <= value < math.inf
+    ]
+
+
+def not_finite(given: dict[str, float]) -> list[Problem]:
+    """Return what is wrong with numbers of either sign."""
+    return [
+        Problem(name, _("needs to be a finite number"), "not_finite")
+        for name, value in given.items()
+        if not math.isfinite(value)
+    ]
+
+
+def bad_times(time: ArrayLike | None, end: float = math.inf) -> list[Problem]:
+    """Return what is wrong with the instants asked for."""
+    values = np.asarray(0.0 if time is None else time, dtype=float)
+    if np.all(np.isfinite(values) & (values >= 0.0) & (values <= end)):
+        return []
+    return [Problem("time", _("instants lie between 0 and the end"))]
+
+
+def instants(time: ArrayLike | None, end: float, frequency: float) -> Array:
+    """Return the instants asked for, or enough of them to show a frequency [Hz], within reason."""
+    if time is not None:
+        return np.atleast_1d(np.asarray(time, dtype=float))
+    return np.linspace(0.0, end, int(min(max(2001, 8 * frequency * end), 20_001)))

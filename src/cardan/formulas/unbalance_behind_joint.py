@@ -1,0 +1,100 @@
+"""Which forces does an unbalance behind a joint make? The shaft turns unevenly, so it shakes with odd orders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.drive.joints.laws.root_of_joint import vector_orders
+from cardan.errors import Problem, check
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class UnbalanceBehindJoint:
+    """Force of an unbalance on a shaft that a Hooke joint drives, in the plane across that shaft.
+
+    Attributes
+    ----------
+    bend : array (...) [rad]
+        α of the joint, or of the one that the joints before the shaft are equal to.
+    phase : array (...) [rad]
+        ψ, angle of the driving yoke from the plane of the shafts where φ_1 is 0.
+    order : array of int (N,)
+        n by the turns of the input, odd; negative ones run backward.
+    force : array (..., N), complex
+        Over m e Ω²: force = m e Ω² Σ F_n e^(inφ_1), the unbalance along the first axis at φ_1 = 0, Ω the input speed.
+    residual : array (...)
+        What the squares of the vector's orders, those given and the next ones, miss of their sum, 1.
+    """
+
+    bend: Array
+    phase: Array
+    order: Array
+    force: Array
+    residual: Array
+
+    @property
+    def size(self) -> Array:
+        """Amplitudes of the orders over m e Ω², array (..., N)."""
+        return np.abs(self.force)
+
+
+def unbalance_behind_joint(bend: ArrayLike, phase: ArrayLike = 0.0, *, reach: int = 9) -> UnbalanceBehindJoint:
+    """Return the orders of the force of an unbalance behind a Hooke joint.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+        α in [0, π/2).
+    phase : array (...) [rad]
+        ψ.
+    reach : int
+        Orders from -reach to reach.
+
+    Returns
+    -------
+    UnbalanceBehindJoint
+
+    Raises
+    ------
+    InputError
+        A bend out of range.
+
+    Notes
+    -----
+    Force -m e Ω² d²e^(iφ_2)/dφ_1² at an even input speed: F_n = n² E_n with E_n of
+    `root_of_joint.vector_orders`, exact. To first order τ = tan²(α/2): 9τ/2 at three times forward, τ/2
+    backward.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = unbalance_behind_joint(20 * deg, reach=3)
+    >>> found.order, found.size.round(5)
+    (array([-3, -1,  1,  3]), array([0.00109, 0.01555, 0.99976, 0.13986]))
+    """
+    alpha, psi = np.broadcast_arrays(np.asarray(bend, dtype=float), np.asarray(phase, dtype=float))
+    problems = []
+    if not np.all((alpha >= 0.0) & (alpha < 0.5 * np.pi)):
+        problems.append(Problem("bend", _("needs to be at least 0 and below 90°"), "out_of_range"))
+    if not np.all(np.isfinite(psi)):
+        problems.append(Problem("phase", _("needs to be finite"), "not_finite"))
+    if reach < 1:
+        problems.append(Problem("reach", _("needs to be at least 1"), "out_of_range"))
+    check(problems)
+    tau = np.tan(0.5 * alpha) ** 2
+    order = np.arange(-reach, reach + 1)
+    order = order[order % 2 == 1]
+    lead = np.arctan2(tau * np.sin(2.0 * psi), 1.0 - tau * np.cos(2.0 * psi))  # T(ψ) - ψ
+    turned = np.exp(1j * (order * psi[..., None] - (psi + lead)[..., None]))
+    more = vector_orders(tau, np.arange(-2 * reach - 41, 2 * reach + 42))
+    return UnbalanceBehindJoint(
+        bend=alpha,
+        phase=psi,
+        order=order,
+        force=order**2 * vector_orders(tau, order) * turned,
+        residual=np.abs(np.sum(more**2, axis=-1) - 1.0),
+    )

@@ -1,0 +1,132 @@
+"""Where smooth curves are highest, to all digits that matter: over a period, or from slopes at known places."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+CLOSER = 20
+"""How much finer the places around each peak lie than before."""
+
+ROUNDS = 3
+"""Times that the places get closer. From steps of a degree three rounds lead to 2e-6 rad: at a smooth peak the value
+is then right to the square of that."""
+
+NEAR = 2e-3
+"""Steps within this share of the highest are looked at closely: more than cubics through their ends err by."""
+
+ROUNDS_MOST = 60
+"""Times that the place of a level slope is bettered at most; ten are usual."""
+
+TIE = 1e-9
+"""Places whose values differ by less than this share are equally high: the first counts, whatever rounding says."""
+
+
+def peaks(function: Callable[[Array], Array], places: Array, values: Array) -> tuple[Array, Array]:
+    """Return where each of several curves is highest, and how high.
+
+    Parameters
+    ----------
+    function : callable
+        From places (m,) to the values of all curves there (k, m).
+    places : array (p,)
+        Evenly spaced, close enough that the highest place is beside the highest point.
+    values : array (k, p)
+        ``function(places)``.
+
+    Returns
+    -------
+    place, value : arrays (k,)
+
+    Examples
+    --------
+    >>> coarse = np.linspace(0.0, 6.0, 61)
+    >>> curves = lambda x: np.stack((np.sin(x), np.cos(x - 1.23456)))
+    >>> place, value = peaks(curves, coarse, curves(coarse))
+    >>> place.round(4)
+    array([1.5708, 1.2346])
+    """
+    top = np.max(values, axis=-1, keepdims=True)
+    best = np.argmax(values >= top - TIE * np.abs(top), axis=-1)
+    place = places[best]
+    value = np.take_along_axis(values, best[:, None], axis=-1)[:, 0]
+    step = float(places[1] - places[0]) if places.size > 1 else 0.0
+    curves = np.arange(len(place))
+    for _round in range(ROUNDS if step and len(place) else 0):
+        around = place[:, None] + step * np.linspace(-1.0, 1.0, 2 * CLOSER + 1)
+        found = function(around.ravel()).reshape(len(place), *around.shape)[curves, curves]
+        best = np.argmax(found, axis=-1)
+        better = found[curves, best] > value
+        place = np.where(better, around[curves, best], place)
+        value = np.where(better, found[curves, best], value)
+        step /= CLOSER
+    return place, value
+
+
+def brackets(place: Array, value: Array, slope: Array) -> tuple[Array, Array]:
+    """Return the steps in which a curve is level about as far from nought as anywhere, by cubics through their ends.
+
+    Parameters
+    ----------
+    place, value, slope : arrays (p,)
+        Places, and the curve and its slope there, close enough that a step holds one level place at most.
+
+    Returns
+    -------
+    left, right : arrays (m,)
+        Ends of the steps whose levels are within `NEAR` of the farthest.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 6.0, 31)
+    >>> print(*brackets(x, x * np.sin(x), np.sin(x) + x * np.cos(x)))
+    [4.8] [5.]
+    """
+    rows = np.flatnonzero(slope[:-1] * slope[1:] <= 0.0)
+    h = (place[rows + 1] - place[rows])[:, None]
+    u = np.linspace(0.0, 1.0, 9)
+    cubic = (
+        value[rows, None] * (1.0 + 2.0 * u) * (1.0 - u) ** 2
+        + value[rows + 1, None] * (3.0 - 2.0 * u) * u * u
+        + h * (slope[rows, None] * (1.0 - u) - slope[rows + 1, None] * u) * u * (1.0 - u)
+    )
+    height = np.max(np.abs(cubic), axis=-1)
+    rows = rows[height >= (1.0 - NEAR) * np.max(height, initial=0.0)]
+    return place[rows], place[rows + 1]
+
+
+def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
+    """Return where slopes change sign between two places, array (m,).
+
+    Parameters
+    ----------
+    slope : callable
+        From a place of each of m curves (m,) to their slopes there.
+    left, right : arrays (m,)
+        Places with slopes of unlike signs.
+
+    Notes
+    -----
+    By chords, the end that stays halved in weight (Illinois).
+
+    Examples
+    --------
+    >>> level(np.cos, np.asarray([1.0]), np.asarray([2.0])).round(9)
+    array([1.57079633])
+    """
+    low, high = slope(left), slope(right)
+    middle = right
+    for _round in range(ROUNDS_MOST):
+        span = high - low
+        before = middle
+        middle = np.where(span != 0.0, right - high * (right - left) / np.where(span != 0.0, span, 1.0), left)
+        here = slope(middle)
+        beyond = (here > 0.0) == (high > 0.0)
+        left, low = np.where(beyond, left, right), np.where(beyond, 0.5 * low, high)
+        right, high = middle, here
+        if np.all(np.abs(middle - before) <= 1e-15 * np.abs(middle)):
+            break
+    return middle

@@ -1,0 +1,113 @@
+"""Series of instants with rates: what happens between the instants, by the quintic that fits both ends."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+
+Series: TypeAlias = tuple[Array, Array, Array, Array]
+"""Times (t,), rising, and value, rate and acceleration (t,) there."""
+
+HALVINGS = 52
+"""Bisections of an interval: down to rounding."""
+
+
+def crossings(series: Series, level: float = 0.0, *, order: int = 0) -> Array:
+    """Return the times at which the value (order 0) or the rate (order 1) passes through a level.
+
+    Parameters
+    ----------
+    series : Series
+        Times, values, rates, accelerations.
+    level : float
+        What is passed.
+    order : int
+        0 for the value, 1 for the rate.
+
+    Returns
+    -------
+    array (m,)
+
+    Notes
+    -----
+    An interval with an odd number of passages gives one of them; two passages within one interval go unseen.
+
+    Examples
+    --------
+    >>> t = np.asarray([0.0, 2.0, 4.0])
+    >>> np.round(crossings((t, np.sin(t), np.cos(t), -np.sin(t))), 3)
+    array([0.   , 3.141])
+    """
+    times, value = series[0], series[1 + order] - level
+    exact = times[value == 0.0]
+    inside = np.flatnonzero(value[:-1] * value[1:] < 0.0)
+    parts = _quintics(series, inside)
+    low, high = np.zeros(inside.size), np.ones(inside.size)
+    start = np.sign(value[inside])
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        before = np.sign(_at(parts, middle, order) - level) == start
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    width = times[inside + 1] - times[inside]
+    found: Array = np.sort(np.concatenate((exact, times[inside] + 0.5 * (low + high) * width)))
+    return found
+
+
+def values_at(series: Series, at: Array, *, order: int = 0) -> Array:
+    """Return the value (order 0) or rate (order 1) between the instants of a series.
+
+    Notes
+    -----
+    The quintic has the error h⁶ x⁽⁶⁾/46080 in the value at most, h the interval.
+
+    Examples
+    --------
+    >>> t = np.asarray([0.0, 1.0])
+    >>> values_at((t, t**3, 3 * t**2, 6 * t), np.asarray([0.5]))
+    array([0.125])
+    """
+    times = series[0]
+    inside = np.clip(np.searchsorted(times, at, side="right") - 1, 0, times.size - 2)
+    share = (at - times[inside]) / (times[inside + 1] - times[inside])
+    return _at(_quintics(series, inside), share, order)
+
+
+def turning_points(series: Series) -> tuple[Array, Array]:
+    """Return the times at which the rate changes its sign, both ends included, and the values there.
+
+    Examples
+    --------
+    >>> t = np.linspace(0.0, 4.0, 21)
+    >>> at, values = turning_points((t, np.sin(t), np.cos(t), -np.sin(t)))
+    >>> np.round(at, 6), np.round(values, 6)
+    (array([0.      , 1.570796, 4.      ]), array([ 0.      ,  1.      , -0.756802]))
+    """
+    times = series[0]
+    if times.size < 2:
+        return times, series[1]
+    at = np.unique(np.concatenate((times[[0, -1]], crossings(series, order=1))))
+    return at, values_at(series, at)
+
+
+def _quintics(series: Series, inside: Array) -> tuple[Array, Array]:
+    """Return coefficients (6, m) over the share of each interval, and the widths (m,)."""
+    times, x, v, a = series
+    h = times[inside + 1] - times[inside]
+    p0, p1, p2 = x[inside], h * v[inside], 0.5 * h * h * a[inside]
+    d = x[inside + 1] - p0 - p1 - p2
+    e = h * v[inside + 1] - p1 - 2.0 * p2
+    f = h * h * a[inside + 1] - 2.0 * p2
+    return np.stack((p0, p1, p2, 10 * d - 4 * e + 0.5 * f, -15 * d + 7 * e - f, 6 * d - 3 * e + 0.5 * f)), h
+
+
+def _at(parts: tuple[Array, Array], share: Array, order: int) -> Array:
+    coefficients, width = parts
+    if order:
+        coefficients = coefficients[1:] * np.arange(1.0, 6.0)[:, None] / width
+    total = coefficients[-1]
+    for coefficient in coefficients[-2::-1]:
+        total = total * share + coefficient
+    return total

@@ -1,0 +1,1 @@
+"""Geometry of turning: Möbius maps, frames, loops, screws."""

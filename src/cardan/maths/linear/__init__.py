@@ -1,0 +1,1 @@
+"""Linear systems: chains, beams and their modes."""

@@ -1,0 +1,1 @@
+"""Motions that repeat, and whether they last."""

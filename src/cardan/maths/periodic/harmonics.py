@@ -1,0 +1,350 @@
+"""Periodic motions of driven oscillators by harmonic balance, many of them at once.
+
+The balance of an oscillator is known at any moment from its coordinates x, their rates and accelerations; its slopes
+are known too. The motion is sought as a Fourier sum; the balance is formed at samples of a period and brought back to
+harmonics (alternating frequency and time), its slopes give Newton's matrix exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.waves import series_at
+
+
+class Status(IntEnum):
+    """What became of a periodic motion."""
+
+    CONVERGED = 0
+    COARSE = 1
+    """Found, but its highest harmonics are not small: a motion with kinks, or too few harmonics."""
+    NO_CONVERGENCE = 2
+    CANCELLED = 3
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Linearised:
+    """Balance of oscillators at moments of their motion, and its slopes.
+
+    Attributes
+    ----------
+    balance : array (..., R)
+        Left minus right side.
+    mass : array (..., R)
+        Slopes by the accelerations; each acts in its own balance only.
+    damping, stiffness : array (..., R, R)
+        Slopes by the rates and by the coordinates.
+    """
+
+    balance: Array
+    mass: Array
+    damping: Array
+    stiffness: Array
+
+
+SMALL = 1e-6
+"""A balance is nought if it is this small beside what the motion makes of its terms."""
+
+Equation: TypeAlias = Callable[[Array, Array, Array, Array, Array], Linearised]
+"""From rows (b,) of the batch, phases (S,) of the period [rad], and x, ẋ, ẍ there (b, S, R), to what the balance is."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class HarmonicBalance:
+    """How to find periodic motions by harmonic balance.
+
+    Attributes
+    ----------
+    harmonics : int
+        Harmonics of the period to begin with.
+    most : int
+        Harmonics at most; they are doubled until the tail is small.
+    tail : float
+        Largest of the upper quarter of the harmonics that is small, over the largest of all.
+    steps : int
+        Newton steps at most.
+    """
+
+    harmonics: int = 8
+    most: int = 64
+    tail: float = 1e-9
+    steps: int = 40
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Waves:
+    """Periodic motions x = Re Σ c_k e^(ikz), z the phase of the period.
+
+    Attributes
+    ----------
+    coefficient : array (B, R, H+1), complex
+        c_k.
+    force : array (B,)
+        Constant force on the first coordinate that keeps a free motion at its frequency; 0 elsewhere.
+    status : array of int (B,)
+        A `Status` each.
+    tail : array (B,)
+        Largest of the upper quarter of the harmonics over the largest of all.
+    """
+
+    coefficient: Array
+    force: Array
+    status: Array
+    tail: Array
+
+    def at(self, phase: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return x and its first two derivatives by the phase, arrays (B, p, R), at phases (p,) [rad]."""
+        return series_at(self.coefficient, phase)
+
+
+def harmonic_balance(
+    equation: Equation,
+    frequency: ArrayLike,
+    coordinates: int,
+    *,
+    free: bool = False,
+    start: Array | None = None,
+    method: HarmonicBalance | None = None,
+) -> Waves:
+    """Return periodic motions of oscillators.
+
+    Parameters
+    ----------
+    equation : callable
+        An `Equation`.
+    frequency : array (B,) [rad/s]
+        Base frequencies: the rate of the phase z.
+    coordinates : int
+        R.
+    free : bool
+        Whether a motion may be shifted in time; then the mean of the first coordinate is held at 0 and the constant
+        force on it is sought instead.
+    start : array (B, R, h+1), complex, optional
+        Motions to begin with; none by default.
+    method : HarmonicBalance, optional
+
+    Returns
+    -------
+    Waves
+
+    Notes
+    -----
+    Block of coordinates r, s of Newton's matrix: Γ⁺(ω² M_rs Γ'' + ω C_rs Γ' + K_rs Γ), Γ the harmonics at the samples,
+    4H + 4 of them, Γ⁺ the way back.
+
+    Examples
+    --------
+    A swing with a hardening spring, ẍ + x + x³ = cos 0.5 t:
+
+    >>> def duffing(rows, phase, x, v, a):
+    ...     one = np.ones_like(x)
+    ...     slope = (one + 3.0 * x**2)[..., None]
+    ...     left = a + x + x**3 - np.cos(phase)[:, None]
+    ...     return Linearised(balance=left, mass=one, damping=0.0 * slope, stiffness=slope)
+    >>> abs(harmonic_balance(duffing, [0.5], 1).coefficient[0, 0, [1, 3]]).round(5)
+    array([0.71384, 0.26737])
+    """
+    how = method or HarmonicBalance()
+    omega = np.atleast_1d(np.asarray(frequency, dtype=float))
+    count, harmonics = omega.shape[0], how.harmonics
+    found = np.zeros((count, coordinates, harmonics + 1), dtype=complex)
+    if start is not None:
+        harmonics = max(harmonics, start.shape[-1] - 1)
+        found = _widened(start, harmonics)
+    force = np.zeros(count)
+    status = np.full(count, int(Status.NO_CONVERGENCE))
+    tail = np.zeros(count)
+    rows = np.arange(count)
+    while coordinates and rows.size:
+        inner, inner_force, good = _newton(equation, rows, omega[rows], found[rows], force[rows], free, how)
+        small = _tails(inner)
+        found[rows], force[rows], tail[rows] = inner, inner_force, small
+        status[rows] = np.where(good, np.where(small <= how.tail, Status.CONVERGED, Status.COARSE), status[rows])
+        rows = rows[good & (small > how.tail)]
+        if 2 * harmonics > how.most:
+            break
+        if rows.size:
+            harmonics *= 2
+            found = _widened(found, harmonics)
+    if not coordinates:
+        status[:] = Status.CONVERGED
+    return Waves(coefficient=found, force=force, status=status, tail=tail)
+
+
+def _widened(coefficient: Array, harmonics: int) -> Array:
+    """Return the coefficients of more harmonics, the new ones zero."""
+    wide = np.zeros((*coefficient.shape[:-1], harmonics + 1), dtype=complex)
+    wide[..., : coefficient.shape[-1]] = coefficient
+    return wide
+
+
+def _tails(coefficient: Array) -> Array:
+    size = np.max(np.abs(coefficient), axis=-2)
+    upper = size.shape[-1] - max(2, (size.shape[-1] - 1) // 4)
+    whole = np.max(size, axis=-1)
+    return np.max(size[..., upper:], axis=-1) / np.where(whole > 0.0, whole, 1.0)
+
+
+def _bases(harmonics: int) -> tuple[Array, Array, Array]:
+    """Return phases of the samples (S,), harmonics with their two derivatives (3, S, n), and the way back (n, S)."""
+    samples = 4 * harmonics + 4
+    phase = 2.0 * np.pi * np.arange(samples) / samples
+    order = np.arange(1, harmonics + 1)
+    cosine, sine = np.cos(phase[:, None] * order), np.sin(phase[:, None] * order)
+    one, nothing = np.ones((samples, 1)), np.zeros((samples, 1))
+    value = np.concatenate([one, cosine, sine], axis=-1)
+    rate = np.concatenate([nothing, -order * sine, order * cosine], axis=-1)
+    bend = np.concatenate([nothing, -(order**2) * cosine, -(order**2) * sine], axis=-1)
+    back = value.T * (2.0 / samples)
+    back[0] *= 0.5
+    return phase, np.stack([value, rate, bend]), back
+
+
+def _newton(
+    equation: Equation, rows: Array, omega: Array, start: Array, force: Array, free: bool, how: HarmonicBalance
+) -> tuple[Array, Array, Array]:
+    """Return the motions, their forces, and whether each was found; Newton's method with halved steps."""
+    phase, bases, back = _bases(start.shape[-1] - 1)
+    known = np.concatenate([start.real, -start.imag[..., 1:]], axis=-1)
+    known_force = force.copy()
+    step, step_force = np.zeros_like(known), np.zeros_like(force)
+    share = np.ones(len(rows))
+    best, first = np.full(len(rows), np.inf), np.zeros(len(rows))
+    good = np.zeros(len(rows), dtype=bool)
+    going = np.arange(len(rows))
+    for _round in range(how.steps):
+        part = share[going, None, None]
+        trial = known[going] + part * step[going]
+        trial_force = force_now = known_force[going] + share[going] * step_force[going]
+        rate = omega[going, None, None]
+        x, v, a = (np.matmul(basis, trial.swapaxes(-1, -2)) for basis in bases)
+        here = equation(rows[going], phase, x, rate * v, rate**2 * a)
+        left = np.matmul(back, here.balance).swapaxes(-1, -2)
+        left[:, 0, 0] -= force_now
+        size = np.sqrt(np.sum(left**2, axis=(-1, -2)))
+        better = np.isfinite(size) & (size <= best[going] * (1.0 - 1e-4 * share[going]))
+        stuck = ~better & (share[going] < 2.0**-7)
+        still = _settled(part * step[going], known[going]) & np.isfinite(best[going])
+        first[going] = np.where(np.isinf(best[going]), size, first[going])
+        reach = np.max(np.abs(here.stiffness), axis=(1, 2, 3)) * (np.max(np.abs(trial), axis=(1, 2)) + SMALL)
+        settled = still & (size <= SMALL * (first[going] + reach))
+        stuck |= still & ~settled
+        share[going] = np.where(better, 1.0, 0.5 * share[going])
+        best[going] = np.where(better, size, best[going])
+        accepted = going[better]
+        known[accepted], known_force[accepted] = trial[better], trial_force[better]
+        good[going[settled]] = True
+        go_on = better & ~settled
+        if np.any(go_on):
+            moved, pushed = _steps(here, left, bases, back, omega[going], go_on, free)
+            step[going[go_on]], step_force[going[go_on]] = moved, pushed
+            finite = np.isfinite(moved).all(axis=(-1, -2))
+            stuck[np.flatnonzero(go_on)[~finite]] = True
+        going = going[~settled & ~stuck]
+        if not going.size:
+            break
+    harmonics = start.shape[-1] - 1
+    found = known[..., : harmonics + 1].astype(complex)
+    found[..., 1:] -= 1j * known[..., harmonics + 1 :]
+    return found, known_force, good
+
+
+def _settled(step: Array, known: Array) -> Array:
+    """Tell whether steps are so small that the next one would be rounding."""
+    size = np.max(np.abs(known), axis=(-1, -2))
+    return np.max(np.abs(step), axis=(-1, -2)) <= 1e-9 * size + 1e-13
+
+
+def _steps(
+    here: Linearised, left: Array, bases: Array, back: Array, omega: Array, chosen: Array, free: bool
+) -> tuple[Array, Array]:
+    """Return Newton's steps of the chosen rows and of the forces."""
+    rate = omega[chosen, None, None]
+    damping, stiffness, mass = here.damping[chosen], here.stiffness[chosen], here.mass[chosen]
+    coupled = np.any((damping != 0.0) | (stiffness != 0.0), axis=(0, 1))
+    rank = left.shape[-2]
+    blocks: dict[tuple[int, int], Array] = {}
+    for r in range(rank):
+        for s in range(rank):
+            if not (coupled[r, s] or r == s):
+                continue
+            inner = stiffness[:, :, r, s, None] * bases[0] + rate * damping[:, :, r, s, None] * bases[1]
+            if r == s:
+                inner = inner + rate**2 * mass[:, :, r, None] * bases[2]
+            blocks[r, s] = np.matmul(back, inner)
+    if free:
+        for (_r, s), block in blocks.items():
+            if s == 0:
+                block[..., :, 0] = 0.0
+        blocks[0, 0][..., 0, 0] = -1.0
+    step = -solve_blocks(blocks, left[chosen])
+    pushed = step[:, 0, 0].copy() if free else np.zeros(len(step))
+    if free:
+        step[:, 0, 0] = 0.0
+    return step, pushed
+
+
+def solve_blocks(blocks: dict[tuple[int, int], Array], right: Array) -> Array:
+    """Return the solution of systems made of blocks, array (B, R, n) as ``right``; the shortest where one is singular.
+
+    Parameters
+    ----------
+    blocks : dict from (r, s) to arrays (B, n, n)
+        What is left out is zero. Where only neighbours are coupled elimination goes block by block.
+    right : array (B, R, n)
+    """
+    rank = right.shape[-2]
+    try:
+        if all(abs(r - s) <= 1 for r, s in blocks):
+            return _chain(blocks, right)
+        return np.linalg.solve(_assembled(blocks, rank), right.reshape(len(right), -1, 1)).reshape(right.shape)
+    except np.linalg.LinAlgError:
+        if len(right) == 1:
+            whole = _assembled(blocks, rank)
+            if not np.isfinite(whole).all():
+                return np.full_like(right, np.nan)
+            return np.linalg.lstsq(whole[0], right.reshape(-1))[0].reshape(right.shape)
+        parts = [
+            solve_blocks({key: block[k : k + 1] for key, block in blocks.items()}, right[k : k + 1])
+            for k in range(len(right))
+        ]
+        return np.concatenate(parts)
+
+
+def _assembled(blocks: dict[tuple[int, int], Array], rank: int) -> Array:
+    """Return whole matrices, array (B, R n, R n)."""
+    count, size = next(iter(blocks.values())).shape[:2]
+    whole = np.zeros((count, rank * size, rank * size))
+    for (r, s), block in blocks.items():
+        whole[:, r * size : (r + 1) * size, s * size : (s + 1) * size] = block
+    return whole
+
+
+def _chain(blocks: dict[tuple[int, int], Array], right: Array) -> Array:
+    """Return the solution where only neighbours are coupled."""
+    rank = right.shape[-2]
+    above: list[Array] = []
+    inner: list[Array] = []
+    for r in range(rank):
+        pivot, rest = blocks[r, r], right[:, r, :, None]
+        if r and (r, r - 1) in blocks:
+            below = blocks[r, r - 1]
+            rest = rest - np.matmul(below, inner[-1])
+            if (r - 1, r) in blocks:
+                pivot = pivot - np.matmul(below, above[-1])
+        ahead = blocks.get((r, r + 1))
+        both = rest if ahead is None else np.concatenate([rest, ahead], axis=-1)
+        solved = np.linalg.solve(pivot, both)
+        inner.append(solved[..., :1])
+        above.append(solved[..., 1:])
+    found = [inner[-1]]
+    for r in range(rank - 2, -1, -1):
+        step = inner[r] - np.matmul(above[r], found[-1]) if (r, r + 1) in blocks else inner[r]
+        found.append(step)
+    return np.stack([one[..., 0] for one in found[::-1]], axis=-2)

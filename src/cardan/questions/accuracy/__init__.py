@@ -1,0 +1,1 @@
+"""What do tolerances and errors do to the motion?"""

@@ -1,0 +1,335 @@
+"""Which tolerances keep the output within its allowed error at the least cost?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from cardan.drive.accuracy import Cost, Tolerance
+from cardan.drive.drive import Drive
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .accuracy import TURNS, WAYS, located_shafts, one_turn, sensitivity, transmission_error
+from .cheapest import Cheapest, cheapest
+from .tolerance import Linear, Spread, WorstCase, spreads
+
+FLAT = 1e-9
+"""Influences below this share of the largest are none."""
+
+BETWEEN = 100
+"""Positions looked at to either side of one where the error has a peak."""
+
+NEAR = 0.999
+"""Peaks above this share of the target may exceed it between the positions looked at."""
+
+OVER = 1e-7
+"""Share of the target by which it may be exceeded."""
+
+PASSES = 6
+"""Most times that positions between are added; it takes one or two."""
+
+SHARE = 1e-6
+"""Share of the largest price above which a position decides."""
+
+SQUARES = Linear()
+"""How errors add up where nothing else is said."""
+
+
+class Of(StrEnum):
+    """What is to be kept small."""
+
+    ANGLE = "angle"
+    """Error of the output angle at any position [rad]."""
+    CHANGE = "change"
+    """Error of the output angle less its mean over the turn, which setting the drive up takes away [rad]."""
+    SHIFT = "shift"
+    """Shift of the output shaft at any position [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Allotted:
+    """One tolerance as allotted.
+
+    Attributes
+    ----------
+    field : str
+        Path of the tolerance in the drive.
+    tolerance : float
+        ± [rad or m]; infinite where it has no influence.
+    cost : float
+        What it costs, its weight over the tolerance.
+    weight : float
+        Its weight in the cost.
+    kept : bool
+        Whether it was given and not to be changed.
+    before : float
+        The tolerance of the drive so far; 0 where none is given.
+    """
+
+    field: str
+    tolerance: float
+    cost: float
+    weight: float
+    kept: bool
+    before: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Allocation:
+    """The cheapest tolerances for an allowed error of the output.
+
+    Attributes
+    ----------
+    target : float
+        The error allowed, ± [rad or m].
+    of : Of
+        Of what.
+    method : Linear or WorstCase
+        How errors add up.
+    rows : tuple of Allotted
+        Every tolerance that was to be found or was kept, joint by joint.
+    spread : tuple of n Tolerance
+        The tolerances found, those without influence left out, to be asked on.
+    cost : float
+        Cost of all tolerances that were found.
+    equal_cost : float
+        Cost if each of them took the same share of the target.
+    largest : float
+        Error that they leave at the worst position by the method: the target.
+    angle : array (p,) [rad]
+        Input angles over half a turn or a turn.
+    error : array (p,)
+        What the tolerances found add up to there.
+    binding : tuple of float [rad]
+        Input angles at which the error allowed is reached.
+    optimality : float
+        By how much the conditions of the least cost are missed, as a share: the gap between the cost and a bound below
+        which no tolerances keep the target.
+    """
+
+    target: float
+    of: Of
+    method: Linear | WorstCase
+    rows: tuple[Allotted, ...]
+    spread: tuple[Tolerance, ...]
+    cost: float
+    equal_cost: float
+    largest: float
+    angle: Array
+    error: Array
+    binding: tuple[float, ...]
+    optimality: float
+
+
+def allocate(
+    drive: Drive,
+    target: float,
+    *,
+    of: Of | str = Of.ANGLE,
+    method: Linear | WorstCase = SQUARES,
+    spread: Spread = None,
+    keep: Sequence[str] = (),
+) -> Allocation:
+    """Return the cheapest tolerances that keep the output within an allowed error all round a turn.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive; the costs of its tolerances are weights w, a tolerance t costs w/t; 1 where none is given. What its
+        known errors make is taken off the target.
+    target : float
+        The error allowed, ± [rad], of the shift [m].
+    of : Of
+        "angle", "change" or "shift".
+    method : Linear or WorstCase
+        Root of the sum of squares, or the worst case.
+    spread : Tolerance, or n of them, optional
+        Costs, and tolerances to be kept; those of the drive by default.
+    keep : sequence of str
+        Paths of tolerances to be kept as given, ``joints[0].tolerance.alpha4``.
+
+    Returns
+    -------
+    Allocation
+
+    Raises
+    ------
+    InputError
+        The target is not above zero; known errors and what is kept use it up; what is kept is not given.
+
+    Notes
+    -----
+    Least Σ w/t under Σ \\|C(φ)\\|^q t^q ≤ target^q at every φ, q = 2 or 1. In x = t^q the bounds are linear and the
+    cost is strictly convex: there is one optimum. If one position alone decides, t = (w/(q λ \\|C\\|^q))^(1/(q+1));
+    else λ \\|C\\|^q is a sum over the positions where the bound is reached, found by an interior-point method and
+    proved by the bound that λ gives. Positions between those looked at are added where they exceed the target.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = allocate(Drive.from_angles([30 * deg]), 0.1 * deg)
+    >>> [f"{one.field.split('.')[-1]} {one.tolerance / deg:.3f}°" for one in found.rows]
+    ['phase 0.051°', 'alpha1 0.111°', 'alpha2 0.049°', 'alpha3 0.088°', 'alpha4 0.125°']
+    """
+    kind = _kind(of)
+    names = WAYS if kind is Of.SHIFT else TURNS
+    given = spreads(drive, spread)
+    limits = np.asarray([[0.0 if row is None else getattr(row, name) for name in names] for row in given])
+    weights = np.asarray([[_weight(row, name) for name in names] for row in given])
+    fields = [f"joints[{j}].tolerance.{name}" for j in range(len(given)) for name in names]
+    kept = np.asarray([field in keep for field in fields])
+    check(_problems(target, keep, fields, limits.reshape(-1)))
+    budget = _Budget(drive, kind, power=1 if isinstance(method, WorstCase) else 2, target=target)
+    flat, weight = limits.reshape(-1), weights.reshape(-1)
+    phi = one_turn()
+    most = np.max(budget(phi)[0], axis=0)
+    free = ~kept & (most > FLAT**budget.power * np.max(most))
+    if not np.any(free):
+        raise refuse("keep", _("no tolerance with an influence is left to be found"))
+    place, more, tolerances = phi, phi[:0], np.full(len(fields), np.inf)
+    tolerances[kept] = flat[kept]
+    for _pass in range(PASSES):
+        place = np.concatenate((place, more))
+        found, use = _cheapest(budget, place, flat, weight, kept, free)
+        tolerances[free] = found.value
+        finite = np.where(np.isfinite(tolerances), tolerances, 0.0)
+        more = _between(budget.error, finite, phi, target)
+        if not len(more):
+            break
+    costs = weight / tolerances
+    equal = _equal(use, budget.power)
+    return Allocation(
+        target=target,
+        of=kind,
+        method=method,
+        rows=tuple(
+            Allotted(
+                field=field,
+                tolerance=float(tolerances[k]),
+                cost=float(costs[k]),
+                weight=float(weight[k]),
+                kept=bool(kept[k]),
+                before=float(flat[k]),
+            )
+            for k, field in enumerate(fields)
+        ),
+        spread=_spread(given, names, finite.reshape(limits.shape)),
+        cost=float(np.sum(costs[free])),
+        equal_cost=float(np.sum(weight[free] / equal)),
+        largest=float(np.max(budget.error(place, finite))),
+        angle=phi,
+        error=budget.error(phi, finite),
+        binding=_binding(place, found.price, float(phi[1])),
+        optimality=found.gap,
+    )
+
+
+class _Budget:
+    """What each tolerance uses of the error allowed, and what there is, to the power at which errors add up."""
+
+    def __init__(self, drive: Drive, kind: Of, *, power: int, target: float) -> None:
+        self.drive, self.kind, self.power, self.target = drive, kind, power, target
+        self.held = located_shafts(drive) if kind is Of.SHIFT else ()
+        turn = one_turn()
+        table, centre = self._at(turn)
+        change = kind is Of.CHANGE
+        self.mean = table.mean(axis=0) if change else 0.0 * table[0]
+        self.centre = float(np.mean(centre)) if change else 0.0
+
+    def _at(self, phi: Array) -> tuple[Array, Array]:
+        known = transmission_error(self.drive, phi)
+        table = sensitivity(self.drive, phi, located=self.held)
+        centre = known.output_shift if self.kind is Of.SHIFT else known.error
+        return table.reshape(len(phi), -1), centre
+
+    def __call__(self, phi: Array) -> tuple[Array, Array]:
+        """Return the powers of the influences (p, m) and of what known errors leave of the target (p,), signed."""
+        table, centre = self._at(phi)
+        left = self.target - np.abs(centre - self.centre)
+        return np.abs(table - self.mean) ** self.power, np.sign(left) * np.abs(left) ** self.power
+
+    def error(self, phi: Array, tolerances: Array) -> Array:
+        """Return known errors and tolerances (m,) together at each position."""
+        table, centre = self._at(phi)
+        spread: Array = (np.abs(table - self.mean) ** self.power @ tolerances**self.power) ** (1.0 / self.power)
+        return np.abs(centre - self.centre) + spread
+
+
+def _cheapest(
+    budget: _Budget, place: Array, flat: Array, weight: Array, kept: Array, free: Array
+) -> tuple[Cheapest, Array]:
+    """Return the cheapest tolerances for given positions, and what share of the room each uses there."""
+    influence, room = budget(place)
+    left = room - influence[:, kept] @ flat[kept] ** budget.power
+    if np.any(left <= 0.0):
+        raise refuse("target", _("known errors and the tolerances that are kept use up the error allowed"))
+    use = influence[:, free] / left[:, None]
+    return cheapest(weight[free], use, budget.power), use
+
+
+def _between(error: Callable[[Array, Array], Array], tolerances: Array, turn: Array, target: float) -> Array:
+    """Return places between those of a turn at which tolerances exceed the target."""
+    here = error(turn, tolerances)
+    top = (here > np.roll(here, 1)) & (here >= np.roll(here, -1)) & (here > NEAR * target)
+    around = turn[top][:, None] + float(turn[1]) * np.linspace(-1.0, 1.0, 2 * BETWEEN + 1)
+    if not around.size:
+        return turn[:0]
+    there = error(around.reshape(-1), tolerances).reshape(around.shape)
+    best = np.take_along_axis(around, np.argmax(there, axis=-1)[:, None], axis=-1)[:, 0]
+    found: Array = np.mod(best[np.max(there, axis=-1) > (1.0 + OVER) * target], 2.0 * np.pi)
+    return found
+
+
+def _binding(place: Array, price: Array, step: float) -> tuple[float, ...]:
+    """Return the positions that decide, neighbours taken together by their prices."""
+    order = np.argsort(place)
+    place, price = place[order], price[order]
+    some = price > SHARE * np.max(price)
+    place, price = place[some], price[some]
+    groups = np.split(np.arange(len(place)), np.flatnonzero(np.diff(place) > 1.5 * step) + 1)
+    return tuple(float(np.average(place[one], weights=price[one])) for one in groups)
+
+
+def _kind(of: Of | str) -> Of:
+    try:
+        return Of(of)
+    except ValueError:
+        text = _("{value} is none of {choices}")
+        raise refuse("of", text.format(value=repr(of), choices=", ".join(Of))) from None
+
+
+def _weight(row: Tolerance | None, name: str) -> float:
+    cost = Cost() if row is None or row.cost is None else row.cost
+    weight: float = getattr(cost, name)
+    return weight
+
+
+def _problems(target: float, keep: Sequence[str], fields: Sequence[str], limits: Array) -> list[Problem]:
+    problems = []
+    if not (np.isfinite(target) and target > 0.0):
+        problems.append(Problem("target", _("{given} given; it must be above zero").format(given=target)))
+    for name in keep:
+        if name not in fields:
+            text = _("{name} is none of {choices}")
+            problems.append(Problem("keep", text.format(name=name, choices=", ".join(fields))))
+        elif limits[fields.index(name)] <= 0.0:
+            problems.append(Problem(name, _("missing; it is to be kept")))
+    return problems
+
+
+def _equal(use: Array, power: int) -> Array:
+    """Return tolerances that each take the same share of the target at its own worst position."""
+    share: Array = (1.0 / (use.shape[-1] * np.max(use, axis=0))) ** (1.0 / power)
+    return share
+
+
+def _spread(given: Sequence[Tolerance | None], names: Sequence[str], values: Array) -> tuple[Tolerance, ...]:
+    rows = [Tolerance() if row is None else row for row in given]
+    found: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in values]
+    return tuple(replace(row, **one) for row, one in zip(rows, found, strict=True))

@@ -1,0 +1,327 @@
+"""What do the tolerances of the joints do to the motion of the output?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.drive.accuracy import Tolerance
+from cardan.drive.drive import Drive
+from cardan.drive.models.laws import refuse_kinds
+from cardan.errors import refuse
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .accuracy import TURNS, WAYS, error_arrays, located_shafts, one_turn, per_joint, sensitivity, transmission_error
+from .sampling import SIGMA, Convergence, MonteCarlo, Sample, sampled
+
+NORMAL_95 = 1.959963984540054
+"""Standard deviations on both sides that hold 95 % of a normal law."""
+
+DIRECTIONS = 90
+"""Phases at which the amplitude of an order is looked at."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Linear:
+    """Root of the sum of squares of the influences: three standard deviations where all errors are normal."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class WorstCase:
+    """Every error at the end of its tolerance, each on the side that adds up."""
+
+
+Method: TypeAlias = Linear | WorstCase | MonteCarlo
+Spread: TypeAlias = Tolerance | Sequence[Tolerance | None] | None
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Contribution:
+    """What one tolerance contributes.
+
+    Attributes
+    ----------
+    field : str
+        Path of the tolerance in the drive, ``joints[0].tolerance.alpha2``.
+    tolerance : float
+        The tolerance, ± [rad or m].
+    share : float
+        Its share of the variance over the turn.
+    largest : float
+        The largest error it makes by itself, at the worst position [rad or m].
+    mean, first, second : float
+        The parts of that error that stay, come once a turn, and come twice a turn [rad or m].
+    """
+
+    field: str
+    tolerance: float
+    share: float
+    largest: float
+    mean: float
+    first: float
+    second: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Band:
+    """Between which bounds an error of the output lies, over one turn; [rad] for its angle, [m] for its shift.
+
+    Attributes
+    ----------
+    centre : array (p,)
+        Error that the known errors of the drive make, exactly; zero without any.
+    lower, upper : array (p,)
+        Bounds by the method: ± root of the sum of squares, ± worst case, or the 0.15 % and 99.85 % quantiles.
+    lower_95, upper_95 : array (p,)
+        Bounds that hold 95 % of the drives at each position.
+    deviation : array (p,)
+        Standard deviation by the distributions of the errors.
+    mean, first, second : float
+        Bounds of the size of the parts that stay over a turn, come once and come twice; of the tolerances alone.
+    peak_to_peak : float
+        Bound of the change over a turn; of the tolerances alone.
+    contributions : tuple of Contribution
+        Every tolerance that has a part in it, the largest share first.
+    """
+
+    centre: Array
+    lower: Array
+    upper: Array
+    lower_95: Array
+    upper_95: Array
+    deviation: Array
+    mean: float
+    first: float
+    second: float
+    peak_to_peak: float
+    contributions: tuple[Contribution, ...]
+
+    @property
+    def largest(self) -> float:
+        """Largest size of the bounds over the turn."""
+        return float(max(np.max(np.abs(self.lower)), np.max(np.abs(self.upper))))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ToleranceBand:
+    """What tolerances leave open at the output.
+
+    Attributes
+    ----------
+    angle : array (p,) [rad]
+        Input angles over one turn from the start position.
+    output : Band
+        Error of the output angle [rad], against the perfect drive at the same input angle.
+    shift : Band
+        Shift of the output shaft along its axis [m], where nothing but the last joint holds it.
+    method : Linear, WorstCase or MonteCarlo
+        How it was found.
+    convergence : Convergence or None
+        How far the samples are to be trusted.
+    cancelled : bool
+        Whether ``progress`` stopped the sampling; the result then rests on what was drawn.
+    """
+
+    angle: Array
+    output: Band
+    shift: Band
+    method: Method
+    convergence: Convergence | None = None
+    cancelled: bool = False
+
+
+def tolerance(
+    drive: Drive,
+    spread: Spread = None,
+    *,
+    method: Method = Linear(),
+    progress: Callable[[float], object] | None = None,
+) -> ToleranceBand:
+    """Return within which bounds the output errs, given the tolerances of the joints.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive. Known errors of its joints shift the bounds.
+    spread : Tolerance, or n of them, optional
+        Tolerances of every joint, or of each; those of the drive by default.
+    method : Linear, WorstCase or MonteCarlo
+        Root of the sum of squares, the worst case, or exact loops on random errors.
+    progress : function, optional
+        Called with the share done of the sampling; answering "stop" ends it.
+
+    Returns
+    -------
+    ToleranceBand
+        output, shift : bounds over one turn.
+
+    Raises
+    ------
+    InputError
+        No joint has a tolerance.
+
+    Notes
+    -----
+    Worst case Σ \\|C\\| t, root of the sum of squares √Σ (C t)², C from `accuracy.sensitivity`;
+    Book (171), (180). The peak to peak is that between the two positions that can differ most.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> drive = Drive.from_angles([30 * deg])
+    >>> band = tolerance(drive, Tolerance(alpha1=0.1 * deg, alpha2=0.05 * deg))
+    >>> f"{band.output.largest / deg:.4f}"
+    '0.0707'
+    >>> [(one.field, round(one.share, 2)) for one in band.output.contributions]
+    [('joints[0].tolerance.alpha2', 0.67), ('joints[0].tolerance.alpha1', 0.33)]
+    """
+    refuse_kinds(drive, _("errors and tolerances"))
+    rows = spreads(drive, spread)
+    turns, ways = error_arrays(rows)
+    if not np.any(turns) and not np.any(ways):
+        raise refuse(
+            "joints[0].tolerance", _("missing; no joint has a tolerance: give joints[k].tolerance.alpha1_deg or others")
+        )
+    widths = np.asarray([[SIGMA["normal" if row is None else row.distribution]] for row in rows])
+    held = located_shafts(drive)
+    phi = one_turn(method.positions) if isinstance(method, MonteCarlo) else one_turn()
+    known = transmission_error(drive, phi)
+    tables = (sensitivity(drive, phi), sensitivity(drive, phi, located=held))
+    parts = [
+        _Part(table=table, limits=limits, deviations=limits * widths, centre=centre, names=names)
+        for table, limits, centre, names in zip(
+            tables, (turns, ways), (known.error, known.output_shift), (TURNS, WAYS), strict=True
+        )
+    ]
+    if not isinstance(method, MonteCarlo):
+        power = 1 if isinstance(method, WorstCase) else 2
+        output, shift = (_stacked(part, power) for part in parts)
+        return ToleranceBand(angle=phi, output=output, shift=shift, method=method)
+    draw = sampled(drive, rows, method, progress=progress)
+    output, shift = (_from_sample(part, one) for part, one in zip(parts, draw.samples, strict=True))
+    return ToleranceBand(
+        angle=phi, output=output, shift=shift, method=method, convergence=draw.convergence, cancelled=draw.cancelled
+    )
+
+
+def spreads(drive: Drive, spread: Spread) -> list[Tolerance | None]:
+    """Return the tolerances of each joint."""
+    joints = len(drive.joints)
+    if spread is None:
+        return [joint.tolerance for joint in drive.joints]
+    return per_joint("spread", spread, joints)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Part:
+    """Sensitivity (p, n, 5) of the output to errors, with their tolerances and standard deviations (n, 5)."""
+
+    table: Array
+    limits: Array
+    deviations: Array
+    centre: Array
+    names: tuple[str, ...]
+
+
+def stacked(parts: Array, power: int) -> Array:
+    """Return Σ \\|x\\| for the power 1, √Σ x² for 2, over the last axis.
+
+    Examples
+    --------
+    >>> [float(stacked(np.asarray([3.0, -4.0]), power)) for power in (1, 2)]
+    [7.0, 5.0]
+    """
+    sizes: Array = np.abs(parts)
+    return np.sum(sizes, axis=-1) if power == 1 else np.sqrt(np.sum(sizes * sizes, axis=-1))
+
+
+def _stacked(part: _Part, power: int) -> Band:
+    flat = _flat(part.table * part.limits)
+    half = stacked(flat, power)
+    deviation = stacked(_flat(part.table * part.deviations), 2)
+    mean, orders = _orders(flat)
+    coarse = flat[:: max(1, len(flat) // 120)]
+    change = max(float(np.max(stacked(coarse - row, power))) for row in coarse)
+    return Band(
+        centre=part.centre,
+        lower=part.centre - half,
+        upper=part.centre + half,
+        lower_95=part.centre - np.minimum(half, NORMAL_95 * deviation),
+        upper_95=part.centre + np.minimum(half, NORMAL_95 * deviation),
+        deviation=deviation,
+        mean=float(stacked(mean, power)),
+        first=_amplitude(orders[0], power),
+        second=_amplitude(orders[1], power),
+        peak_to_peak=change,
+        contributions=contributions(part.table, part.limits, part.deviations, part.names),
+    )
+
+
+def _from_sample(part: _Part, sample: Sample) -> Band:
+    return Band(
+        centre=part.centre,
+        lower=sample.lower,
+        upper=sample.upper,
+        lower_95=sample.lower_95,
+        upper_95=sample.upper_95,
+        deviation=sample.deviation,
+        mean=sample.mean,
+        first=sample.first,
+        second=sample.second,
+        peak_to_peak=sample.peak_to_peak,
+        contributions=contributions(part.table, part.limits, part.deviations, part.names),
+    )
+
+
+def contributions(table: Array, limits: Array, deviations: Array, names: Sequence[str]) -> tuple[Contribution, ...]:
+    """Return what every tolerance contributes, the largest share first.
+
+    Parameters
+    ----------
+    table : array (p, n, 5)
+        Sensitivity over one turn.
+    limits, deviations : array (n, 5)
+        Tolerances and standard deviations.
+    names : sequence of 5 str
+        Names of the tolerances of a joint.
+    """
+    reach = table * limits
+    variance = np.mean((table * deviations) ** 2, axis=0)
+    total = float(np.sum(variance))
+    mean, orders = _orders(np.moveaxis(reach, 0, -1).reshape(-1, len(table)).T)
+    rows = [
+        Contribution(
+            field=f"joints[{j}].tolerance.{name}",
+            tolerance=float(limits[j, k]),
+            share=float(variance[j, k]) / total,
+            largest=float(np.max(np.abs(reach[:, j, k]))),
+            mean=float(abs(mean[5 * j + k])),
+            first=float(abs(orders[0][5 * j + k])),
+            second=float(abs(orders[1][5 * j + k])),
+        )
+        for j in range(len(limits))
+        for k, name in enumerate(names)
+        if limits[j, k] > 0.0 and variance[j, k] > 0.0
+    ]
+    return tuple(sorted(rows, key=lambda row: -row.share))
+
+
+def _flat(table: Array) -> Array:
+    flat: Array = table.reshape(len(table), -1)
+    return flat
+
+
+def _orders(curves: Array) -> tuple[Array, list[Array]]:
+    """Return mean and complex amplitudes of orders 1 and 2 of curves (p, m) over one turn, arrays (m,)."""
+    phi = one_turn(len(curves))
+    return np.mean(curves, axis=0), [2.0 * np.mean(curves * np.exp(-1j * k * phi)[:, None], axis=0) for k in (1, 2)]
+
+
+def _amplitude(order: Array, power: int) -> float:
+    """Return the largest amplitude that phasors (m,) reach together, looked at from every side."""
+    side = np.exp(1j * np.arange(DIRECTIONS) * (np.pi / DIRECTIONS))
+    return float(np.max(stacked(np.real(order * side[:, None]), power)))

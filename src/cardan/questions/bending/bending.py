@@ -1,0 +1,372 @@
+"""At which speeds do the shafts of a drive whirl, and how far does it stay away from them?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Literal
+
+import numpy as np
+
+from cardan.drive.body import pieces
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.fields.parts import known_lengths
+from cardan.errors import refuse
+from cardan.formulas.critical_speed import HALF_BAND, Margin, speed_margin, uniform_speed
+from cardan.maths.arrays import Array
+from cardan.maths.linear.modes import Modes, strain, synchronous
+from cardan.maths.linear.rotor_beams import Line, divided
+from cardan.maths.linear.transfer import modes_below, speeds
+from cardan.texts import _
+
+from .whirl_line import WhirlLine, whirl_line
+
+SPLINED = 0.9
+"""Real over computed critical speed of a shaft with a spline, where the drive does not say."""
+
+FINE = 16
+"""Elements along the line for each mode, and one mode more."""
+
+MORE = 3
+"""Modes looked at beyond those asked for, to find one in which a shaft bows."""
+
+APART = 1e-6
+"""Share by which the count of modes keeps off the last one: rounding of soft bearings under stiff shafts."""
+
+MOST = 40
+"""Most modes that can be asked for."""
+
+
+class Running(IntEnum):
+    """How a drive runs beside its critical speeds."""
+
+    CLEAR = 0
+    """All rules are kept."""
+    CLOSE = 1
+    """It stays below the critical speed, nearer than a rule allows."""
+    BEYOND = 2
+    """It reaches the critical speed."""
+    UNKNOWN = 3
+    """The drive says no speed."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Part:
+    """What moves in a mode.
+
+    Attributes
+    ----------
+    kind : "shaft" or "support"
+        A shaft that bows, or a support that gives way while shafts hardly bend.
+    number : int
+        Its number.
+    waves : int
+        Half waves of the shaft between its ends; 1 for a support.
+    """
+
+    kind: Literal["shaft", "support"]
+    number: int
+    waves: int = 1
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CriticalSpeeds:
+    """Bending critical speeds of a drive, lowest first, and what whirls.
+
+    Attributes
+    ----------
+    speed : array (m,) [rad/s]
+        Critical speeds as computed.
+    actual : array (m,) [rad/s]
+        Those of the real shafts, k_n times the computed ones.
+    wear : array (m,)
+        k_n of each mode: of the shaft that bends most in it.
+    at_rest : array (m,) [rad/s]
+        Natural frequencies of the standing shafts, as a tap shows them.
+    part : tuple of Part
+        What moves in each mode.
+    shaft_share : array (m, n+1)
+        Share of the energy of each mode that bends each shaft.
+    support_share : array (m, k)
+        Share that each support takes up.
+    used : (float, float) or None [rad/s]
+        Lowest and highest speed of running; None where the drive says none.
+    crossed : array of bool (m,)
+        Whether the real critical speed lies between these.
+    half_crossed : array of bool (m,)
+        Whether the drive runs within 8 percent of half of it, where the secondary couples excite the mode.
+    deciding : int or None
+        Mode that the rules are about: the lowest in which a shaft bows, counted from 0; it may lie beyond those asked
+        for. None where none was found.
+    bowing : Part or None
+        That shaft.
+    margin : Margin or None
+        How far the drive stays below that mode; None without a speed.
+    alone : array (n+1,) [rad/s]
+        First critical speed of each shaft between two joints by itself, by the closed formula for a plain tube like its
+        longest stretch; nan for others.
+    place : array (p,) [m]
+        Along the line from joint 1 on.
+    deflection : array (m, p)
+        Shape of each mode; the largest of each is 1.
+    joint_place : array (n,) [m]
+        Where the joints are; nan where they are not part of the line.
+    support_place : array (k,) [m]
+        Where the supports are; nan where they are not part of the line.
+    shaft_span : array (n+1, 2) [m]
+        Beginning and end of each shaft; nan where it is not part of the line.
+    rigid : tuple of bool
+        For each support, whether it holds its shaft still sideways.
+    held : tuple of int
+        Joints at the ends that count as held by the machine.
+    residual : float
+        Largest difference between the finite elements and the transfer matrices, over the speed.
+    missed : int
+        Critical speeds up to the last one that the count of the transfer matrices has more; zero when all were found.
+    assumed : tuple of str
+        Paths of what the drive does not say and the answer assumes.
+    """
+
+    speed: Array
+    actual: Array
+    wear: Array
+    at_rest: Array
+    part: tuple[Part, ...]
+    shaft_share: Array
+    support_share: Array
+    used: tuple[float, float] | None
+    crossed: Array
+    half_crossed: Array
+    deciding: int | None
+    bowing: Part | None
+    margin: Margin | None
+    alone: Array
+    place: Array
+    deflection: Array
+    joint_place: Array
+    support_place: Array
+    shaft_span: Array
+    rigid: tuple[bool, ...]
+    held: tuple[int, ...]
+    residual: float
+    missed: int
+    assumed: tuple[str, ...] = ()
+
+    @property
+    def status(self) -> Running:
+        """How the drive runs beside its critical speeds."""
+        if self.margin is None:
+            return Running.UNKNOWN
+        if "supercritical" in self.margin.violated:
+            return Running.BEYOND
+        return Running.CLOSE if self.margin.violated else Running.CLEAR
+
+    @property
+    def half_band(self) -> Array:
+        """Speeds about half of each real critical speed to keep out of, array (m, 2) [rad/s]."""
+        return 0.5 * self.actual[:, None] * np.asarray([1.0 - HALF_BAND, 1.0 + HALF_BAND])
+
+
+def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) -> CriticalSpeeds:
+    """Return the bending critical speeds of a drive, what whirls at them, and how far it stays below.
+
+    Parameters
+    ----------
+    drive : Drive
+        With a body for each shaft between two joints; better with masses of its yokes and stiffness of its supports.
+    duty : Duty, optional
+        Speeds of running; those of the drive by default.
+    modes : int
+        How many critical speeds.
+
+    Returns
+    -------
+    CriticalSpeeds
+
+    Raises
+    ------
+    InputError
+        A shaft has no body or no length, or shafts can swing freely: with the keys to add.
+
+    Notes
+    -----
+    Timoshenko's beams with rotary inertia and gyroscopic action, hinged at the joints, in forward whirl as fast as
+    they spin (dynamics of rotors; Book (253)-(260) is the uniform shaft between two joints). Speeds are those of exact
+    transfer matrices, shapes those of finite elements, and each checks the other. Shafts are taken along their own
+    axes, as if the joints were straight. The rules are about the lowest mode in which a shaft bows: in the modes below
+    it a soft support gives way, which rubber damps.
+
+    Examples
+    --------
+    >>> from cardan.io import example
+    >>> from cardan.units import rpm
+    >>> found = bending_speeds(example("truck-supports"))
+    >>> (found.speed / rpm).round(), found.part[0], round(found.margin.ratio, 2)
+    (array([ 9325., 17679., 35533.]), Part(kind='shaft', number=3, waves=1), 4.66)
+    """
+    if not 1 <= modes <= MOST:
+        raise refuse("modes", _("{value} is not allowed; allowed is 1 to {most}").format(value=modes, most=MOST))
+    whole = whirl_line(drive)
+    cuts = elements(whole, modes)
+    fine = divided(whole.line, cuts)
+    found = synchronous(fine, modes + MORE)
+    part, shaft_share, support_share = _parts(drive, whole, fine, cuts, found)
+    bowing = next((k for k, one in enumerate(part) if one.kind == "shaft"), None)
+    wanted = modes if bowing is None else max(modes, bowing + 1)
+    speed = speeds(whole.line, wanted, near=found.speed[:wanted])
+    wear = wear_factors(drive)[np.argmax(shaft_share, axis=-1)][:wanted]
+    chosen = drive.duty if duty is None else duty
+    first = slice(0, modes)
+    at_rest = synchronous(fine, modes, spinning=False).speed
+    actual = wear * speed
+    used = used_speeds(chosen)
+    low, high = used or (np.nan, np.nan)
+    return CriticalSpeeds(
+        speed=speed[first],
+        actual=actual[first],
+        wear=wear[first],
+        at_rest=speeds(whole.line, modes, spin=0.0, near=at_rest),
+        part=part[first],
+        shaft_share=shaft_share[first],
+        support_share=support_share[first],
+        used=used,
+        crossed=(actual[first] >= low) & (actual[first] <= high),
+        half_crossed=(0.5 * (1.0 + HALF_BAND) * actual[first] >= low) & (0.5 * (1 - HALF_BAND) * actual[first] <= high),
+        deciding=bowing,
+        bowing=None if bowing is None else part[bowing],
+        margin=None
+        if used is None or bowing is None
+        else speed_margin(
+            float(speed[bowing]),
+            used[1],
+            wear=float(wear[bowing]),
+            application=chosen.application,
+            operating=used,
+            through=True,
+        ),
+        alone=_alone(drive),
+        place=fine.place + whole.place[0],
+        deflection=found.deflection[first],
+        joint_place=_places(whole, whole.joint_node, len(drive.joints)),
+        support_place=_places(whole, whole.support_node, len(drive.supports)),
+        shaft_span=_spans(whole, len(drive.shafts)),
+        rigid=tuple(one.radial and one.stiffness is None for one in drive.supports),
+        held=whole.held,
+        residual=float(np.max(np.abs(found.speed[first] / speed[first] - 1.0))),
+        missed=_missed(whole, speed[first]),
+        assumed=(*whole.assumed, *_assumed(drive)),
+    )
+
+
+def elements(whole: WhirlLine, modes: int, fine: int = FINE) -> Array:
+    """Return into how many finite elements each beam of a line is cut for its lowest modes, int array (e,)."""
+    size = (whole.place[-1] - whole.place[0]) / (fine * (modes + 1))
+    return np.ceil(whole.line.length / size).astype(int)
+
+
+def _parts(
+    drive: Drive, whole: WhirlLine, fine: Line, cuts: Array, found: Modes
+) -> tuple[tuple[Part, ...], Array, Array]:
+    """Return what moves in each mode, and the shares of shafts and supports in its energy."""
+    energy = strain(fine, found)
+    owner = np.repeat(whole.shaft, cuts)
+    numbers = [shaft.number for shaft in drive.shafts]
+    shafts = np.stack([np.sum(energy.beams[:, owner == number], axis=-1) for number in numbers], axis=-1)
+    node = np.concatenate(([0], np.cumsum(cuts)))
+    supports = np.zeros((len(found.speed), len(drive.supports)))
+    for number, at in whole.support_node.items():
+        support = drive.supports[number - 1]
+        slope = fine.slope_before(int(node[at])) + whole.support_slope[number] - whole.line.slope_before(at)
+        # Supports at one place share what its spring takes up by their stiffness.
+        for given, total, share in (
+            (support.stiffness, whole.line.spring[at], energy.springs[:, node[at]]),
+            (
+                support.tilt_stiffness,
+                whole.line.tilt_spring[whole.support_slope[number]],
+                energy.tilt_springs[:, slope],
+            ),
+        ):
+            if given is not None and total > 0.0:
+                supports[:, number - 1] += given / total * share
+    parts = []
+    for k, soft in enumerate(supports):
+        if np.sum(soft) > 0.5:
+            parts.append(Part(kind="support", number=int(np.argmax(soft)) + 1))
+        else:
+            number = int(np.argmax(shafts[k])) + 1
+            inside = np.flatnonzero(owner == number)
+            parts.append(
+                Part(kind="shaft", number=number, waves=_waves(found.deflection[k, inside[0] : inside[-1] + 2]))
+            )
+    return tuple(parts), shafts, supports
+
+
+def _waves(shape: Array) -> int:
+    """Return how many half waves a shaft makes about the line between its ends."""
+    off = shape - np.linspace(shape[0], shape[-1], len(shape))
+    side = np.sign(off[np.abs(off) > 0.02 * np.max(np.abs(off))])
+    return 1 + int(np.count_nonzero(np.diff(side)))
+
+
+def wear_factors(drive: Drive) -> Array:
+    """Return real over computed critical speed of each shaft, array (n+1,).
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+
+    Notes
+    -----
+    What the shaft says, else 0.9 with a spline and 1 without: the play of a spline lets the shaft whirl sooner, Book
+    p. 228, where a new one has 0.9 to 0.95 and a worn one 0.7 to 0.8.
+    """
+    usual = [1.0 if shaft.spline is None else SPLINED for shaft in drive.shafts]
+    given = [shaft.wear_factor for shaft in drive.shafts]
+    return np.asarray([two if one is None else one for one, two in zip(given, usual, strict=True)])
+
+
+def _assumed(drive: Drive) -> tuple[str, ...]:
+    splined = [shaft for shaft in drive.shafts if shaft.spline is not None and shaft.wear_factor is None]
+    return tuple(f"shafts[{shaft.number - 1}].wear_factor" for shaft in splined if shaft.has_body)
+
+
+def used_speeds(duty: Duty) -> tuple[float, float] | None:
+    """Return the lowest and highest speed of running [rad/s], None where the duty says none."""
+    if duty.speed_range is not None:
+        return duty.speed_range
+    return (abs(duty.speed), abs(duty.speed)) if duty.speed else None
+
+
+def _missed(whole: WhirlLine, speed: Array) -> int:
+    """Return by how many the count of the transfer matrices differs from the speeds found below the last one."""
+    below = float(speed[-1]) * (1.0 - APART)
+    return abs(modes_below(whole.line, below) - int(np.sum(speed < below)))
+
+
+def _alone(drive: Drive) -> Array:
+    """Return the first critical speed of each shaft between two joints as a plain tube, nan for others."""
+    found = np.full(len(drive.shafts), np.nan)
+    for number, length in known_lengths(drive).items():
+        body = pieces(drive.shafts[number - 1], length)
+        if body:
+            tube = max(body, key=lambda one: one.length)
+            steel = tube.material
+            found[number - 1] = uniform_speed(length, tube.outer, tube.inner, steel.youngs, steel.density, modes=1)[0]
+    return found
+
+
+def _places(whole: WhirlLine, node: dict[int, int], count: int) -> Array:
+    found = np.full(count, np.nan)
+    for number, at in node.items():
+        found[number - 1] = whole.place[at]
+    return found
+
+
+def _spans(whole: WhirlLine, count: int) -> Array:
+    found = np.full((count, 2), np.nan)
+    for number in np.unique(whole.shaft):
+        beams = np.flatnonzero(whole.shaft == number)
+        found[number - 1] = whole.place[beams[0]], whole.place[beams[-1] + 1]
+    return found

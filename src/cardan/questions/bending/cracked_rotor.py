@@ -1,0 +1,302 @@
+"""How does a shaft with a crack whirl? A heavy disc amid a shaft whose stiffness turns and breathes, out of balance.
+
+At a steady speed the motion repeats with the turn; its orders are the marks of the crack. The same stiffness can make
+every such motion unstable, about twice the critical speed at half the order.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.formulas.run_up import Progress, negative, not_finite, not_positive
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.periodic.floquet import monodromy
+from cardan.maths.periodic.turning_spring import energy_slope, matrices, orbit
+from cardan.texts import _
+
+from .crack import UNCRACKED, Crack
+
+GRAVITY = 9.81
+"""g [m/s²]."""
+
+SLOWEST = 1e-3
+"""Slowest speed over the critical one; the orders up to the resonance are all counted."""
+
+NEUTRAL = 1e-9
+"""How far a multiplier may be beyond 1, and how near to 1, for the motion to be unstable, and not to be one."""
+
+AT_ONCE = 32
+"""Speeds taken together."""
+
+PHASE = 0.5
+"""Largest phase of the free swing in a step of the monodromy matrix."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrackedRotor:
+    """Steady whirling of a cracked, unbalanced shaft, X down, Y 90° ahead in the sense of rotation.
+
+    Attributes
+    ----------
+    mass : float [kg]
+        m.
+    stiffness : float [N/m]
+        k_0 of the sound shaft.
+    damping_ratio : float
+        ζ.
+    crack : Crack
+        Losses and law of breathing.
+    unbalance : float [kg·m]
+        m_u e.
+    speed : array (...) [rad/s]
+        Ω.
+    order : array of int (N,)
+        n; negative ones run backward.
+    amplitude : array (..., N), complex [m]
+        Z_n of X + iY = Σ Z_n e^(inΩt), the crack down at t = 0; nan where a multiplier is 1.
+    left_out : array (...) [m]
+        Largest amplitude of an order not given.
+    multiplier : array (..., 4), complex
+        What a small disturbance is multiplied by in a turn.
+    residual : array (...)
+        What damping takes, against what unbalance and drive put in, over the sum of both; and how far the multipliers
+        are from their exact product e^(-8πζω_0/Ω), where that is no smaller than 1e-6.
+    cancelled : bool
+        Whether ``progress`` stopped the work; what was not computed is nan.
+    """
+
+    mass: float
+    stiffness: float
+    damping_ratio: float
+    crack: Crack
+    unbalance: float
+    speed: Array
+    order: Array
+    amplitude: Array
+    left_out: Array
+    multiplier: Array
+    residual: Array
+    cancelled: bool = False
+
+    @property
+    def natural_frequency(self) -> float:
+        """Critical speed of the sound shaft, ω_0 [rad/s]."""
+        return math.sqrt(self.stiffness / self.mass)
+
+    @property
+    def spectral_radius(self) -> Array:
+        """Largest size of a multiplier, array (...)."""
+        return np.max(np.abs(self.multiplier), axis=-1)
+
+    @property
+    def stable(self) -> Array:
+        """Whether disturbances do not grow, array of bool (...)."""
+        return self.spectral_radius <= 1.0 + NEUTRAL
+
+    @property
+    def half_order(self) -> Array:
+        """Whether what grows changes its sign every turn, so that orders ½, 1½ … appear, array of bool (...)."""
+        largest = np.take_along_axis(self.multiplier, np.argmax(np.abs(self.multiplier), axis=-1)[..., None], -1)[
+            ..., 0
+        ]
+        return ~self.stable & (largest.real < 0.0) & (np.abs(largest.imag) < 1e-6 * np.abs(largest))
+
+    @property
+    def resonant(self) -> Array:
+        """Whether there is no steady motion, as a multiplier is 1, array of bool (...)."""
+        return np.isnan(self.amplitude.real).any(axis=-1) & ~np.isnan(self.multiplier.real).any(axis=-1)
+
+    @property
+    def vibration_share(self) -> Array:
+        """Sum of the amplitudes of all orders but 0 over what stands still, array (...).
+
+        The law of breathing holds where this is well below 1: there the weight opens and closes the crack.
+        """
+        size = np.abs(self.amplitude)
+        still = self.order_amplitude(0)
+        found: Array = (np.sum(size, axis=-1) - still) / np.where(still > 0.0, still, np.nan)
+        return found
+
+    def order_amplitude(self, order: int) -> Array:
+        """Return \\|Z_n\\| of one order [m], array (...)."""
+        found: Array = np.abs(self.amplitude[..., int(np.flatnonzero(self.order == order)[0])])
+        return found
+
+    def at(self, angle: ArrayLike) -> Array:
+        """Return X + iY [m] at angles of the crack (p,) [rad] from the vertical, complex array (..., p): the orbit."""
+        wave = np.exp(1j * self.order[:, None] * np.asarray(angle, dtype=float))
+        found: Array = self.amplitude @ wave
+        return found
+
+    def torque(self, angle: ArrayLike) -> Array:
+        """Return the torque [N·m] that the crack asks of the drive at angles (p,) [rad], array (..., p): ½ zᵀK'z."""
+        unit = np.exp(1j * np.asarray(angle, dtype=float))
+        share, slope = self.crack.opening(unit)
+        return self.stiffness * energy_slope(self.at(angle), unit, share, slope, self.crack.losses)
+
+
+def cracked_rotor(
+    mass: float,
+    stiffness: float,
+    speed: ArrayLike,
+    *,
+    crack: Crack = UNCRACKED,
+    damping_ratio: float = 0.0,
+    unbalance: float = 0.0,
+    unbalance_phase: float = 0.0,
+    gravity: float = GRAVITY,
+    orders: int = 16,
+    progress: Progress | None = None,
+) -> CrackedRotor:
+    """Return the steady whirling of a shaft with a breathing crack and an unbalance, and whether it is stable.
+
+    Parameters
+    ----------
+    mass : float [kg]
+        m of the disc.
+    stiffness : float [N/m]
+        k_0 of the sound shaft, at the disc.
+    speed : array (...) [rad/s]
+        Ω.
+    crack : Crack, optional
+        None by default.
+    damping_ratio : float
+        ζ, c = 2ζ√(k_0 m).
+    unbalance : float [kg·m]
+        m_u e.
+    unbalance_phase : float [rad]
+        χ, by which the unbalance is ahead of the crack.
+    gravity : float [m/s²]
+        g across the shaft.
+    orders : int
+        How many orders are given, forward and backward.
+    progress : function, optional
+        Told the share of the speeds done; when it answers "stop" the work ends.
+
+    Returns
+    -------
+    CrackedRotor
+
+    Raises
+    ------
+    InputError
+        Values out of range.
+
+    Notes
+    -----
+    m z̈ + c ż + K(θ) z = m g + m_u e Ω² e^(i(θ+χ)), θ = Ωt, with K of `periodic.turning_spring`. Linear, so the
+    orders are one banded system, without integration and exact to rounding. The crack breathes by the weight: what
+    bends it down is to be much more than it vibrates.
+
+    Examples
+    --------
+    At half the critical speed the crack shows by order 2:
+
+    >>> crack = Crack(loss_xi=0.1, loss_eta=0.02)
+    >>> found = cracked_rotor(0.617, 18875.0, [60.0, 87.45], crack=crack, damping_ratio=0.02)
+    >>> print((1e6 * found.order_amplitude(2)).round(2), found.stable)
+    [ 12.86 136.75] [ True  True]
+    """
+    problems = not_positive({"mass": mass, "stiffness": stiffness})
+    omega = math.sqrt(stiffness / mass) if not problems else math.nan
+    turning = np.asarray(speed, dtype=float)
+    slow = not problems and bool(np.any(turning < SLOWEST * omega * (1.0 - 1e-12)))
+    if slow or not np.all(np.isfinite(turning) & (turning > 0.0)):
+        text = _("needs to be finite and at least a thousandth of the critical speed")
+        problems.append(Problem("speed", text, "not_positive" if np.any(turning <= 0.0) else "out_of_range"))
+    problems += negative({"damping_ratio": damping_ratio, "unbalance": unbalance, "gravity": gravity})
+    problems += not_finite({"unbalance_phase": unbalance_phase})
+    if orders < 4:
+        problems.append(Problem("orders", _("needs to be at least 4"), "out_of_range"))
+    check(problems)
+    ratio = turning.ravel() / omega
+    order = np.arange(-orders, orders + 1)
+    multiplier = np.full((ratio.size, 4), complex(math.nan, math.nan))
+    amplitude = np.full((ratio.size, order.size), complex(math.nan, math.nan))
+    left_out, missed = np.full(ratio.size, math.nan), np.full(ratio.size, math.nan)
+    cancelled = False
+    for first in range(0, ratio.size, AT_ONCE):
+        some = slice(first, min(first + AT_ONCE, ratio.size))
+        multiplier[some] = _multipliers(ratio[some], damping_ratio, crack)
+        for k in range(some.start, some.stop):
+            eta, values = float(ratio[k]), multiplier[k]
+            spun = unbalance / mass * eta**2 * complex(math.cos(unbalance_phase), math.sin(unbalance_phase))
+            z = orbit(eta, damping_ratio, crack.coefficients, crack.losses, gravity / omega**2, spun)
+            if np.min(np.abs(values - 1.0)) < NEUTRAL:
+                z = np.full_like(z, complex(math.nan, math.nan))
+            amplitude[k], left_out[k] = _kept(z, orders)
+            gap = _power_gap(z, eta, damping_ratio, crack, spun)
+            missed[k] = max(gap, _product_gap(values, damping_ratio / eta))
+        if progress is not None and progress(some.stop / ratio.size) == "stop":
+            cancelled = some.stop < ratio.size
+            break
+    lead = turning.shape
+    return CrackedRotor(
+        mass=float(mass),
+        stiffness=float(stiffness),
+        damping_ratio=float(damping_ratio),
+        crack=crack,
+        unbalance=float(unbalance),
+        speed=turning,
+        order=order,
+        amplitude=amplitude.reshape(*lead, order.size),
+        left_out=left_out.reshape(lead),
+        multiplier=multiplier.reshape(*lead, 4),
+        residual=missed.reshape(lead),
+        cancelled=cancelled,
+    )
+
+
+def _multipliers(ratio: Array, damping: float, crack: Crack) -> Array:
+    """Return the multipliers over a turn, complex array (B, 4)."""
+    along = ratio[:, None, None, None]
+
+    def coefficients(share: Array) -> tuple[Array, Array, Array]:
+        angle = 2.0 * np.pi * share
+        spring = matrices(angle, crack.opening(np.exp(1j * angle))[0], crack.losses)
+        one = np.ones((ratio.size, share.size, 1, 1))
+        return (one * along**2)[..., 0] * np.ones(2), one * (2.0 * damping * along) * np.eye(2), one * spring
+
+    fastest = max(1.0, 2.0 * damping) / float(np.min(ratio))
+    steps = max(24, math.ceil(2.0 * np.pi * fastest / PHASE), math.ceil(12.0 * math.sqrt(crack.breathing)))
+    found: Array = np.linalg.eigvals(monodromy(coefficients, np.full(ratio.size, 2.0 * np.pi), steps=steps))
+    return found
+
+
+def _kept(z: Array, orders: int) -> tuple[Array, float]:
+    """Return the orders from -orders to orders, and the largest of the others."""
+    middle = len(z) // 2 - 1
+    inside = np.arange(middle - orders, middle + orders + 1)
+    there = (inside >= 0) & (inside < len(z))
+    row = np.zeros(inside.size, dtype=complex)
+    row[there] = z[inside[there]]
+    rest = np.delete(np.abs(z), inside[there])
+    return row, float(np.max(rest, initial=0.0))
+
+
+def _power_gap(z: Array, ratio: float, damping: float, crack: Crack, spun: complex) -> float:
+    """Return what the powers, over k_0 Ω, do not balance, over their sum."""
+    if np.isnan(z.real).any():
+        return math.nan
+    order = np.arange(len(z)) - (len(z) // 2 - 1)
+    count = 1 << math.ceil(math.log2(2 * len(z) + 2 * crack.breathing + 8))
+    unit = np.exp(2j * np.pi * np.arange(count) / count)
+    spectrum = np.zeros(count, dtype=complex)
+    spectrum[order % count] = z
+    curve = count * np.fft.ifft(spectrum)
+    share, slope = crack.opening(unit)
+    asked = energy_slope(curve, unit, share, slope, crack.losses)
+    lost = 2.0 * damping * ratio * float(np.sum((order * np.abs(z)) ** 2))
+    spent = float(np.real(spun * np.conj(1j * z[order == 1][0])))
+    scale = lost + abs(spent) + float(np.mean(np.abs(asked))) + 1e-4 * float(np.max(np.abs(z))) ** 2
+    return abs(lost - spent - float(np.mean(asked))) / scale if scale else 0.0
+
+
+def _product_gap(values: Array, decay: float) -> float:
+    """Return how far the multipliers are from their product, where it is not too small to compare."""
+    exact = math.exp(-8.0 * math.pi * decay)
+    return float(abs(np.prod(values) / exact - 1.0)) if exact >= 1e-6 else 0.0

@@ -1,0 +1,355 @@
+"""How do two shafts joined by a Hooke joint move when the first is cracked and both are out of balance?
+
+A motor drives the first disc through a shaft that twists; the joint makes the second disc turn unevenly; both discs
+hang on shafts that bend.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.errors import Problem, check
+from cardan.formulas.run_up import Progress, bad_times, instants, negative, not_finite, not_positive
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.kernel import mobius
+from cardan.maths.periodic.cosine_power import hump
+from cardan.maths.periodic.turning_spring import energy_slope, pull
+from cardan.texts import _
+
+from .crack import UNCRACKED, Crack
+from .cracked_rotor import GRAVITY
+from .whirl_in_time import fitted_orders, followed, longest_step
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class WhirlingShaft:
+    """A disc on a shaft that bends, out of balance.
+
+    Attributes
+    ----------
+    mass : float [kg]
+        M of the disc, without the mass that unbalances it.
+    stiffness : float [N/m]
+        k of the sound shaft at the disc.
+    inertia : float [kg·m²]
+        J of the disc about its axis.
+    damping : float [N·s/m]
+        c of the bending.
+    unbalance_mass : float [kg]
+        u.
+    unbalance_radius : float [m]
+        e, at the angle of the disc.
+    """
+
+    mass: float
+    stiffness: float
+    inertia: float
+    damping: float = 0.0
+    unbalance_mass: float = 0.0
+    unbalance_radius: float = 0.0
+
+    @property
+    def whole(self) -> float:
+        """Mass of disc and unbalance [kg]."""
+        return self.mass + self.unbalance_mass
+
+    @property
+    def unbalance(self) -> float:
+        """Mass times radius of the unbalance [kg·m]."""
+        return self.unbalance_mass * self.unbalance_radius
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrackedShafts:
+    """Motion in time of two shafts joined by a Hooke joint, X down, Y 90° ahead in the sense of rotation.
+
+    Attributes
+    ----------
+    bend : float [rad]
+        α.
+    phase : float [rad]
+        ψ of the driving yoke at the start.
+    speed : float [rad/s]
+        Ω of the motor.
+    crack : Crack
+        On the first shaft; open side down where its angle is 0.
+    time : array (t,) [s]
+        Instants.
+    angle : array (t, 2) [rad]
+        θ_1, θ_2 of the discs.
+    rate : array (t, 2) [rad/s]
+        Their speeds.
+    deflection : array (t, 2), complex [m]
+        X + iY of the discs.
+    velocity : array (t, 2), complex [m/s]
+        Its rates.
+    torque : array (t,) [N·m]
+        Of the motor on the first disc.
+    energy : array (t,) [J]
+        Of motion, springs and weight.
+    residual : float
+        How much of the energy is missing or too much at an instant, over the largest change of kinetic, elastic or
+        supplied energy.
+    cancelled : bool
+        Whether ``progress`` stopped the run; the curves end there.
+    """
+
+    bend: float
+    phase: float
+    speed: float
+    crack: Crack
+    time: Array
+    angle: Array
+    rate: Array
+    deflection: Array
+    velocity: Array
+    torque: Array
+    energy: Array
+    residual: float
+    cancelled: bool = False
+
+    def orders(self, shaft: int, *, turns: int = 8, reach: int = 4, parts: int = 1) -> tuple[Array, Array]:
+        """Return orders (N,) and amplitudes [m] (N,), complex, of a shaft's whirling in the last turns.
+
+        Parameters
+        ----------
+        shaft : int
+            0 or 1; its own angle counts.
+        turns : int
+            How many of the last whole turns; fewer where there are no more.
+        reach : int
+            Orders from -reach to reach.
+        parts : int
+            2 for half orders too.
+
+        Notes
+        -----
+        Least squares of Σ Z_n e^(inθ), each instant with its share of the angle.
+        """
+        return fitted_orders(self.angle[:, shaft], self.deflection[:, shaft], turns=turns, reach=reach, parts=parts)
+
+
+def cracked_shafts(
+    first: WhirlingShaft,
+    second: WhirlingShaft,
+    bend: float,
+    speed: float,
+    end: float,
+    *,
+    phase: float = 0.0,
+    crack: Crack = UNCRACKED,
+    drive_stiffness: float,
+    drive_damping: float = 0.0,
+    gravity: float = GRAVITY,
+    time: ArrayLike | None = None,
+    progress: Progress | None = None,
+) -> CrackedShafts:
+    """Return the motion of two unbalanced shafts joined by a Hooke joint, the first of them cracked.
+
+    Parameters
+    ----------
+    first, second : WhirlingShaft
+        The driving and the driven one.
+    bend : float [rad]
+        α in [0, π/2).
+    speed : float [rad/s]
+        Ω of the motor, positive.
+    end : float [s]
+        Until when.
+    phase : float [rad]
+        ψ, angle of the driving yoke from the plane of the shafts at the start.
+    crack : Crack, optional
+        Of the first shaft; none by default.
+    drive_stiffness : float [N·m/rad]
+        K_1T between motor and first disc.
+    drive_damping : float [N·m·s/rad]
+        C_1T.
+    gravity : float [m/s²]
+        g.
+    time : array (t,), optional [s]
+        Instants of the curves, up to the end; evenly by default. The start is always among them.
+    progress : function, optional
+        Told the share done; when it answers "stop" the run ends.
+
+    Returns
+    -------
+    CrackedShafts
+
+    Raises
+    ------
+    InputError
+        Values out of range, times out of the run, or a run of too many steps.
+
+    Notes
+    -----
+    Lagrange's equations of the article's model (6)-(25), restored: θ_2 = T(θ_1 + ψ) - T(ψ) with the exact joint T. The
+    run starts at θ_1 = 0 with the speed Ω, the discs at rest where their weight bends the sound shafts. Lateral
+    accelerations are eliminated, which leaves one equation in θ̈_1. The account of energy is the check.
+
+    Examples
+    --------
+    >>> one = WhirlingShaft(mass=0.617, stiffness=18875.0, inertia=6e-4, damping=4.0)
+    >>> found = cracked_shafts(one, one, 0.1, 80.0, 0.1, crack=Crack(loss_xi=0.1, loss_eta=0.02), drive_stiffness=120.0)
+    >>> print(f"{1e6 * found.deflection[-1, 0].real:.1f} μm", found.residual < 1e-9)
+    291.5 μm True
+    """
+    positive = {"speed": speed, "end": end, "drive_stiffness": drive_stiffness}
+    others = {"drive_damping": drive_damping, "gravity": gravity}
+    problems = _problems((first, second), positive, others, bend)
+    problems += not_finite({"phase": phase})
+    check(problems + ([] if time is None else bad_times(time, end)))
+    model = _Model(
+        shafts=(first, second),
+        bend=float(bend),
+        phase=float(phase),
+        crack=crack,
+        speed=float(speed),
+        drive=(float(drive_stiffness), float(drive_damping)),
+        gravity=float(gravity),
+    )
+    sag = [one.whole * gravity / one.stiffness for one in (first, second)]
+    free = [math.sqrt(one.stiffness / one.whole) for one in (first, second)]
+    stiff = [math.sqrt(drive_stiffness / first.inertia), drive_damping / first.inertia]
+    stiff += [one.damping / one.whole for one in (first, second)]
+    uneven = speed * max(2.0 / math.cos(bend), math.sqrt(1.0 + crack.breathing))
+    at = np.sort(instants(time, end, max(*free, speed) / (2.0 * math.pi)))
+    grid = np.union1d(0.0, at)
+    states, cancelled = followed(
+        model.rates(),
+        np.array([0.0, speed, sag[0], 0.0, sag[1], 0.0, *([0.0] * 5)]),
+        grid,
+        np.array([1e-12, 1e-12 * speed, *([1e-15] * 4), *([1e-15 * max(free)] * 4), 1e-13]),
+        longest_step(*free, *stiff, uneven),
+        progress,
+    )
+    return model.result(grid[: len(states)], states, cancelled)
+
+
+def _problems(
+    shafts: tuple[WhirlingShaft, WhirlingShaft], positive: dict[str, float], others: dict[str, float], bend: float
+) -> list[Problem]:
+    """Return what is wrong with the numbers."""
+    problems = not_positive(positive)
+    for name, shaft in zip(("first", "second"), shafts, strict=True):
+        problems += not_positive({f"{name}.{key}": getattr(shaft, key) for key in ("mass", "stiffness", "inertia")})
+        others |= {f"{name}.{key}": getattr(shaft, key) for key in ("damping", "unbalance_mass", "unbalance_radius")}
+    if not 0.0 <= bend < 0.5 * math.pi:
+        problems.append(Problem("bend", _("needs to be at least 0 and below 90°"), "out_of_range"))
+    return problems + negative(others)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Model:
+    """The equations; a state is θ, θ̇, x and y of both discs, their rates, and the energy brought in."""
+
+    shafts: tuple[WhirlingShaft, WhirlingShaft]
+    bend: float
+    phase: float
+    crack: Crack
+    speed: float
+    drive: tuple[float, float]
+    gravity: float
+
+    def rates(self) -> Callable[[float, Array], Array]:
+        """Return the function from time and state to the rates of the state."""
+        (one, two), (spring, damper), g, motor = self.shafts, self.drive, self.gravity, self.speed
+        losses, power = self.crack.losses, self.crack.breathing
+        a, b = (complex(part) for part in mobius.hooke(np.asarray(self.bend)))
+        share, size = b.conjugate() / a.conjugate(), abs(a) ** 2
+        start, begin = cmath.exp(2j * self.phase), cmath.phase(1.0 + share * cmath.exp(2j * self.phase))
+        out_1, out_2, whole_1, whole_2 = one.unbalance, two.unbalance, one.whole, two.whole
+        solid_1 = one.inertia + out_1 * one.unbalance_radius - out_1**2 / whole_1
+        solid_2 = two.inertia + out_2 * two.unbalance_radius
+
+        def rate(time: float, state: Array) -> Array:
+            theta, turning, x_1, y_1, x_2, y_2, vx_1, vy_1, vx_2, vy_2, _work = state.tolist()
+            z_1, z_2, v_1, v_2 = complex(x_1, y_1), complex(x_2, y_2), complex(vx_1, vy_1), complex(vx_2, vy_2)
+            unit = cmath.exp(1j * theta)
+            kernel = 1.0 + share * start * unit * unit
+            ratio = 1.0 / (size * (kernel.real**2 + kernel.imag**2))
+            bent = 4.0 * size * kernel.imag * ratio * ratio
+            other = cmath.exp(1j * (theta - cmath.phase(kernel) + begin))
+            opened, slope = hump(unit, power)
+            square = turning * turning
+            force_1 = (
+                out_1 * square * unit
+                + whole_1 * g
+                - one.damping * v_1
+                - one.stiffness * pull(z_1, unit, opened, losses)
+            )
+            force_2 = (
+                out_2 * square * (ratio * ratio - 1j * bent) * other
+                + whole_2 * g
+                - two.damping * v_2
+                - two.stiffness * z_2
+            )
+            twist, slip = motor * time - theta, motor - turning
+            moment = (
+                spring * twist
+                + damper * slip
+                - one.stiffness * energy_slope(z_1, unit, opened, slope, losses)
+                - g * (out_1 * unit.imag + out_2 * ratio * other.imag)
+                - solid_2 * ratio * bent * square
+            )
+            # Sideways accelerations, force - out θ̈ along the tangent, put into the balance of moments.
+            along_1 = (force_1 * (1j * unit).conjugate()).real / whole_1
+            along_2 = (force_2 * (1j * other).conjugate()).real / whole_2
+            inertia = solid_1 + (solid_2 - out_2**2 / whole_2) * ratio * ratio
+            rise = (moment - out_1 * along_1 - out_2 * ratio * along_2) / inertia
+            a_1 = (force_1 - out_1 * rise * 1j * unit) / whole_1
+            a_2 = (force_2 - out_2 * ratio * rise * 1j * other) / whole_2
+            brought = (
+                (spring * twist + damper * slip) * motor
+                - damper * slip * slip
+                - one.damping * abs(v_1) ** 2
+                - two.damping * abs(v_2) ** 2
+            )
+            return np.array([turning, rise, vx_1, vy_1, vx_2, vy_2, a_1.real, a_1.imag, a_2.real, a_2.imag, brought])
+
+        return rate
+
+    def result(self, time: Array, states: Array, cancelled: bool) -> CrackedShafts:
+        """Return the curves, and the account of energy."""
+        theta, turning = states[:, 0], states[:, 1]
+        pair, shift = mobius.hooke(np.asarray(self.bend)), np.exp(2j * self.phase)
+        lead, ratio, _slope = mobius.course(pair, shift * np.exp(2j * theta))
+        second = theta + lead - mobius.lead(pair, np.asarray(shift))
+        angle, rate = np.column_stack((theta, second)), np.column_stack((turning, ratio * turning))
+        z, v = (states[:, k : k + 4 : 2] + 1j * states[:, k + 1 : k + 4 : 2] for k in (2, 6))
+        unit = np.exp(1j * theta)
+        share, _rise = self.crack.opening(unit)
+        bent = [np.real(np.conj(z[:, 0]) * pull(z[:, 0], unit, share, self.crack.losses)), np.abs(z[:, 1]) ** 2]
+        kinetic, elastic, weight = np.zeros(time.size), np.zeros(time.size), np.zeros(time.size)
+        for k, one in enumerate(self.shafts):
+            arm = np.exp(1j * angle[:, k])
+            at_mass = v[:, k] + 1j * one.unbalance_radius * rate[:, k] * arm
+            kinetic += 0.5 * one.inertia * rate[:, k] ** 2 + 0.5 * one.mass * np.abs(v[:, k]) ** 2
+            kinetic += 0.5 * one.unbalance_mass * np.abs(at_mass) ** 2
+            elastic += 0.5 * one.stiffness * bent[k]
+            weight -= self.gravity * (one.whole * z[:, k].real + one.unbalance * arm.real)
+        twist = self.speed * time - theta
+        elastic += 0.5 * self.drive[0] * twist**2
+        total, brought = kinetic + elastic + weight, states[:, -1]
+        changes = [float(np.max(np.abs(one - one[0]))) for one in (kinetic, elastic, brought)]
+        missing = float(np.max(np.abs(total - total[0] - brought)))
+        scale = max(*changes, 1e-6 * float(kinetic[0]))
+        return CrackedShafts(
+            bend=self.bend,
+            phase=self.phase,
+            speed=self.speed,
+            crack=self.crack,
+            time=time,
+            angle=angle,
+            rate=rate,
+            deflection=z,
+            velocity=v,
+            torque=self.drive[0] * twist + self.drive[1] * (self.speed - turning),
+            energy=total,
+            residual=missing / scale,
+            cancelled=cancelled,
+        )

@@ -1,0 +1,387 @@
+"""What a recording of a drive shows, in figures that mean something: levels, exponents, what the torque changes, peaks.
+
+Each is a logarithm or a plain ratio, so that a calibration can weigh them; nan where the recording cannot tell.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .doubts import doubts, silent
+from .expected import Expected, expected_orders
+from .knocks import knocks, running
+from .levels import (
+    ORDERS,
+    TURNS,
+    Track,
+    accelerations,
+    force_on,
+    healthy_force,
+    level_of,
+    mean_of,
+    no_vibration,
+    stands_out,
+)
+from .plant import Plant, plant
+from .signals.order_tracks import TrackedOrders, tracked_orders
+from .signals.signal import Signal
+from .signals.turning import LEAST_TURNS, Rotation, rotation
+from .signals.watching import Progress, Watch
+
+NAMES = (
+    "order_1",
+    "order_2",
+    "order_2_unloaded",
+    "order_3",
+    "order_4",
+    "half_orders",
+    "at_centre",
+    "torque_on_1",
+    "turned_by_torque",
+    "torque_on_2",
+    "power_of_1",
+    "steep_at_top",
+    "power_of_2",
+    "peak_of_2",
+    "peak_of_3",
+    "at_third",
+    "axial_share",
+    "knocks_1",
+    "knocks_2",
+    "uneven",
+)
+"""Names of the features, in the order of the calibration."""
+
+SAME_SPEED = 0.04
+"""Share of the speed within which windows count as held at it."""
+
+DIFFERENT = 0.3
+"""Share of the largest torque by which two holds must differ to tell what the torque does."""
+
+NEAR_THIRD = 0.05
+"""Share of a third of the critical speed within which a peak of order 3 counts as its."""
+
+STOPPED = 0.5
+"""Share of the confidence that is left where not all channels were looked at."""
+
+FAINT = 1e-5
+"""Share of order 1 below which an order is rounding, not vibration."""
+
+BINS = 14
+"""Of speed in a run-up."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Features:
+    """What a recording shows.
+
+    Attributes
+    ----------
+    value : array (f,)
+        By `NAMES`; nan where it cannot be told.
+    speed : (float, float) [rad/s]
+        Between which the shaft turned.
+    held : float [rad/s]
+        Speed that it was held at longest.
+    peak_2, peak_3 : float [rad/s]
+        Speeds at which orders 2 and 3 are largest.
+    critical : float [rad/s]
+        Lowest bending critical speed as computed; nan where not known.
+    confidence : float
+        From 0 to 1: that of the recording and of its rotation, less by what it cannot tell.
+    cautions : tuple of str
+        What was doubtful.
+    rotation : Rotation
+        How the shaft turned.
+    """
+
+    value: Array
+    speed: tuple[float, float]
+    held: float
+    peak_2: float
+    peak_3: float
+    critical: float
+    confidence: float
+    cautions: tuple[str, ...]
+    rotation: Rotation
+
+    def __getitem__(self, name: str) -> float:
+        """Return the feature of a name."""
+        return float(self.value[NAMES.index(name)])
+
+
+@lru_cache(maxsize=16)
+def _known(drive: Drive) -> tuple[Plant, Expected]:
+    return plant(drive), expected_orders(drive)
+
+
+def features(
+    signal: Signal,
+    drive: Drive,
+    *,
+    speed_range: tuple[float, float] | None = None,
+    progress: Progress | None = None,
+) -> Features:
+    """Return what a recording of a drive shows, in figures.
+
+    Parameters
+    ----------
+    signal : Signal
+        With one channel of vibration at least; better with a tacho, two torques and a run-up.
+    drive : Drive
+        The drive in order: levels are measured by what it should show.
+    speed_range : (float, float) [rad/s], optional
+        Between which the shaft turned, for a recording without a tacho; the duty of the drive otherwise.
+    progress : function, optional
+        Told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says so.
+
+    Returns
+    -------
+    Features
+
+    Raises
+    ------
+    InputError
+        No channel of vibration, or too few turns.
+
+    Notes
+    -----
+    Levels are decadic logarithms of the amplitude at the held speed over that of the drive in order, all radial sensors
+    together by the forces on their housings; exponents are slopes of log amplitude over log speed; nothing counts below
+    what noise leaves in an average of as many windows.
+
+    Examples
+    --------
+    >>> from cardan.questions.diagnosis.simulate import simulate_fault
+    >>> from cardan.io import example
+    >>> drive = example("truck-supports")
+    >>> shown = features(simulate_fault(drive, "unbalance", seed=4), drive)
+    >>> print(shown["order_1"] > 0.3, abs(shown["torque_on_1"]) < 0.2)
+    True True
+    """
+    base, healthy = _known(drive)
+    watch = Watch(progress, 1 + 2 * len(signal.measured))
+    speeds = speed_range or (None if signal.tacho is not None else base.speed)
+    shaft = rotation(signal, speed_range=speeds, progress=watch)
+    radial, axial = accelerations(signal, shaft, base, watch)
+    if not radial:
+        raise no_vibration(signal, shaft)
+    first = radial[0].found
+    torque, told = _torque(signal, first.time, base.torque)
+    held = _held(first)
+    still = np.abs(first.speed / held - 1.0) < SAME_SPEED
+    high, low = _groups(torque, still, told, base.torque)
+    out = dict.fromkeys(NAMES, math.nan)
+    _levels(out, radial, healthy, base, held, torque, high, low)
+    peaks = _over_speed(out, radial, first, torque, told, base)
+    _sideways(out, radial, axial, high)
+    out["knocks_1"], out["knocks_2"] = knocks(signal, shaft, first, low if low.any() else high, watch)
+    _uneven(out, signal, shaft, base)
+    stopped = watch.stopped
+    watch(1.0)
+    value = np.asarray([out[name] for name in NAMES])
+    known = float(np.mean(np.isfinite(value)))
+    misfits = (*doubts(signal, shaft, base), *silent(radial, high, low))
+    return Features(
+        value=value,
+        speed=shaft.speeds,
+        held=held,
+        peak_2=peaks[0],
+        peak_3=peaks[1],
+        critical=base.critical,
+        confidence=signal.trust
+        * shaft.confidence
+        * (0.3 + 0.7 * known)
+        * (STOPPED if stopped else 1.0)
+        * math.prod(share for _text, share in misfits),
+        cautions=(
+            *signal.cautions,
+            *shaft.cautions,
+            *(text for text, _share in misfits),
+            *_unknown(out, told, low),
+            *((_("It was stopped before all channels were looked at."),) if stopped else ()),
+        ),
+        rotation=shaft,
+    )
+
+
+def _unknown(out: dict[str, float], told: bool, low: Array) -> list[str]:
+    found = []
+    if not told or not low.any():
+        found.append(_("The recording has no two torques at one speed: what the torque changes is not known."))
+    if math.isnan(out["peak_of_2"]):
+        found.append(_("The speed hardly changes: how the vibration grows with speed is not known."))
+    if math.isnan(out["axial_share"]):
+        found.append(_("There is no axial sensor: a bent shaft is hard to tell from an unbalance."))
+    if math.isnan(out["uneven"]):
+        found.append(_("The speed of the output was not recorded: how evenly it turns is not known."))
+    return found
+
+
+def _torque(signal: Signal, time: Array, usual: float) -> tuple[Array, bool]:
+    """Return the torque of every window, and whether it was measured."""
+    at = next((one for one in signal.channels if one.quantity == "torque" and one.trust > 0.0), None)
+    if at is None:
+        return np.full(time.size, usual), False
+    found = np.interp(time, at.time, running(at.values, 0.25 * at.rate, ends="reflect"))
+    return (found if np.max(found) >= -np.min(found) else -found), True  # which way a sensor counts is its own
+
+
+def _held(found: TrackedOrders) -> float:
+    """Return the speed in whose neighbourhood it ran longest; the fastest of equals."""
+    lasting = np.gradient(found.time) if found.time.size > 1 else np.ones(1)
+    order = np.argsort(found.speed)
+    sorted_speed, total = found.speed[order], np.concatenate([[0.0], np.cumsum(lasting[order])])
+    last, first = (np.searchsorted(sorted_speed, (1.0 + one) * found.speed) for one in (SAME_SPEED, -SAME_SPEED))
+    weight = total[last] - total[first]
+    return float(found.speed[int(np.argmax(np.round(weight, 1) + 1e-6 * found.speed / np.max(found.speed)))])
+
+
+def _groups(torque: Array, still: Array, told: bool, usual: float) -> tuple[Array, Array]:
+    """Return which windows at the held speed have much torque, and which little or the other way."""
+    nothing = np.zeros_like(still)
+    if not told or not still.any():
+        return still, nothing
+    most, least = float(np.max(torque[still])), float(np.min(torque[still]))
+    if most - least < DIFFERENT * max(abs(most), abs(least), 0.1 * usual):
+        return still, nothing
+    room = 0.1 * (most - least)
+    return still & (torque > most - room), still & (torque < least + room)
+
+
+def _levels(
+    out: dict[str, float],
+    radial: list[Track],
+    healthy: Expected,
+    base: Plant,
+    held: float,
+    torque: Array,
+    high: Array,
+    low: Array,
+) -> None:
+    """Fill in the levels at the held speed, and what the torque changes in them."""
+    if not high.any():
+        return
+    much = float(np.mean(torque[high]))
+    one = healthy_force(healthy, radial, 1.0, held, much)
+    two = healthy_force(healthy, radial, 2.0, held, max(abs(much), 0.1 * base.torque))
+    out["order_1"] = level_of(radial, 1.0, high, one)
+    out["order_2"] = level_of(radial, 2.0, high, two)
+    out["order_3"] = level_of(radial, 3.0, high, one)
+    out["order_4"] = level_of(radial, 4.0, high, two)
+    out["half_orders"] = max(level_of(radial, 0.5, high, one), level_of(radial, 1.5, high, one))
+    centre = [track for track in radial if track.kind == "centre"]
+    rest = [track for track in radial if track.kind != "centre"]
+    if centre and rest and stands_out(centre, 3.0, high):
+        out["at_centre"] = math.log10(force_on(centre, 3.0, high) / force_on(rest, 3.0, high))
+    if not low.any():
+        return
+    out["order_2_unloaded"] = level_of(radial, 2.0, low, two)
+    if stands_out(radial, 2.0, high):
+        out["torque_on_2"] = math.log10(force_on(radial, 2.0, high) / force_on(radial, 2.0, low))
+    if not (stands_out(radial, 1.0, high) or stands_out(radial, 1.0, low)):
+        return
+    out["torque_on_1"] = math.log10(force_on(radial, 1.0, high) / force_on(radial, 1.0, low))
+    if radial[0].found.phased:
+        apart = sum(track.mass * abs(mean_of(track, 1.0, high)[1] - mean_of(track, 1.0, low)[1]) for track in radial)
+        whole = sum(track.mass * (mean_of(track, 1.0, high)[0] + mean_of(track, 1.0, low)[0]) for track in radial)
+        out["turned_by_torque"] = apart / whole
+
+
+def _over_speed(
+    out: dict[str, float], radial: list[Track], first: TrackedOrders, torque: Array, told: bool, base: Plant
+) -> tuple[float, float]:
+    """Fill in exponents and peaks over the speed; return the speeds of the peaks of orders 2 and 3."""
+    slowest, fastest = float(np.min(first.speed)), float(np.max(first.speed))
+    if fastest < 1.6 * slowest:
+        return math.nan, math.nan
+    moving = np.ones(first.speed.size, dtype=bool)
+    if told:
+        off = np.abs(first.speed / _held(first) - 1.0) > SAME_SPEED
+        usual = float(np.median(torque[off])) if off.any() else float(np.median(torque))
+        moving = np.abs(torque - usual) < 0.15 * max(abs(usual), 0.3 * base.torque)
+    edges = np.geomspace(slowest, fastest * 1.0001, BINS + 1)
+    number = np.digitize(first.speed, edges) - 1
+    curve = {}
+    for order in (1.0, 2.0, 3.0):
+        k = ORDERS.index(order)
+        power = sum((one.mass * np.abs(one.value[k])) ** 2 for one in radial)
+        level = np.sqrt(power)
+        curve[order] = np.asarray(
+            [
+                np.median(level[moving & (number == b)]) if np.any(moving & (number == b)) else np.nan
+                for b in range(BINS)
+            ]
+        )
+        curve[-order] = level
+        noise = math.sqrt(sum((one.mass * float(one.noise[k])) ** 2 for one in radial))
+        curve[order][curve[order] < 1.5 * noise] = np.nan
+    speed = np.sqrt(edges[1:] * edges[:-1])
+    lower = speed < 0.75 * fastest
+    out["power_of_1"] = _slope(speed[lower], curve[1.0][lower])
+    out["power_of_2"] = _slope(speed[lower], curve[2.0][lower])
+    upper = moving & (first.speed > 0.7 * fastest)
+    if np.isfinite(curve[1.0][-1]):
+        out["steep_at_top"] = _slope(first.speed[upper], curve[-1.0][upper])
+    at = []
+    for order in (2.0, 3.0):
+        inside = moving & (first.speed > 1.15 * slowest)
+        level = curve[-order][inside]
+        if level.size < 4:
+            at.append(math.nan)
+            continue
+        if np.median(level) > FAINT * np.median(curve[-1.0][inside]):
+            out[f"peak_of_{order:.0f}"] = math.log10(float(np.percentile(level, 98)) / float(np.median(level)))
+        at.append(float(first.speed[inside][int(np.argmax(level))]))
+    near = np.abs(3.0 * first.speed / base.critical - 1.0) < NEAR_THIRD
+    rest = np.abs(3.0 * first.speed / base.critical - 1.0) > 3.0 * NEAR_THIRD
+    if np.sum(moving & near) > 1 and np.any(moving & rest):
+        level = np.maximum(curve[-3.0], FAINT * np.median(curve[-1.0]) + 1e-300)
+        out["at_third"] = math.log10(float(np.max(level[moving & near])) / float(np.median(level[moving & rest])))
+    return at[0], at[1]
+
+
+def _slope(speed: Array, level: Array) -> float:
+    good = np.isfinite(level) & (level > 0.0)
+    if np.sum(good) < 4:
+        return math.nan
+    x, y = np.log(speed[good]), np.log(level[good])
+    return float(np.polyfit(x, y, 1)[0]) if float(np.ptp(x)) > 0.05 else math.nan
+
+
+def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], high: Array) -> None:
+    """Fill in how much of order 1 goes along the shaft, at the end where most does."""
+    if not high.any():
+        return
+    across = {one.kind: one for one in radial}
+    shares = [
+        (one.mass * mean_of(one, 1.0, high)[0], mean_of(one, 1.0, high)[0] / mean_of(across[one.kind], 1.0, high)[0])
+        for one in axial
+        if one.kind in across and stands_out([one, across[one.kind]], 1.0, high)
+    ]
+    if shares:
+        out["axial_share"] = math.log10(max(shares)[1])
+
+
+def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant) -> None:
+    """Fill in how unevenly the output turns, over what the joints make and a small tolerance of their yokes."""
+    usual = base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.bend))) ** 2
+    for k, channel in enumerate(signal.channels):
+        if k == signal.tacho or channel.quantity not in ("angle", "angular_speed") or usual <= 0.0:
+            continue
+        if shaft.turns < LEAST_TURNS:
+            continue
+        found = tracked_orders(channel, shaft, (1.0, 2.0), turns=TURNS)
+        angle = found.value[1]
+        if channel.quantity == "angular_speed":
+            angle = angle / (2.0 * found.speed)
+        size = abs(np.mean(angle)) if found.phased else float(np.median(np.abs(angle)))
+        out["uneven"] = math.log10(max(size, 1e-9) / usual)

@@ -1,0 +1,193 @@
+"""A recording as motion: how the shaft turned, where its centre went, how it swung about its turning."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cardan.figures.axes import axis, steps, written
+from cardan.figures.figure import Axis, Curve, Figure, Panel, Row
+from cardan.figures.palette import shaft
+from cardan.figures.wording import angular, significant
+from cardan.maths.ties import foremost, foremost_of
+from cardan.questions.diagnosis.signals.orbit import Orbit
+from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
+from cardan.questions.diagnosis.signals.turning import Rotation
+from cardan.texts import _
+from cardan.units import deg, rpm, spoken
+
+from .orders import UNITS, order_text, quantity_word, told
+
+POINTS = 800
+"""Points of a curve at most."""
+
+TURNS = 2.0
+"""Turns of the twist that are drawn."""
+
+ORDERS = 12.0
+"""Highest order of the twist drawn."""
+
+
+def rotation_figures(found: Rotation) -> tuple[Figure, ...]:
+    """Return the figure of a rotation."""
+    return (rotation_figure(found),)
+
+
+def orbit_figures(found: Orbit) -> tuple[Figure, ...]:
+    """Return the figure of an orbit."""
+    return (orbit_figure(found),)
+
+
+def torsional_figures(found: TorsionalVibration) -> tuple[Figure, ...]:
+    """Return the figure of torsional vibration."""
+    return (torsional_figure(found),)
+
+
+def rotation_figure(found: Rotation) -> Figure:
+    """Return the speed over time, each value the mean of a turn.
+
+    Parameters
+    ----------
+    found : Rotation
+        Of one shaft.
+    """
+    count = int(min(max(found.turns, 2.0), POINTS))
+    angle = np.linspace(float(found.angle[0]), float(found.angle[-1]), count + 1)
+    time = found.time_at(angle)
+    speed = np.diff(angle) / np.diff(time) / rpm
+    panel = Panel(
+        series=(Curve(x=0.5 * (time[1:] + time[:-1]), y=speed, role="accent"),),
+        x=axis(_("time"), "s", [time], margin=0.0, count=8),
+        y=axis(_("Speed"), "rpm", [speed], least=0.02 * float(np.mean(speed)), count=5),
+    )
+    sources = {
+        "pulses": _("from the pulses of the tacho"),
+        "speed": _("from a channel of the speed"),
+        "angle": _("from a channel of the angle"),
+        "ridge": _("found in what shakes, without a tacho"),
+    }
+    text = _("{turns} turns, from {low} to {high} rpm.")
+    low, high = (one / rpm for one in found.speeds)
+    sentence = text.format(turns=f"{found.turns:.0f}", low=significant(low, 3), high=significant(high, 3))
+    return Figure(
+        name="rotation",
+        title=_("How the shaft turned"),
+        sentence=told(sentence, found.confidence),
+        source=sources[found.source],
+        rows=(Row(panels=(panel,), height=1.8),),
+        legend=False,
+    )
+
+
+def orbit_figure(found: Orbit) -> Figure:
+    """Return the orbit as measured, and the ellipse of each order.
+
+    Parameters
+    ----------
+    found : Orbit
+        Of two sensors.
+    """
+    unit, size = UNITS[found.quantity]
+    wide = max(float(np.max(np.abs(found.x))), float(np.max(np.abs(found.y))), 1e-300) / size
+    reach = 1.1 * wide
+    own = 1.15 * max([one.major for one in found.ellipses], default=wide * size) / size or reach
+
+    def frame(end: float, name: str) -> Axis:
+        ticks = steps(-end, end, 4)
+        return Axis(label=name, unit=unit, low=-end, high=end, ticks=ticks, texts=written(ticks))
+
+    step = max(1, found.x.size // (4 * POINTS))
+    raw = Panel(
+        series=(
+            Curve(x=found.x[::step] / size, y=found.y[::step] / size, role="muted", width=0.5, label=_("as measured")),
+            Curve(x=found.x[:1] / size, y=found.y[:1] / size, role="ink", width=0.0, marker=6.0, label=_("the mark")),
+        ),
+        x=frame(reach, found.names[0]),
+        y=frame(reach, found.names[1]),
+        title=_("As measured"),
+        equal=True,
+    )
+    curves = []
+    for k, one in enumerate(found.ellipses):
+        x, y = one.points()
+        label = _("order {order}").format(order=f"{one.order:g}")
+        curves.append(Curve(x=x / size, y=y / size, role=shaft(k + 2), label=label))
+        curves.append(Curve(x=x[:1] / size, y=y[:1] / size, role=shaft(k + 2), width=0.0, marker=6.0))
+    filtered = Panel(
+        series=tuple(curves),
+        x=frame(own, found.names[0]),
+        y=frame(own, found.names[1]),
+        title=_("Each order alone"),
+        equal=True,
+    )
+    return Figure(
+        name="orbit",
+        title=_("Orbit of {x} and {y}").format(x=found.names[0], y=found.names[1]),
+        sentence=told(_orbit_sentence(found, unit, size), found.confidence),
+        source=_("two sensors across the shaft; ellipses fitted over {turns} turns").format(
+            turns=f"{(found.angle[-1] - found.angle[0]) / (2 * math.pi):.0f}"
+        ),
+        rows=(Row(panels=(raw, filtered), height=3.0),),
+    )
+
+
+def _orbit_sentence(found: Orbit, unit: str, size: float) -> str:
+    if not found.ellipses:
+        return _("The {quantity} at {speed} rpm.").format(
+            quantity=quantity_word(found.quantity), speed=significant(found.speed / rpm, 3)
+        )
+    first = foremost_of(found.ellipses, lambda one: one.major)
+    way = _("with the shaft") if first.minor >= 0.0 else _("against the shaft")
+    text = _("At {speed} rpm order {order} is the largest: {major} by {minor} {unit}, run through {way}.")
+    return text.format(
+        speed=significant(found.speed / rpm, 3),
+        order=f"{first.order:g}",
+        major=significant(first.major / size, 3),
+        minor=significant(abs(first.minor) / size, 3),
+        unit=spoken(unit),
+        way=way,
+    )
+
+
+def torsional_figure(found: TorsionalVibration) -> Figure:
+    """Return the twist over some turns, and its orders.
+
+    Parameters
+    ----------
+    found : TorsionalVibration
+        Of one wheel.
+    """
+    shown = int(TURNS * found.teeth)
+    angle = (found.angle[:shown] - found.angle[0]) / (2.0 * math.pi)
+    twist = found.twist[:shown] / deg
+    course = Panel(
+        series=(Curve(x=angle, y=twist, role="accent"),),
+        x=axis(_("turns"), "", [angle], margin=0.0, count=8),
+        y=axis(_("Ahead of even turning"), "°", [twist], mirrored=0.0),
+    )
+    near = found.order <= min(ORDERS, 0.25 * found.teeth)
+    lines = found.twist_amplitude[near] / deg
+    orders = Panel(
+        series=(Curve(x=found.order[near], y=lines, role="accent", width=1.1),),
+        x=axis(_("order: times a turn"), "", [found.order[near]], margin=0.0, count=10),
+        y=axis(_("Peak amplitude of the twist"), "°", [lines], include=(0.0,)),
+    )
+    inner = np.flatnonzero(near & (found.order > 0.2))
+    best = int(inner[foremost(found.twist_amplitude[inner])]) if inner.size else 0
+    text = _("The shaft swings by ±{twist}° in order {order}, at a mean speed of {speed} rpm.")
+    sentence = text.format(
+        twist=angular(float(found.twist_amplitude[best]) / deg, 3),
+        order=order_text(float(found.order[best])),
+        speed=significant(float(np.mean(found.speed)) / rpm, 3),
+    )
+    return Figure(
+        name="torsional-vibration",
+        title=_("Torsional vibration by {name}").format(name=found.name),
+        sentence=told(sentence, found.confidence),
+        source=_("times of {teeth} teeth a turn; errors of teeth averaged over the turns and left out").format(
+            teeth=found.teeth
+        ),
+        rows=(Row(panels=(course,), height=1.6), Row(panels=(orders,), height=1.6)),
+        legend=False,
+    )

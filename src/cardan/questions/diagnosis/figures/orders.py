@@ -1,0 +1,333 @@
+"""A recording over orders: its spectrum, its map over the speed, and orders followed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from cardan.figures.axes import axis, steps, written
+from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
+from cardan.figures.palette import DASHES, shaft
+from cardan.figures.wording import significant
+from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.order_tracks import TrackedOrders
+from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum
+from cardan.texts import _
+from cardan.units import deg, rpm, spoken
+
+LINES = 36
+"""Lines of a map at most: one for each range of speed."""
+
+NAMED = 5
+"""Peaks of a spectrum with their order beside them."""
+
+WHOLE = 0.02
+"""How far from a whole number an order may be to be called whole."""
+
+RUN, LASTING = 0.7, 0.2
+"""Shares of the range of speed and of the recording that one run has to cover to be drawn over the speed."""
+
+BELIEVED = 0.6
+"""Confidence below which the sentence says so."""
+
+UNITS = {
+    "acceleration": ("m/s²", 1.0),
+    "velocity": ("mm/s", 1e-3),
+    "displacement": ("µm", 1e-6),
+    "angle": ("°", deg),
+    "angular_speed": ("rpm", rpm),
+    "torque": ("N·m", 1.0),
+    "pulses": ("", 1.0),
+    "other": ("", 1.0),
+}
+"""Quantity -> unit on an axis and its size in SI."""
+
+
+def quantity_word(quantity: str) -> str:
+    """Return the name of a quantity in the language spoken here.
+
+    Examples
+    --------
+    >>> quantity_word("angular_speed")
+    'speed'
+    """
+    words = {
+        "acceleration": _("acceleration"),
+        "velocity": _("velocity"),
+        "displacement": _("displacement"),
+        "angle": _("angle"),
+        "angular_speed": _("speed"),
+        "torque": _("torque"),
+        "pulses": _("pulses"),
+    }
+    return words.get(quantity, _("values as read"))
+
+
+def told(sentence: str, confidence: float) -> str:
+    """Return a sentence with how little the picture can be relied on, as it is where it can.
+
+    Examples
+    --------
+    >>> told("Order 2 is the highest.", 0.9), told("Order 2 is the highest.", 0.25)
+    ('Order 2 is the highest.', 'Order 2 is the highest (with a confidence of only 25 %).')
+    """
+    if confidence >= BELIEVED:
+        return sentence
+    text = _("{sentence} (with a confidence of only {share:.0f} %).")
+    return text.format(sentence=sentence.rstrip("."), share=100.0 * confidence)
+
+
+def order_text(order: float) -> str:
+    """Return an order as people say it: whole where it is whole but for what a spectrum blurs.
+
+    Examples
+    --------
+    >>> order_text(2.004), order_text(0.47)
+    ('2', '0.47')
+    """
+    return f"{round(order)}" if round(order) and abs(order - round(order)) < WHOLE else f"{order:.2f}"
+
+
+def spectrum_figures(found: OrderSpectrum) -> tuple[Figure, ...]:
+    """Return the figure of an order spectrum."""
+    return (spectrum_figure(found),)
+
+
+def map_figures(found: OrderMap) -> tuple[Figure, ...]:
+    """Return the figure of an order map."""
+    return (map_figure(found),)
+
+
+def tracks_figures(found: TrackedOrders) -> tuple[Figure, ...]:
+    """Return the figure of orders followed."""
+    return (tracks_figure(found),)
+
+
+def spectrum_figure(found: OrderSpectrum) -> Figure:
+    """Return the amplitudes over the orders, the highest named, with the level of the noise.
+
+    Parameters
+    ----------
+    found : OrderSpectrum
+        Of one channel.
+    """
+    unit, size = UNITS[found.quantity]
+    level, floor = found.amplitude / size, found.floor / size
+    peaks = found.peaks(count=NAMED)
+    notes = [
+        Note(text=f"{order_text(order)}×", x=order, y=high / size, level="bottom", shift=(0.0, 3.0), role="accent")
+        for order, high in peaks
+    ]
+    panel = Panel(
+        series=(
+            Curve(x=found.order, y=floor, role="muted", dash="dashed", width=0.9, label=_("level of the noise")),
+            Curve(x=found.order, y=level, role="accent", width=1.1, label=found.name),
+            *notes,
+        ),
+        x=axis(_("order: times a turn"), "", [found.order], margin=0.0, count=10),
+        y=axis(
+            _("Peak amplitude of {quantity}").format(quantity=quantity_word(found.quantity)),
+            unit,
+            [level],
+            include=(0.0,),
+            margin=0.14,
+        ),
+    )
+    return Figure(
+        name="order-spectrum",
+        title=_("Orders of {name}").format(name=found.name),
+        sentence=told(_peak_sentence(found, peaks, unit, size), found.confidence),
+        source=_(
+            "read at even angles of the shaft; {windows} windows of {turns} turns; orders nearer than {width} are one"
+        ).format(windows=found.windows, turns=found.turns, width=significant(found.resolution, 2)),
+        rows=(Row(panels=(panel,), height=2.2),),
+    )
+
+
+def _peak_sentence(found: OrderSpectrum, peaks: Sequence[tuple[float, float]], unit: str, size: float) -> str:
+    low, high = (one / rpm for one in found.speeds)
+    if not peaks:
+        text = _("No order stands out of the noise between {low} and {high} rpm.")
+        return text.format(low=significant(low, 3), high=significant(high, 3))
+    text = _("From {low} to {high} rpm the highest order is {order} with {amplitude} {unit}.")
+    return text.format(
+        low=significant(low, 3),
+        high=significant(high, 3),
+        order=order_text(peaks[0][0]),
+        amplitude=significant(peaks[0][1] / size, 3),
+        unit=spoken(unit),
+    )
+
+
+def map_figure(
+    found: OrderMap,
+    *,
+    critical_speeds: Sequence[float] = (),
+    orders: Mapping[float, str] | Sequence[float] = (1.0, 2.0),
+) -> Figure:
+    """Return a map over order and speed as a waterfall, a line for each speed, with what crosses it.
+
+    Parameters
+    ----------
+    found : OrderMap
+        Of one channel.
+    critical_speeds : sequence of float [rad/s]
+        Natural frequencies: order times speed reaches them along a curve.
+    orders : mapping of float to str, or sequence of float
+        Orders marked, with their names.
+    """
+    unit, size = UNITS[found.quantity]
+    speed, rows = _by_speed(found)
+    level, at = rows / size, speed / rpm
+    top = float(np.max(level, initial=0.0)) or 1.0
+    room = max(float(at[-1] - at[0]), 0.05 * float(at[-1]))
+    high = 5.0 * room / max(at.size, 8)
+    low_end, high_end = float(at[0]), float(at[-1]) + 1.15 * high
+    names = dict(orders) if isinstance(orders, Mapping) else {one: f"{one:g}×" for one in orders}
+    last = float(found.order[-1])
+    series: list[Series] = [
+        Rule(value=order, upright=True, text=text, role="muted", dash="dotted") for order, text in names.items()
+    ]
+    for k in range(at.size - 1, -1, -1):  # the fastest lies farthest back
+        line = at[k] + high * level[k] / top
+        x = np.concatenate([found.order[:1], found.order, found.order[-1:]])
+        y = np.concatenate([at[k : k + 1], line, at[k : k + 1]])
+        series.append(Shape(x=x, y=y, role="paper", opacity=0.85))
+        series.append(Curve(x=found.order, y=line, role="accent", width=0.8))
+    for critical in critical_speeds:
+        series += _crossing(critical / rpm, low_end, high_end, last)
+    panel = Panel(
+        series=tuple(series),
+        x=axis(_("order: times a turn"), "", [found.order], margin=0.0, count=10),
+        y=_speeds(low_end, high_end),
+    )
+    text = _("A full line is {amplitude} {unit} high; orders stand upright, and grow where they pass a resonance.")
+    return Figure(
+        name="order-map",
+        title=_("Orders of {name} over the speed").format(name=found.name),
+        sentence=told(text.format(amplitude=significant(top, 3), unit=spoken(unit)), found.confidence),
+        source=_("read at even angles of the shaft; windows of {turns} turns").format(turns=found.turns),
+        rows=(Row(panels=(panel,), height=4.2),),
+        legend=bool(len(critical_speeds)),
+    )
+
+
+def _by_speed(found: OrderMap) -> tuple[Array, Array]:
+    """Return speeds rising and a line for each: the highest of what was measured near it."""
+    count = min(LINES, found.speed.size)
+    edges = np.linspace(float(np.min(found.speed)), float(np.max(found.speed)), count + 1)
+    place = np.clip(np.searchsorted(edges, found.speed, side="right") - 1, 0, count - 1)
+    used = np.unique(place)
+    speed = np.asarray([np.mean(found.speed[place == k]) for k in used])
+    return speed, np.asarray([np.max(found.amplitude[place == k], axis=0) for k in used])
+
+
+def _speeds(low: float, high: float) -> Axis:
+    ticks = steps(low, high, 6)
+    return Axis(label=_("Speed"), unit="rpm", low=low, high=high, ticks=ticks, texts=written(ticks))
+
+
+def _crossing(critical: float, low: float, high: float, last: float) -> list[Series]:
+    """Return the curve along which an order meets a natural frequency [rpm], inside of the map."""
+    first = max(critical / high, 1e-3)
+    end = min(critical / max(low, 1e-9), last)
+    if not first < end:
+        return []
+    order = np.linspace(first, end, 60)
+    name = _("natural frequency {value} Hz").format(value=significant(critical / 60.0, 3))
+    return [Curve(x=order, y=critical / order, role="failed", dash="dashed", width=1.0, label=name)]
+
+
+def tracks_figure(found: TrackedOrders) -> Figure:
+    """Return amplitude and phase of some orders over the speed.
+
+    Parameters
+    ----------
+    found : TrackedOrders
+        Of one channel.
+    """
+    unit, size = UNITS[found.quantity]
+    run = _longest_run(found.speed)
+    if run is None:
+        pick = np.arange(found.time.size)
+        across = found.time
+        bottom = axis(_("time"), "s", [across], margin=0.0, count=8)
+    else:
+        pick = run[0] + np.argsort(found.speed[slice(*run)], kind="stable")
+        across = found.speed[pick] / rpm
+        bottom = axis(_("speed"), "rpm", [across], margin=0.0, count=8)
+    level = found.amplitude[:, pick] / size
+    looks = [(shaft(k + 1), DASHES[k // 8 % len(DASHES)]) for k in range(len(found.orders))]
+    upper = Panel(
+        series=tuple(
+            Curve(x=across, y=row, role=role, dash=dash, label=_("order {order}").format(order=f"{one:g}"))
+            for one, row, (role, dash) in zip(found.orders, level, looks, strict=True)
+        ),
+        x=bottom,
+        y=axis(
+            _("Peak amplitude of {quantity}").format(quantity=quantity_word(found.quantity)),
+            unit,
+            [level],
+            include=(0.0,),
+        ),
+    )
+    rows = [Row(panels=(upper,), height=1.9)]
+    if found.phased:
+        phase = found.phase[:, pick] / deg
+        ticks = (-180.0, -90.0, 0.0, 90.0, 180.0)
+        lower = Panel(
+            series=tuple(
+                Curve(x=across, y=_broken(row), role=role, dash=dash)
+                for row, (role, dash) in zip(phase, looks, strict=True)
+            ),
+            x=bottom,
+            y=Axis(
+                label=_("Phase against the mark"), unit="°", low=-180.0, high=180.0, ticks=ticks, texts=written(ticks)
+            ),
+        )
+        rows.append(Row(panels=(lower,), height=1.3))
+    at = np.unravel_index(int(np.argmax(level)), level.shape)
+    text = _("Order {order} is the highest: {amplitude} {unit} at {speed} rpm.")
+    return Figure(
+        name="tracked-orders",
+        title=_("Orders of {name} followed over the speed").format(name=found.name),
+        sentence=told(
+            text.format(
+                order=f"{found.orders[at[0]]:g}",
+                amplitude=significant(float(level[at]), 3),
+                unit=spoken(unit),
+                speed=significant(float(found.speed[pick[at[1]]]) / rpm, 3),
+            ),
+            found.confidence,
+        ),
+        source=_("all orders fitted together in windows of {turns} turns").format(turns=found.turns),
+        rows=tuple(rows),
+    )
+
+
+def _longest_run(speed: Array) -> tuple[int, int] | None:
+    """Return begin and end of the windows over which the speed rises, or falls, through most of its range.
+
+    None where no run goes through most of it, as where the speed is held: torque and speed then change in turn, and a
+    speed has more than one value.
+    """
+    if speed.size < 3 or float(np.ptp(speed)) < 0.02 * float(np.mean(speed)):
+        return None
+    from scipy.ndimage import median_filter
+
+    way = np.sign(np.diff(median_filter(speed, size=5, mode="nearest")))  # a stray window turns no run
+    ends = np.concatenate([[0], np.flatnonzero(np.diff(way)) + 1, [way.size]])
+    runs = [(int(first), int(last) + 1) for first, last in pairwise(ends)]
+    best = max(runs, key=lambda run: abs(float(speed[run[1] - 1] - speed[run[0]])))
+    swept = abs(float(speed[best[1] - 1] - speed[best[0]]))
+    return best if swept > RUN * float(np.ptp(speed)) and best[1] - best[0] > LASTING * speed.size else None
+
+
+def _broken(phase: Array) -> Array:
+    """Return phases [°] with a gap where they jump from one end of the axis to the other."""
+    found = np.array(phase, dtype=float)
+    found[1:][np.abs(np.diff(phase)) > 180.0] = math.nan
+    return found

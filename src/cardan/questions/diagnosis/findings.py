@@ -1,0 +1,269 @@
+"""From a recording of a drive to what is wrong with it: causes by likelihood, what speaks for and against each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cardan.catalogue import Catalogue, catalogue
+from cardan.catalogue.rows import Fault
+from cardan.drive.drive import Drive
+from cardan.texts import _
+from cardan.units import rpm
+
+from .features import Features, features
+from .match import Signs, likely_causes
+from .model import shipped
+from .signals.orders import OrderSpectrum
+from .signals.signal import Signal
+from .signals.watching import Progress
+
+TELLING = 0.3
+"""What a feature has to add for or against a cause to be told [nat]."""
+
+MOST = 4
+"""Most reasons told for or against."""
+
+BY_SIGNS = 0.3
+"""Confidence in causes that are ranked by signs alone."""
+
+UNLIKE, MOST_UNLIKE = 0.4, 3
+"""What a feature beyond all of the calibration leaves of the confidence, and how many of them count."""
+
+BETTER = ("order_2_unloaded", "at_centre", "axial_share", "uneven")
+"""Features that may be as small as they like."""
+
+SURE = 0.98
+"""Largest confidence: the calibration is of simulated recordings."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """A cause and how likely it is.
+
+    Attributes
+    ----------
+    cause : str
+        Id of its row in the catalogue of faults, or ``healthy``.
+    fault : str
+        What is wrong, in words.
+    score : float
+        From 0 to 1: share of belief, calibrated on simulated recordings; the less the recording can be trusted, the
+        nearer to the same for all causes. All scores add up to 1.
+    evidence, against : tuple of str
+        What speaks for it and against it, the strongest first.
+    check : str
+        What to look at to make sure.
+    repair : str
+        What to do.
+    confidence : float
+        From 0 to 1: how far the recording can be relied on.
+    cautions : tuple of str
+        What was doubtful in it.
+    """
+
+    cause: str
+    fault: str
+    score: float
+    evidence: tuple[str, ...] = ()
+    against: tuple[str, ...] = ()
+    check: str = ""
+    repair: str = ""
+    confidence: float = 1.0
+    cautions: tuple[str, ...] = field(default=())
+
+
+def diagnose(
+    shown: Signal | OrderSpectrum | Signs,
+    drive: Drive | None = None,
+    *,
+    speed_range: tuple[float, float] | None = None,
+    known: Catalogue | None = None,
+    progress: Progress | None = None,
+) -> tuple[Finding, ...]:
+    """Return what may be wrong with a drive, the likeliest first.
+
+    Parameters
+    ----------
+    shown : Signal, OrderSpectrum or Signs
+        A recording; or only the orders in it, or what was noticed.
+    drive : Drive, optional
+        The drive as it should be; a recording needs it.
+    speed_range : (float, float) [rad/s], optional
+        Between which the shaft turned, for a recording without a tacho.
+    known : Catalogue, optional
+        With the table of faults; the shipped one when not given.
+    progress : function, optional
+        Told the share done; when it answers "stop" channels not yet looked at are left out, and a caution says so.
+
+    Returns
+    -------
+    tuple of Finding
+        By falling score. ``healthy`` is one of the answers to a recording.
+
+    Raises
+    ------
+    InputError
+        A recording without vibration or without turns.
+
+    Notes
+    -----
+    A recording: p = softmax(W φ), φ = (1, z, z² − 1) of the features of `cardan.questions.diagnosis.features`, W of the
+    calibration; score = c p + (1 − c)/K for K causes and the confidence c. Orders or signs alone: softmax of the points
+    of `likely_causes`, with a confidence of 0.3.
+
+    Examples
+    --------
+    >>> from cardan.questions.diagnosis.simulate import simulate_fault
+    >>> from cardan.io import example
+    >>> drive = example("truck-supports")
+    >>> first = diagnose(simulate_fault(drive, "worn_spline", seed=5), drive)[0]
+    >>> first.cause, first.evidence[0]
+    ('F21', 'Order 1 turns its phase or changes its size by 63 % with the torque.')
+    """
+    if isinstance(shown, OrderSpectrum):
+        return _by_signs(Signs(orders=tuple(order for order, _size in shown.peaks())), shown.confidence, known)
+    if isinstance(shown, Signs):
+        return _by_signs(shown, 1.0, known)
+    if drive is None:
+        from cardan.errors import refuse
+
+        raise refuse("drive", _("a recording can only be judged beside the drive that it is of"), "missing")
+    return weighed(features(shown, drive, speed_range=speed_range, progress=progress), known=known)
+
+
+def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding, ...]:
+    """Return the causes of what a recording shows, the likeliest first; see `diagnose`.
+
+    Parameters
+    ----------
+    seen : Features
+        What it shows.
+    known : Catalogue, optional
+        With the table of faults; the shipped one when not given.
+    """
+    rows = (known or catalogue()).rows(Fault)
+    model = shipped()
+    sentences = [_sentence(name, value, seen) for name, value in zip(model.features, seen.value, strict=True)]
+    beyond = _beyond(seen)
+    confidence = relied_on(seen)
+    score = confidence * model.probability(seen.value) + (1.0 - confidence) / len(model.causes)
+    speaks = model.speaks(seen.value)
+    text = _(
+        "This is beyond all that the diagnosis has learnt of: {said} A unit, a scale or the drive file may be wrong."
+    )
+    strange = (text.format(said=" ".join(sentences[k] for k in beyond[:MOST_UNLIKE])),) if beyond else ()
+    found = []
+    for k in sorted(range(len(model.causes)), key=lambda k: -score[k]):
+        order = np.argsort(-np.abs(speaks[k]))
+        told = [(speaks[k, f], sentences[f]) for f in order if abs(speaks[k, f]) > TELLING and sentences[f]]
+        found.append(
+            _finding(
+                model.causes[k],
+                rows.get(model.causes[k]),
+                score=float(score[k]),
+                evidence=tuple(text for size, text in told if size > 0.0)[:MOST],
+                against=tuple(text for size, text in told if size < 0.0)[:MOST],
+                confidence=confidence,
+                cautions=(*seen.cautions, *strange),
+            )
+        )
+    return tuple(found)
+
+
+def relied_on(seen: Features) -> float:
+    """Return how far a recording can be relied on, from 0 to 1: less where it shows what nobody has learnt of."""
+    return float(min(SURE, seen.confidence) * UNLIKE ** min(len(_beyond(seen)), MOST_UNLIKE))
+
+
+def _beyond(seen: Features) -> tuple[int, ...]:
+    """Return the features that lie beyond all of the calibration, but those of which less is only better."""
+    model = shipped()
+    found = model.beyond(seen.value)
+    return tuple(k for k in found if model.features[k] not in BETTER or seen.value[k] > model.mean[k])
+
+
+def _finding(cause: str, row: Fault | None, **more: object) -> Finding:
+    if row is None:
+        return Finding(
+            cause=cause,
+            fault=_("no fault shows"),
+            check=_("record again at two torques and up to the top speed if the complaint stays"),
+            repair=_("nothing"),
+            **more,  # type: ignore[arg-type]
+        )
+    return Finding(
+        cause=cause,
+        fault=_(row.fault),
+        check=_(row.inspection),
+        repair=_(row.repair),
+        **more,  # type: ignore[arg-type]
+    )
+
+
+def _by_signs(signs: Signs, trust: float, known: Catalogue | None) -> tuple[Finding, ...]:
+    causes = likely_causes(signs, known=known)
+    grown = np.exp(np.asarray([one.score for one in causes]) - causes[0].score)
+    confidence = BY_SIGNS * trust
+    score = confidence * grown / np.sum(grown) + (1.0 - confidence) / len(causes)
+    caution = _("Orders and signs alone rank causes; only a recording with speed and torque tells how likely they are.")
+    return tuple(
+        _finding(
+            one.fault.id,
+            one.fault,
+            score=float(size),
+            evidence=tuple(_("Order {order:.3g} is one of its orders.").format(order=order) for order in one.orders),
+            confidence=confidence,
+            cautions=(caution,),
+        )
+        for one, size in zip(causes, score, strict=True)
+    )
+
+
+def _sentence(name: str, value: float, seen: Features) -> str:
+    """Return what a feature says in words; empty where it says nothing."""
+    if not math.isfinite(value):
+        return ""
+    times, percent = _short(10.0**value), 100.0 * value
+    if name in ("peak_of_2", "peak_of_3", "at_third"):
+        return _peak(name, times, seen)
+    texts = {
+        "order_1": _("Order 1 is {times} times as large as in the drive in order."),
+        "order_2": _("Under load order 2 is {times} times as large as in the drive in order."),
+        "order_2_unloaded": _("At the smaller torque order 2 is {times} times what the full torque should make."),
+        "order_3": _("Order 3 is {times} times the order 1 of the drive in order."),
+        "order_4": _("Order 4 is {times} times the order 2 of the drive in order."),
+        "half_orders": _("Orders 0.5 and 1.5 are {times} times the order 1 of the drive in order."),
+        "at_centre": _("Order 3 pushes the centre bearing {times} times as hard as the ends."),
+        "torque_on_1": _("Order 1 under load is {times} times that at the smaller torque."),
+        "turned_by_torque": _("Order 1 turns its phase or changes its size by {percent:.0f} % with the torque."),
+        "torque_on_2": _("Order 2 under load is {times} times that at the smaller torque."),
+        "power_of_1": _("Order 1 grows with the power {value:.1f} of the speed."),
+        "steep_at_top": _("Near the top speed order 1 grows with the power {value:.1f} of the speed."),
+        "power_of_2": _("Order 2 grows with the power {value:.1f} of the speed."),
+        "axial_share": _("Along the shaft order 1 is {times} times that across it."),
+        "knocks_1": _("The noise swells once a turn, by {percent:.0f} % of its mean."),
+        "knocks_2": _("The noise swells twice a turn, by {percent:.0f} % of its mean."),
+        "uneven": _("The output swings twice a turn {times} times as far as the joints make it."),
+    }
+    return texts[name].format(times=times, percent=percent, value=value)
+
+
+def _short(value: float) -> str:
+    """Return a number with two significant digits, written out; what is next to nothing says no more."""
+    return f"{float(f'{value:.2g}'):.10g}" if value >= 1e-3 else "<0.001"
+
+
+def _peak(name: str, times: str, seen: Features) -> str:
+    if name == "at_third":
+        text = _("At a third of the critical speed, {speed:.0f} rpm, order 3 is {times} times that elsewhere.")
+        return text.format(speed=seen.critical / 3.0 / rpm, times=times)
+    order, speed = (2, seen.peak_2) if name == "peak_of_2" else (3, seen.peak_3)
+    text = _("Order {order} is largest at {speed:.0f} rpm, {times} times its median.")
+    text = text.format(order=order, speed=speed / rpm, times=times)
+    if math.isfinite(seen.critical):
+        more = _("That is {share:.2f} of the critical speed.").format(share=speed / seen.critical)
+        return f"{text} {more}"
+    return text

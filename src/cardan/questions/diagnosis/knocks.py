@@ -1,0 +1,78 @@
+"""Knocks of loose parts: noise far above the orders that swells once or twice a turn."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from cardan.errors import InputError
+from cardan.maths.arrays import Array
+
+from .levels import TURNS
+from .signals.order_tracks import TrackedOrders, tracked_orders
+from .signals.signal import Channel, Signal
+from .signals.turning import Rotation
+from .signals.watching import Watch
+
+
+def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, watch: Watch) -> tuple[float, float]:
+    """Return how much of the noise comes once and twice a turn: orders of the squared high-passed signal.
+
+    Parameters
+    ----------
+    signal : Signal
+        The recording.
+    shaft : Rotation
+        How the shaft turned.
+    first : TrackedOrders
+        Orders of one channel, whose windows count.
+    which : bool array (w,)
+        Windows that are looked at.
+    watch : Watch
+        Told of every channel; channels after a stop are left out.
+
+    Returns
+    -------
+    (float, float)
+        Shares of the mean; nan where no channel tells.
+    """
+    from scipy.signal import butter, sosfiltfilt
+
+    best = {1.0: math.nan, 2.0: math.nan}
+    for channel in signal.measured:
+        watch.next()
+        if watch.stopped:
+            break
+        dead = channel.trust == 0.0 or np.ptp(channel.values) == 0.0
+        if dead or channel.quantity != "acceleration" or channel.direction in ("axial", "x") or not which.any():
+            continue
+        cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
+        if cut > 0.4 * channel.rate or channel.values.size < 100:
+            continue
+        rough = sosfiltfilt(butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values) ** 2
+        try:
+            found = tracked_orders(
+                Channel(name=channel.name, quantity="other", values=rough, rate=channel.rate, start=channel.start),
+                shaft,
+                (1.0, 2.0),
+                turns=TURNS,
+            )
+        except InputError:
+            continue
+        if found.time.size != which.size:
+            continue
+        mean = np.mean(np.interp(found.time[which], channel.time, running(rough, 0.5 * channel.rate)))
+        for k, order in enumerate((1.0, 2.0)):
+            chosen = found.value[k, which]
+            size = abs(np.mean(chosen)) if found.phased else float(np.median(np.abs(chosen)))
+            best[order] = float(np.fmax(best[order], size / max(float(mean), 1e-300)))
+    return best[1.0], best[2.0]
+
+
+def running(values: Array, width: float, *, ends: Literal["constant", "reflect"] = "constant") -> Array:
+    """Return the running mean over a width, as if there were nothing beyond the ends, or with its ``reflect``ion."""
+    from scipy.ndimage import uniform_filter1d
+
+    return np.asarray(uniform_filter1d(values, max(1, int(width)), mode=ends))

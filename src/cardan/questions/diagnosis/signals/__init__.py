@@ -1,0 +1,1 @@
+"""Recordings: signals, rotation, orders, spectra."""

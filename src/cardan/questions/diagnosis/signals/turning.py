@@ -1,0 +1,309 @@
+"""How a shaft turned while it was recorded: its angle and speed over time, from what the recording has of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+from cardan.units import rpm
+
+from .pulses import counted
+from .signal import Channel, Signal
+from .watching import Progress
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+LEAST_TURNS = 3.0
+"""A recording of fewer turns tells nothing of orders."""
+
+MOST_TURNS = 1e7
+"""No recording has more: 10 000 rpm for half a day."""
+
+FASTEST = 1e6 * rpm
+"""No shaft of a drive turns faster."""
+
+SAMPLES_A_PULSE = 4.0
+"""Values between pulses below which their times are guesses."""
+
+KNOTS = 8
+"""Knots of the angle in a turn, about, where there are more pulses; their times are sharp to a sample at best."""
+
+SLOW = 0.02
+"""Share of the greatest speed below which a shaft counts as standing."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rotation:
+    """Angle of a shaft over time, from knots between which it turns smoothly.
+
+    Attributes
+    ----------
+    time : array (m,) [s]
+        Of the knots, rising.
+    angle : array (m,) [rad]
+        Of the shaft there, rising; 0 is a pulse of the tacho where there is one.
+    source : str
+        Where it comes from: ``pulses``, ``speed``, ``angle`` or ``ridge``.
+    confidence : float
+        From 0 to 1: how far the speed can be relied on.
+    phased : bool
+        Whether angle 0 is a mark on the shaft, so that phases mean something; not so from a speed or a ridge.
+    order : float
+        Order that the ridge was taken for; 1 otherwise.
+    alternatives : tuple of (float, float)
+        Factors by which the true speed may differ from this one, with the share of belief in each; empty where pulses
+        or a speed leave no choice.
+    cautions : tuple of str
+        What was doubtful.
+    """
+
+    time: Array
+    angle: Array
+    source: str = "pulses"
+    confidence: float = 1.0
+    phased: bool = True
+    order: float = 1.0
+    alternatives: tuple[tuple[float, float], ...] = ()
+    cautions: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def _forward(self) -> Any:
+        return _smooth(self.time, self.angle)
+
+    @cached_property
+    def _backward(self) -> Any:
+        return _smooth(self.angle, self.time)
+
+    @property
+    def turns(self) -> float:
+        """Turns between the first and the last knot."""
+        return float(self.angle[-1] - self.angle[0]) / (2.0 * math.pi)
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Least and greatest speed, each over a whole turn [rad/s]."""
+        lasting = np.diff(self.time_at(np.arange(self.angle[0], self.angle[-1] + 1e-9, 2.0 * math.pi)))
+        if lasting.size == 0:
+            return self.mean_speed, self.mean_speed
+        return 2.0 * math.pi / float(np.max(lasting)), 2.0 * math.pi / float(np.min(lasting))
+
+    @property
+    def mean_speed(self) -> float:
+        """Angle over time [rad/s]."""
+        return float((self.angle[-1] - self.angle[0]) / (self.time[-1] - self.time[0]))
+
+    def angle_at(self, time: ArrayLike) -> Array:
+        """Return the angle at times, array (k,) [rad]; beyond the knots it goes on as at the last one."""
+        return _carried_on(self._forward, self.time, np.asarray(time, dtype=float))
+
+    def time_at(self, angle: ArrayLike) -> Array:
+        """Return the times at angles, array (k,) [s]."""
+        return _carried_on(self._backward, self.angle, np.asarray(angle, dtype=float))
+
+    def speed_at(self, time: ArrayLike) -> Array:
+        """Return the speed at times, array (k,) [rad/s]."""
+        inside = np.clip(np.asarray(time, dtype=float), self.time[0], self.time[-1])
+        return np.asarray(self._forward(inside, 1))
+
+
+def _smooth(x: Array, y: Array) -> Any:
+    """Return a curve through rising points: a cubic spline, or a monotone one where that would turn back."""
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    if x.size < 3:
+        return CubicSpline(x, y, bc_type="natural")
+    curve = CubicSpline(x, y)
+    between = 0.5 * (x[1:] + x[:-1])
+    slopes = np.concatenate([curve(x, 1), curve(between, 1)])
+    return curve if float(np.min(slopes)) > 0.0 else PchipInterpolator(x, y)
+
+
+def _carried_on(curve: Any, knots: Array, at: Array) -> Array:
+    """Return a curve, beyond its ends straight on."""
+    inside = np.clip(at, knots[0], knots[-1])
+    slope = np.where(at < knots[0], curve(knots[0], 1), curve(knots[-1], 1))
+    return np.asarray(curve(inside) + slope * (at - inside))
+
+
+def rotation(
+    signal: Signal,
+    *,
+    speed_range: tuple[float, float] | None = None,
+    order: float | None = None,
+    level: float | None = None,
+    hysteresis: float | None = None,
+    progress: Progress | None = None,
+) -> Rotation:
+    """Return how the shaft turned while a signal was recorded.
+
+    Parameters
+    ----------
+    signal : Signal
+        With the pulses, the speed or the angle of the shaft; without them the speed is sought in what shakes.
+    speed_range : (float, float) [rad/s], optional
+        Least and greatest speed of the shaft, as far as they are known.
+    order : float, optional
+        Order of the strongest vibration, for a signal without a tacho.
+    level, hysteresis : float, optional
+        Where the pulses are timed, see `cardan.questions.diagnosis.signals.pulses.edges`.
+    progress : function, optional
+        Told the share done of a search without a tacho, see `cardan.questions.diagnosis.signals.ridge.ridge`.
+
+    Returns
+    -------
+    Rotation
+
+    Raises
+    ------
+    InputError
+        Too few pulses or turns, or a shaft that stands.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> time = np.arange(8000) / 2000
+    >>> pulses = np.cos(2 * np.pi * (10 * time + 2 * time**2))
+    >>> tacho = Channel(name="tacho", quantity="pulses", rate=2000.0, values=pulses)
+    >>> found = rotation(Signal(channels=(tacho,), tacho=0))
+    >>> print(f"{found.turns:.0f} turns, {found.speed_at(2.0) / (2 * np.pi):.1f} 1/s at 2 s")
+    71 turns, 18.0 1/s at 2 s
+    """
+    if signal.tacho is None:
+        from .ridge import ridge
+
+        return ridge(signal.measured, speed_range=speed_range, order=order, progress=progress)
+    tacho = signal.channels[signal.tacho]
+    if tacho.quantity == "pulses":
+        found = _from_pulses(tacho, signal.pulses_per_turn, level, hysteresis)
+    else:
+        found = _from_speed(tacho, signal.pulses_per_turn)
+    if found.turns < LEAST_TURNS:
+        text = _("holds {given:.3g} turns of the shaft; at least {wanted:g} are needed")
+        raise refuse(tacho.name, text.format(given=found.turns, wanted=LEAST_TURNS), "out_of_range")
+    if found.turns > MOST_TURNS:
+        text = _("makes {given:.3g} turns; more than {most:g} are no recording: its unit or rate is wrong")
+        raise refuse(tacho.name, text.format(given=found.turns, most=MOST_TURNS), "out_of_range")
+    if found.mean_speed > FASTEST:
+        text = _("makes {given:.3g} rpm; no shaft turns so fast: its unit, its rate or the pulses per turn are wrong")
+        raise refuse(tacho.name, text.format(given=found.mean_speed / rpm), "out_of_range")
+    return _judged(found, tacho, signal.measured, speed_range)
+
+
+def _from_pulses(tacho: Channel, per_turn: float, level: float | None, hysteresis: float | None) -> Rotation:
+    found = counted(tacho, level=level, hysteresis=hysteresis)
+    cautions = []
+    if found.missing or found.extra:
+        text = _("{name}: {missing} pulses did not come and {extra} were none; the turns are counted over them.")
+        cautions.append(text.format(name=tacho.name, missing=found.missing, extra=found.extra))
+    spacing = float(np.min(np.diff(found.time) / np.diff(found.count))) * tacho.rate
+    confidence = max(0.05, 1.0 - 2.0 * found.doubtful)
+    if spacing < SAMPLES_A_PULSE:
+        text = _("{name}: only {count} values between pulses; it was sampled too slowly to time them.")
+        cautions.append(text.format(name=tacho.name, count=f"{spacing:.1f}"))
+        confidence *= 0.3
+    every = max(1, int(per_turn / KNOTS))
+    kept = found.count % every == 0
+    return Rotation(
+        time=found.time[kept],
+        angle=2.0 * math.pi * found.count[kept] / per_turn,
+        confidence=confidence,
+        cautions=tuple(cautions),
+    )
+
+
+def _from_speed(tacho: Channel, per_turn: float) -> Rotation:
+    """Return the rotation of a channel of the speed or of the angle; either way round."""
+    cautions: tuple[str, ...] = ()
+    confidence = 1.0
+    if tacho.quantity == "angle":
+        angle = np.unwrap(tacho.values) / per_turn
+        angle = angle if angle[-1] >= angle[0] else -angle
+    else:
+        speed = tacho.values / per_turn
+        speed = speed if np.mean(speed) >= 0.0 else -speed
+        steps = 0.5 * (speed[1:] + speed[:-1]) / tacho.rate
+        angle = np.concatenate([[0.0], np.cumsum(steps)])
+    step = np.diff(angle)
+    slow = step <= SLOW * float(np.max(step, initial=0.0))
+    if np.any(slow):
+        kept = _longest(~slow)
+        text = _("{name}: the shaft stands or turns back for {share:.0f} % of the recording; that part is left out.")
+        cautions = (text.format(name=tacho.name, share=100.0 * (1.0 - (kept[1] - kept[0]) / step.size)),)
+        confidence = 0.7
+        angle, time = angle[kept[0] : kept[1] + 1], tacho.time[kept[0] : kept[1] + 1]
+    else:
+        time = tacho.time
+    if angle.size < 2:
+        raise refuse(tacho.name, _("the shaft stands"), "empty")
+    return Rotation(
+        time=time,
+        angle=angle,
+        source="angle" if tacho.quantity == "angle" else "speed",
+        confidence=confidence,
+        phased=tacho.quantity == "angle",
+        cautions=cautions,
+    )
+
+
+def _longest(good: Array) -> tuple[int, int]:
+    """Return begin and end of the longest run that is good."""
+    change = np.flatnonzero(np.diff(np.concatenate([[0], good.astype(int), [0]])))
+    if change.size == 0:
+        return 0, 0
+    begins, ends = change[::2], change[1::2]
+    k = int(np.argmax(ends - begins))
+    return int(begins[k]), int(ends[k])
+
+
+def _judged(
+    found: Rotation, tacho: Channel, others: Sequence[Channel], speed_range: tuple[float, float] | None
+) -> Rotation:
+    """Return a rotation with what speaks against it: jumps of the speed, other lengths, speeds out of range."""
+    cautions = list(found.cautions)
+    confidence = found.confidence * tacho.trust
+    uneven = _jumps(found)
+    if uneven > 0.0:
+        text = _("{name}: the speed jumps by more than a shaft can in {share:.0f} % of the turns.")
+        cautions.append(text.format(name=tacho.name, share=100.0 * uneven))
+        confidence *= 1.0 - min(0.9, 2.0 * uneven)
+    for other in others:
+        if abs(other.duration - tacho.duration) > 0.02 * tacho.duration + 2.0 / min(other.rate, tacho.rate):
+            text = _("{name} lasts {one:.4g} s and {other} {two:.4g} s: one of them has a wrong sampling rate.")
+            text = text.format(name=tacho.name, one=tacho.duration, other=other.name, two=other.duration)
+            cautions.append(text)
+            confidence *= 0.3
+            break
+    low, high = found.speeds
+    if speed_range is not None and not (0.95 * speed_range[0] <= high and low <= 1.05 * speed_range[1]):
+        text = _(
+            "{name}: {low:.4g} to {high:.4g} rpm lie outside of the speeds of the drive; sampling rate or pulses per "
+            "turn are wrong, or it is another shaft."
+        )
+        cautions.append(text.format(name=tacho.name, low=low / rpm, high=high / rpm))
+        confidence *= 0.3
+    return Rotation(
+        time=found.time,
+        angle=found.angle,
+        source=found.source,
+        confidence=confidence,
+        phased=found.phased,
+        cautions=tuple(cautions),
+    )
+
+
+def _jumps(found: Rotation) -> float:
+    """Return the share of turns at which the mean speed leaves that of its neighbours by more than a fifth."""
+    marks = np.arange(found.angle[0], found.angle[-1], 2.0 * math.pi)
+    lasting = np.diff(found.time_at(marks))
+    if lasting.size < 5:
+        return 0.0
+    around = 0.5 * (lasting[2:] + lasting[:-2])
+    return float(np.mean(np.abs(lasting[1:-1] / around - 1.0) > 0.2))

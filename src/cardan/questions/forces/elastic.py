@@ -1,0 +1,189 @@
+"""How supports and shafts give way, and what is off before they do: reactions of what is held too much."""
+
+from __future__ import annotations
+
+import math
+
+from cardan.drive.models.geometry import geometry_from_points
+from cardan.drive.models.train import Train
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, namespace
+from cardan.maths.linear import beams
+from cardan.maths.linear.redundant import least_energy
+from cardan.texts import _
+
+from .held import HOLDS, Hold, shaft_flexibility, stretches
+from .kinetostatics import Couples, Stand
+from .misfit import Crosses, crosses, joint_gap
+from .reactions import Frame, Load
+from .redundancy import Redundancy
+
+KEYS: dict[Hold, str] = {"radial": "stiffness", "axial": "axial_stiffness", "tilt": "tilt_stiffness"}
+"""Key of a support that says how stiff it holds."""
+
+
+def compliance(whole: Train, held: Frame) -> Array:
+    """Return how supports and shafts give way to the unknowns, array (..., p or 1, u, u) [m/N].
+
+    A stiffness that is not given counts as infinite here; `missing_stiffness` tells where that will not do.
+    """
+    xp = namespace(whole.points)
+    size = [xp.zeros(whole.points.shape[:-2], dtype=xp.float64)] * (3 * held.layout.joints)
+    for k, hold in held.layout.unknowns[3 * held.layout.joints :]:
+        if hold is None or whole.stiffness is None:
+            size.append(size[0])
+            continue
+        given = whole.stiffness[..., k, HOLDS.index(hold)]
+        size.append(xp.where(xp.isnan(given), 0.0, 1.0 / given) + size[0])
+    soft = xp.stack(size, axis=-1)[..., None, :]
+    whole_soft = soft[..., None] * xp.eye(soft.shape[-1], dtype=xp.float64)
+    if whole.bending is None or whole.stretching is None or not bool(xp.any(whole.bending > 0.0)):
+        return whole_soft
+    bending, stretching = whole.bending[..., None, :, :], whole.stretching[..., None, :, :]
+    start = None if whole.stretch_start is None else whole.stretch_start[..., None, :, :]
+    return whole_soft + shaft_flexibility(held.acting, bending, stretching, start)
+
+
+def missing_stiffness(whole: Train, found: Redundancy) -> tuple[tuple[int, Hold], ...]:
+    """Return which stiffness is missing of what takes part in forces that statics cannot tell."""
+    if whole.stiffness is None:
+        return found.strained
+    return tuple((k, hold) for k, hold in found.strained if math.isnan(float(whole.stiffness[k, HOLDS.index(hold)])))
+
+
+def housing_gap(whole: Train, held: Frame) -> Array:
+    """Return how far the housings are off in the directions of the unknowns, array (..., p or 1, u) [m]."""
+    xp = namespace(whole.points)
+    force = held.acting.force
+    none = 0.0 * force[..., 0, 0, 0]
+    rows = [none] * (3 * held.layout.joints)
+    column = len(rows)
+    for k, hold in held.layout.unknowns[column:]:
+        shaft = held.layout.bearings[k][0]
+        if hold == "tilt" or whole.offset is None:
+            rows.append(none)
+        else:
+            rows.append(xp.sum(force[..., shaft, len(rows), :] * whole.offset[..., None, k, :], axis=-1))
+    return xp.stack(rows, axis=-1)
+
+
+def gaps(whole: Train, held: Frame, arms: Crosses) -> tuple[Array, Array]:
+    """Return what is off in the joints by their errors, and its derivative by φ_1, arrays (..., p, n, 3)."""
+    xp = namespace(held.points)
+    if whole.error is None:
+        none = xp.zeros_like(arms.driving)
+        return none, none
+    known = whole.normal
+    normal = geometry_from_points(held.points).normal if known is None else known[..., None, :, :]
+    return joint_gap(held.acting.axis, normal, arms, whole.error[..., None, :, :])
+
+
+def bent_by_loads(whole: Train, held: Frame, found: Couples, loads: list[Load], thrust: Array) -> Array:
+    """Return how far known couples and forces bend the shafts at the unknowns, array (..., p, u) [m].
+
+    Parameters
+    ----------
+    whole : Train
+        How shafts give way.
+    held : Frame
+        Where the unknowns act.
+    found : Couples
+        Couples of the joints on the shafts.
+    loads : list of Load
+        Weights and inertia forces; the couples of swinging shafts are left out: they are spread along them.
+    thrust : array (..., p, number of splines) [N]
+        Friction thrust of the splines.
+    """
+    xp = namespace(held.points, found.secondary)
+    acting, n = held.acting, held.layout.joints
+    total = 0.0 * found.secondary[..., 0, :1]
+    if whole.bending is None or whole.stretching is None:
+        return total
+    for s in range(n + 1):
+        e, length = acting.axis[..., s, :], acting.length[..., s]
+        none = 0.0 * found.secondary[..., s, :]
+        place, force, couple = [], [], []
+        if s:
+            place, force, couple = [0.0 * length], [none], [found.driven[..., s - 1, :]]
+        if s < n:
+            place, force, couple = [*place, length], [*force, none], [*couple, -found.driving[..., s, :]]
+        for load in loads:
+            if load.shaft == s:
+                place, force, couple = [*place, load.place], [*force, load.force + none], [*couple, none]
+        if s in acting.cut:
+            push = thrust[..., held.layout.splines.index(s), None] * e
+            place, force, couple = [*place, acting.cut[s]], [*force, push + none], [*couple, none]
+        where = xp.stack([one + none[..., 0] for one in place], axis=-1)
+        given = where, xp.stack(force, axis=-2), xp.stack([one + none for one in couple], axis=-2)
+        own = acting.place[..., s, :], acting.force[..., s, :, :], acting.couple[..., s, :, :]
+        end = xp.maximum(xp.max(own[0], axis=-1), xp.max(where, axis=-1))
+        for since, bending, stretching in stretches(whole.bending, whole.stretching, whole.stretch_start, s):
+            from_here = None if since is None else since[..., None]
+            bent = beams.bending_between(e, own, given, end, from_here)
+            pulled = beams.stretching_between(e, own[:2], given[:2], end, acting.cut.get(s), from_here)
+            total = total + bending[..., None, None] * xp.sum(bent, axis=-1)
+            total = total + stretching[..., None, None] * xp.sum(pulled, axis=-1)
+    return total
+
+
+def elastic(
+    whole: Train, held: Frame, stand: Stand, found: Couples, loads: list[Load], thrust: Array, known: Array
+) -> Array:
+    """Return the unknowns of a frame that is held too much, array (..., p, u).
+
+    Parameters
+    ----------
+    whole : Train (...)
+        How supports and shafts give way, and what is off.
+    held : Frame
+        Balance of the shafts.
+    stand, found : Stand, Couples
+        How crosses stand, and what they carry.
+    loads, thrust : list of Load, array (..., p, number of splines)
+        Other known forces.
+    known : array (..., p, rows)
+        Known side of the balance.
+
+    Notes
+    -----
+    Least complementary energy under load and misfit at once: d of `least_energy` holds the offsets of the housings,
+    the gaps in the joints, and what the loads bend the shafts by.
+    """
+    xp = namespace(known)
+    off, _rate = gaps(whole, held, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
+    joints = xp.reshape(off, (*off.shape[:-2], 3 * held.layout.joints))
+    rest = xp.zeros((*off.shape[:-2], held.matrix.shape[-1] - joints.shape[-1]), dtype=xp.float64)
+    gap = xp.concat((joints, rest), axis=-1) + housing_gap(whole, held)
+    gap = gap - bent_by_loads(whole, held, found, loads, thrust)
+    return least_energy(held.matrix, known, compliance(whole, held), gap)[0]
+
+
+def refuse_soft(whole: Train, found: Redundancy, field: str = "") -> None:
+    """Refuse a frame whose forces follow from a stiffness that is not given.
+
+    Parameters
+    ----------
+    whole : Train
+        One drive.
+    found : Redundancy
+        How far it is held too much.
+    field : str
+        What the error names: the list of supports, or each missing key by itself where this is empty.
+    """
+    missing = missing_stiffness(whole, found)
+    if not missing:
+        return
+    keys = [f"supports[{k}].{KEYS[hold]}" for k, hold in missing]
+    if not field:
+        text = _("missing; the drive is held by {degree} more than statics can tell, so forces follow from stiffness")
+        check(Problem(key, text.format(degree=found.degree)) for key in keys)
+    text = _(
+        "the shafts are held by {degree} forces or couples more than statics can tell; take supports away, let them "
+        "slide or tilt, or give {keys}"
+    )
+    if field != "supports":
+        keys = [
+            _("the stiffness of {place}").format(place=f"{field}[{k}]")
+            for k in dict.fromkeys(k for k, _hold in missing)
+        ]
+    raise refuse(field, text.format(degree=found.degree, keys=", ".join(keys)))

@@ -1,0 +1,161 @@
+"""What a drive carries while it moves: what the supports take and what the input needs, turn by turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from cardan.figures.axes import axis
+from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
+from cardan.figures.palette import dash_of, shaft
+from cardan.figures.turning import shaft_name, support_dashes, support_name
+from cardan.figures.wording import significant
+from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
+from cardan.questions.forces.moving_forces import MovingForces
+from cardan.texts import _
+
+FEW = 12
+"""Fewer turns than this are drawn as they are; more by the largest and least of each."""
+
+NOTHING = 1e-9
+"""Share of the largest force below which a force is rounding."""
+
+LEAST = 1e-9
+"""Smallest range of an axis of forces or torques."""
+
+
+def moving_forces_figures(found: MovingForces, names: Sequence[str] = ()) -> tuple[Figure, ...]:
+    """Return the figures of the forces over a movement.
+
+    Parameters
+    ----------
+    found : MovingForces
+        Of one drive.
+    names : sequence of str
+        Names of the supports, for the legend.
+    """
+    held = (moving_reactions_figure(found, names),) if found.forces.reaction is not None else ()
+    return (*held, moving_torques_figure(found))
+
+
+def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> Figure:
+    """Return the radial and axial force of every support over the movement.
+
+    Parameters
+    ----------
+    found : MovingForces
+        Of one drive with supports.
+    names : sequence of str
+        Names of the supports, for the legend.
+    """
+    forces = found.forces
+    size = found.reaction_size
+    most = found.extreme(size)
+    worst = int(foremost(most.high))
+    top = float(most.high[worst])
+    axial = np.asarray(forces.axial)
+    shafts = forces.support_shaft
+    kinds = list(zip(shafts, support_dashes(shafts), strict=True))
+
+    def curves(values: Array, *, labelled: bool, both: bool) -> Iterator[Series]:
+        for k, (number, dash) in enumerate(kinds):
+            if both and float(np.max(np.abs(values[k]))) <= NOTHING * max(top, LEAST):
+                continue
+            name = support_name(k + 1, number, names[k] if k < len(names) else "") if labelled else ""
+            yield from _course(found, values[k], shaft(number), dash, name, both=both)
+
+    pushed = float(np.max(np.abs(axial))) > NOTHING * max(top, LEAST)
+    rows = [
+        _row(found, curves(np.asarray(forces.radial), labelled=True, both=False), _("Radial force"), "N", not pushed)
+    ]
+    if pushed:
+        zero: list[Series] = [Rule(value=0.0, dash="solid", role="faint")]
+        series = [*zero, *curves(axial, labelled=False, both=True)]
+        rows.append(_row(found, series, _("Axial force on the shaft, along the power flow positive"), "N", named=True))
+    return Figure(
+        name="moving-reactions",
+        title=_("What the supports take while the drive moves"),
+        sentence=_("Support {number} on shaft {shaft} takes most, {most} N at {time} s.").format(
+            number=worst + 1,
+            shaft=shafts[worst],
+            most=significant(top),
+            time=significant(float(most.high_time[worst]), 3),
+        ),
+        source=_source(found),
+        rows=tuple(rows),
+    )
+
+
+def moving_torques_figure(found: MovingForces) -> Figure:
+    """Return torque and secondary couple of every shaft over the movement.
+
+    Parameters
+    ----------
+    found : MovingForces
+        Of one drive.
+    """
+    torque, couple = np.asarray(found.forces.shaft_torque), np.asarray(found.forces.bending_couple)
+    entering = found.extreme(torque[0])
+    bent = found.extreme(couple)
+    worst = int(foremost(bent.high))
+    count = len(torque)
+
+    def curves(rows: Array, *, labelled: bool, both: bool) -> list[Series]:
+        made: list[Series] = []
+        for k in range(1, count + 1):
+            name = shaft_name(k, count) if labelled else ""
+            made += _course(found, rows[k - 1], shaft(k), dash_of(k), name, both=both)
+        return made
+
+    return Figure(
+        name="moving-torques",
+        title=_("Torque and secondary couple of every shaft while the drive moves"),
+        sentence=_(
+            "The input takes {low} to {high} N·m; the secondary couple is largest on shaft {number}, {most} N·m at "
+            "{time} s."
+        ).format(
+            low=significant(float(entering.low)),
+            high=significant(float(entering.high)),
+            number=worst + 1,
+            most=significant(float(bent.high[worst])),
+            time=significant(float(bent.high_time[worst]), 3),
+        ),
+        source=_source(found),
+        rows=(
+            _row(found, curves(torque, labelled=True, both=True), _("Torque that enters each shaft"), "N·m"),
+            _row(found, curves(couple, labelled=False, both=False), _("Secondary couple, size"), "N·m", named=True),
+        ),
+    )
+
+
+def _course(found: MovingForces, values: Array, role: str, dash: str, label: str, *, both: bool) -> tuple[Series, ...]:
+    """Return a quantity over time: as it is for a few turns, else the largest of every turn, and the least if asked."""
+    if found.turn_times.size < FEW:
+        return (Curve(x=np.asarray(found.times), y=values, role=role, dash=dash, width=1.4, label=label),)
+    low, high = found.each_turn(values)
+    upper = Curve(x=found.turn_times, y=high, role=role, dash=dash, width=1.6, label=label)
+    return (upper, Curve(x=found.turn_times, y=low, role=role, dash=dash, width=0.9)) if both else (upper,)
+
+
+def _row(
+    found: MovingForces, series: Sequence[Series] | Iterator[Series], label: str, unit: str, named: bool = False
+) -> Row:
+    made = tuple(series)
+    rows = [item.y for item in made if isinstance(item, Curve)]
+    across = axis(_("time") if named else "", "s" if named else "", [np.asarray(found.times)], margin=0.0, least=1e-9)
+    if not named:
+        across = Axis(low=across.low, high=across.high, ticks=across.ticks, texts=across.texts)
+    size = max((float(np.max(np.abs(row))) for row in rows), default=0.0)
+    upright = axis(label, unit, rows, least=max(0.02 * size, LEAST), count=4)
+    return Row(panels=(Panel(series=made, x=across, y=upright),), height=1.5)
+
+
+def _source(found: MovingForces) -> str:
+    if found.turn_times.size < FEW:
+        return _("Exact at every instant, the movement of the axes counted")
+    text = _("Exact at every instant, the movement of the axes counted; bold the largest of every turn, thin the least")
+    if found.complete and not found.cancelled:
+        return text
+    return text + _(", of {some} among {all} turns").format(some=found.turn_times.size, all=f"{found.turns:.0f}")

@@ -1,0 +1,398 @@
+"""Torque and couples of every shaft and cross while a drive turns: exact, backwards from the load, as arrays.
+
+A cross passes on a couple along its own normal and nothing else, but for what turns the cross itself and what rubs in
+its bearings. So the couple at the load gives that of every shaft before it, one joint at a time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.drive.models.chain import Chain
+from cardan.drive.models.train import Train
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.kernel import frames
+from cardan.questions.motion.motion import motion
+from cardan.questions.motion.moving_chain import Spins, moving_axes
+
+from .kind_stand import kind_arms
+from .swing_couple import swing_couple
+
+STILL = 1e-12
+"""Share of the speed of the shafts below which the rate of a cross against its yoke is rounding."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stand:
+    """How shafts and crosses stand and turn; the leading axes are those of the drives, then that of the positions.
+
+    Attributes
+    ----------
+    axis : array (..., p or 1, n+1, 3)
+        Directions e_i of the shafts.
+    axis_rate, axis_acceleration : array (p, n+1, 3) [1/s, 1/s²] or None
+        ė_i and ë_i; None where the axes stand still.
+    speed, acceleration : arrays (..., p, n+1) [rad/s, rad/s²]
+        ω_i, ε_i about the axes.
+    driving_arm, driven_arm : arrays (..., p, n, 3)
+        u_i, v_{i+1}: arms of the crosses in the driving and the driven yoke, or marks of joints without a cross.
+    way : array (..., p, n, 3) or None
+        Directions of the couples that the joints pass on; None where all are normals u×v of crosses.
+    """
+
+    axis: Array
+    axis_rate: Array | None
+    axis_acceleration: Array | None
+    speed: Array
+    acceleration: Array
+    driving_arm: Array
+    driven_arm: Array
+    way: Array | None = None
+
+    def couple_way(self, i: int) -> Array:
+        """Direction of the couple that joint i passes on, array (..., p, 3)."""
+        if self.way is not None:
+            return self.way[..., i, :]
+        return frames.cross(self.driving_arm[..., i, :], self.driven_arm[..., i, :])
+
+    def turning(self, i: int) -> Array:
+        """Angular velocity Ω_i of shaft i, array (..., p, 3) [rad/s]."""
+        about = self.speed[..., i, None] * self.axis[..., i, :]
+        if self.axis_rate is None:
+            return about
+        return about + frames.cross(self.axis[..., i, :], self.axis_rate[..., i, :])
+
+    def turning_rate(self, i: int) -> Array:
+        """Its time derivative, array (..., p, 3) [rad/s²]."""
+        about = self.acceleration[..., i, None] * self.axis[..., i, :]
+        if self.axis_rate is None or self.axis_acceleration is None:
+            return about
+        swept = self.speed[..., i, None] * self.axis_rate[..., i, :]
+        return about + swept + frames.cross(self.axis[..., i, :], self.axis_acceleration[..., i, :])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Couples:
+    """Torques and couples; the leading axes are those of the drives, then that of the positions.
+
+    Attributes
+    ----------
+    shaft_torque : array (..., p, n+1) [N·m]
+        τ_i, torque that must enter each shaft; the first one is the torque at the input.
+    joint_torque : array (..., p, n) [N·m]
+        T_i, part of the couple along the normal of each cross, on the driven yoke.
+    driving_torque : array (..., p, n) [N·m]
+        The same part on the side of the driving yoke; the two differ by what turns the cross.
+    driving, driven : arrays (..., p, n, 3) [N·m]
+        K_i⁻, couple of the driving yoke on the cross, and K_i⁺, of the cross on the driven yoke.
+    secondary : array (..., p, n+1, 3) [N·m]
+        S_i, couple across each shaft that its supports and the joint forces have to balance.
+    loss : array (..., p, n) [W]
+        Power lost in the journals of each joint.
+    power : array (..., p) [W]
+        What the power balance leaves.
+    flow : array (..., p) [W]
+        Largest power in that balance, to judge what is left by.
+    """
+
+    shaft_torque: Array
+    joint_torque: Array
+    driving_torque: Array
+    driving: Array
+    driven: Array
+    secondary: Array
+    loss: Array
+    power: Array
+    flow: Array
+
+
+def standing(
+    chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
+) -> Stand:
+    """Return how drives whose axes stand still turn.
+
+    Parameters
+    ----------
+    chain : Chain (...)
+        Yoke angles and start phase.
+    axis : array (..., n+1, 3)
+        Directions of the shafts.
+    normal : array (..., n, 3)
+        Normals N_i of the joints' planes; the first one fixes the zero of φ_1.
+    angle : array (p,) [rad]
+        φ_1 from the start position.
+    speed, acceleration : float or array (...) [rad/s, rad/s²]
+        ω_1, ε_1.
+
+    Notes
+    -----
+    The exact step u_1 = rot(e_1, φ_1+ψ_1) (N_1×e_1), v_{i+1} = unit(e_{i+1}×u_i), u_i = rot(e_i, -γ_i) v_i; joints of
+    other kinds turn by their laws.
+    """
+    if chain.laws is not None:
+        return standing_kinds(chain, axis, normal, angle, speed=speed, acceleration=acceleration)
+    xp = namespace(axis, angle)
+    first = frames.cross(normal[..., 0, :], axis[..., 0, :])[..., None, :]
+    along = axis[..., None, 0, :]
+    phi = angle + xp.asarray(chain.start_phase)[..., None]
+    c, s = xp.cos(phi)[..., None], xp.sin(phi)[..., None]
+    arm = c * first + s * frames.cross(along, first)
+    still = axis[..., None, :, :]
+    none = xp.zeros_like(still)
+    spins = moving_axes(
+        (still, none, none),
+        arm,
+        yoke_angle=xp.asarray(chain.yoke_angle)[..., None, :],
+        speed=real(speed, xp)[..., None],
+        acceleration=real(acceleration, xp)[..., None],
+    )
+    return _stand(still, None, None, spins)
+
+
+def standing_kinds(
+    chain: Chain, axis: Array, normal: Array, angle: Array, *, speed: ArrayLike, acceleration: ArrayLike
+) -> Stand:
+    """Return how drives with joints of any kinds turn, their axes at rest; see `standing`."""
+    xp = namespace(axis, angle)
+    omega, gain = real(speed, xp)[..., None, None], real(acceleration, xp)[..., None, None]
+    found = motion(chain, angle)
+    ratio, slope = (xp.moveaxis(part, -2, -1) for part in (found.shaft_ratio, found.shaft_slope))
+    driving, driven, way = kind_arms(chain, axis, normal, found)
+    return Stand(
+        axis=axis[..., None, :, :],
+        axis_rate=None,
+        axis_acceleration=None,
+        speed=omega * ratio,
+        acceleration=gain * ratio + omega * omega * slope,
+        driving_arm=driving,
+        driven_arm=driven,
+        way=way,
+    )
+
+
+def _stand(axis: Array, rate: Array | None, curve: Array | None, spins: Spins) -> Stand:
+    return Stand(
+        axis=axis,
+        axis_rate=rate,
+        axis_acceleration=curve,
+        speed=spins.spin,
+        acceleration=spins.spin_acceleration,
+        driving_arm=spins.driving_arm,
+        driven_arm=spins.driven_arm,
+    )
+
+
+def swinging(axes: tuple[Array, Array, Array], spins: Spins) -> Stand:
+    """Return how a drive whose axes move turns, from the jet of its axes (p, n+1, 3) and its spins."""
+    return _stand(*axes, spins)
+
+
+def couples(train: Train, stand: Stand, load: Array) -> Couples:
+    """Return torques and couples of all shafts, backwards from the load.
+
+    Parameters
+    ----------
+    train : Train (...)
+        Masses and friction.
+    stand : Stand (..., p)
+        How shafts and crosses stand and turn.
+    load : array (..., p) [N·m]
+        Torque that resists the output shaft, positive when it resists positive turning.
+
+    Notes
+    -----
+    With h = Ḣ of the cross: T⁺ = [τ_{i+1} + (h·u)(u·e_{i+1})]/(n·e_{i+1}), K⁺ = T⁺ n - (h·u) u, K⁻ = K⁺ + h,
+    τ_i = K⁻·e_i + L_i + J_i ε_i. Friction of the journals adds -κ|T| sgn(p) u + κ|T| sgn(q) v to both couples, p and q
+    the rates of the cross against the driving and of the driven yoke against the cross; where one of them changes its
+    sense, the sense right after. Book (103), (113) are cases.
+    """
+    xp = namespace(stand.speed, load)
+    n = train.joints
+    e, w = stand.axis, stand.speed
+    zero = xp.zeros_like(w[..., 0])
+    tau = load + _own(train, stand, n) + zero
+    work = tau * w[..., n]
+    flow = xp.abs(load * w[..., n])
+    rows: list[list[Array]] = [[], [], [], [], []]
+    torque, pushed, driving, driven, losses = rows
+    entering = [tau]
+    for i in reversed(range(n)):
+        u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
+        normal = stand.couple_way(i)
+        lean = frames.dot(u, e[..., i + 1, :])
+        into = frames.dot(normal, e[..., i + 1, :])
+        swing = _cross_swing(train, stand, i, (u, v, normal))
+        top = tau if swing is None else tau + swing.rate[0] * lean
+        if train.drag is not None:
+            (p, q), (ahead, behind) = _journal_rates(stand, i, u, v, lean)
+            kappa = train.drag[..., None, i]
+            t = top / (into - kappa * xp.sign(top) * ahead * lean)
+            rubs = kappa * xp.abs(t)
+            lost = rubs * (xp.abs(p) + xp.abs(q))
+            along_u, along_v = -rubs * ahead, rubs * behind
+            out = t[..., None] * normal + along_u[..., None] * u + along_v[..., None] * v
+        else:
+            t = top / into
+            lost = zero
+            out = t[..., None] * normal
+        back, given = t, out
+        if swing is not None:
+            hu, hv, hn = swing.rate
+            back = t + hn
+            given = out + hn[..., None] * normal + hv[..., None] * v
+            out = out - hu[..., None] * u
+            work = work + sum(h * turn for h, turn in zip(swing.rate, swing.turning, strict=True))
+        own = _own(train, stand, i)
+        tau = frames.dot(given, e[..., i, :]) + own
+        work = work + own * w[..., i] + lost
+        flow = xp.maximum(flow, xp.abs(tau * w[..., i]))
+        for row, value in zip(
+            (torque, pushed, driving, driven, losses, entering), (t, back, given, out, lost, tau), strict=True
+        ):
+            row.insert(0, value)
+    secondary = _secondary(train, stand, driving, driven)
+    if stand.axis_rate is not None:
+        for i in range(n + 1):
+            across = frames.cross(e[..., i, :], stand.axis_rate[..., i, :])
+            work = work + frames.dot(secondary[i] + swing_need(train, stand, i), across)
+    return Couples(
+        shaft_torque=xp.stack(entering, axis=-1),
+        joint_torque=xp.stack(torque, axis=-1),
+        driving_torque=xp.stack(pushed, axis=-1),
+        driving=xp.stack(driving, axis=-2),
+        driven=xp.stack(driven, axis=-2),
+        secondary=xp.stack(secondary, axis=-2),
+        loss=xp.stack(losses, axis=-1),
+        power=tau * w[..., 0] - work,
+        flow=flow,
+    )
+
+
+def resisted(train: Train, stand: Stand, drive: Array) -> Array:
+    """Return the torque at the output that a torque at the input holds, array (..., p) [N·m].
+
+    Parameters
+    ----------
+    train : Train (...)
+        Masses and friction, no joint locked.
+    stand : Stand (..., p)
+        How shafts and crosses stand and turn.
+    drive : array (..., p) [N·m]
+        Torque that drives the input shaft.
+
+    Notes
+    -----
+    The equations of `couples` from their other end: friction leaves the couple of each cross the sign of the torque
+    that its driving shaft passes on.
+    """
+    xp = namespace(stand.speed, drive)
+    e = stand.axis
+    tau = drive + 0.0 * stand.speed[..., 0]
+    for i in range(train.joints):
+        u, v = stand.driving_arm[..., i, :], stand.driven_arm[..., i, :]
+        normal = stand.couple_way(i)
+        lean, back = frames.dot(u, e[..., i + 1, :]), frames.dot(v, e[..., i, :])
+        out, into = frames.dot(normal, e[..., i, :]), frames.dot(normal, e[..., i + 1, :])
+        swing = _cross_swing(train, stand, i, (u, v, normal))
+        left = tau - _own(train, stand, i)
+        if swing is not None:
+            left = left - swing.rate[2] * out - swing.rate[1] * back
+        if train.drag is not None:
+            ahead, behind = _journal_rates(stand, i, u, v, lean)[1]
+            kappa = train.drag[..., None, i]
+            t = left / (out + kappa * xp.sign(left) * behind * back)
+            tau = t * into - kappa * xp.abs(t) * ahead * lean
+        else:
+            tau = left / out * into
+        if swing is not None:
+            tau = tau - swing.rate[0] * lean
+    return tau - _own(train, stand, train.joints)
+
+
+def _own(train: Train, stand: Stand, i: int) -> Array:
+    """Return what resists shaft i besides the next one, torque and inertia, array (..., p) [N·m]."""
+    rest = 0.0 * stand.speed[..., i]
+    if train.resisting_torque is not None:
+        rest = rest + train.resisting_torque[..., None, i]
+    if train.inertia is not None:
+        rest = rest + train.inertia[..., None, i] * stand.acceleration[..., i]
+    return rest
+
+
+@dataclass(frozen=True, eq=False)
+class _CrossSwing:
+    """Angular velocity of a cross and the rate of its angular momentum, along u, v and n, each (..., p)."""
+
+    turning: tuple[Array, Array, Array]
+    rate: tuple[Array, Array, Array]
+
+
+def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, Array]) -> _CrossSwing | None:
+    """Return how cross i turns and what that takes; None where its inertia does not count.
+
+    Notes
+    -----
+    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn with
+    the cross, so Euler's equations give Ḣ.
+    """
+    if train.cross_inertia is None:
+        return None
+    inertia = train.cross_inertia[..., None, i, :]
+    u, v, normal = arms
+    one, two = stand.turning(i), stand.turning(i + 1)
+    gain_one = stand.turning_rate(i)
+    a, b, c = (frames.dot(one, arm) for arm in arms)
+    # Ω_i×u = c' v - b' n in the frame of the cross, with b' and c' the parts of Ω_i along v and n.
+    p = frames.dot(two, u) - a
+    gain = frames.dot(stand.turning_rate(i + 1), u) + c * frames.dot(two - one, v) - b * frames.dot(two - one, normal)
+    turning = a + p, b, c
+    rates = gain, frames.dot(gain_one, v) + p * c, frames.dot(gain_one, normal) - p * b
+    rate = []
+    for k in range(3):
+        j, m = (k + 1) % 3, (k + 2) % 3
+        rate.append(inertia[..., k] * rates[k] + (inertia[..., m] - inertia[..., j]) * turning[j] * turning[m])
+    return _CrossSwing(turning, (rate[0], rate[1], rate[2]))
+
+
+def _journal_rates(stand: Stand, i: int, u: Array, v: Array, lean: Array) -> tuple[tuple[Array, Array], list[Array]]:
+    """Return the rates p, q [rad/s] of cross i against its driving yoke about u and against the driven one about v.
+
+    Also the senses of both, ±1: where one stands still for an instant, the sense right after, with the axes at rest
+    that of ṗ = ω_i ω_{i+1} (e_i×u)·e_{i+1} or q̇ = ω_i ω_{i+1} e_i·(e_{i+1}×v); 0 in a straight joint.
+    """
+    xp = namespace(stand.speed)
+    before, after = stand.axis[..., i, :], stand.axis[..., i + 1, :]
+    if stand.axis_rate is None:
+        rates = stand.speed[..., i + 1] * lean, stand.speed[..., i] * frames.dot(before, v)
+    else:
+        one, two = stand.turning(i), stand.turning(i + 1)
+        rates = frames.dot(two - one, u), frames.dot(one - two, v)
+    least = STILL * xp.maximum(xp.abs(stand.speed[..., i]), xp.abs(stand.speed[..., i + 1]))
+    growth = frames.dot(frames.cross(before, u), after), frames.dot(before, frames.cross(after, v))
+    later = (xp.where(xp.abs(more) > STILL, xp.sign(more), 0.0 * more) for more in growth)
+    return rates, [xp.where(xp.abs(rate) > least, xp.sign(rate), then) for rate, then in zip(rates, later, strict=True)]
+
+
+def swing_need(train: Train, stand: Stand, i: int) -> Array | float:
+    """Return the couple that swings the axis of shaft i, J ω ė + I_t e×ë, array (p, 3) [N·m]; 0 where it rests."""
+    if stand.axis_rate is None or stand.axis_acceleration is None:
+        return 0.0
+
+    def own(table: Array | None) -> Array | None:
+        return None if table is None else table[..., None, i]
+
+    jet = stand.axis[..., i, :], stand.axis_rate[..., i, :], stand.axis_acceleration[..., i, :]
+    return -swing_couple(jet, stand.speed[..., i], own(train.inertia), own(train.transverse_inertia)).whole
+
+
+def _secondary(train: Train, stand: Stand, driving: list[Array], driven: list[Array]) -> list[Array]:
+    """Return S_i of every shaft: what the couples at its ends, and its swinging, leave across its axis."""
+    found = []
+    for i in range(train.joints + 1):
+        e = stand.axis[..., i, :]
+        whole = driven[i - 1] if i else -driving[0]
+        if 0 < i < train.joints:
+            whole = whole - driving[i]
+        across = whole - frames.dot(whole, e)[..., None] * e
+        found.append(across - swing_need(train, stand, i))
+    return found

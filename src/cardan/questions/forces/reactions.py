@@ -1,0 +1,337 @@
+"""What the supports and the joints of a drive hold: the balance of every shaft, solved for all forces at once.
+
+Of the unknowns and the matrix of the balance see `forces.held`; here are the loads, the solution, and what is
+left of the balance when everything is summed up again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from cardan.drive.models.train import Train
+from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import frames
+from cardan.maths.linear.redundant import broadcast_shapes
+from cardan.maths.linear.systems import solve_regular
+
+from .held import Actions, Layout, actions, balance
+from .kinetostatics import Couples, Stand, swing_need
+from .misfit import crosses, sliding
+
+
+class Held(IntEnum):
+    """Whether the supports hold a drive just enough."""
+
+    DETERMINATE = 0
+    LOOSE = 1
+    INDETERMINATE = 2
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Load:
+    """Known forces on the shafts, as they act at places of their own.
+
+    Attributes
+    ----------
+    shaft : int
+        Which one, counted from 0.
+    force : array (..., p or 1, 3) [N]
+        The force.
+    place : array (..., p or 1) [m]
+        Where, from the beginning of the shaft.
+    """
+
+    shaft: int
+    force: Array
+    place: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Frame:
+    """How a drive is held: its layout and where everything acts; lead axes (..., p or 1).
+
+    Attributes
+    ----------
+    layout : Layout
+        What holds what.
+    acting : Actions
+        The unknowns as forces and couples.
+    matrix : array (..., p or 1, rows, unknowns)
+        Balance of the shafts, then no force along journals that slide.
+    points : array (..., p or 1, n+2, 3) [m]
+        B_0 … B_{n+1}.
+    """
+
+    layout: Layout
+    acting: Actions
+    matrix: Array
+    points: Array
+
+    @property
+    def slides(self) -> int:
+        """How many conditions say that no force acts along a journal."""
+        return sum(sum(pair) for pair in self.layout.slides)
+
+    @property
+    def equations(self) -> int:
+        """Number of equations of balance, 5(n+1) and one for each spline."""
+        return int(self.matrix.shape[-2]) - self.slides
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknown forces and couples, those that a sliding journal excludes left out."""
+        return int(self.matrix.shape[-1]) - self.slides
+
+
+def layout_of(train: Train) -> Layout:
+    """Return what holds what in a train."""
+    return Layout(joints=train.joints, bearings=train.bearings, slides=train.slides, splines=train.splines)
+
+
+def frame(train: Train, stand: Stand, points: Array) -> Frame:
+    """Return how a train is held.
+
+    Parameters
+    ----------
+    train : Train (...)
+        Supports and splines.
+    stand : Stand (..., p)
+        How shafts and crosses stand.
+    points : array (..., p or 1, n+2, 3) [m]
+        B_0 … B_{n+1}.
+    """
+    xp = namespace(points)
+    layout = layout_of(train)
+    length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
+    position = xp.zeros(0, dtype=xp.float64) if train.position is None else train.position
+    lead = tuple(stand.axis.shape[:-2])
+    place = xp.broadcast_to(position[..., None, :], (*lead, position.shape[-1]))
+    acting = actions(stand.axis, length, layout, place, _cut(train))
+    rows = balance(acting)
+    free = (
+        sliding(layout, crosses(stand.axis, stand.driving_arm, stand.driven_arm))
+        if any(map(any, layout.slides))
+        else None
+    )
+    if free is not None:
+        lead = broadcast_shapes(rows.shape[:-2], free.shape[:-2])
+        rows = xp.concat(
+            (xp.broadcast_to(rows, (*lead, *rows.shape[-2:])), xp.broadcast_to(free, (*lead, *free.shape[-2:]))),
+            axis=-2,
+        )
+    return Frame(layout=layout, acting=acting, matrix=rows, points=points)
+
+
+def _cut(train: Train) -> Array | None:
+    return None if train.cut is None or not train.splines else train.cut[..., None, :]
+
+
+def weights(train: Train, frame: Frame, stand: Stand, acceleration: Array | None) -> list[Load]:
+    """Return weight and inertia force of shafts and crosses.
+
+    Parameters
+    ----------
+    train : Train
+        Masses.
+    frame : Frame
+        Where the points lie.
+    stand : Stand
+        How the axes move.
+    acceleration : array (p, n+2, 3) [m/s²] or None
+        Of the points; None where they stand still.
+
+    Notes
+    -----
+    The weight of a cross counts on its driving shaft, at the joint; a shaft's mass stays at its place from the joint
+    before it, on the input shaft from joint 1.
+    """
+    xp = namespace(frame.points)
+    loads: list[Load] = []
+    if train.gravity is None:
+        return loads
+    gravity = xp.asarray(train.gravity)
+    if train.mass is not None and train.centre_of_mass is not None:
+        for i in range(train.joints + 1):
+            place = train.centre_of_mass[..., None, i]
+            pull = gravity
+            if acceleration is not None:
+                if stand.axis_acceleration is None:
+                    raise AssertionError
+                start = 1 if i == 0 else i
+                ahead = place - frame.acting.length[..., 0] if i == 0 else place
+                pull = gravity - acceleration[..., start, :] - ahead[..., None] * stand.axis_acceleration[..., i, :]
+            loads.append(Load(shaft=i, force=train.mass[..., None, i, None] * pull, place=place))
+    if train.cross_mass is not None:
+        for i in range(train.joints):
+            pull = gravity if acceleration is None else gravity - acceleration[..., i + 1, :]
+            force = train.cross_mass[..., None, i, None] * pull
+            loads.append(Load(shaft=i, force=force, place=frame.acting.length[..., i]))
+    return loads
+
+
+def thrusts(train: Train, couples: Couples, sense: Array | None = None) -> Array:
+    """Return the friction thrust of every spline, array (..., p, number of splines) [N]; positive pushes apart.
+
+    Notes
+    -----
+    2 μ|τ|/d with the torque that enters the shaft, Book (123).
+    """
+    xp = namespace(couples.shaft_torque)
+    if train.grip is None or train.sliding is None or not train.splines:
+        return xp.zeros((*couples.shaft_torque.shape[:-1], 0), dtype=xp.float64)
+    way = train.sliding[..., None, :] if sense is None else sense
+    torque = xp.stack([couples.shaft_torque[..., s] for s in train.splines], axis=-1)
+    return way * train.grip[..., None, :] * xp.abs(torque)
+
+
+def right_side(frame: Frame, secondary: Array, loads: list[Load], thrust: Array) -> Array:
+    """Return the known side of the balance, array (..., p, rows), in the order of `held.balance`."""
+    xp = namespace(secondary, thrust)
+    acting = frame.acting
+    size = xp.mean(acting.length, axis=-1)
+    ahead, behind = [], []
+    for s in range(acting.axis.shape[-2]):
+        e, across = acting.axis[..., s, :], acting.across[..., s, :, :]
+        moment = secondary[..., s, :]
+        force = 0.0 * moment
+        first = 0.0 * moment[..., 0]
+        second = first
+        for load in loads:
+            if load.shaft != s:
+                continue
+            force = force + load.force
+            moment = moment + load.place[..., None] * frames.cross(e + 0.0 * load.force, load.force)
+            along = frames.dot(load.force, e)
+            if s in acting.cut:
+                before = load.place < acting.cut[s]
+                first = first + xp.where(before, along, 0.0)
+                second = second + xp.where(before, 0.0, along)
+            else:
+                first = first + along
+        if s in acting.cut:
+            push = thrust[..., frame.layout.splines.index(s)]
+            first, second = first - push, second + push
+            behind.append(-second)
+        turn = [frames.dot(across[..., k, :], moment) / size for k in range(2)]
+        shove = [frames.dot(across[..., k, :], force) for k in range(2)]
+        ahead += [-row for row in (*shove, first, *turn)]
+    rows = [*ahead, *behind]
+    rows += [0.0 * rows[0]] * frame.slides
+    shape = broadcast_shapes(*(tuple(row.shape) for row in rows))
+    return xp.stack([xp.broadcast_to(row, shape) for row in rows], axis=-1)
+
+
+def solved(frame: Frame, load: Array) -> tuple[Array, Array]:
+    """Return the unknowns of a determinate frame, array (..., p, u), and where it is one, array of bool (..., p or 1).
+
+    Notes
+    -----
+    While the axes stand still and no journal slides, the matrix is the same at all positions and is solved once.
+    """
+    xp = namespace(load)
+    if frame.matrix.shape[-3] == 1:
+        found, regular = solve_regular(frame.matrix[..., 0, :, :], load)
+        return found, regular[..., None]
+    found, regular = solve_regular(
+        xp.broadcast_to(frame.matrix, (*load.shape[:-1], *frame.matrix.shape[-2:])), load[..., None, :]
+    )
+    return found[..., 0, :], regular
+
+
+def forces_of(frame: Frame, unknowns: Array) -> tuple[Array, Array, Array]:
+    """Return joint forces (..., p, n, 3), forces (..., p, k, 3) and couples (..., p, k, 3) of the supports."""
+    xp = namespace(unknowns)
+    n = frame.layout.joints
+    lead = unknowns.shape[:-1]
+    joint = xp.reshape(unknowns[..., : 3 * n], (*lead, n, 3))
+    none = xp.zeros((*lead, 3), dtype=xp.float64)
+    reaction, couple = [], []
+    for k, (shaft, holds) in enumerate(frame.layout.bearings):
+        force, turn = none, none
+        for hold in holds:
+            columns = frame.layout.columns(k, hold)
+            amount = unknowns[..., columns, None]
+            if hold == "tilt":
+                turn = turn + xp.sum(amount * frame.acting.couple[..., shaft, columns, :], axis=-2)
+            else:
+                force = force + xp.sum(amount * frame.acting.force[..., shaft, columns, :], axis=-2)
+        reaction.append(force)
+        couple.append(turn)
+    if not reaction:
+        empty = xp.zeros((*lead, 0, 3), dtype=xp.float64)
+        return joint, empty, empty
+    return joint, xp.stack(reaction, axis=-2), xp.stack(couple, axis=-2)
+
+
+def whole_balance(
+    train: Train,
+    frame: Frame,
+    stand: Stand,
+    couples: Couples,
+    loads: list[Load],
+    held: tuple[Array, Array],
+    output: Array,
+) -> tuple[Array, Array]:
+    """Return what external forces and moments on the whole drive leave, over the largest of them.
+
+    Parameters
+    ----------
+    train, frame, stand, couples : Train, Frame, Stand, Couples
+        The drive and its state.
+    loads : list of Load
+        Weights and inertia forces.
+    held : (array (..., p, k, 3) [N], array (..., p, k, 3) [N·m])
+        Forces and couples of the supports.
+    output : array (..., p) [N·m]
+        Torque that resists the output.
+
+    Returns
+    -------
+    force, moment : arrays (..., p)
+
+    Notes
+    -----
+    Sums over the whole drive about joint 1, from the results alone: torque at both ends and along the shafts, support
+    forces and couples, weights, and what turning masses need. Joint forces do not appear: they are internal.
+    """
+    xp = namespace(output)
+    reaction, couple = held
+    origin = frame.points[..., 1, :]
+    e = stand.axis
+    force = 0.0 * couples.secondary[..., 0, :]
+    moment = couples.shaft_torque[..., 0, None] * e[..., 0, :] - output[..., None] * e[..., -1, :]
+    largest = xp.abs(couples.shaft_torque[..., 0]) + xp.abs(output)
+    strongest = 0.0 * largest
+    reach = xp.mean(frame.acting.length, axis=-1)
+    for k, (s, _holds) in enumerate(train.bearings):
+        assert train.position is not None
+        at = frame.points[..., s, :] - origin + train.position[..., None, k, None] * e[..., s, :]
+        force = force + reaction[..., k, :]
+        turn = frames.cross(at + 0.0 * reaction[..., k, :], reaction[..., k, :])
+        moment = moment + couple[..., k, :] + turn
+        strongest = xp.maximum(strongest, frames.norm(reaction[..., k, :]))
+        largest = xp.maximum(largest, frames.norm(turn))
+    for load in loads:
+        at = frame.points[..., load.shaft, :] - origin + load.place[..., None] * e[..., load.shaft, :]
+        force = force + load.force
+        moment = moment + frames.cross(at + 0.0 * load.force, load.force + 0.0 * at)
+        strongest = xp.maximum(strongest, frames.norm(load.force))
+    for i in range(train.joints + 1):
+        moment = moment - _turning_need(train, stand, couples, i)
+    for i in range(train.joints):
+        moment = moment - (couples.driving[..., i, :] - couples.driven[..., i, :])
+    safe = xp.where(strongest > 0.0, strongest, 1.0)
+    most = xp.maximum(largest, reach * strongest)
+    return frames.norm(force) / safe, frames.norm(moment) / xp.where(most > 0.0, most, 1.0)
+
+
+def _turning_need(train: Train, stand: Stand, couples: Couples, i: int) -> Array:
+    """Return what shaft i needs to turn as it does: its resisting torque, its inertia, the swing of its axis."""
+    e = stand.axis[..., i, :]
+    total = 0.0 * couples.secondary[..., i, :]
+    if train.resisting_torque is not None:
+        total = total + train.resisting_torque[..., None, i, None] * e
+    if train.inertia is not None:
+        total = total + (train.inertia[..., None, i] * stand.acceleration[..., i])[..., None] * e
+    return total + swing_need(train, stand, i)

@@ -1,0 +1,118 @@
+"""How uneven is every shaft of a drive whose joints turn by laws of their own? Seen over one turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.models.laws import unmapped
+from cardan.maths.arrays import Array
+from cardan.questions.motion.equivalence import EquivalentJoint, after_each_joint
+from cardan.questions.motion.motion import motion
+
+from .turn_loads import peak
+
+PLACES = 720
+"""Places in a turn at which the motion is looked at; between them the largest values are found by a quartic."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Swing:
+    """Extremes of shafts 2 … n+1 over a turn, under the names of `EquivalentJoint`, and what they swing in.
+
+    Attributes
+    ----------
+    irregularity : array (n)
+        δ = i_max - i_min.
+    ratio_min, ratio_max : arrays (n)
+        Least and largest speed ratio.
+    max_lead : array (n) [rad]
+        Half of what the shaft runs ahead and back.
+    max_acceleration : array (n)
+        Largest \\|ε\\|/ω_1² at uniform input.
+    amplitude : array (n, orders) [rad]
+        Amplitudes of the angle error once, twice … a turn.
+    """
+
+    irregularity: Array
+    ratio_min: Array
+    ratio_max: Array
+    max_lead: Array
+    max_acceleration: Array
+    amplitude: Array
+
+    @property
+    def shaft_irregularity(self) -> Array:
+        """δ of shafts 2 … n+1, array (n)."""
+        return self.irregularity
+
+    @property
+    def bend(self) -> Array:
+        """Bend of the Hooke joint with the same irregularity sin α tan α, array (n) [rad]."""
+        half = 0.5 * self.irregularity
+        found: Array = np.arccos(np.clip(np.sqrt(1.0 + half * half) - half, 0.0, 1.0))
+        return found
+
+    def orders(self, count: int) -> list[tuple[int, float]]:
+        """Return the largest orders of the output's angle error with their amplitudes, lowest first [1/turn, rad]."""
+        row = self.amplitude[-1]
+        largest = sorted(np.argsort(-row)[:count].tolist())
+        return [(k + 1, float(row[k])) for k in largest if row[k] > 0.0]
+
+
+Evenness: TypeAlias = EquivalentJoint | Swing
+"""How even shafts 2 … n+1 turn: in closed form, or seen over a turn."""
+
+
+def swing(drive: Drive) -> Swing:
+    """Return how uneven every shaft of a drive is, seen over one turn.
+
+    Parameters
+    ----------
+    drive : Drive
+        With joints of any kinds.
+
+    Returns
+    -------
+    Swing
+
+    Examples
+    --------
+    It agrees with the closed form where there is one:
+
+    >>> from cardan.units import deg
+    >>> found = swing(Drive.from_angles([20 * deg]))
+    >>> print(f"{found.irregularity[0]:.6f} {found.bend[0] / deg:.4f}", [one for one, _size in found.orders(2)])
+    0.124485 20.0000 [2, 4]
+    """
+    angle = np.arange(PLACES) * (2.0 * np.pi / PLACES)
+    found = motion(drive, angle)
+    ratio, slope, lead = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.lead))
+    high, low = peak(ratio), -peak(-ratio)
+    wave = np.abs(np.fft.rfft(lead)) * (2.0 / PLACES)
+    return Swing(
+        irregularity=high - low,
+        ratio_min=low,
+        ratio_max=high,
+        max_lead=0.5 * (peak(lead) + peak(-lead)),
+        max_acceleration=np.maximum(peak(slope), peak(-slope)),
+        amplitude=wave[:, 1 : PLACES // 8],
+    )
+
+
+def each_shaft(drive: Drive) -> Evenness:
+    """Return how even every shaft of a drive turns: in closed form where the kinds of its joints have one.
+
+    Parameters
+    ----------
+    drive : Drive
+
+    Returns
+    -------
+    EquivalentJoint or Swing
+        bend, irregularity, ratio_min, ratio_max, max_lead, max_acceleration : arrays (n), for shafts 2 … n+1.
+    """
+    return swing(drive) if unmapped(drive.joints) else after_each_joint(drive)

@@ -1,0 +1,339 @@
+"""What a drive under torque asks of its shafts and crosses over a turn: largest torques, secondary couples, moments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import lcm
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.joints import Joint
+from cardan.drive.models.chain import Chain, given_chain, turning
+from cardan.drive.models.laws import Laws
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.motion.motion import motion
+from cardan.texts import _
+
+LOOK = 120
+"""Places in half a turn at which loads are looked at, before a curve is laid through the largest."""
+
+STRAIGHT = 1e-9
+"""Sine of the bend below which a joint passes on a torque as a straight one."""
+
+LONGEST = 12
+"""Turns over which torques that swing out of step with the turning are followed at most."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadCase:
+    """A way in which a drive runs under torque.
+
+    Attributes
+    ----------
+    name : str
+        What to call it; empty for the duty itself.
+    torque : float [N·m]
+        Mean torque, with its sign.
+    speed : float or None [rad/s]
+        Size of the input speed.
+    share : float
+        Share of the whole time; 0 for a peak, and for the duty beside its duty cycle.
+    bend : float or None [rad]
+        Bend of every joint, where it is not that of the drive.
+    torque_at : str
+        ``output`` or ``input``.
+    harmonics : tuple of Harmonic
+        Swinging parts of the torque.
+    scale : float [N·m]
+        Mean torque that the harmonics belong to; zero when they do not grow with it.
+    """
+
+    name: str = ""
+    torque: float
+    speed: float | None = None
+    share: float = 1.0
+    bend: float | None = None
+    torque_at: str = "output"
+    harmonics: tuple[Harmonic, ...] = ()
+    scale: float = 0.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TurnLoads:
+    """Loads of drives over a turn, masses and friction not counted; leading axes (...) are those of the drives.
+
+    Attributes
+    ----------
+    low, high : arrays (..., n+1) [N·m]
+        Least and largest torque of each shaft, counted along its mean.
+    couple : array (..., n) [N·m]
+        Largest couple of each cross; over the span it is the load of a journal.
+    driving, driven : arrays (..., n) [N·m]
+        Largest secondary couple of each joint on its driving and on its driven shaft.
+    mises : array (..., n+1) [N·m]
+        Largest √(4 M_b² + 3 T²) at either end of each shaft: over W_t it is the stress by von Mises.
+    """
+
+    low: Array
+    high: Array
+    couple: Array
+    driving: Array
+    driven: Array
+    mises: Array
+
+    @property
+    def torque(self) -> Array:
+        """Largest size of the torque of each shaft, array (..., n+1) [N·m]."""
+        return np.maximum(np.abs(self.low), np.abs(self.high))
+
+    @property
+    def bending(self) -> Array:
+        """Largest secondary couple at either end of each shaft, array (..., n+1) [N·m]."""
+        return _at_ends(self.driving, self.driven)
+
+    @property
+    def moment(self) -> Array:
+        """Largest √(T² + M_b²) at either end of each shaft, that of Book (261), array (..., n+1) [N·m]."""
+        return np.maximum(_at_ends(self.couple, self.couple), self.torque)
+
+
+def turn_loads(
+    chain: Chain,
+    torque: ArrayLike,
+    *,
+    torque_at: str = "output",
+    harmonics: Sequence[Harmonic] = (),
+    scale: ArrayLike = 0.0,
+    look: int = LOOK,
+) -> TurnLoads:
+    """Return the largest loads of the shafts and crosses of drives over a turn.
+
+    Parameters
+    ----------
+    chain : Chain
+        Kinematic half of one drive or of many (...).
+    torque : array (...) [N·m]
+        Mean torque at the end where it is given.
+    torque_at : str
+        ``output`` or ``input``.
+    harmonics : sequence of Harmonic
+        Its swinging parts, in the angle of the shaft there.
+    scale : float or array (...) [N·m]
+        Mean torque that the harmonics belong to, and with which they grow; they do not where it is zero.
+    look : int
+        Places in half a turn at which loads are looked at.
+
+    Notes
+    -----
+    Without masses and friction the power is the same in every shaft: M_i ω_i = M ω. A cross carries the couple
+    K = M_i/cos θ, of which K sin θ bends its shaft, in a direction fixed in it: Book (100), (103), (114).
+
+    Examples
+    --------
+    >>> from cardan.drive.models.chain import chain
+    >>> from cardan.drive.drive import Drive
+    >>> found = turn_loads(chain(Drive.from_angles([0.35])), 100.0)
+    >>> print(found.high.round(3), found.bending.round(3))
+    [106.454 100.   ] [34.29  36.503]
+    """
+    period = 2.0 * math.pi * turns(harmonics) if harmonics else math.pi
+    places = round(look * period / math.pi)
+    angle = np.arange(places) * (period / places)
+    found = motion(chain, angle)
+    ratio, theta = found.shaft_ratio, found.joint_angle
+    bend = np.asarray(found.bend, dtype=float)[..., None]
+    end = -1 if torque_at == "output" else 0
+    mean = np.asarray(torque, dtype=float)[..., None]
+    turned = found.shaft_angle[..., end, :]
+    swing = sum((one.torque * np.cos(one.order * turned + one.phase) for one in harmonics), 0.0 * turned)
+    base = np.asarray(scale, dtype=float)[..., None]
+    grown = np.where(base == 0.0, 1.0, mean / np.where(base == 0.0, 1.0, base))
+    sign = np.where(mean < 0.0, -1.0, 1.0)
+    given = sign * (mean + grown * swing)
+    passing = given[..., None, :] * ratio[..., [end], :] / ratio
+    size = np.abs(passing)
+    before, after = size[..., :-1, :], size[..., 1:, :]
+    if chain.laws is None:
+        lean = np.sqrt(1.0 + (np.tan(bend) * np.sin(theta)) ** 2)
+        couple = before * lean
+        on_driving = before * np.tan(bend) * np.abs(np.sin(theta))
+        on_driven = couple * np.sin(bend) * np.abs(np.cos(theta))
+    else:
+        one, other = across(chain.laws, theta, ratio[..., 1:, :] / ratio[..., :-1, :])
+        couple, on_driving, on_driven = before * np.hypot(1.0, one), before * one, before * other
+    # K² = T² + M_b² on either shaft, so 4 M_b² + 3 T² = 4 K² - T².
+    mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
+    high = peak(passing)
+    ends = _at_ends(*(peak(one) for one in mises)) if bend.shape[-2] else math.sqrt(3.0) * np.abs(high)
+    return TurnLoads(
+        low=-peak(-passing),
+        high=high,
+        couple=peak(couple),
+        driving=peak(on_driving),
+        driven=peak(on_driven),
+        mises=ends,
+    )
+
+
+def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
+    """Return what a joint of any kind bends its shafts with, over the torque of its driving shaft.
+
+    Parameters
+    ----------
+    laws : Laws (..., n)
+        The joints.
+    theta, ratio : arrays (..., n, p) [rad, 1]
+        Angles of their driving marks, and the speed ratio i of each joint.
+
+    Returns
+    -------
+    driving, driven : arrays (..., n, p)
+        Couples across the driving and the driven shaft.
+
+    Notes
+    -----
+    A joint holds one turn of the driven shaft against the driving one, φ' = f(φ, α). No couple that it carries works on
+    a motion it allows: on turning, i e' - e, and on bending, N + f_α e'. So the couple is
+    (e, N×e, N): T (1, (1 - i cos α)/(i sin α), -f_α/i), and across the driven shaft ((cos α - i)/(i sin α), f_α/i) T:
+    T tan(α/2) across both where i = 1 and f_α = 0, and for a Hooke joint T tan α |sin φ|.
+    """
+    bend, steep, growth = (np.asarray(part)[..., None] for part in (laws.bend, laws.steepness, laws.growth))
+    aside, swept = lean(theta, ratio, bend, steep, growth)
+    # (cos α - i)/sin α = (1 - i cos α)/sin α cos α - i sin α, without a difference of near numbers
+    other = aside * np.cos(bend) - np.sin(bend)
+    return np.hypot(aside, swept), np.hypot(other, swept)
+
+
+def lean(theta: Array, ratio: Array, bend: Array, steepness: Array, growth: Array) -> tuple[Array, Array]:
+    """Return the parts of a joint's couple along N×e and against N, over that along e, arrays like ``theta``.
+
+    Parameters
+    ----------
+    theta : array [rad]
+        Angle of the driving mark.
+    ratio : array
+        Speed ratio of the joint.
+    bend, steepness, growth : arrays
+        α, κ and dκ/dα, in the shape of the angles.
+
+    Notes
+    -----
+    (1 - i cos α)/(i sin α) = tan(α/2) - (i - 1)/(i sin α), and f_α/i with f = arctan(κ tan θ).
+    """
+    sine, cosine, bent = np.sin(theta), np.cos(theta), np.sin(bend)
+    swept = growth * sine * cosine / (cosine**2 + (steepness * sine) ** 2)
+    uneven = np.where(bent > STRAIGHT, (ratio - 1.0) / np.where(bent > STRAIGHT, bent, 1.0), 0.0)
+    return np.tan(0.5 * bend) - uneven / ratio, swept / ratio
+
+
+def at_bend(chain: Chain, bend: Array, joints: Sequence[Joint]) -> Chain:
+    """Return a chain with other bends of its joints, array (..., n) [rad], its planes and yokes as they are.
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+        As the joints are given, not as they turn.
+    bend : array (..., n) [rad]
+    joints : sequence of n Joint
+        Their kinds.
+    """
+    wide = np.broadcast_shapes(bend.shape, chain.bend.shape)
+    return turning(replace(chain, bend=np.broadcast_to(bend, wide)), joints, near=True)
+
+
+def case_loads(drive: Drive, case: LoadCase) -> TurnLoads:
+    """Return the largest loads of a drive over a turn in one way of running."""
+    given = given_chain(drive)
+    own = given.bend if case.bend is None else np.full(np.shape(given.bend), case.bend)
+    whole = at_bend(given, own, drive.joints)
+    return turn_loads(whole, case.torque, torque_at=case.torque_at, harmonics=case.harmonics, scale=case.scale)
+
+
+def load_cases(duty: Duty) -> Iterator[LoadCase]:
+    """Yield every way a duty has a drive run under torque: steadily, the parts of its duty cycle, its measured peak.
+
+    Parameters
+    ----------
+    duty : Duty
+
+    Examples
+    --------
+    >>> from cardan.drive.duty import Block
+    >>> parts = (Block(torque=900.0, speed=100.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
+    >>> [(one.name, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, blocks=parts))]
+    [('', 0.0), ('part 1 of the duty cycle', 0.2), ('part 2 of the duty cycle', 0.8)]
+    """
+    history = duty.torque_history
+    measured = history is not None and bool(history.torques)
+    speed = None if duty.speed is None else abs(duty.speed)
+    scale = duty.torque or 0.0
+    if duty.torque is not None:
+        yield LoadCase(
+            torque=duty.torque,
+            speed=speed,
+            share=0.0 if duty.blocks or measured else 1.0,
+            torque_at=duty.torque_at,
+            harmonics=duty.harmonics,
+            scale=scale,
+        )
+    for k, block in enumerate(duty.blocks):
+        yield LoadCase(
+            name=_("part {number} of the duty cycle").format(number=k + 1),
+            torque=block.torque,
+            speed=abs(block.speed),
+            share=block.share,
+            bend=block.bend,
+            harmonics=duty.harmonics if scale else (),
+            scale=scale,
+        )
+    if history is not None and measured:
+        most = max(history.torques, key=abs)
+        yield LoadCase(name=_("the peak of the torque history"), torque=most, speed=speed, share=0.0)
+
+
+def turns(harmonics: Sequence[Harmonic]) -> int:
+    """Return after how many turns torques with these swings repeat, `LONGEST` at most."""
+    steps = [Fraction(one.order).limit_denominator(LONGEST).denominator for one in harmonics]
+    return min(lcm(*steps), LONGEST) if steps else 1
+
+
+def peak(values: Array) -> Array:
+    """Return the largest values of periodic curves: of the quartic through the five samples about the largest.
+
+    Parameters
+    ----------
+    values : array (..., p)
+        At evenly spaced places of a period.
+
+    Examples
+    --------
+    >>> print(f"{float(peak(2.0 + np.cos(np.arange(120) * 2 * np.pi / 120 + 0.02))):.9f}")
+    3.000000000
+    """
+    at = np.argmax(values, axis=-1)[..., None]
+    count = values.shape[-1]
+    a, b, top, c, d = (np.take_along_axis(values, (at + k) % count, axis=-1)[..., 0] for k in range(-2, 3))
+    first = (a - 8.0 * b + 8.0 * c - d) / 12.0
+    second = (-a + 16.0 * b - 30.0 * top + 16.0 * c - d) / 12.0
+    third = 0.5 * (-a + 2.0 * b - 2.0 * c + d)
+    fourth = a - 4.0 * b + 6.0 * top - 4.0 * c + d
+    curved = np.where(second < 0.0, second, -1.0)
+    place = np.where(second < 0.0, np.clip(-first / curved, -1.0, 1.0), 0.0)
+    for _step in range(2):
+        slope = first + place * (second + place * (0.5 * third + place * fourth / 6.0))
+        rise = second + place * (third + 0.5 * place * fourth)
+        place = np.where(rise < 0.0, np.clip(place - slope / np.where(rise < 0.0, rise, -1.0), -1.0, 1.0), 0.0)
+    found = top + place * (first + place * (0.5 * second + place * (third / 6.0 + place * fourth / 24.0)))
+    return np.maximum(top, found)
+
+
+def _at_ends(driving: Array, driven: Array) -> Array:
+    """Return the larger of what joints put on either end of each shaft, array (..., n+1)."""
+    nothing = 0.0 * driving[..., :1]
+    found: Array = np.maximum(np.concatenate((nothing, driven), axis=-1), np.concatenate((driving, nothing), axis=-1))
+    return found

@@ -1,0 +1,303 @@
+"""What there is to say of the life of the joints: lives side by side, parts of the duty cycle, what to mind."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.quantity import Quantity, Say, Text, listed, numbered, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.texts import _
+
+from .figure import life_figures
+from .joint_bearings import joint_bearings
+from .life import METHODS, Life
+from .life import life as ask
+
+__all__ = ["answer", "ask", "lacking"]
+
+PARTLY = ("duty.blocks", "duty.torque_history")
+"""Duties in parts, that stand for one torque and one speed."""
+
+SHOWN = 12
+"""Parts of a duty cycle that people are shown."""
+
+CLOSE = 0.9
+"""Share of the life asked for from which it is near the limit."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for the life of its joints."""
+    duty = drive.duty
+    parts = bool(duty.blocks) or duty.torque_history is not None
+    own = joint_bearings(drive)[0]
+    rated = bool(np.any(own.rated) or any(own.convention))
+    cross = absent(
+        (not np.all(np.isnan(own.span)), *in_a_joint(drive, "cross", ".span")),
+        (not np.all(np.isnan(own.capacity)), *in_a_joint(drive, "needles", ".capacity")),
+    )
+    return (
+        *absent(
+            (parts or duty.torque is not None, "duty.torque", *PARTLY),
+            (parts or duty.speed is not None, "duty.speed", *PARTLY),
+            (parts or duty.life is not None, "duty.life", *PARTLY),
+        ),
+        *(() if rated else cross or (("joints[0].rating.torque",),)),
+    )
+
+
+def answer(drive: Drive, result: Life) -> Answer:
+    """Return what there is to say of the life of the joints of a drive."""
+    tone: Tone = "plain" if result.enough is None else "good" if result.enough else "failed"
+    return Answer(
+        name="life",
+        title=_("Life"),
+        sentence=_sentence(drive, result),
+        tone=tone,
+        figures=lambda: life_figures(result),
+        tables=(_joints(drive, result), *_duty_cycle(result)),
+        remarks=tuple(_remarks(result)),
+        keys=tuple(_keys(result)),
+        facts=_facts(result),
+        full=lambda: _everything(result),
+        code=1 if result.enough is False else 0,
+    )
+
+
+def _hours(seconds: float) -> Quantity:
+    return Quantity(seconds, "duration")
+
+
+def _sentence(drive: Drive, result: Life) -> Say:
+    if math.isinf(result.drive):
+        return say(_("nothing wears; no joint both oscillates and carries torque."))
+    joint = numbered(result.governing, drive.joints[result.governing - 1].name)
+    values = {"joint": joint, "life": _hours(result.drive)}
+    if result.demanded is None:
+        return say(_("joint {joint} fails first, after {life}."), **values)
+    text = _("too short; joint {joint} fails after {life}, and {asked} are asked for.")
+    if result.enough:
+        text = _("lasts; joint {joint} fails first, after {life}, and {asked} are asked for.")
+    return say(text, asked=_hours(result.demanded), **values)
+
+
+def _joints(drive: Drive, result: Life) -> Table:
+    own = result.bearings
+    titles = {"iso": _("ISO 281"), "simple": _("mean load"), "maker": _("maker"), "book": _("handbook")}
+    rated = bool(np.any(np.isfinite(own.capacity)))
+    sides = {"iso_driving": result.combined(result.driving), "iso_driven": result.combined(result.driven)}
+    return Table(
+        name="joints",
+        records=True,
+        columns=(
+            *heads(_("joint"), [joint.name for joint in drive.joints]),
+            Column(
+                key="joint_angle",
+                heading=_("joint angle"),
+                values=result.share @ result.bend,
+                dimension="angle",
+                decimals=2,
+            ),
+            Column(
+                key="equivalent_torque",
+                heading=_("equivalent torque"),
+                values=result.equivalent_torque,
+                dimension="torque",
+            ),
+            Column(
+                key="journal_force",
+                heading=_("largest journal force"),
+                values=np.max(result.journal_force, axis=0),
+                dimension="force",
+            ),
+            Column(
+                key="capacity",
+                heading=_("dynamic capacity"),
+                values=own.capacity,
+                dimension="force",
+                depth="full" if rated else "data",
+            ),
+            Column(key="needed_capacity", values=result.needed_capacity, dimension="force", depth="data"),
+            Column(key="convention", values=list(own.convention), depth="data"),
+            Column(key="speed_angle", heading="n·α", values=result.speed_angle, dimension="speed_angle"),
+            *(Column(key=key, values=values, dimension="duration", depth="data") for key, values in sides.items()),
+            *(
+                Column(key=method, heading=titles[method], values=result.of(method), dimension="duration")
+                for method in METHODS
+            ),
+        ),
+        note=say(
+            _(
+                "{share} of the joints reach these lives (a1 = {factor}); the service factor is {shock}. The joint "
+                "angle is the mean over the time."
+            ),
+            share=Quantity(result.reliability, "share", 6, trim=True),
+            factor=Quantity(result.reliability_factor, digits=3, trim=True),
+            shock=Quantity(result.shock_factor, digits=3, trim=True),
+        ),
+    )
+
+
+def _duty_cycle(result: Life) -> Iterator[Table]:
+    """Yield the table of the parts of a duty cycle, where there are several and not too many."""
+    if not 1 < len(result.parts) <= SHOWN:
+        return
+    parts = result.parts
+    yield Table(
+        title=_("Parts of the duty cycle, and their share of the damage"),
+        columns=(
+            Column(key="torque", heading=_("torque"), values=[part.torque for part in parts], dimension="torque"),
+            Column(key="speed", heading=_("speed"), values=[part.speed for part in parts], dimension="angular_speed"),
+            Column(key="share", heading=_("time"), values=result.share, dimension="share", decimals=1),
+            *(
+                Column(
+                    key=f"joint_{i}_damage",
+                    heading=_("joint {number}").format(number=i),
+                    values=damage,
+                    dimension="share",
+                    decimals=1,
+                )
+                for i, damage in enumerate(result.damage.T, 1)
+            ),
+        ),
+    )
+
+
+def _everything(result: Life) -> Table:
+    """Return every part and joint."""
+    parts, joints = result.bend.shape
+    every: Mapping[str, tuple[Any, str]] = {
+        "share": (np.repeat(result.share, joints), "share"),
+        "torque": (np.repeat([part.torque for part in result.parts], joints), "torque"),
+        "speed": (np.repeat([part.speed for part in result.parts], joints), "angular_speed"),
+        "joint_torque": (result.torque, "torque"),
+        "joint_angle": (result.bend, "angle"),
+        "journal_force": (result.journal_force, "force"),
+        "iso_driving": (result.driving, "duration"),
+        "iso_driven": (result.driven, "duration"),
+        "simple": (result.simple, "duration"),
+        "maker": (result.maker, "duration"),
+        "book": (result.book, "duration"),
+        "damage": (result.damage, "share"),
+    }
+    return Table(
+        name="parts",
+        columns=(
+            Column(key="part", values=np.repeat(np.arange(1, parts + 1), joints)),
+            Column(key="joint", values=np.tile(np.arange(1, joints + 1), parts)),
+            *(Column(key=key, values=np.ravel(values), dimension=unit) for key, (values, unit) in every.items()),
+        ),
+    )
+
+
+def _remarks(result: Life) -> Iterator[Remark]:
+    if result.enough is False:
+        i = result.governing - 1
+        need = float(result.needed_capacity[i])
+        text = _("Failed: it would last with {share} of its loads.")
+        if math.isfinite(need):
+            text = _("Failed: it would last with {share} of its loads, or with a capacity of {need} instead of {now}.")
+        values = {"need": Quantity(need, "force"), "now": Quantity(float(result.bearings.capacity[i]), "force")}
+        share = Quantity(result.torque_margin, "share")
+        yield Remark(text=say(text, share=share, **values), tone="failed", alarm=True)
+    if result.history is not None and result.cycles is not None:
+        levels = result.history
+        text = _(
+            "The measured torque runs from {low:bare} to {high}, {mean} on average; for the bearings it is equivalent "
+            "to a constant {same}. By rainflow it has {count} cycles, the largest of {most}."
+        )
+        torques = {"low": levels.low, "high": levels.high, "mean": levels.mean, "same": levels.equivalent}
+        torques["most"] = float(max(result.cycles.range, default=0.0))
+        told = {name: Quantity(value, "torque") for name, value in torques.items()}
+        yield Remark(text=say(text, count=Quantity(result.cycles.total, trim=True), **told))
+    yield from _cautions(result)
+    if result.uncounted:
+        keys = ", ".join(spelled(one.field) for one in result.uncounted)
+        text = _("Warning: some joints are not rated; the file lacks {keys}.")
+        yield Remark(text=say(text, keys=keys), tone="warning")
+    if len(result.parts) > 1:
+        text = _("Every part on its own, joint by joint:")
+        yield Remark(text=text, command=("cardan", "life", FILE, "--csv"), tone="next")
+
+
+def _cautions(result: Life) -> Iterator[Remark]:
+    """Yield cautions, those that several joints share together."""
+    alike = {
+        "small_oscillation": _(
+            "joints {which} oscillate so little that roller paths do not overlap: false brinelling, and the computed "
+            "life is optimistic"
+        ),
+        "angle_clamped_3deg": _("joints {which} have joint angles below 3°; handbook and makers count them as 3°"),
+        "extrapolated": _("joints {which} are outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h"),
+        "no_swing": _("joints {which} are straight: needles do not roll, and ISO 281 rates no life for that"),
+        "heavy_load": _("journals of joints {which} carry over half their capacity; ISO 281 ends there"),
+    }
+    for code in dict.fromkeys(one.code for one in result.cautions):
+        own = [one for one in result.cautions if one.code == code]
+        joints = [one.joint for one in own if one.joint]
+        several = len(joints) > 1
+        said: list[Text] = [alike[code].format(which=listed(joints))] if several else []
+        said.extend(one.message for one in own if not (several and one.joint))
+        for message in said:
+            yield Remark(text=say(_("Warning: {what}."), what=message), tone="warning", code=code)
+
+
+def _keys(result: Life) -> Iterator[KeyFigure]:
+    if not math.isfinite(result.drive):
+        return
+    title, place = _("life of the joint that fails first"), say(_("joint {number}"), number=result.governing)
+    if result.demanded is None:
+        yield KeyFigure(name="life", title=title, place=place, value=_hours(result.drive), better="more")
+        return
+    used = result.demanded / result.drive
+    tone: Tone = "failed" if used > 1.0 else "warning" if used >= CLOSE else "good"
+    yield KeyFigure(
+        name="life",
+        title=title,
+        place=place,
+        value=_hours(result.drive),
+        limit=_hours(result.demanded),
+        better="more",
+        tone=tone,
+        verdict={"failed": _("too short"), "warning": _("near the limit"), "good": _("passed")}[tone],
+    )
+
+
+def _facts(result: Life) -> dict[str, Any]:
+    facts: dict[str, Any] = {
+        "method": result.method,
+        "life": _hours(result.drive),
+        "governing_joint": result.governing,
+        "demanded": None if result.demanded is None else _hours(result.demanded),
+        "enough": result.enough,
+        "torque_margin": result.torque_margin,
+        "reliability": Quantity(result.reliability, "share"),
+        "reliability_factor": result.reliability_factor,
+        "shock_factor": result.shock_factor,
+        "warnings": [{"code": one.code, "joint": one.joint, "message": one.message} for one in result.cautions],
+        "not_rated": [{"field": spelled(one.field), "message": one.message} for one in result.uncounted],
+        "assumed": result.assumed,
+    }
+    levels, cycles = result.history, result.cycles
+    if levels is not None and cycles is not None:
+        facts["history"] = {
+            "duration": Quantity(levels.duration, "time"),
+            "mean": Quantity(levels.mean, "torque"),
+            "low": Quantity(levels.low, "torque"),
+            "high": Quantity(levels.high, "torque"),
+            "equivalent": Quantity(levels.equivalent, "torque"),
+            "edges": Quantity(levels.edge, "torque"),
+            "share": Quantity(levels.share, "share"),
+            "cycles": {
+                "range": Quantity(cycles.range, "torque"),
+                "mean": Quantity(cycles.mean, "torque"),
+                "count": cycles.count,
+            },
+        }
+    return facts

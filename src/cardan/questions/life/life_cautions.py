@@ -1,0 +1,105 @@
+"""What to mind about a life: bends too small for its formulas, loads too large, values outside the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cardan.answers.quantity import Quantity, Text, say
+from cardan.formulas.joint_rating import LEAST_BEND, LIFE_RANGE, ROUNDING, SPEED_ANGLE_RANGE, rated_bend, within
+from cardan.maths.arrays import Array, ArrayLike, floats
+from cardan.texts import _
+
+if TYPE_CHECKING:
+    from .life import Life
+
+HEAVY = 0.5
+"""ISO 281 holds for loads up to this share of the capacity."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Caution:
+    """Something to mind.
+
+    Attributes
+    ----------
+    code : str
+        ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``.
+    joint : int
+        Number of the joint; 0 where it is the duty.
+    message : Text
+        In one sentence.
+    """
+
+    code: str
+    joint: int
+    message: Text
+
+
+def clamped(bend: ArrayLike) -> Array:
+    """Tell whether book and makers count a bend as 3°, array (...) of bool.
+
+    Parameters
+    ----------
+    bend : array (...) [rad]
+    """
+    (alpha,) = floats(bend)
+    return alpha < LEAST_BEND * (1.0 - ROUNDING)
+
+
+def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
+    """Tell whether speed times bend or life lie outside the tables of the book, array (...) of bool.
+
+    Parameters
+    ----------
+    speed_angle : array (...) [rad²/s]
+        With the bend that the book counts.
+    life : array (...) [s]
+    """
+    return ~(within(speed_angle, SPEED_ANGLE_RANGE) & within(life, LIFE_RANGE))
+
+
+def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
+    """Yield what to mind about the lives of a drive; ``beyond`` tells that the reliability is outside its table."""
+    running = found.share > 0.0
+    bend = found.bend[running]
+    speed = np.abs(np.asarray([part.speed for part in found.parts]))[running, None]
+    book = found.of("book")
+    for i in range(bend.shape[1]):
+        least = float(np.min(bend[:, i]))
+        own = found.bearings
+        if np.any(bend[:, i] == 0.0) and own.rated[i]:
+            text = _("joint {number} is straight: its needles do not roll, and ISO 281 rates no life for that")
+            yield Caution(code="no_swing", joint=i + 1, message=say(text, number=i + 1))
+        angle = Quantity(least, "angle", 3)
+        if least < own.critical_swing[i]:
+            text = _(
+                "joint {number} has a joint angle of {angle}; below {limit} roller paths do not overlap: false "
+                "brinelling, and the computed life is optimistic"
+            )
+            said = say(text, number=i + 1, angle=angle, limit=Quantity(float(own.critical_swing[i]), "angle", 3))
+            yield Caution(code="small_oscillation", joint=i + 1, message=said)
+        figures = ~np.isnan(found.book[:, i]) | ~np.isnan(found.maker[:, i])
+        if np.any(clamped(bend[:, i])) and np.any(figures):
+            text = _("joint {number} has a joint angle of {angle}; handbook and makers count it as 3°")
+            yield Caution(code="angle_clamped_3deg", joint=i + 1, message=say(text, number=i + 1, angle=angle))
+        whole = book[i]
+        if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), whole)):
+            text = _("joint {number} is outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")
+            yield Caution(code="extrapolated", joint=i + 1, message=say(text, number=i + 1))
+        most = float(np.max(found.journal_force[running, i]))
+        if most > HEAVY * own.capacity[i]:
+            text = _(
+                "journals of joint {number} carry up to {force}, over half of their dynamic capacity of {capacity}; "
+                "ISO 281 ends there"
+            )
+            capacity = Quantity(float(own.capacity[i]), "force")
+            said = say(text, number=i + 1, force=Quantity(most, "force"), capacity=capacity)
+            yield Caution(code="heavy_load", joint=i + 1, message=said)
+    if beyond:
+        text = _("{share} reliability is beyond the table of ISO 281, which ends at 99.95 %")
+        share = Quantity(found.reliability, "share", 6, trim=True)
+        yield Caution(code="extrapolated", joint=0, message=say(text, share=share))

@@ -1,0 +1,268 @@
+"""Powers of one drive at many speeds and torques: what enters, what leaves, what every part takes, over its turns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import lcm
+from typing import Protocol
+
+import numpy as np
+
+from cardan.drive.duty import Harmonic
+from cardan.drive.models.chain import Chain
+from cardan.maths.arrays import Array
+from cardan.maths.curves.quadrature import RESTS, mean_between
+from cardan.questions.motion.motion import Motion, motion
+
+from .chain_friction import kinks
+from .torque_flow import TorqueFlow, torque_flow
+
+LONGEST = 12
+"""Turns over which torques that swing out of step with the turning are averaged at most."""
+
+LOOK = 180
+"""Places a turn at which the sign of the torques is looked up, to find where they turn about."""
+
+HALVINGS = 46
+"""Bisections of a degree or two: down to rounding."""
+
+ROUNDS = 12
+"""Rounds between the forces on the supports and the torques at most."""
+
+SETTLED = 1e-13
+"""Relative change of the friction in the supports at which the rounds end."""
+
+HELD = 1e-5
+"""As `RESTS` where supports rub: forces on them come near zero within a turn, and their heat is a small part."""
+
+
+class Holding(Protocol):
+    """How the supports answer to the couples of the crosses, at some positions."""
+
+    def load(self, couple: Array, sense: Array) -> Array:
+        """Return the forces on them for couples (..., n, p) and senses (...) of turning, array (..., k, p) [N]."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Model:
+    """What the powers of a drive depend on; speed and torque with any leading axes, the rest of one drive.
+
+    Attributes
+    ----------
+    chain : Chain
+        Kinematics.
+    drag : array (n,)
+        κ of each joint; zero where it is not known.
+    inertia, resisting : arrays (n+1,) [kg m², N·m]
+        J_i and L_i.
+    speed, torque : arrays (...) [rad/s, N·m]
+        ω_1 and the mean of the torque.
+    acceleration : float [rad/s²]
+        ε_1.
+    torque_at : str
+        ``output`` or ``input``.
+    harmonics : tuple of Harmonic
+        Swinging parts of the torque, for a mean of ``torque_scale``.
+    torque_scale : float [N·m]
+        Torque to which the harmonics belong; zero when they do not grow with it.
+    rub : array (k,) [m]
+        μ_b d_b/2 of each support.
+    on : array of int (k,)
+        Shaft of each support, counted from 0.
+    holding : function or None
+        From input angles (..., p) to how the supports answer there; None when none of them rubs.
+    grip, slide : arrays (n+1,) [1/m, m/s]
+        2 μ/D and the mean sliding speed of the spline of each shaft.
+    """
+
+    chain: Chain
+    drag: Array
+    inertia: Array
+    resisting: Array
+    speed: Array
+    torque: Array
+    acceleration: float = 0.0
+    torque_at: str = "output"
+    harmonics: tuple[Harmonic, ...] = ()
+    torque_scale: float = 0.0
+    rub: Array
+    on: Array
+    holding: Callable[[Array], Holding] | None = None
+    grip: Array
+    slide: Array
+
+    @property
+    def turns(self) -> int:
+        """After how many turns of the input everything repeats."""
+        steps = [Fraction(one.order).limit_denominator(LONGEST).denominator for one in self.harmonics]
+        return min(lcm(*steps), LONGEST) if steps else 1
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Powers:
+    """Powers [W]; over positions with a last axis (p,), as means without it.
+
+    Attributes
+    ----------
+    input, output : array (...)
+        Enters the input shaft, leaves the output shaft; negative where it goes the other way.
+    input_torque, output_torque : arrays (...) [N·m]
+        Torques at the two ends.
+    driving, driven : arrays (..., n)
+        Rubbed away in the journals of the driving and of the driven yokes.
+    supports : array (..., k)
+        Rubbed away in the supports.
+    splines : array (..., n+1)
+        Rubbed away in the splines; it comes from what moves the drive, not from its turning.
+    resisting, storing : arrays (..., n+1)
+        Taken by resisting torques, and by inertia.
+    """
+
+    input: Array
+    output: Array
+    input_torque: Array
+    output_torque: Array
+    driving: Array
+    driven: Array
+    supports: Array
+    splines: Array
+    resisting: Array
+    storing: Array
+
+
+ENDS = ("input", "output", "input_torque", "output_torque")
+"""Fields of `Powers` that have no axis of parts."""
+
+
+def moving(model: Model, angle: Array) -> Motion:
+    """Return the motion at input angles (..., p), each case with its own."""
+    flat = motion(model.chain, np.reshape(angle, -1))
+
+    def spread(rows: Array) -> Array:
+        return np.moveaxis(np.reshape(rows, (rows.shape[0], *angle.shape)), 0, -2)
+
+    names = ("shaft_angle", "shaft_ratio", "shaft_slope", "joint_angle")
+    return replace(flat, angle=angle, **{name: spread(getattr(flat, name)) for name in names})
+
+
+def flowing(model: Model, moved: Motion) -> tuple[TorqueFlow, Array]:
+    """Return the torques of all cases at their positions, and the friction torque of the supports (..., k, p) [N·m].
+
+    Notes
+    -----
+    The forces on the supports come from the torques and these from the friction in the supports: begun without it, the
+    round is gone until it rests; each round gains the digits of one coefficient of friction.
+    """
+    omega = np.asarray(model.speed)[..., None, None]
+    speeding = model.acceleration * moved.shaft_ratio + omega**2 * moved.shaft_slope
+    own = model.resisting[:, None] + model.inertia[:, None] * speeding
+    load = _load(model, moved)
+
+    def flow(drawn: Array) -> TorqueFlow:
+        return torque_flow(moved, model.drag, load, drawn=drawn, sense=sense, torque_at=model.torque_at)
+
+    sense = np.sign(np.asarray(model.speed))
+    found = flow(own)
+    rubbing = np.zeros((*found.entering.shape[:-2], model.rub.size, found.entering.shape[-1]))
+    if model.holding is None:
+        return found, rubbing
+    held = model.holding(moved.angle)
+    ways = (model.on == np.arange(own.shape[-2])[:, None]).astype(float)
+    for _round in range(ROUNDS):
+        before, rubbing = rubbing, model.rub[:, None] * held.load(found.couple, sense)
+        found = flow(own + np.sign(omega) * np.matmul(ways, rubbing))
+        if not np.any(np.abs(rubbing - before) > SETTLED * np.max(rubbing, initial=0.0)):
+            break
+    return found, rubbing
+
+
+def _load(model: Model, moved: Motion) -> Array:
+    """Return the torque at its end over the positions, array (..., p) [N·m]."""
+    end = moved.shaft_angle[..., -1 if model.torque_at == "output" else 0, :]
+    mean = np.asarray(model.torque)[..., None]
+    swing = sum(one.torque * np.cos(one.order * end + one.phase) for one in model.harmonics)
+    grown = mean / model.torque_scale if model.torque_scale else 1.0
+    return mean + grown * swing + 0.0 * end
+
+
+def powers(model: Model, angle: Array) -> Powers:
+    """Return the powers of all cases at positions (..., p)."""
+    moved = moving(model, angle)
+    flow, rubbing = flowing(model, moved)
+    omega = np.asarray(model.speed)[..., None, None]
+    speed = omega * moved.shaft_ratio
+    speeding = model.acceleration * moved.shaft_ratio + omega**2 * moved.shaft_slope
+    between = 0.5 * (np.abs(flow.entering) + np.abs(flow.leaving))
+    return Powers(
+        input=flow.entering[..., 0, :] * speed[..., 0, :],
+        output=flow.leaving[..., -1, :] * speed[..., -1, :],
+        input_torque=flow.entering[..., 0, :],
+        output_torque=flow.leaving[..., -1, :],
+        driving=np.abs(omega) * flow.driving_loss,
+        driven=np.abs(omega) * flow.driven_loss,
+        supports=rubbing * np.abs(speed[..., model.on, :]),
+        splines=(model.grip * model.slide)[:, None] * between,
+        resisting=model.resisting[:, None] * speed,
+        storing=model.inertia[:, None] * speeding * speed,
+    )
+
+
+def mean_powers(model: Model) -> Powers:
+    """Return the means of the powers over the turns after which everything repeats.
+
+    Notes
+    -----
+    Integrated between the angles at which a cross stops in a yoke or a torque turns about; there friction jumps.
+    """
+    period = np.pi if not model.harmonics else 2.0 * np.pi * model.turns
+    count = round(period / np.pi)
+    lead = np.broadcast_shapes(np.shape(model.speed), np.shape(model.torque))
+    places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(count))
+    turning = _reversals(model, lead, period) if model.harmonics or np.any(model.inertia + model.resisting) else None
+    if turning is not None:
+        places = np.concatenate((np.broadcast_to(places, (*lead, places.size)), turning), axis=-1)
+    names = tuple(Powers.__dataclass_fields__)
+    widths: list[int] = []
+
+    def rows(angle: Array) -> Array:
+        found = powers(model, angle)
+        parts = [getattr(found, name) for name in names]
+        parts = [part[..., None, :] if name in ENDS else part for name, part in zip(names, parts, strict=True)]
+        widths[:] = [part.shape[-2] for part in parts]
+        return np.concatenate([np.broadcast_to(part, (*lead, *part.shape[-2:])) for part in parts], axis=-2)
+
+    rests = RESTS if model.holding is None else HELD
+    mean = mean_between(rows, places, period=period, rests=rests)
+    parts = np.split(mean, np.cumsum(widths)[:-1], axis=-1)
+    whole = {name: part[..., 0] if name in ENDS else part for name, part in zip(names, parts, strict=True)}
+    return Powers(**whole)
+
+
+def _reversals(model: Model, lead: tuple[int, ...], period: float) -> Array | None:
+    """Return where the couple of any joint passes through zero, array (..., m), padded with zeros; None if nowhere."""
+    grid = np.linspace(0.0, period, round(LOOK * period / np.pi) + 1)
+
+    def couple(angle: Array) -> Array:
+        without = replace(model, holding=None)
+        found = flowing(without, moving(model, angle))[0].couple
+        return np.broadcast_to(found, (*lead, *found.shape[-2:]))
+
+    value = couple(grid)
+    passed = np.reshape(value[..., :-1] * value[..., 1:] < 0.0, (*lead, -1))
+    most = int(np.max(np.sum(passed, axis=-1), initial=0))
+    if not most:
+        return None
+    order = np.argsort(~passed, axis=-1, kind="stable")[..., :most]
+    real = np.take_along_axis(passed, order, axis=-1)
+    joint, cell = np.divmod(order, grid.size - 1)
+    low, high = grid[cell], grid[cell + 1]
+    start = np.take_along_axis(np.reshape(value[..., :-1], (*lead, -1)), order, axis=-1)
+    for _half in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        now = np.take_along_axis(couple(middle), joint[..., None, :], axis=-2)[..., 0, :]
+        same = now * start > 0.0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    found: Array = np.where(real, 0.5 * (low + high), 0.0)
+    return found

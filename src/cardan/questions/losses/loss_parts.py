@@ -1,0 +1,184 @@
+"""Which losses of a drive can be counted, from what its file says, and which key the others need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.models.laws import refuse_kinds
+from cardan.drive.models.train import Train, train
+from cardan.drive.movement import Movement
+from cardan.errors import InputError, Problem, check
+from cardan.maths.arrays import Array
+from cardan.questions.motion.articulation import articulation
+from cardan.texts import _
+
+from .loss_model import Holding, Model
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Uncounted:
+    """A loss that could not be counted.
+
+    Attributes
+    ----------
+    field : str
+        Path of the key to add.
+    message : str
+        What is left out and why, in one sentence.
+    """
+
+    field: str
+    message: str
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Parts:
+    """What of a drive is counted.
+
+    Attributes
+    ----------
+    train : Train
+        Its machine half; without supports where they cannot be balanced.
+    rub : array (k,) [m]
+        μ_b d_b/2 of each support.
+    grip : array (n+1,) [1/m]
+        Thrust over torque of the spline of each shaft.
+    slide : array (n+1,) [m/s]
+        Its mean sliding speed.
+    """
+
+    train: Train
+    rub: Array
+    grip: Array
+    slide: Array
+
+
+def counted(
+    drive: Drive, duty: Duty, movement: Movement | Sequence[Movement] | None
+) -> tuple[Parts, tuple[Uncounted, ...]]:
+    """Return what can be counted, and what cannot; refuse a drive of which nothing can."""
+    refuse_kinds(drive, _("losses"))
+    try:
+        machine, short = train(drive), []
+    except InputError as error:
+        machine, short = (
+            train(replace(drive, supports=())),
+            [Uncounted(field=p.field, message=p.message) for p in error.problems],
+        )
+    rub, supports = _supports(drive, machine, short)
+    slide, splines = _splines(drive, movement)
+    joints = list(_joints(drive))
+    grip = np.zeros(len(drive.shafts))
+    if machine.grip is not None:
+        grip[list(machine.splines)] = machine.grip
+    uncounted = (*joints, *supports, *splines)
+    problems = []
+    if duty.speed is None:
+        problems.append(Problem("duty.speed", _("missing; heat is power, and power needs the input speed")))
+    elif duty.speed == 0.0:
+        problems.append(
+            Problem("duty.speed", _("at standstill the sense of friction is open; give the speed of running"))
+        )
+    if duty.torque is None:
+        problems.append(Problem("duty.torque", _("missing; friction grows with the torque")))
+    if len(joints) == len(drive.joints) and not np.any(rub) and not np.any(grip * slide):
+        problems += [Problem(one.field, one.message) for one in uncounted]
+    check(problems)
+    return Parts(train=machine, rub=rub, grip=grip, slide=slide), uncounted
+
+
+def _joints(drive: Drive) -> Iterator[Uncounted]:
+    """Yield the joints whose friction is not known."""
+    for i, joint in enumerate(drive.joints):
+        if joint.friction is None and joint.material_friction is None:
+            key = "friction"
+        elif joint.cross is None or joint.cross.span is None:
+            key = "cross.span"
+        elif joint.cross.journal is None:
+            key = "cross.journal"
+        else:
+            continue
+        text = _("missing; without it the heat of joint {number} is not counted")
+        yield Uncounted(field=f"joints[{i}].{key}", message=text.format(number=i + 1))
+
+
+def _supports(drive: Drive, machine: Train, short: list[Uncounted]) -> tuple[Array, list[Uncounted]]:
+    """Return μ_b d_b/2 of each support, zero where it is not counted, and those that are not."""
+    rub = np.asarray([0.5 * (one.friction or 0.0) * (one.bore or 0.0) for one in drive.supports])
+    text = _("missing; without it the heat of support {number} is not counted")
+    found = [
+        Uncounted(field=f"supports[{k}].friction", message=text.format(number=k + 1))
+        for k, one in enumerate(drive.supports)
+        if one.friction is None
+    ]
+    if not drive.supports:
+        found.append(
+            Uncounted(field="supports", message=_("missing; without them friction in bearings is not counted"))
+        )
+    if not np.any(rub):
+        return rub, found
+    if not short:
+        from .support_friction import trouble
+
+        why = trouble(machine)
+        text = _("{why}; friction in them is not counted")
+        short = [Uncounted(field="supports", message=text.format(why=why))] if why else []
+    return (np.zeros_like(rub), [*found, *short]) if short else (rub, found)
+
+
+def _splines(drive: Drive, movement: Movement | Sequence[Movement] | None) -> tuple[Array, list[Uncounted]]:
+    """Return the mean sliding speed of every shaft, zero where it is not known, and splines that are not counted."""
+    slide, found = np.zeros(len(drive.shafts)), []
+    splined = [shaft for shaft in drive.shafts if shaft.spline is not None]
+    for shaft in splined:
+        if shaft.spline is not None and shaft.spline.friction is None:
+            text = _("missing; without it the heat of the spline of shaft {number} is not counted")
+            found.append(
+                Uncounted(field=f"shafts[{shaft.number - 1}].spline.friction", message=text.format(number=shaft.number))
+            )
+    if not splined or len(found) == len(splined):
+        return slide, found
+    if movement is None and not drive.movements:
+        found.append(Uncounted(field="movements", message=_("missing; the splines slide only while the drive moves")))
+        return slide, found
+    moved = articulation(drive, movement)
+    lasts = float(moved.times[-1] - moved.times[0])
+    for one in moved.splines:
+        slide[one.shaft - 1] = one.slip_path / lasts if lasts else 0.0
+    return slide, found
+
+
+def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
+    """Return what the powers of a drive depend on, at the speed and torque of a duty."""
+    n = len(drive.joints)
+    none = np.zeros(n + 1)
+    machine = parts.train
+    drag = np.zeros(n) if machine.drag is None else machine.drag
+
+    def holding(angle: Array) -> Holding:
+        from .support_friction import response
+
+        return response(machine, drag, angle)
+
+    return Model(
+        chain=machine.chain,
+        drag=drag,
+        inertia=none if machine.inertia is None else machine.inertia,
+        resisting=none if machine.resisting_torque is None else machine.resisting_torque,
+        speed=np.asarray(duty.speed),
+        torque=np.asarray(duty.torque),
+        acceleration=duty.acceleration,
+        torque_at=duty.torque_at,
+        harmonics=duty.harmonics,
+        torque_scale=duty.torque or 0.0,
+        rub=parts.rub,
+        on=np.asarray([support.shaft - 1 for support in drive.supports], dtype=int),
+        holding=holding if np.any(parts.rub) else None,
+        grip=parts.grip,
+        slide=parts.slide,
+    )

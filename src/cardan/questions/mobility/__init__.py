@@ -1,0 +1,1 @@
+"""Does it move, and where is it overconstrained?"""

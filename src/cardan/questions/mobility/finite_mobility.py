@@ -1,0 +1,364 @@
+"""Does a mechanism turn far, not only a little? Its loops closed step by step while one joint is driven."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames, screws
+from cardan.mechanism.constraints import FRAME, spanning_tree
+from cardan.mechanism.mechanism import Mechanism
+from cardan.texts import _
+from cardan.units import deg, nearest
+
+STEP = 4 * deg
+"""Largest step of the driven joint; loops are followed from one position to the next."""
+
+MOST_STEPS = 10_000
+"""More steps are refused: they would take minutes. As many follow a joint over 111 turns."""
+
+ROUNDS = 200
+"""Most rounds of one closure; where loops close a few do."""
+
+SHUT, NEAR = 1e-30, 1e-22
+"""Sum of squares at which a closure is complete, and below which it ends when it hardly gets better: rounding."""
+
+CLOSED = 1e-8
+"""Misfit of the loops below which they count as closed [m, rad]."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FiniteMobility:
+    """Loops of a mechanism while one joint is driven.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What was looked at.
+    angle : array (p,) [rad]
+        How far the joint is driven, the start included.
+    residual : array (p,)
+        What keeps the loops from closing: root of the sum of squares of gaps [m] and turns [rad] at all cut joints.
+    gap : array (p,) [m]
+        Largest gap at a cut joint.
+    turn : array (p,) [rad]
+        Largest turn at a cut joint.
+    displacement : array (p, n, 4, 4)
+        Displacement of every moving link from the position given.
+    tolerance : float
+        Residual up to which loops count as closed.
+    cancelled : bool
+        Whether ``progress`` said "stop"; the arrays then end there.
+    """
+
+    mechanism: Mechanism
+    angle: Array
+    residual: Array
+    gap: Array
+    turn: Array
+    displacement: Array
+    tolerance: float
+    cancelled: bool = False
+
+    @property
+    def closes(self) -> bool:
+        """Whether the loops close at every step."""
+        return bool(np.all(self.residual < self.tolerance))
+
+    @property
+    def worst(self) -> int:
+        """At which step the residual is largest."""
+        return int(np.argmax(self.residual))
+
+    def at(self, step: int) -> Mechanism:
+        """Return the mechanism as it stands after a step."""
+        return displaced(self.mechanism, self.displacement[step])
+
+
+def finite_mobility(
+    mechanism: Mechanism,
+    *,
+    driven_joint: str = "",
+    angle: float = 2.0 * math.pi,
+    tolerance: float = CLOSED,
+    steps: int | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> FiniteMobility:
+    """Return how well the loops of a mechanism close while one joint turns.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        In its assembled position.
+    driven_joint : str
+        Name of a joint that turns; the first one that joins the input link with the frame where none is named.
+    angle : float [rad]
+        How far it is driven.
+    tolerance : float
+        Residual up to which loops count as closed [m, rad].
+    steps : int, optional
+        Number of steps; as many as keep each below 4° by default.
+    progress : function, optional
+        Called with the share done; answering "stop" ends there.
+
+    Returns
+    -------
+    FiniteMobility
+        residual, gap, turn : arrays (p,); displacement : array (p, n, 4, 4)
+
+    Raises
+    ------
+    InputError
+        No such joint, or one that does not turn; an angle, a tolerance or a number of steps that is none.
+
+    Notes
+    -----
+    Displacements of the links are products of exponentials of the joints' screws along a spanning tree; all other joint
+    coordinates are chosen so that gaps and turns at the joints that the tree leaves out are least (Levenberg and
+    Marquardt, from the position before). Where a mechanism is held too much by its nature, not by its special
+    geometry, the residual is the play or the give that it must find.
+
+    Examples
+    --------
+    >>> from cardan.mechanism.pair import Pair
+    >>> def hinge(name, links, x, y):
+    ...     return Pair(id=name, type="R", links=links, point=(x, y, 0.0), axis=(0.0, 0.0, 1.0))
+    >>> rhombus = Mechanism(
+    ...     frame="0",
+    ...     joints=(
+    ...         hinge("A", ("0", "1"), 0.0, 0.0),
+    ...         hinge("B", ("1", "2"), 0.1, 0.1),
+    ...         hinge("C", ("2", "3"), 0.4, 0.1),
+    ...         hinge("D", ("3", "0"), 0.3, 0.0),
+    ...     ),
+    ... )
+    >>> finite_mobility(rhombus, driven_joint="A", angle=0.5).closes
+    True
+    """
+    number = _driven(mechanism, driven_joint)
+    check_numbers(angle, tolerance, steps)
+    count = _count(angle, steps)
+    loops = _Loops(mechanism, number)
+    along = np.linspace(0.0, angle, count + 1)
+    rows = [loops.start()]
+    stopped = False
+    for k, amount in enumerate(along[1:], 1):
+        rows.append(loops.closed(float(amount)))
+        if progress is not None and progress(k / count) == "stop":
+            stopped = True
+            break
+    residual, gap, turn, displacement = (np.asarray(column) for column in zip(*rows, strict=True))
+    return FiniteMobility(
+        mechanism=mechanism,
+        angle=along[: len(rows)],
+        residual=residual,
+        gap=gap,
+        turn=turn,
+        displacement=displacement,
+        tolerance=tolerance,
+        cancelled=stopped,
+    )
+
+
+def displaced(mechanism: Mechanism, displacement: Array) -> Mechanism:
+    """Return a mechanism with its moving links displaced (n, 4, 4) from where they are.
+
+    The axis of a joint goes with its first link, its point and second axis with the second.
+    """
+    number = {link: k for k, link in enumerate(mechanism.links)}
+    joints = []
+    for pair in mechanism.joints:
+        first, second = (np.eye(4) if link == mechanism.frame else displacement[number[link]] for link in pair.links)
+        joints.append(
+            replace(
+                pair,
+                point=_row(second[:3, :3] @ np.asarray(pair.point) + second[:3, 3]),
+                axis=None if pair.axis is None else _row(first[:3, :3] @ np.asarray(pair.axis)),
+                axis2=None if pair.axis2 is None else _row(second[:3, :3] @ np.asarray(pair.axis2)),
+            )
+        )
+    return replace(mechanism, joints=tuple(joints))
+
+
+def _row(vector: Array) -> tuple[float, float, float]:
+    x, y, z = (float(one) for one in vector)
+    return x, y, z
+
+
+def _count(angle: float, steps: int | None) -> int:
+    """Return the number of steps; refuse what would take far too long."""
+    count = steps or max(1, math.ceil(abs(angle) / STEP))
+    if count > MOST_STEPS:
+        text = _("{count} steps are too many; the limit is {limit}").format(count=count, limit=MOST_STEPS)
+        raise refuse("angle" if steps is None else "steps", text, "out_of_range")
+    return count
+
+
+def check_numbers(angle: float, tolerance: float, steps: int | None) -> None:
+    """Refuse numbers that drive nothing."""
+    if not math.isfinite(angle) or angle == 0.0:
+        raise refuse("angle", _("{value} drives nothing; an angle other than zero does").format(value=angle))
+    if not tolerance > 0.0 or not math.isfinite(tolerance):
+        raise refuse("tolerance", _("{value} is not above zero").format(value=tolerance))
+    if steps is not None and steps < 1:
+        raise refuse("steps", _("{value} is not a number of steps").format(value=steps))
+
+
+def _driven(mechanism: Mechanism, name: str) -> int:
+    """Return which joint is driven."""
+    names = [pair.id for pair in mechanism.joints]
+    if not name:
+        ends = {mechanism.frame, mechanism.input_link}
+        for k, pair in enumerate(mechanism.joints):
+            if mechanism.input_link and set(pair.links) == ends and pair.kind.turns:
+                return k
+        raise refuse("driven_joint", _("missing: no joint that turns joins an input link with the frame"), "missing")
+    if name not in names:
+        near = nearest(name, names)
+        hint = _("; did you mean {near}?").format(near=near) if near else ""
+        raise refuse("driven_joint", _("there is no joint {name}").format(name=repr(name)) + hint, "inconsistent")
+    number = names.index(name)
+    if not mechanism.joints[number].kind.turns:
+        raise refuse("driven_joint", _("{name} does not turn").format(name=repr(name)), "inconsistent")
+    return number
+
+
+class _Loops:
+    """The loops of a mechanism, followed from position to position."""
+
+    def __init__(self, mechanism: Mechanism, driven: int) -> None:
+        number = {link: k for k, link in enumerate(mechanism.links)} | {mechanism.frame: FRAME}
+        self.ends = [(number[a], number[b]) for a, b in (pair.links for pair in mechanism.joints)]
+        self.tree = spanning_tree(len(mechanism.links), self.ends)
+        points = np.asarray([pair.point for pair in mechanism.joints], dtype=float)
+        self.middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+        self.points = points - self.middle
+        shift = np.eye(4)
+        shift[:3, 3] = -self.middle
+        twists = [screws.moved(shift, pair.freedoms) for pair in mechanism.joints]
+        self.twists = np.concatenate(twists)
+        starts = np.cumsum([0, *(len(one) for one in twists)])
+        self.slices = [slice(int(a), int(b)) for a, b in pairwise(starts)]
+        turns = {"axis": 1, "both": 2, "all": 3}[mechanism.joints[driven].kind.turns]
+        self.driven = self.slices[driven].stop - turns  # what slides comes first
+        self.free = np.delete(np.arange(len(self.twists)), self.driven)
+        self.cut = [j for j in range(len(twists)) if j not in self.tree.parent_joint]
+        self.state = self.before = np.zeros(len(self.twists))
+        self.open = False
+        self.paths = [[self.tree.path(end) for end in self.ends[j]] for j in self.cut]
+
+    def start(self) -> tuple[float, float, float, Array]:
+        """Return residual, largest gap, largest turn and displacements at the start."""
+        return self._told(self.state)
+
+    def closed(self, amount: float) -> tuple[float, float, float, Array]:
+        """Return the same with the driven joint at ``amount`` [rad] and the loops closed as well as they can be.
+
+        The loops are sought where they would stand if they went on as from the position before, which leads through
+        positions in which they could branch off; where that fails, from where they stood.
+        """
+        error, state = self._least(2.0 * self.state - self.before, amount)
+        if error >= NEAR and not self.open:
+            error, state = min((error, state), self._least(self.state, amount), key=lambda one: one[0])
+        self.open = error >= NEAR
+        self.before, self.state = self.state, state
+        return self._told(state)
+
+    def _least(self, guess: Array, amount: float) -> tuple[float, Array]:
+        """Return the least sum of squares near a guess, and where it is."""
+        state = guess.copy()
+        state[self.driven] = amount
+        rest, slope = self._misfit(state)
+        error, damping = float(rest @ rest), 1e-9
+        for _round in range(ROUNDS):
+            normal, right = slope.T @ slope, slope.T @ rest
+            if not rest.size or not self.free.size or error < SHUT:
+                break
+            weight = damping * max(float(np.max(np.diag(normal))), 1e-30)
+            step = np.linalg.solve(normal + weight * np.eye(len(normal)), right)
+            trial = state.copy()
+            trial[self.free] -= step
+            ahead, steeper = self._misfit(trial)
+            better = float(ahead @ ahead)
+            near = error < NEAR
+            if better < error:
+                done = error - better < (0.5 if near else 1e-12) * error
+                state, rest, slope, error = trial, ahead, steeper, better
+                damping = max(0.1 * damping, 1e-14)
+                if done:
+                    break
+            else:
+                damping *= 10.0
+                if near or damping > 1e6:
+                    break
+        return error, state
+
+    def _told(self, state: Array) -> tuple[float, float, float, Array]:
+        rest, _slope = self._misfit(state)
+        parts = rest.reshape(-1, 2, 3)
+        sizes = np.max(frames.norm(parts), axis=0, initial=0.0)
+        shift = np.eye(4)
+        shift[:3, 3] = self.middle
+        moves = shift @ self._links(self._joints(state)) @ screws.inverse(shift)
+        return float(np.linalg.norm(rest)), float(sizes[0]), float(sizes[1]), moves
+
+    def _joints(self, state: Array) -> list[list[Array]]:
+        """Return the displacement along each coordinate of each joint."""
+        steps = screws.exponential(self.twists, state)
+        return [list(steps[where]) for where in self.slices]
+
+    def _links(self, joints: list[list[Array]]) -> Array:
+        """Return the displacement of every link, array (n, 4, 4)."""
+        places: dict[int, Array] = {FRAME: np.eye(4)}
+        for link in self.tree.order:
+            there = places[self.tree.parent[link]]
+            step = _product(joints[self.tree.parent_joint[link]])
+            places[link] = there @ (step if self.tree.along[link] > 0.0 else screws.inverse(step))
+        return np.asarray([places[link] for link in range(len(places) - 1)])
+
+    def _misfit(self, state: Array) -> tuple[Array, Array]:
+        """Return gaps and turns at the cut joints, and their derivatives by the coordinates that are not driven."""
+        joints = self._joints(state)
+        links = self._links(joints)
+        screw = self._carried(joints, links)
+        rest = np.zeros((len(self.cut), 2, 3))
+        slope = np.zeros((len(self.cut), 2, 3, len(self.twists)))
+        for row, (j, paths) in enumerate(zip(self.cut, self.paths, strict=True)):
+            sides = [np.eye(4) if end == FRAME else links[end] for end in self.ends[j]]
+            first, second = sides[0] @ _product(joints[j]), sides[1]
+            point = np.append(self.points[j], 1.0)
+            places = [(first @ point)[:3], (second @ point)[:3]]
+            rest[row, 0] = places[0] - places[1]
+            rest[row, 1] = screws.turned_by(first @ screws.inverse(second))
+            for place, sign, path in zip(places, (1.0, -1.0), paths, strict=True):
+                for k, sense in path + ([(j, 1.0)] if sign > 0.0 else []):
+                    at = self.slices[k]
+                    twist = screw[at]
+                    moving = twist[:, 3:] + frames.cross(twist[:, :3], np.broadcast_to(place, (len(twist), 3)))
+                    slope[row, 0, :, at] += sign * sense * moving.T
+                    slope[row, 1, :, at] += sign * sense * twist[:, :3].T
+        return rest.ravel(), slope.reshape(-1, len(self.twists))[:, self.free]
+
+    def _carried(self, joints: list[list[Array]], links: Array) -> Array:
+        """Return the screw of every coordinate where it stands now, moving the second link against the first."""
+        moved = []
+        for j, steps in enumerate(joints):
+            a = self.ends[j][0]
+            here = np.eye(4) if a == FRAME else links[a]
+            for k, step in enumerate(steps):
+                moved.append(screws.moved(here, self.twists[self.slices[j].start + k]))
+                here = here @ step
+        return np.asarray(moved)
+
+
+def _product(steps: list[Array]) -> Array:
+    whole = np.eye(4)
+    for step in steps:
+        whole = whole @ step
+    return whole

@@ -1,0 +1,343 @@
+"""What to let go so that a mechanism binds no more: the simplest changes of its bearings and pins, best first."""
+
+from __future__ import annotations
+
+import heapq
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames, screws
+from cardan.mechanism.constraints import Constraints, constraints
+from cardan.mechanism.mechanism import Mechanism
+from cardan.mechanism.pair import Pair, axes
+from cardan.texts import _
+
+from .mobility import TAKES_PART, JointHold, stresses
+
+Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
+
+CHANGES: dict[str, tuple[tuple[str, Gain], ...]] = {
+    "R": (("C", "slide"), ("S", "align"), ("SG", "align_slide"), ("", "drop")),
+    "C": (("SG", "align"), ("", "drop")),
+    "S": (("SG", "slide"), ("", "drop")),
+    "P": (("C", "turn"),),
+    "U": (("S", "turn"),),
+    "SG": (("", "drop"),),
+}
+"""Kind of pair -> kinds that leave more, and what they add; none: a bearing that is left out."""
+
+TROUBLE: dict[Gain, float] = {"slide": 1.0, "align": 1.1, "align_slide": 1.6, "turn": 2.5, "drop": 2.0}
+"""How much work each change is: a floating bearing is the cheapest, then a self-aligning one."""
+
+FIRM = 1.5
+"""Leaving out a bearing that holds more than two motions is so much more work beyond `TROUBLE`."""
+
+PIN = 2.5
+"""A change between two moving links is so many times the work of one at a bearing in the frame."""
+
+DRIVEN = 1.5
+"""A change at the bearing of the input link, which is to be driven, is so many times the work of one elsewhere."""
+
+EXPANSIONS = 4000
+"""Sets of changes looked at; in order of their cost, so that the first found are the best."""
+
+MOST = 5
+"""Repairs told of."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Change:
+    """Another kind of pair in the place of a joint.
+
+    Attributes
+    ----------
+    joint : str
+        Name of the joint.
+    links : (str, str)
+        What it joins.
+    bearing : bool
+        Whether one of them is the frame.
+    before, after : str
+        Kinds of pair; ``after`` is empty where the bearing is left out.
+    gain : "slide", "align", "align_slide", "turn" or "drop"
+        What it adds.
+    freedoms : int
+        How many freedoms that are.
+    """
+
+    joint: str
+    links: tuple[str, str]
+    bearing: bool
+    before: str
+    after: str
+    gain: Gain
+    freedoms: int
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Repair:
+    """Changes that take redundant constraints away and let nothing loose.
+
+    Attributes
+    ----------
+    changes : tuple of Change
+        All to be made.
+    before, after : int
+        Redundant constraints without and with them; the mobility stays.
+    trouble : float
+        How much work it is, see `TROUBLE`.
+    """
+
+    changes: tuple[Change, ...]
+    before: int
+    after: int
+    trouble: float
+
+
+def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]:
+    """Return changes after which a mechanism is held just enough, the simplest first.
+
+    Parameters
+    ----------
+    thing : Drive or Mechanism
+    most : int
+        So many at most.
+
+    Returns
+    -------
+    tuple of Repair
+        Empty where nothing is redundant, or where no change of a bearing or pin helps. Where none takes all redundant
+        constraints away, those that take most.
+
+    Raises
+    ------
+    InputError
+        A drive that is no mechanism yet, see `cardan.questions.mobility.mobility.mobility`.
+
+    Notes
+    -----
+    A freedom that is added takes one redundant constraint away if it does work on a state of stress; several do if the
+    works they do on all states are linearly independent. So no rank of the mechanism is needed, only of a table of q
+    rows. Sets of changes are tried in order of `TROUBLE`, each joint changed once.
+
+    Examples
+    --------
+    >>> hooke = [
+    ...     Pair(id="A", type="R", links=("0", "1"), point=(-0.3, 0.0, 0.0), axis=(1.0, 0.0, 0.0)),
+    ...     Pair(id="B", type="R", links=("1", "2"), point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)),
+    ...     Pair(id="C", type="R", links=("2", "3"), point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0)),
+    ...     Pair(id="D", type="R", links=("3", "0"), point=(0.3, 0.1, 0.0), axis=(0.3, 0.1, 0.0)),
+    ... ]
+    >>> best = repairs(Mechanism(frame="0", joints=tuple(hooke)))[0]
+    >>> [(one.joint, one.after) for one in best.changes], best.after
+    ([('A', 'SG')], 0)
+    """
+    if not isinstance(thing, Mechanism):
+        from .drive_mechanism import mechanism_of
+
+        thing = mechanism_of(thing)
+    system = constraints(thing)
+    stress = stresses(system)
+    redundant = len(stress)
+    options = [option for j, pair in enumerate(thing.joints) for option in _options(thing, system, stress, j, pair)]
+    if not redundant or not options:
+        return ()
+    found = [
+        Repair(
+            changes=tuple(options[k].change for k in chosen),
+            before=redundant,
+            after=redundant - sum(options[k].change.freedoms for k in chosen),
+            trouble=cost,
+        )
+        for cost, chosen in _search(options, redundant, most)
+    ]
+    least = min((one.after for one in found), default=redundant)
+    return tuple(sorted((one for one in found if one.after == least), key=lambda one: one.trouble))
+
+
+def repaired(mechanism: Mechanism, repair: Repair) -> Mechanism:
+    """Return a mechanism with the changes of a repair made."""
+    kinds = {change.joint: change.after for change in repair.changes}
+    joints = []
+    for pair in mechanism.joints:
+        kind = kinds.get(pair.id, pair.type)
+        if not kind:
+            continue
+        joints.append(replace(pair, type=kind, axis2=None if kind != pair.type else pair.axis2))
+    return replace(mechanism, joints=tuple(joints))
+
+
+def advice(change: Change, mechanism: Mechanism) -> str:
+    """Return a change as a sentence.
+
+    Parameters
+    ----------
+    change : Change
+    mechanism : Mechanism
+        Its frame is not told.
+    """
+    if change.bearing:
+        link = next(link for link in change.links if link != mechanism.frame)
+        where = change.joint
+        if not re.search(rf"\b{re.escape(link)}\b", where):
+            where = _("the bearing of {link}, {joint},").format(link=link, joint=change.joint)
+        text = {
+            "slide": _("let {where} float along its axis"),
+            "align": _("make {where} self-aligning"),
+            "align_slide": _("make {where} self-aligning and axially free"),
+            "turn": _("let {where} turn about its axis too"),
+            "drop": _("leave out {where} one too many"),
+        }[change.gain]
+        return text.format(where=where)
+    text = {
+        "slide": _("let {joint}, between {one} and {other}, slide along its axis"),
+        "align": _("make {joint}, between {one} and {other}, a ball joint"),
+        "align_slide": _("make {joint}, between {one} and {other}, a ball that slides along its axis"),
+        "turn": _("let {joint}, between {one} and {other}, turn one way more"),
+    }[change.gain]
+    return text.format(joint=change.joint, one=change.links[0], other=change.links[1])
+
+
+def strain(hold: JointHold) -> str:
+    """Return what errors of the parts can load a joint with, in words; empty where nothing.
+
+    Examples
+    --------
+    >>> from .mobility import mobility
+    >>> upper = Pair(id="upper", type="R", links=("wall", "door"), point=(0.0, 0.0, 2.0), axis=(0.0, 0.0, 1.0))
+    >>> lower = Pair(id="lower", type="R", links=("wall", "door"), point=(0.0, 0.0, 0.2), axis=(0.0, 0.0, 1.0))
+    >>> strain(mobility(Mechanism(frame="wall", joints=(upper, lower))).joints[0])
+    'force along and across its axis, couple across it'
+    """
+    along, *across = (word == "strained" for word in hold.sliding)
+    about, *tilting = (word == "strained" for word in hold.turning)
+    force = {
+        (True, True): _("force along and across its axis"),
+        (True, False): _("force along its axis"),
+        (False, True): _("force across its axis"),
+        (False, False): "",
+    }[along, any(across)]
+    couple = {
+        (True, True): _("couple about and across it"),
+        (True, False): _("couple about it"),
+        (False, True): _("couple across it"),
+        (False, False): "",
+    }[about, any(tilting)]
+    return ", ".join(part for part in (force, couple) if part)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Option:
+    """A change and the work of its freedoms on the states of stress, array (freedoms, q)."""
+
+    change: Change
+    joint: int
+    work: Array
+    cost: float
+
+
+def _options(mechanism: Mechanism, system: Constraints, stress: Array, j: int, pair: Pair) -> Iterator[_Option]:
+    """Yield the changes of a joint that are sound by themselves."""
+    bearing = mechanism.frame in pair.links
+    for after, gain in CHANGES.get(pair.type, ()):
+        if pair.axis is None or (gain == "drop" and not bearing):
+            continue
+        added = _added(pair, gain, system)
+        work = added @ stress[:, j].T
+        if _rank(work) < len(added):
+            continue
+        change = Change(
+            joint=pair.id,
+            links=pair.links,
+            bearing=bearing,
+            before=pair.type,
+            after=after,
+            gain=gain,
+            freedoms=len(added),
+        )
+        place = PIN if not bearing else DRIVEN if mechanism.input_link in pair.links else 1.0
+        trouble = TROUBLE[gain] + (FIRM if gain == "drop" and len(added) > 2 else 0.0)
+        yield _Option(change=change, joint=j, work=work, cost=trouble * place)
+
+
+def _added(pair: Pair, gain: Gain, system: Constraints) -> Array:
+    """Return the freedoms that a change adds, orthogonal to each other, about the middle."""
+    point, along = system.place(pair.point), pair.along
+    slide = screws.translation(along)[None]
+    if gain == "slide":
+        return slide
+    if gain == "turn":
+        about = along
+        if pair.axis2 is not None:
+            about = frames.unit(frames.cross(along, np.asarray(pair.axis2, dtype=float)))
+        return screws.rotation(about, point)[None]
+    across = axes(pair)[1:]
+    tilts = screws.rotation(across, point)
+    if gain == "drop":
+        held = {"SG": (), "S": (slide,), "C": (tilts,), "R": (slide, tilts)}[pair.type]
+        return np.concatenate((screws.translation(across), *held))
+    return tilts if gain == "align" else np.concatenate((tilts, slide))
+
+
+def _rank(work: Array) -> int:
+    return int(np.sum(np.linalg.svd(work, compute_uv=False) > TAKES_PART)) if work.size else 0
+
+
+def _search(options: Sequence[_Option], redundant: int, most: int) -> list[tuple[float, tuple[int, ...]]]:
+    """Return sound sets of options that take all redundant constraints away, cheapest first; else those that take most.
+
+    Best first by cost so far and the least that the rest can cost; options are added in the order of joints.
+    """
+    rate = min(one.cost / one.change.freedoms for one in options)
+    ticket = count()
+    heap: list[tuple[float, int, float, tuple[int, ...], int]] = [(redundant * rate, next(ticket), 0.0, (), redundant)]
+    whole: list[tuple[float, tuple[int, ...]]] = []
+    partial: tuple[int, list[tuple[float, tuple[int, ...]]]] = (redundant, [])
+    for _round in range(EXPANSIONS):
+        if not heap or len(whole) >= most:
+            break
+        _bound, _number, cost, chosen, left = heapq.heappop(heap)
+        if left == 0:
+            whole.append((cost, chosen))
+            continue
+        if chosen and left <= partial[0]:
+            kept = partial[1] if left == partial[0] else []
+            partial = left, [*kept, (cost, chosen)][:most]
+        after = options[chosen[-1]].joint if chosen else -1
+        work = [options[k].work for k in chosen]
+        for k, option in enumerate(options):
+            size = option.change.freedoms
+            if option.joint <= after or size > left:
+                continue
+            if chosen and _rank(np.concatenate((*work, option.work))) < redundant - left + size:
+                continue
+            spent = cost + option.cost
+            rest = left - size
+            heapq.heappush(heap, (spent + rest * rate, next(ticket), spent, (*chosen, k), rest))
+    return whole or _greedy(options, redundant, partial)
+
+
+def _greedy(
+    options: Sequence[_Option], redundant: int, partial: tuple[int, list[tuple[float, tuple[int, ...]]]]
+) -> list[tuple[float, tuple[int, ...]]]:
+    """Return the best of what the search found in part and of what taking the cheapest sound option each time finds."""
+    left = redundant
+    chosen: list[int] = []
+    ranked = sorted(range(len(options)), key=lambda k: options[k].cost / options[k].change.freedoms)
+    for k in ranked:
+        option = options[k]
+        if option.change.freedoms > left or any(options[other].joint == option.joint for other in chosen):
+            continue
+        table = np.concatenate([options[other].work for other in (*chosen, k)])
+        if _rank(table) == len(table):
+            chosen.append(k)
+            left -= option.change.freedoms
+    cost = sum(options[k].cost for k in chosen)
+    return [(cost, tuple(sorted(chosen)))] if chosen and left < partial[0] else partial[1]

@@ -1,0 +1,377 @@
+"""How does a drive turn, and how far does it slide, while it moves?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.fields.ranges import range_problems, shown
+from cardan.drive.fields.validity import movement_problems
+from cardan.drive.joints import Hooke
+from cardan.drive.models.geometry import Geometry, geometry
+from cardan.drive.models.laws import is_even, refuse_kinds
+from cardan.drive.movement import Movement
+from cardan.errors import BendLimitError, Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.paths import Path
+from cardan.maths.ties import foremost_on
+from cardan.texts import _
+from cardan.units import Key, deg
+
+from .instants import Instants, Position, Question
+from .length import LengthCompensation, length_compensation
+from .moving_points import default_times, moving_path, shortest_period, start_time
+
+SPARSE = 0.25
+"""Instants further apart than this share of the shortest period are warned of."""
+
+SHARP = 1e-7
+"""Worst instants are found to this share of the time span; their values are flat there."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Worst:
+    """The worst instant in one respect.
+
+    Attributes
+    ----------
+    what : str
+        ``bend`` [rad], ``irregularity``, ``moving_irregularity``, ``speed_error``, ``acceleration`` [rad/s²],
+        ``length_max`` [m], ``length_min`` [m].
+    number : int
+        Number of the joint (``bend``) or shaft.
+    time : float [s]
+        When.
+    value : float
+        How much, in SI.
+    """
+
+    what: str
+    number: int
+    time: float
+    value: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Articulation:
+    """Motion of a drive over the instants of a movement; nan where `status` is ``Position.IMPOSSIBLE``.
+
+    Attributes
+    ----------
+    times : array (t,) [s]
+        Instants.
+    points : array (t, n+2, 3) [m]
+        B_0 … B_{n+1}.
+    bend : array (t, n) [rad]
+        α_i.
+    plane_twist : array (t, n-1) [rad]
+        β_i, continuous where the planes turn; it jumps by π where a bend passes through zero.
+    length, length_rate, length_acceleration : arrays (t, n+1) [m, m/s, m/s²]
+        L_i of every shaft and its time derivatives. On the end shafts only the direction of the axis counts.
+    shaft_irregularity : array (t, n)
+        δ of shafts 2 … n+1 if the drive stood still at that instant.
+    speed, acceleration : float [rad/s, rad/s²]
+        ω_1 at the first instant of the movement and ε_1; speed is None when the drive does not say.
+    shaft_speed, shaft_acceleration : arrays (t, n+1) [rad/s, rad/s²] or None
+        Exact ω_i and ε_i at these very instants. The shafts turn many times while the centres hardly move, so
+        neighbouring instants catch unrelated yoke positions: plot `speed_low` and `speed_high` instead.
+    speed_low, speed_high : arrays (t, n+1) [rad/s] or None
+        Exact extremes of ω_i over all yoke positions at each instant.
+    acceleration_low, acceleration_high : arrays (t, n+1) [rad/s²] or None
+        The same of ε_i.
+    moving_irregularity : array (t,)
+        (ω_max - ω_min)/\\|ω_1\\| of the output over all yoke positions at each instant, the movement counted; nan
+        without a speed.
+    speed_error : array (t,)
+        Largest \\|ω_out/ω_1 - 1\\| over all yoke positions at each instant, the movement counted; nan without a speed.
+    status : array of int (t,)
+        `Position` of every instant.
+    splines : tuple of LengthCompensation
+        One for each intermediate shaft that slides or has a spline.
+    worst : tuple of Worst
+        The worst instants; between the instants when the drive chose them itself.
+    warnings : tuple of str
+        What the user should know.
+    assumed : tuple of str
+        Paths of what the drive does not say and this answer assumes.
+    """
+
+    times: Array
+    points: Array
+    bend: Array
+    plane_twist: Array
+    length: Array
+    length_rate: Array
+    length_acceleration: Array
+    shaft_irregularity: Array
+    speed: float | None
+    acceleration: float
+    shaft_speed: Array | None
+    shaft_acceleration: Array | None
+    speed_low: Array | None
+    speed_high: Array | None
+    acceleration_low: Array | None
+    acceleration_high: Array | None
+    moving_irregularity: Array
+    speed_error: Array
+    status: Array
+    splines: tuple[LengthCompensation, ...]
+    worst: tuple[Worst, ...]
+    warnings: tuple[str, ...]
+    assumed: tuple[str, ...] = ()
+
+    @property
+    def irregularity(self) -> Array:
+        """δ of the output if the drive stood still at each instant, array (t,)."""
+        return self.shaft_irregularity[..., -1]
+
+    @property
+    def envelope(self) -> dict[str, tuple[Array, Array]]:
+        """Least and greatest over the instants: bend (n,), plane_twist (n-1,), length (n+1,), irregularity ()."""
+        tables = {name: getattr(self, name) for name in ("bend", "plane_twist", "length", "irregularity")}
+        good = self.status < Position.IMPOSSIBLE
+        return {
+            name: (np.min(table[good], axis=0, initial=np.inf), np.max(table[good], axis=0, initial=-np.inf))
+            for name, table in tables.items()
+        }
+
+
+def articulation(
+    drive: Drive,
+    movement: Movement | Sequence[Movement] | Path | None = None,
+    times: ArrayLike | None = None,
+    *,
+    until: float | None = None,
+    speed: float | None = None,
+) -> Articulation:
+    """Return how a drive turns and slides while its joint centres move, exactly.
+
+    Parameters
+    ----------
+    drive : Drive
+        One drive.
+    movement : Movement, sequence of Movement or function, optional
+        What moves, applied one after the other; all movements of the drive by default. Or a function of the times (t,)
+        that returns positions, velocities and accelerations (t, n+2, 3) of the points.
+    times : array (t,) [s], optional
+        Instants. By default the common period of the swings, the span of the tables, or the duration of the random
+        movements, in steps fine enough to follow them.
+    until : float, optional [s]
+        End of the time span from zero, in such steps too; instead of ``times``.
+    speed : float [rad/s], optional
+        Spin of the input shaft; that of the drive's duty by default.
+
+    Returns
+    -------
+    Articulation
+
+    Raises
+    ------
+    InputError
+        No movement, one that does not fit the drive, or instants outside a table.
+    BendLimitError
+        A joint bends 90 degrees or more at every instant.
+
+    Notes
+    -----
+    Steep and impossible instants do not stop the series, they carry a status. `irregularity` freezes each instant;
+    `shaft_speed`, `shaft_acceleration` and the ranges count how the centres move, see `moving_centres`. The start
+    phase counts at time zero (the first time of tables that do not hold zero).
+
+    On the end shafts the point of the axis only gives a direction: their length says nothing about sliding.
+
+    Examples
+    --------
+    A hitch half way between the joints keeps the drive synchronous at any angle.
+
+    >>> from cardan.drive.movement import Hitch
+    >>> drive = Drive.from_points([[-1, 0, 0], [-0.4, 0, 0], [0.4, 0, 0], [1, 0, 0]])
+    >>> turn = Hitch(moves=("joints[1]", "output"), pivot=(0, 0, 0), yaw=40 * deg, frequency=1.0)
+    >>> found = articulation(drive, turn)
+    >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
+    (20.0, True)
+    """
+    refuse_kinds(drive, _("motion while the points move"), known=lambda joint: type(joint) is Hooke or is_even(joint))
+    path, at, start, chosen, moves = _plan(drive, movement, times, until)
+    place = geometry(drive)
+    omega = drive.duty.speed if speed is None else speed
+    ask = Question(drive, place, path, omega, drive.duty.acceleration, start)
+    found = ask.answer(at)
+    if np.all(found.status == Position.IMPOSSIBLE):
+        raise BendLimitError(
+            [Problem("movements", _("at every instant a joint bends 90° or more; a universal joint needs less"))]
+        )
+    splines = _splines(drive, place, found)
+    return Articulation(
+        times=at,
+        points=found.points,
+        bend=found.bend,
+        plane_twist=found.plane_twist,
+        length=found.shafts.length,
+        length_rate=found.shafts.length_rate,
+        length_acceleration=found.shafts.length_acceleration,
+        shaft_irregularity=found.shaft_irregularity,
+        speed=omega,
+        acceleration=drive.duty.acceleration,
+        shaft_speed=found.shaft_speed,
+        shaft_acceleration=found.shaft_acceleration,
+        speed_low=None if found.speed_range is None else found.speed_range[0],
+        speed_high=None if found.speed_range is None else found.speed_range[1],
+        acceleration_low=None if found.acceleration_range is None else found.acceleration_range[0],
+        acceleration_high=None if found.acceleration_range is None else found.acceleration_range[1],
+        moving_irregularity=found.unevenness,
+        speed_error=found.speed_error,
+        status=found.status,
+        splines=splines,
+        worst=tuple(_worst(ask, found, splines, refine=chosen)),
+        warnings=(*_sparse(moves, at), *_warnings(drive, place, found, splines)),
+        assumed=place.assumed,
+    )
+
+
+def _plan(
+    drive: Drive,
+    movement: Movement | Sequence[Movement] | Path | None,
+    times: ArrayLike | None,
+    until: float | None,
+) -> tuple[Path, Array, float, bool, tuple[Movement, ...]]:
+    """Return the path of the points, the instants, the start, whether the instants were chosen here, and what moves."""
+    if until is not None and not (times is None and math.isfinite(until) and until > 0.0):
+        raise refuse("until", _("must be a finite time above 0, without times beside it"))
+    if callable(movement):
+        if times is None:
+            raise refuse("times", _("missing; a movement given as a function does not say how long it lasts"))
+        return movement, _instants(times), 0.0, False, ()
+    moves = drive.movements if movement is None else (movement,) if isinstance(movement, Movement) else tuple(movement)
+    if not moves:
+        raise refuse("movements", _("nothing moves: add a [[movements]] table to the drive file"))
+    if movement is not None:
+        check(_foreign_problems(moves, len(drive.joints)))
+    at = default_times(moves, until) if times is None else _instants(times)
+    return moving_path(geometry(drive).points, moves), at, start_time(moves), times is None, moves
+
+
+def _foreign_problems(moves: Sequence[Movement], joints: int) -> Iterator[Problem]:
+    """Yield what is wrong with movements that came beside the drive and so were never checked with it."""
+    for k, movement in enumerate(moves):
+        yield from range_problems(movement, f"movements[{k}]")
+    yield from movement_problems(moves, joints)
+
+
+def _instants(times: ArrayLike) -> Array:
+    at = np.atleast_1d(np.asarray(times, dtype=float))
+    if at.ndim != 1 or at.size == 0 or not np.all(np.isfinite(at)) or np.any(np.diff(at) <= 0.0):
+        raise refuse("times", _("the instants must be finite numbers, at least one, rising from one to the next"))
+    return at
+
+
+def _splines(drive: Drive, place: Geometry, found: Instants) -> tuple[LengthCompensation, ...]:
+    """Judge every intermediate shaft that slides or has a spline, over the instants at which its ends lie apart."""
+    shafts, splines = found.shafts, []
+    for k in range(1, len(drive.joints)):
+        good = np.isfinite(shafts.length_acceleration[:, k])
+        if not np.any(good):
+            continue
+        one = length_compensation(
+            found.times[good],
+            shafts.length[good, k],
+            shafts.length_rate[good, k],
+            shafts.length_acceleration[good, k],
+            spline=drive.shafts[k].spline,
+            limits=drive.limits,
+            drawn=float(place.length[k]),
+            shaft=k + 1,
+        )
+        if one.slides or drive.shafts[k].spline:
+            splines.append(one)
+    return tuple(splines)
+
+
+def _sparse(moves: Sequence[Movement], times: Array) -> Iterator[str]:
+    """Warn of instants that lie too far apart to see what the movement does between them."""
+    period, step = shortest_period(moves), float(np.max(np.diff(times), initial=0.0))
+    if step > SPARSE * period:
+        yield _(
+            "the instants lie up to {step:.4g} s apart, the shortest period is {period:.4g} s: extremes between them "
+            "are missed, and the splines' travel is not to be trusted"
+        ).format(step=step, period=period)
+
+
+def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[LengthCompensation]) -> Iterator[str]:
+    impossible = int(np.sum(found.status == Position.IMPOSSIBLE))
+    if impossible:
+        first = float(found.times[int(np.argmax(found.status == Position.IMPOSSIBLE))])
+        yield _("at {count} of {all} instants, first at {time:.4g} s, a joint bends 90° or more: nothing turns").format(
+            count=impossible, all=found.times.size, time=first
+        )
+    for i in range(found.bend.shape[1]):
+        column = found.bend[:, i]
+        joint = drive.joints[i]
+        steep = np.nonzero(column > joint.steepest)[0]
+        if steep.size:
+            k = steep[int(foremost_on(column[steep]))]
+            text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no real cross joint works above {limit:.0f}°")
+            if type(joint) is not Hooke:
+                text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no {kind} joint works above {limit:.0f}°")
+            yield text.format(
+                number=i + 1,
+                bend=float(column[k]) / deg,
+                time=float(found.times[k]),
+                limit=joint.steepest / deg,
+                kind=joint.kind,
+            )
+    for one in splines:
+        if one.slides and drive.shafts[one.shaft - 1].spline is None:
+            yield _("shaft {number} changes its length by {stroke} but has no spline").format(
+                number=one.shaft, stroke=shown(one.stroke, Key("", "length"))
+            )
+        yield from (flag.message for flag in one.flags)
+    if place.assumed:
+        yield _("lengths that the drive does not say are assumed: {paths}").format(paths=", ".join(place.assumed))
+
+
+def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation], *, refine: bool) -> Iterator[Worst]:
+    """Yield the worst instants, sharpened between the instants where there are finer ones to be asked for."""
+    n = found.bend.shape[1]
+    wanted: list[tuple[str, int, Callable[[Instants], Array]]] = [
+        *(("bend", i + 1, _bend(i)) for i in range(n)),
+        ("irregularity", n + 1, lambda some: some.shaft_irregularity[:, -1]),
+        ("moving_irregularity", n + 1, lambda some: some.unevenness),
+        ("speed_error", n + 1, lambda some: some.speed_error),
+        ("acceleration", n + 1, lambda some: some.largest_acceleration),
+    ]
+    for what, number, value in wanted:
+        found_worst = _largest(found, value)
+        if found_worst is None:
+            continue
+        time, most, span = found_worst
+        while refine and span[1] - span[0] > SHARP * (found.times[-1] - found.times[0]):
+            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value, among=np.nanargmax)
+            if finer is None or finer[1] < most:
+                break
+            time, most, span = finer
+        yield Worst(what=what, number=number, time=time, value=most)
+    for one in splines:
+        if one.slides:
+            yield Worst(what="length_min", number=one.shaft, time=one.time_min, value=one.length_min)
+            yield Worst(what="length_max", number=one.shaft, time=one.time_max, value=one.length_max)
+
+
+def _largest(
+    found: Instants, value: Callable[[Instants], Array], *, among: Callable[[Array], Any] = foremost_on
+) -> tuple[float, float, tuple[float, float]] | None:
+    """Return time and value of the largest, and the instants on both sides of it; None when there is no value."""
+    table, times = value(found), found.times
+    if np.all(np.isnan(table)):
+        return None
+    k = int(among(table))
+    return float(times[k]), float(table[k]), (float(times[max(k - 1, 0)]), float(times[min(k + 1, times.size - 1)]))
+
+
+def _bend(i: int) -> Callable[[Instants], Array]:
+    return lambda found: found.bend[:, i]

@@ -1,0 +1,194 @@
+"""Which single joint does the drive amount to, and how uneven is it?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.drive.drive import Drive
+from cardan.drive.drives import Drives, kinematics
+from cardan.drive.models.chain import Chain
+from cardan.maths.arrays import Array, namespace
+from cardan.maths.kernel import mobius
+
+SYNCHRONOUS = 1e-13
+"""Below this irregularity a drive is synchronous to rounding and its equivalent joint has no phase."""
+
+SPECK = 1e-6
+"""Irregularity that coordinates rounded to a micrometre leave: nobody notices it, and to call a drive uneven for it
+would mislead."""
+
+WARN_BEND = 45.0
+"""Bend [deg] above which no real cross joint works."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EquivalentJoint:
+    """The single Hooke joint with the same law of motion; leading axes are those of the drives.
+
+    Attributes
+    ----------
+    pair : Pair (...)
+        Möbius pair of the whole drive.
+    shaft_irregularity : array (..., n)
+        δ of shafts 2 … n+1.
+    vertex : complex array (..., n+1)
+        Corners of the phase polygon in the unit disk, from the origin on; the last one is the origin when synchronous.
+    """
+
+    pair: mobius.Pair
+    shaft_irregularity: Array
+    vertex: Array
+
+    @property
+    def tau(self) -> Array:
+        """τ = tan²(α/2), array (...)."""
+        return mobius.tau(self.pair)
+
+    @property
+    def bend(self) -> Array:
+        """Equivalent angle α_eq, array (...) [rad]."""
+        return mobius.bend(self.pair)
+
+    @property
+    def phase(self) -> Array:
+        """Phase ψ_eq in [0, π), array (...) [rad]; nan where the drive is synchronous to rounding."""
+        xp = namespace(self.shaft_irregularity)
+        angle = mobius.phase(self.pair)
+        return xp.where(self.irregularity < SYNCHRONOUS, xp.nan + angle, xp.remainder(angle, xp.pi + 0.0 * angle))
+
+    @property
+    def irregularity(self) -> Array:
+        """δ = i_max - i_min = (ω_max - ω_min)/ω_1, array (...); Book (79)."""
+        return self.shaft_irregularity[..., -1]
+
+    @property
+    def ratio_max(self) -> Array:
+        """Largest speed ratio 1/cos α_eq, array (...)."""
+        a, b = self.pair
+        xp = namespace(a)
+        return (xp.abs(a) + xp.abs(b)) ** 2
+
+    @property
+    def ratio_min(self) -> Array:
+        """Smallest speed ratio cos α_eq, array (...)."""
+        return 1.0 / self.ratio_max
+
+    @property
+    def max_lead(self) -> Array:
+        """Largest |φ_out - φ_in| about its mean, arcsin τ, array (...) [rad]."""
+        xp = namespace(self.shaft_irregularity)
+        return xp.asin(self.tau)
+
+    @property
+    def max_acceleration(self) -> Array:
+        """Largest |ε_out|/ω_1² at uniform input, array (...)."""
+        return largest_acceleration(self.bend)
+
+    def harmonics(self, count: int) -> Array:
+        """Return the amplitudes τ^k/k of orders 2, 4 … 2·count of the angle error, array (..., count) [rad].
+
+        The ratio has 2 τ^k there. Exact: a chain has no other harmonics than those of one joint.
+        """
+        xp = namespace(self.shaft_irregularity)
+        k = xp.arange(1, count + 1, dtype=xp.float64)
+        return self.tau[..., None] ** k / k
+
+
+def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
+    """Return the single joint that moves like the whole drive.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+        One drive, or many as arrays.
+
+    Returns
+    -------
+    EquivalentJoint
+        bend, phase, irregularity, ratio_max … : arrays (...).
+
+    Notes
+    -----
+    cos α_eq = (\\|a\\| - \\|b\\|)², δ = 4 \\|a\\| \\|b\\|, τ_eq = \\|b\\|/\\|a\\|; no positions are needed.
+    α_eq is a square root of δ: rounding of 1e-16 in δ shows as 1e-6 degrees in α_eq, so judge synchronism by δ.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> round(float(equivalent_joint(Drive.from_angles([12 * deg, 20 * deg])).bend / deg), 4)
+    16.1193
+    """
+    chain = kinematics(drive)
+    xp = namespace(chain.bend)
+    products = chain.products()
+    corners = [mobius.vertex(pair) for pair in products]
+    return EquivalentJoint(
+        pair=products[-1],
+        shaft_irregularity=xp.stack([mobius.irregularity(pair) for pair in products], axis=-1),
+        vertex=xp.stack([0.0 * corners[0], *corners], axis=-1),
+    )
+
+
+def largest_acceleration(bend: Array) -> Array:
+    """Return the largest |ε_2|/ω_1² of a joint at uniform input, array (...).
+
+    Notes
+    -----
+    4 c s² √(1-x²)/((1+c²)² (1-k x)²), k = s²/(1+c²), x = 4k/(1+√(1+8k²)); Book Table 4, recomputed. Evaluated with
+    1-k = 2c²/(1+c²) and 1-x = 2(1-k)/(1+2k+√(1+8k²)), which keep all digits near 90°.
+    """
+    xp = namespace(bend)
+    c, square = xp.cos(bend), xp.sin(bend) ** 2
+    k, x, short = _extreme(bend)
+    below = (1.0 + c * c) * (2.0 * c * c / (1.0 + c * c) + k * short)
+    return 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / below**2
+
+
+def angle_of_largest_acceleration(bend: Array) -> Array:
+    """Return the first joint angle θ at which ε_2 has its (negative) extreme, array (...) [rad]; cos 2θ = x."""
+    xp = namespace(bend)
+    _k, x, short = _extreme(bend)
+    return xp.atan2(xp.sqrt(short), xp.sqrt(1.0 + x))
+
+
+def angle_of_largest_lead(bend: Array) -> Array:
+    """Return the joint angle θ at which the driven shaft leads most, tan θ = √cos α, array (...) [rad]."""
+    xp = namespace(bend)
+    return xp.atan(xp.sqrt(xp.cos(bend)))
+
+
+def _extreme(bend: Array) -> tuple[Array, Array, Array]:
+    """Return k, x and 1-x of `largest_acceleration`."""
+    xp = namespace(bend)
+    c = xp.cos(bend) ** 2
+    k = xp.sin(bend) ** 2 / (1.0 + c)
+    root = xp.sqrt(1.0 + 8.0 * k * k)
+    return k, 4.0 * k / (1.0 + root), 4.0 * c / ((1.0 + c) * (1.0 + 2.0 * k + root))
+
+
+def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
+    """Return the equivalent joints of the first 1 … n joints: what each shaft from 2 on does.
+
+    Parameters
+    ----------
+    drive : Drive or Drives (...)
+        One drive, or many as arrays.
+
+    Returns
+    -------
+    EquivalentJoint
+        bend, irregularity, max_lead, max_acceleration … : arrays (..., n), for shafts 2 … n+1.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> after_each_joint(Drive.from_angles([12 * deg, 20 * deg])).bend / deg
+    array([12.       , 16.1192533])
+    """
+    whole = equivalent_joint(drive)
+    products = kinematics(drive).products()
+    xp = namespace(whole.vertex)
+    pair = (xp.stack([a for a, _b in products], axis=-1), xp.stack([b for _a, b in products], axis=-1))
+    return EquivalentJoint(
+        pair=pair, shaft_irregularity=whole.shaft_irregularity[..., None], vertex=whole.vertex[..., 1:, None]
+    )

@@ -1,0 +1,122 @@
+"""Joints of any kind by themselves: over a turn at one bend, and over bends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cardan.figures.axes import angle_axis, axis
+from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
+from cardan.figures.palette import dash_of, shaft
+from cardan.figures.wording import angular, significant
+from cardan.maths.arrays import Array
+from cardan.questions.motion.joint_law import JointBends, JointTurn
+from cardan.texts import _
+from cardan.units import deg
+
+WIDTHS = (2.2, 1.5)
+"""Of the first curve and of the others."""
+
+
+def joint_figures(
+    turns: Sequence[JointTurn], bends: Sequence[JointBends], labels: Sequence[str] = ()
+) -> tuple[Figure, ...]:
+    """Return the figures of joints by themselves."""
+    return (joint_figure(turns, bends, labels),)
+
+
+def joint_figure(turns: Sequence[JointTurn], bends: Sequence[JointBends], labels: Sequence[str] = ()) -> Figure:
+    """Return error and ratio of joints over a turn, and their errors over the bend.
+
+    Parameters
+    ----------
+    turns : sequence of JointTurn
+        At least one; all at one bend.
+    bends : sequence of JointBends
+        Of the same joints.
+    labels : sequence of str
+        What they are called; their kinds when not given.
+    """
+    names = tuple(labels) or tuple(one.joint.kind for one in turns)
+    leads = [np.asarray(one.lead) / deg for one in turns]
+    ratios = [np.asarray(one.ratio) for one in turns]
+    angle = np.asarray(turns[0].angle) / deg
+    whole = angle_axis(_("Input angle from the plane of the shafts"))
+    bare = Axis(low=whole.low, high=whole.high, ticks=whole.ticks, texts=("",) * len(whole.ticks))
+    errors = [np.asarray(one.error) / deg for one in bends]
+    widest = max(float(np.max(one.bend)) for one in bends) / deg
+    curves = [
+        Curve(x=np.asarray(one.bend) / deg, y=error, role=shaft(k), dash=dash_of(k), width=_width(k))
+        for k, (one, error) in enumerate(zip(bends, errors, strict=True), start=1)
+    ]
+    return Figure(
+        name="joint",
+        title=_("How joints turn at {bend}° and over their bends").format(bend=significant(turns[0].bend / deg, 3)),
+        sentence=_sentence(turns, names),
+        source=_("exact law of each kind; error: half of what lies between the greatest lead and the greatest lag"),
+        rows=(
+            Row(panels=(_panel(angle, leads, bare, _("Output ahead of input"), "°", 0.0, 0.02, names),), height=1.5),
+            Row(panels=(_panel(angle, ratios, whole, _("Speed ratio"), "–", 1.0, 0.002),), height=1.5),
+            Row(
+                panels=(
+                    Panel(
+                        series=(*curves, Rule(value=turns[0].bend / deg, upright=True, text=_("bend of the turn"))),
+                        x=axis(_("Bend"), "°", include=(0.0, widest), count=8, margin=0.0),
+                        y=axis(_("Error of the output"), "°", errors, include=(0.0,), least=0.02, count=4),
+                    ),
+                ),
+                height=1.5,
+            ),
+        ),
+    )
+
+
+def _width(k: int) -> float:
+    return WIDTHS[0] if k == 1 else WIDTHS[1]
+
+
+def _panel(
+    angle: Array,
+    rows: Sequence[Array],
+    along: Axis,
+    label: str,
+    unit: str,
+    middle: float,
+    least: float,
+    names: Sequence[str] = (),
+) -> Panel:
+    curves = tuple(
+        Curve(
+            x=angle,
+            y=row,
+            label=names[k - 1] if names else "",
+            role=shaft(k),
+            dash=dash_of(k),
+            width=_width(k),
+        )
+        for k, row in enumerate(rows, start=1)
+    )
+    upright = axis(label, unit, list(rows), include=(middle,), least=least, count=4)
+    return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=along, y=upright)
+
+
+def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> str:
+    order = sorted(range(len(turns)), key=lambda k: turns[k].error)
+    best, worst = order[0], order[-1]
+    at = significant(turns[0].bend / deg, 3)
+    if len(turns) == 1:
+        if not turns[0].error:
+            return _("At {bend}° the {name} joint turns exactly evenly.").format(bend=at, name=names[0])
+        text = _("At {bend}° the output of the {name} joint runs ahead and back by {error}°.")
+        return text.format(bend=at, name=names[0], error=angular(turns[0].error / deg, 3))
+    if not turns[worst].error:
+        return _("At {bend}° all of them turn exactly evenly.").format(bend=at)
+    text = _("At {bend}° {worst} runs ahead and back most, by {most}°, and {best} least, by {least}°.")
+    return text.format(
+        bend=at,
+        worst=names[worst],
+        best=names[best],
+        most=angular(turns[worst].error / deg, 3),
+        least=angular(turns[best].error / deg, 3),
+    )

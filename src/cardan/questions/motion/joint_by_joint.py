@@ -1,0 +1,78 @@
+"""The motion of a drive followed from joint to joint, each by its own law."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.joints import Hooke
+from cardan.drive.models.chain import given_chain
+from cardan.errors import Problem, check
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+
+def followed(drive: Drive, angle: Array) -> dict[str, Any]:
+    """Return how every shaft turns, for joints of any kinds.
+
+    Parameters
+    ----------
+    drive : Drive
+    angle : array (p,) [rad]
+        Input angle φ_1 from the start position.
+
+    Returns
+    -------
+    dict
+        Fields of `cardan.questions.motion.motion.Motion`.
+
+    Raises
+    ------
+    InputError
+        A joint with its sizes does not turn at its bend.
+
+    Notes
+    -----
+    θ_1 = φ_1 + ψ_1, θ_{i+1} = T_i(θ_i) + q_i - γ - β with q = π/2 for joints with a cross, else 0; the ratio and its
+    slope by the chain rule.
+
+    Examples
+    --------
+    >>> found = followed(Drive.from_angles([0.2, 0.2]), np.asarray([0.0, 1.0]))
+    >>> print(found["shaft_ratio"][-1].round(12))
+    [1. 1.]
+    """
+    whole = given_chain(drive)
+    phi = np.asarray(angle, dtype=float)
+    theta, psi = phi + float(whole.start_phase), np.asarray([float(whole.start_phase)])
+    turns, ratios, slopes = [phi], [np.ones_like(phi)], [np.zeros_like(phi)]
+    before = []
+    for i, joint in enumerate(drive.joints):
+        bend = np.asarray(whole.bend)[i]
+        before.append(theta)
+        with np.errstate(invalid="ignore", divide="ignore"):  # what does not turn is not a number, and said so
+            lead, ratio, slope = joint.deviation(theta, bend)
+            start = joint.deviation(psi, bend)[0]
+        stuck = not all(bool(np.all(np.isfinite(part))) for part in (lead, ratio, slope, start))
+        text = _("a joint of kind {kind} with these sizes does not turn at its bend of {bend:.6g}°")
+        said = text.format(kind=joint.kind, bend=np.degrees(bend))
+        check([Problem(f"joints[{i}].bend", said, "out_of_range")] if stuck else [])
+        slopes.append(slope * ratios[-1] ** 2 + ratio * slopes[-1])
+        ratios.append(ratio * ratios[-1])
+        turned, begun = theta + lead, psi + start
+        turns.append(turned - begun)
+        if i + 1 < len(drive.joints):
+            shift = (0.5 * np.pi if joint.crossed else 0.0) - whole.yoke_angle[i] - whole.plane_twist[i]
+            theta, psi = turned + shift, begun + shift
+    return {
+        "angle": phi,
+        "shaft_angle": np.stack(turns),
+        "shaft_ratio": np.stack(ratios),
+        "shaft_slope": np.stack(slopes),
+        "joint_angle": np.stack(before),
+        "bend": np.asarray(whole.bend),
+        "followed": True,
+        "crossed": tuple(type(joint) is Hooke for joint in drive.joints),
+    }

@@ -1,0 +1,269 @@
+"""How far does a sliding shaft slide, and does its spline allow it?"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.drive.duty import Limits
+from cardan.drive.fields.ranges import shown
+from cardan.drive.shaft import Spline
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.series import Series, crossings, turning_points, values_at
+from cardan.maths.ties import foremost_on
+from cardan.texts import _
+from cardan.units import Key
+
+STIFF = 1e-6
+"""A shaft whose length changes by less than this share of it does not slide: rounded coordinates do as much."""
+
+_LENGTH = Key("", "length")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Flag:
+    """A limit passed, with when and where.
+
+    Attributes
+    ----------
+    field : str
+        Path of what is short, ``shafts[1].spline.engaged``.
+    message : str
+        What happens, in one sentence.
+    time : float [s]
+        Instant of the worst value.
+    value : float [m]
+        The worst value.
+    limit : float [m]
+        What it should not fall below (or reach).
+    spans : tuple of (float, float) [s]
+        From when until when the limit is passed.
+    """
+
+    field: str
+    message: str
+    time: float
+    value: float
+    limit: float
+    spans: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LengthCompensation:
+    """What the sliding of one shaft amounts to over a movement.
+
+    Attributes
+    ----------
+    shaft : int
+        Number of the shaft.
+    drawn : float [m]
+        Length in the drawn position, in which engaged length and gap of the spline are given.
+    length_min, length_max : float [m]
+        Shortest and longest.
+    time_min, time_max : float [s]
+        When it is.
+    max_rate, max_acceleration : float [m/s, m/s²]
+        Largest sliding speed and acceleration, as magnitudes.
+    slip_path : float [m]
+        Total way slid, back and forth.
+    engaged_min : float or None [m]
+        Shortest engaged length of the spline; None when the drive does not say the drawn one.
+    gap_min : float or None [m]
+        Least way left to bottoming; None when the drive does not say the drawn one.
+    flags : tuple of Flag
+        Limits passed.
+    """
+
+    shaft: int
+    drawn: float
+    length_min: float
+    length_max: float
+    time_min: float
+    time_max: float
+    max_rate: float
+    max_acceleration: float
+    slip_path: float
+    engaged_min: float | None
+    gap_min: float | None
+    flags: tuple[Flag, ...]
+
+    @property
+    def stroke(self) -> float:
+        """Longest less shortest length [m]."""
+        return self.length_max - self.length_min
+
+    @property
+    def slides(self) -> bool:
+        """Whether the length changes at all, see `STIFF`."""
+        return self.stroke > STIFF * self.drawn
+
+
+def length_compensation(
+    times: ArrayLike,
+    length: ArrayLike,
+    rate: ArrayLike,
+    acceleration: ArrayLike,
+    *,
+    spline: Spline | None = None,
+    limits: Limits | None = None,
+    drawn: float | None = None,
+    shaft: int = 2,
+) -> LengthCompensation:
+    """Return stroke, sliding speed, slip path, engaged length and gap of one shaft over a movement.
+
+    Parameters
+    ----------
+    times : array (t,) [s]
+        Instants, rising.
+    length, rate, acceleration : arrays (t,) [m, m/s, m/s²]
+        L, its first and second time derivative.
+    spline : Spline, optional
+        Engaged length and gap in the drawn position.
+    limits : Limits, optional
+        Smallest engaged length allowed, ``spline_overlap``; more than zero when not given.
+    drawn : float, optional [m]
+        Length L_0 in the drawn position; that of the first instant by default.
+    shaft : int
+        Number of the shaft, for the flags.
+
+    Returns
+    -------
+    LengthCompensation
+
+    Raises
+    ------
+    InputError
+        Times that do not rise, arrays of different lengths.
+
+    Notes
+    -----
+    engaged = engaged_0 - (L - L_0), gap = gap_0 + (L - L_0). Between the instants the length follows the quintic
+    through values, rates and accelerations: the extremes lie where the rate vanishes, and the slip path ∫\\|L̇\\|dt
+    is the sum of the ways between them, not a sum over instants. Sliding does not change how the shafts turn.
+
+    The lengths follow from the centres, which the movement gives. Where several neighbouring shafts slide and the
+    centre between them is held by nothing, no movement can say where it is, and neither can this function.
+
+    Examples
+    --------
+    >>> t = np.linspace(0.0, 2.0 * np.pi, 61)
+    >>> found = length_compensation(t, 1.0 + 0.02 * np.sin(t), 0.02 * np.cos(t), -0.02 * np.sin(t))
+    >>> round(found.stroke, 6), round(found.slip_path, 6), round(found.max_rate, 6)
+    (0.04, 0.08, 0.02)
+    """
+    series = _series(times, length, rate, acceleration)
+    base = float(series[1][0]) if drawn is None else drawn
+    at, values = turning_points(series)
+    low, high = int(foremost_on(values, least=True)), int(foremost_on(values))
+    engaged = spline.engaged if spline else None
+    gap = spline.gap if spline else None
+    flags = (*_short(series, base, engaged, limits, shaft, at, values), *_bottoms(series, base, gap, shaft, at, values))
+    return LengthCompensation(
+        shaft=shaft,
+        drawn=base,
+        length_min=float(values[low]),
+        length_max=float(values[high]),
+        time_min=float(at[low]),
+        time_max=float(at[high]),
+        max_rate=_largest_rate(series),
+        max_acceleration=float(np.max(np.abs(series[3]))),
+        slip_path=float(np.sum(np.abs(np.diff(values)))),
+        engaged_min=None if engaged is None else engaged - (float(values[high]) - base),
+        gap_min=None if gap is None else gap + (float(values[low]) - base),
+        flags=flags,
+    )
+
+
+def _series(times: ArrayLike, length: ArrayLike, rate: ArrayLike, acceleration: ArrayLike) -> Series:
+    t, x, v, a = (np.atleast_1d(np.asarray(part, dtype=float)) for part in (times, length, rate, acceleration))
+    for name, part in (("length", x), ("rate", v), ("acceleration", a)):
+        if part.shape != t.shape:
+            raise refuse(name, _("{given} values given, {wanted} needed").format(given=part.size, wanted=t.size))
+    if t.size == 0 or bool(np.any(np.diff(t) <= 0.0)):
+        raise refuse("times", _("the instants must rise from one to the next"))
+    return t, x, v, a
+
+
+def _largest_rate(series: Series) -> float:
+    """Return max |L̇|: at the instants, and between them where the acceleration changes its sign."""
+    times, _length, rate, acceleration = series
+    largest = float(np.max(np.abs(rate)))
+    inside = np.flatnonzero(acceleration[:-1] * acceleration[1:] < 0.0)
+    if inside.size:
+        share = acceleration[inside] / (acceleration[inside] - acceleration[inside + 1])
+        at = times[inside] + share * (times[inside + 1] - times[inside])
+        largest = max(largest, float(np.max(np.abs(values_at(series, at, order=1)))))
+    return largest
+
+
+def _short(
+    series: Series, base: float, engaged: float | None, limits: Limits | None, shaft: int, at: Array, values: Array
+) -> tuple[Flag, ...]:
+    """Flag an engaged length below the limit, or none left."""
+    if engaged is None:
+        return ()
+    stated = limits.spline_overlap if limits else None
+    limit = stated or 0.0
+    spans = _spans(series, base + engaged - limit, longer=True, touching=stated is None)
+    if not spans:
+        return ()
+    worst = int(foremost_on(values))
+    least = engaged - (float(values[worst]) - base)
+    if least <= 0.0:
+        text = _("the spline of shaft {shaft} comes apart: its engaged length falls to {value} at {time:.4g} s")
+    else:
+        text = _(
+            "the engaged length of the spline of shaft {shaft} falls to {value} at {time:.4g} s; allowed is {limit}"
+        )
+    return (_flag(f"shafts[{shaft - 1}].spline.engaged", text, shaft, float(at[worst]), least, limit, spans),)
+
+
+def _bottoms(series: Series, base: float, gap: float | None, shaft: int, at: Array, values: Array) -> tuple[Flag, ...]:
+    """Flag a gap used up."""
+    if gap is None:
+        return ()
+    spans = _spans(series, base - gap, longer=False, touching=True)
+    if not spans:
+        return ()
+    worst = int(foremost_on(values, least=True))
+    least = gap + (float(values[worst]) - base)
+    text = _("the spline of shaft {shaft} bottoms: the way left falls to {value} at {time:.4g} s")
+    return (_flag(f"shafts[{shaft - 1}].spline.gap", text, shaft, float(at[worst]), least, 0.0, spans),)
+
+
+def _flag(
+    field: str, text: str, shaft: int, time: float, value: float, limit: float, spans: tuple[tuple[float, float], ...]
+) -> Flag:
+    message = text.format(shaft=shaft, value=shown(value, _LENGTH), time=time, limit=shown(limit, _LENGTH))
+    return Flag(field=field, message=message, time=time, value=value, limit=limit, spans=spans)
+
+
+def _spans(series: Series, level: float, *, longer: bool, touching: bool) -> tuple[tuple[float, float], ...]:
+    """Return from when until when the length is beyond a level (or, with ``touching``, at it)."""
+    times = series[0]
+    at, values = turning_points(series)
+    edges = np.unique(np.concatenate((at, crossings(series, level) if times.size > 1 else times)))
+    sign = 1.0 if longer else -1.0
+    tolerance = 1e-12 * abs(level)
+
+    def beyond(value: float) -> bool:
+        over = sign * (value - level)
+        return over >= -tolerance if touching else over > tolerance
+
+    if edges.size == 1:
+        return ((float(edges[0]), float(edges[0])),) if beyond(float(values[0])) else ()
+    middles = values_at(series, 0.5 * (edges[1:] + edges[:-1]))
+    spans: list[tuple[float, float]] = []
+    for start, end, value in zip(edges[:-1], edges[1:], middles, strict=True):
+        if not beyond(float(value)):
+            continue
+        if spans and math.isclose(spans[-1][1], start):
+            spans[-1] = (spans[-1][0], float(end))
+        else:
+            spans.append((float(start), float(end)))
+    if not spans and touching:
+        spans = [(float(t), float(t)) for t, value in zip(at, values, strict=True) if beyond(float(value))]
+    return tuple(spans)

@@ -1,0 +1,349 @@
+"""How does every shaft turn while the joint centres move?
+
+Frozen formulas ask where the joints are; here it also counts how fast they move. Shaft i turns with the angular
+velocity Ω_i = ω_i a_i + a_i × ȧ_i; its *spin* ω_i is the part about its own moving axis, so ∫ω_i dt is its angle in a
+frame that follows the axis without twisting.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cardan.drive.models.geometry import STRAIGHT
+from cardan.maths.arrays import Array, ArrayLike, namespace, real
+from cardan.maths.curves import paths
+from cardan.maths.curves.paths import Jet, Path
+from cardan.maths.kernel import frames
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shafts:
+    """Directions and lengths of the shafts between moving points, with their time derivatives.
+
+    Attributes
+    ----------
+    axis, axis_rate, axis_acceleration : arrays (..., n+1, 3) [-, 1/s, 1/s²]
+        a_i, ȧ_i, ä_i.
+    length, length_rate, length_acceleration : arrays (..., n+1) [m, m/s, m/s²]
+        L_i, L̇_i, L̈_i.
+    """
+
+    axis: Array
+    axis_rate: Array
+    axis_acceleration: Array
+    length: Array
+    length_rate: Array
+    length_acceleration: Array
+
+    @property
+    def bend(self) -> Array:
+        """α_i of every joint, array (..., n) [rad]."""
+        return frames.angle_between(self.axis[..., :-1, :], self.axis[..., 1:, :])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Spins:
+    """Exact motion of every shaft of a drive whose axes move; leading axes are those of the instants.
+
+    Attributes
+    ----------
+    spin : array (..., n+1) [rad/s]
+        ω_i, angular velocity of shaft i about its own axis.
+    spin_acceleration : array (..., n+1) [rad/s²]
+        ε_i = dω_i/dt.
+    frozen_ratio : array (..., n+1)
+        ω_i/ω_1 if the centres stood still where they are.
+    driving_arm : array (..., n, 3)
+        u_i, cross arm in the driving yoke of joint i.
+    driven_arm : array (..., n, 3)
+        v_{i+1}, cross arm in the driven yoke.
+    """
+
+    spin: Array
+    spin_acceleration: Array
+    frozen_ratio: Array
+    driving_arm: Array
+    driven_arm: Array
+
+
+def moving_shafts(points: Jet) -> Shafts:
+    """Return directions and lengths of the shafts between moving points.
+
+    Parameters
+    ----------
+    points : Jet (..., n+2, 3) [m, m/s, m/s²]
+        Positions, velocities and accelerations of B_0 … B_{n+1}.
+
+    Notes
+    -----
+    With Δ = B_i - B_{i-1} = L a: L̇ = a·Δ̇, ȧ = (Δ̇ - L̇ a)/L, L̈ = a·Δ̈ + L \\|ȧ\\|², ä = (Δ̈ - L̈ a - 2 L̇ ȧ)/L.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> line = np.asarray([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
+    >>> shafts = moving_shafts((line, np.asarray([[0.0, 0.0, 0.0], [3.0, 1.0, 0.0]]), 0.0 * line))
+    >>> shafts.length_rate, shafts.length_acceleration
+    (array([3.]), array([0.5]))
+    """
+    shaft, rate, acceleration = (part[..., 1:, :] - part[..., :-1, :] for part in points)
+    length = frames.norm(shaft)
+    a = shaft / length[..., None]
+    slide = frames.dot(a, rate)
+    swing = (rate - slide[..., None] * a) / length[..., None]
+    slide_rate = frames.dot(a, acceleration) + length * frames.dot(swing, swing)
+    swing_rate = (acceleration - slide_rate[..., None] * a - 2.0 * slide[..., None] * swing) / length[..., None]
+    return Shafts(
+        axis=a,
+        axis_rate=swing,
+        axis_acceleration=swing_rate,
+        length=length,
+        length_rate=slide,
+        length_acceleration=slide_rate,
+    )
+
+
+def moving_axes(
+    axes: Jet,
+    first_arm: Array,
+    *,
+    yoke_angle: ArrayLike,
+    speed: ArrayLike,
+    acceleration: ArrayLike = 0.0,
+    even: Sequence[bool] = (),
+) -> Spins:
+    """Return the exact spin of every shaft of a chain of Hooke joints, or even ones, whose axes move.
+
+    Parameters
+    ----------
+    axes : Jet (..., n+1, 3)
+        Directions a_i of the shafts and their rates [1/s] and accelerations [1/s²].
+    first_arm : array (..., 3)
+        u_1, direction of the cross arm in the driving yoke of joint 1, at right angles to a_1.
+    yoke_angle : array (..., n-1) [rad]
+        γ_2 … γ_n, from the driving to the driven yoke of a shaft.
+    speed, acceleration : float or array (...) [rad/s, rad/s²]
+        ω_1, ε_1 at these instants.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
+
+    Returns
+    -------
+    Spins
+
+    Notes
+    -----
+    The cross is rigid: the arms u_i and v_{i+1} stay at right angles, so with n = u_i × v_{i+1} the difference
+    Ω_{i+1} - Ω_i has no part along n, which gives ω_{i+1}; its time derivative gives ε_{i+1}. Positions need u_1 and
+    the axes at the instant alone, nothing is integrated; straight joints need no special case. Contains Book (97)-(99).
+    An even joint holds the shafts against turning about n = a_i + a_{i+1} and carries its mark by the shortest turn
+    from one axis to the other.
+    """
+    a, rate, curve = axes
+    xp = namespace(a)
+    gamma = real(yoke_angle, xp)
+    u = first_arm
+    one = xp.ones_like(frames.dot(u, u) + a[..., 0, 0])
+    spin, gain = real(speed, xp) * one, real(acceleration, xp) * one
+    ratio = one
+    spins, gains, ratios = [spin], [gain], [ratio]
+    driving: list[Array] = []
+    driven: list[Array] = []
+    tilt = frames.cross(a, rate)
+    tilt_rate = frames.cross(a, curve)
+    for i in range(a.shape[-2] - 1):
+        here, there = a[..., i, :], a[..., i + 1, :]
+        if i:
+            u = frames.rotate(driven[-1], here, -gamma[..., i - 1])
+        n = here + there if even and even[i] else frames.cross(u, frames.unit(frames.cross(there, u)))
+        v = _driven(u, here, there, even=bool(even and even[i]))
+        into, out = frames.dot(here, n), frames.dot(there, n)
+        next_spin = (spin * into + frames.dot(tilt[..., i, :] - tilt[..., i + 1, :], n)) / out
+        turn = spin[..., None] * here + tilt[..., i, :]
+        next_turn = next_spin[..., None] * there + tilt[..., i + 1, :]
+        if even and even[i]:
+            n_rate = rate[..., i, :] + rate[..., i + 1, :]
+        else:
+            n_rate = frames.cross(frames.cross(turn, u), v) + frames.cross(u, frames.cross(next_turn, v))
+        swept = spin[..., None] * rate[..., i, :] - next_spin[..., None] * rate[..., i + 1, :]
+        known = swept + tilt_rate[..., i, :] - tilt_rate[..., i + 1, :]
+        gain = (gain * into + frames.dot(known, n) + frames.dot(n_rate, turn - next_turn)) / out
+        spin, ratio = next_spin, ratio * into / out
+        spins.append(spin)
+        gains.append(gain)
+        ratios.append(ratio)
+        driving.append(xp.broadcast_to(u, (*one.shape, 3)))
+        driven.append(v)
+    return Spins(
+        spin=xp.stack(spins, axis=-1),
+        spin_acceleration=xp.stack(gains, axis=-1),
+        frozen_ratio=xp.stack(ratios, axis=-1),
+        driving_arm=xp.stack(driving, axis=-2),
+        driven_arm=xp.stack(driven, axis=-2),
+    )
+
+
+def _driven(arm: Array, before: Array, after: Array, *, even: bool) -> Array:
+    """Return the driven arm of a cross, or the mark of an even joint after the shortest turn between its axes."""
+    if not even:
+        return frames.unit(frames.cross(after, arm))
+    share = frames.dot(arm, after) / (1.0 + frames.dot(before, after))
+    return arm - share[..., None] * (before + after)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MovingMotion:
+    """Motion of a drive over given instants of a movement.
+
+    Attributes
+    ----------
+    times : array (t,) [s]
+        Instants.
+    points : Jet (t, n+2, 3) [m, m/s, m/s²]
+        B_0 … B_{n+1}, their velocities and accelerations.
+    shafts : Shafts
+        Directions and lengths.
+    spins : Spins
+        Spin of every shaft and the cross arms.
+    """
+
+    times: Array
+    points: Jet
+    shafts: Shafts
+    spins: Spins
+
+    @property
+    def axes(self) -> Jet:
+        """a_i, ȧ_i, ä_i."""
+        return self.shafts.axis, self.shafts.axis_rate, self.shafts.axis_acceleration
+
+
+def moving_centres(
+    path: Path,
+    times: ArrayLike,
+    *,
+    yoke_angle: ArrayLike,
+    speed: float,
+    acceleration: float = 0.0,
+    start_phase: float = 0.0,
+    start: float = 0.0,
+    normal: ArrayLike | None = None,
+    even: Sequence[bool] = (),
+) -> MovingMotion:
+    """Return the exact motion of a drive through moving points.
+
+    Parameters
+    ----------
+    path : function
+        Times (t,) [s] -> Jet of the points (t, n+2, 3): positions [m], velocities, accelerations.
+    times : array (t,) [s]
+        Instants.
+    yoke_angle : array (n-1,) [rad]
+        γ_2 … γ_n.
+    speed, acceleration : float [rad/s, rad/s²]
+        Spin ω_1 of the input shaft at `start`, and its constant acceleration ε_1.
+    start_phase : float [rad]
+        ψ_1: angle of the driving yoke of joint 1 from the plane of that joint at `start`.
+    start : float [s]
+        Instant at which φ_1 = 0.
+    normal : array (3,), optional
+        Normal of the plane of joint 1 to use where that joint is straight at `start`.
+    even : sequence of n bool
+        Which joints pass on the turn evenly; none of them when empty.
+
+    Returns
+    -------
+    MovingMotion
+
+    Notes
+    -----
+    θ_1 = ψ_1 + φ_1 counts from N × a_1 with N = unit(a_1 × a_2) at `start`. If a_1 itself moves, that direction is
+    carried along without twisting, so that ω_1 is the spin; a machine body that carries the input shaft and itself
+    turns with Ω_b adds Ω_b·a_1 to the speed measured against the body.
+
+    Examples
+    --------
+    A joint whose output shaft swings, at rest in the mean position (no bend): the rate alone makes no difference there.
+
+    >>> import numpy as np
+    >>> points = [[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+    >>> path = harmonic_points(points, [[0.0] * 3, [0.0] * 3, [0.0, 0.1, 0.0]], frequency=50.0)
+    >>> moving_centres(path, [0.0], yoke_angle=[], speed=100.0).spins.spin
+    array([[100., 100.]])
+    """
+    at = np.atleast_1d(np.asarray(times, dtype=float))
+    points = path(at)
+    shafts = moving_shafts(points)
+    arm = _first_arm(path, at, shafts.axis[..., 0, :], start_phase, speed, acceleration, start, normal)
+    spins = moving_axes(
+        (shafts.axis, shafts.axis_rate, shafts.axis_acceleration),
+        arm,
+        yoke_angle=yoke_angle,
+        speed=speed + acceleration * (at - start),
+        acceleration=acceleration,
+        even=even,
+    )
+    return MovingMotion(times=at, points=points, shafts=shafts, spins=spins)
+
+
+def _first_arm(
+    path: Path,
+    at: Array,
+    axis: Array,
+    start_phase: float,
+    speed: float,
+    acceleration: float,
+    start: float,
+    normal: ArrayLike | None,
+) -> Array:
+    """Return u_1 (t, 3): the start direction carried along a_1 without twisting and turned by φ_1."""
+    begin = moving_shafts(path(np.asarray([float(start)])))
+    a, b = begin.axis[0, 0], begin.axis[0, 1]
+    across = frames.cross(a, b)
+    if frames.norm(across) <= STRAIGHT:
+        kept = None if normal is None else np.asarray(normal, dtype=float)
+        across = frames.perpendicular(a) if kept is None else kept - frames.dot(kept, a) * a
+    zero = frames.cross(frames.unit(across), a)
+
+    def direction(times: Array) -> tuple[Array, Array]:
+        moved = moving_shafts(path(times))
+        return moved.axis[..., 0, :], moved.axis_rate[..., 0, :]
+
+    elapsed = at - start
+    turned = start_phase + speed * elapsed + 0.5 * acceleration * elapsed**2
+    carried = paths.shortest_arc(a, axis, zero)
+    return frames.rotate(carried, axis, turned - paths.transport(direction, at, start))
+
+
+def harmonic_points(points: ArrayLike, amplitude: ArrayLike, *, frequency: float, phase: ArrayLike = 0.0) -> Path:
+    """Return the path of points that each swing along a line: P_k(t) = P_k + A_k sin(W t + phase_k).
+
+    Parameters
+    ----------
+    points : array (k, 3) [m]
+        Middle positions.
+    amplitude : array (k, 3) [m]
+        Amplitudes.
+    frequency : float [rad/s]
+        W.
+    phase : float or array (k,) [rad]
+        Phase of every point.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> path = harmonic_points([[0.0, 0.0, 0.0]], [[0.0, 0.0, 0.1]], frequency=10.0)
+    >>> path(np.asarray([0.0]))[1]
+    array([[[0., 0., 1.]]])
+    """
+    rest = np.asarray(points, dtype=float)
+    size = np.asarray(amplitude, dtype=float)
+    shift = np.broadcast_to(np.asarray(phase, dtype=float), rest.shape[:-1])[..., None]
+
+    def path(times: Array) -> Jet:
+        return paths.plus(paths.resting(rest), paths.swing(size, frequency, np.broadcast_to(shift, rest.shape), times))
+
+    return path

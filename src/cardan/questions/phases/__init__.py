@@ -1,0 +1,1 @@
+"""How are the yokes set, and where do the joints stand?"""

@@ -1,0 +1,64 @@
+"""A drive whose joints were moved: what became of its bends, and how it looks now."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.drive.bodies.solids import solids
+from cardan.figures.axes import axis, written
+from cardan.figures.drive import views_figure
+from cardan.figures.figure import Axis, Bars, Figure, Panel, Row
+from cardan.figures.palette import shaft
+from cardan.figures.wording import fixed, percent, significant
+from cardan.questions.phases.layout import Layout
+from cardan.texts import _
+from cardan.units import deg, mm
+
+
+def layout_figures(found: Layout) -> tuple[Figure, ...]:
+    """Return the figures of a layout."""
+    return (bends_figure(found), views_figure(found.drive, solids(found.drive)))
+
+
+def bends_figure(found: Layout) -> Figure:
+    """Return the bends before and after.
+
+    Parameters
+    ----------
+    found : Layout
+        A drive with its joints moved.
+    """
+    before, after = np.asarray(found.bend_before) / deg, np.asarray(found.bend) / deg
+    number = np.arange(1, len(after) + 1)
+    upright = axis(_("Bend of each joint"), "°", [before, after], include=(0.0,), least=1.0, count=4)
+    ticks = tuple(float(k) for k in number)
+    across = Axis(
+        label=_("joint"), low=0.4, high=float(number[-1]) + 0.6, ticks=ticks, texts=written(ticks), grid=False
+    )
+    bars = (
+        Bars(
+            at=number - 0.2,
+            size=before,
+            texts=tuple(f"{fixed(float(b), 1)}°" for b in before),
+            roles=("faint",),
+            thick=0.36,
+            label=_("as described"),
+        ),
+        Bars(
+            at=number + 0.2,
+            size=after,
+            texts=tuple(f"{fixed(float(b), 1)}°" for b in after),
+            roles=tuple(shaft(int(k) + 1) for k in number),
+            thick=0.36,
+            label=_("moved, in the colour of the driven shaft"),
+        ),
+    )
+    return Figure(
+        name="layout",
+        title=_("Bends before and after the joints were moved"),
+        sentence=_("The joints move by up to {way} mm; the new layout with its best yokes leaves {share}.").format(
+            way=significant(float(np.max(found.moved)) / mm, 3), share=percent(found.irregularity)
+        ),
+        source=_("cos α_max ≥ Π cos α of the other joints lets the yokes make a drive synchronous; exact"),
+        rows=(Row(panels=(Panel(series=bars, x=across, y=upright),), height=1.7),),
+    )

@@ -1,0 +1,313 @@
+"""Which yoke angles make a drive synchronous, or as even as it can be?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.fields.validity import wrong_count
+from cardan.drive.models.chain import Chain, nearly_turning_chain
+from cardan.errors import InputError, Problem, check
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import polygon
+from cardan.maths.ties import foremost, foremost_of
+from cardan.questions.motion.equivalence import SYNCHRONOUS as EVEN
+from cardan.texts import _
+
+from .blocks import STRETCHED, Blocks, blocks
+from .family import best_member
+from .goal import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate
+from .poses import best_for_poses, stacked
+from .setting import YokeSetting, settings
+from .spline_pitch import best_pitched, steps
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Phasing:
+    """What the yoke angles of a drive can do.
+
+    Attributes
+    ----------
+    as_built : YokeSetting
+        The drive as described.
+    feasible : bool
+        Whether the free yokes can make it synchronous, exactly and in all harmonics.
+    irregularity_min, irregularity_max : float
+        δ that the free yokes can reach, and everything between.
+    bend_min, bend_max : float [rad]
+        The same as equivalent angles.
+    free, fixed : tuple of int
+        Numbers of the shafts whose yokes may be turned, and of those held.
+    settings : tuple of YokeSetting
+        Exact optima, best by the goal first: a setting and its mirror image, and what else the goal found.
+    spline_settings : tuple of YokeSetting
+        Best settings and runners-up that spline teeth allow; empty where no shaft has ``spline.teeth``.
+    spline_steps : mapping of int to int
+        Shaft number -> how many different yoke angles its teeth allow.
+    spline_refusal : str
+        Why the settings with spline teeth could not be enumerated; empty when they could.
+    limiting_joint : int or None
+        Number of the joint whose bend is too large for the others, where not feasible.
+    limiting_joints : tuple of int
+        The same with the joints that held yokes tie to it.
+    poses : tuple of str
+        Names of the poses that the settings are judged in.
+    pose_settings : tuple of YokeSetting
+        The setting with the least irregularity in the worst pose, and that with the least mean over the poses' shares
+        of time; empty when there are no poses.
+    complete : bool
+        False when ``progress`` stopped the search; what was found by then is kept.
+    """
+
+    as_built: YokeSetting
+    feasible: bool
+    irregularity_min: float
+    irregularity_max: float
+    bend_min: float
+    bend_max: float
+    free: tuple[int, ...]
+    fixed: tuple[int, ...]
+    settings: tuple[YokeSetting, ...]
+    spline_settings: tuple[YokeSetting, ...] = ()
+    spline_steps: Mapping[int, int] = field(default_factory=dict)
+    spline_refusal: str = ""
+    limiting_joint: int | None = None
+    limiting_joints: tuple[int, ...] = ()
+    poses: tuple[str, ...] = ()
+    pose_settings: tuple[YokeSetting, ...] = ()
+    complete: bool = True
+
+    @property
+    def reach(self) -> float:
+        """Largest irregularity met, in the drive and in its poses: the scale by which growth is more than rounding."""
+        every = (self.as_built, *self.settings, *self.pose_settings)
+        return max(self.irregularity_max, *(float(np.max(one.pose_irregularity, initial=0.0)) for one in every))
+
+
+def phases(
+    drive: Drive,
+    *,
+    fixed: Mapping[int, float] | None = None,
+    goal: Goal = SYNCHRONOUS,
+    poses: Mapping[str, Drive] | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Phasing:
+    """Return the yoke angles that make a drive synchronous, or as even as it can be, with the proof.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive; shafts with ``yoke_fixed`` keep their yoke angles.
+    fixed : mapping of int to float, optional
+        Shaft number -> yoke angle to hold [rad].
+    goal : Goal
+        What to choose where synchronism leaves a choice.
+    poses : mapping of str to Drive, optional
+        The drive in several poses by name; those of the drive by default.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the search over poses.
+
+    Returns
+    -------
+    Phasing
+
+    Raises
+    ------
+    InputError
+        A joint turns by a law of its own; ``fixed`` names a shaft that has no yokes to set, or a value that is not
+        finite; the goal has too many or too few weights; a pose has another number of joints.
+
+    Notes
+    -----
+    Exact: with L_i = -ln cos α_i the drive can be synchronous if and only if the largest L is no more than the sum of
+    the others; joints of other kinds count as the Hooke joints that turn alike,
+    within a microradian. Joints with held yokes between them
+    count as one. Replaces the first-order Book (77)-(86).
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> found = phases(Drive.from_angles([10 * deg, 15 * deg, 17 * deg]))
+    >>> found.feasible, [s.irregularity < 1e-14 for s in found.settings]
+    (True, [True, True])
+    """
+    whole = nearly_turning_chain(drive, _("yoke angles"))
+    as_built = np.asarray(whole.yoke_angle)
+    if goal.weights is not None:
+        check(wrong_count("goal.weights", goal.weights, whole.joints - 1))
+    held = _held(drive, fixed or {})
+    start = as_built.copy()
+    for number, angle in held.items():
+        start[number - 2] = angle
+    free = [k for k in range(whole.joints - 1) if k + 2 not in held]
+    figure = blocks(whole, start, free)
+    low, high = polygon.reach(figure.lengths)
+    feasible = 2.0 * math.sinh(low) <= EVEN
+    choice = Choice(chain=whole, as_built=as_built, weight=_weights(drive))
+    rows = _optima(figure, choice, goal, family=low == 0.0 and len(free) > 2)
+    teeth = _teeth(drive, free)
+    pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
+    names, chains, share = _poses(drive, poses)
+    posed, complete = _posed(chains, share, start, free, rows, progress)
+    limiting = () if feasible else figure.joints[int(foremost(figure.lengths))]
+
+    def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
+        return settings(whole, yokes, labels, as_built, chains) if len(labels) else ()
+
+    return Phasing(
+        as_built=evaluated(as_built[None], [_("as built")])[0],
+        feasible=feasible,
+        irregularity_min=2.0 * math.sinh(low),
+        irregularity_max=2.0 * math.sinh(high),
+        bend_min=_bend(low),
+        bend_max=_bend(high),
+        free=tuple(k + 2 for k in free),
+        fixed=tuple(sorted(held)),
+        settings=evaluated(rows, [chr(ord("A") + k) for k in range(len(rows))]) if whole.joints > 1 else (),
+        spline_settings=evaluated(pitched, _spline_labels(teeth, len(pitched))),
+        spline_steps={k + 2: steps(z) for k, z in teeth.items()},
+        spline_refusal=refusal,
+        limiting_joint=foremost_of(limiting, lambda i: float(whole.bend[i])) + 1 if limiting else None,
+        limiting_joints=tuple(i + 1 for i in limiting),
+        poses=names,
+        pose_settings=evaluated(posed, [_("least in the worst pose"), _("least mean of the poses")][: len(posed)]),
+        complete=complete,
+    )
+
+
+def _bend(length: float) -> float:
+    return 2.0 * math.atan(math.sqrt(math.tanh(0.5 * length)))
+
+
+def _weights(drive: Drive) -> Array:
+    return np.asarray([shaft.weight for shaft in drive.shafts[1:-1]], dtype=float)
+
+
+def _held(drive: Drive, fixed: Mapping[int, float]) -> dict[int, float]:
+    """Return shaft number -> held yoke angle, from the drive and from ``fixed``."""
+    n = len(drive.joints)
+    problems = []
+    for number, angle in fixed.items():
+        if not 2 <= number <= n:
+            between = _("shafts 2 to {last} have").format(last=n) if n > 1 else _("this drive has no such shaft")
+            problems.append(
+                Problem(
+                    f"fixed[{number}]",
+                    _("shaft {number} has no two yokes to set; {between}").format(number=number, between=between),
+                )
+            )
+        if not math.isfinite(angle):
+            problems.append(Problem(f"fixed[{number}]", _("{angle} is not a finite angle").format(angle=angle)))
+    check(problems)
+    own = {shaft.number: shaft.yoke_angle for shaft in drive.shafts[1:-1] if shaft.yoke_fixed}
+    return {**own, **{number: float(angle) for number, angle in fixed.items()}}
+
+
+def _teeth(drive: Drive, free: Sequence[int]) -> dict[int, int]:
+    """Return index of the free yoke angle -> spline teeth."""
+    found = {}
+    for k in free:
+        spline = drive.shafts[k + 1].spline
+        if spline is not None and spline.teeth is not None:
+            found[k] = spline.teeth
+    return found
+
+
+def _pitched(choice: Choice, start: Array, teeth: Mapping[int, int], loose: Sequence[int]) -> tuple[Array, str]:
+    if not teeth:
+        return start[None][:0], ""
+    try:
+        return best_pitched(choice.chain, start, teeth, loose), ""
+    except InputError as error:
+        return start[None][:0], error.problems[0].message
+
+
+def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
+    kinds = "/".join(str(z) for z in dict.fromkeys(teeth.values()))
+    first = _("{teeth}-tooth splines").format(teeth=kinds)
+    return [first, *(_("{name}, no. {rank}").format(name=first, rank=rank) for rank in range(2, count + 1))][:count]
+
+
+def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Chain], Array]:
+    """Return names, kinematics and shares of the poses."""
+    if poses is None and drive.poses:
+        from cardan.drive.fields.paths import pose_drives
+
+        given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
+        said = [pose.share for pose in drive.poses]
+    else:
+        given = list((poses or {}).items())
+        shares = {pose.name: pose.share for pose in drive.poses}
+        said = [shares.get(name) for name, _pose in given]
+    problems = [
+        Problem(
+            f"poses[{k}]",
+            _("has {count} joints, the drive has {wanted}").format(count=len(one.joints), wanted=len(drive.joints)),
+        )
+        for k, (_name, one) in enumerate(given)
+        if len(one.joints) != len(drive.joints)
+    ]
+    check(problems)
+    known = [share for share in said if share is not None]
+    rest = max(0.0, 1.0 - sum(known)) / max(1, len(said) - len(known))
+    weight = np.asarray([rest if share is None else share for share in said])
+    even = np.ones(len(said)) / max(1, len(said))
+    return (
+        tuple(name for name, _one in given),
+        [nearly_turning_chain(one, _("yoke angles")) for _name, one in given],
+        weight / weight.sum() if weight.sum() > 0 else even,
+    )
+
+
+def _posed(
+    chains: Sequence[Chain],
+    share: Array,
+    start: Array,
+    free: Sequence[int],
+    rows: Array,
+    progress: Callable[[float], object] | None,
+) -> tuple[Array, bool]:
+    if not chains:
+        return rows[:0], True
+    known = np.concatenate([rows, *(blocks(pose, start, free).closed() for pose in chains)])
+    worst, mean, complete = best_for_poses(stacked(chains), share, start, free, known, progress)
+    return np.stack((worst, mean)), complete
+
+
+def _optima(figure: Blocks, choice: Choice, goal: Goal, *, family: bool) -> Array:
+    """Return the sets of yoke angles to show, best first: one, its mirror image, and the best by the other goal."""
+    if not family:
+        rows = figure.closed()
+        return rows[np.argsort(np.round(goal.cost(choice, rows), 9), kind="stable")]
+    rows = _least_intermediate(figure, choice, goal if isinstance(goal, LeastIntermediate) else SYNCHRONOUS)
+    nearest = best_member(figure, choice, NEAREST if isinstance(goal, LeastIntermediate) else goal, rows)
+    if isinstance(goal, LeastIntermediate):
+        return _once([*rows, nearest])
+    return _once([nearest, figure.mirrored(nearest), rows[0]])
+
+
+def _least_intermediate(figure: Blocks, choice: Choice, goal: LeastIntermediate) -> Array:
+    """Return the synchronous setting with the calmest intermediate shafts and its mirror image, array (2, n-1)."""
+    if len(figure.sides) == choice.chain.joints:
+        weight = choice.weight if goal.weights is None else np.asarray(goal.weights)
+        rows = figure.closed(polygon.shortest_diagonals(figure.lengths, [*weight.tolist(), 0.0], 0.0))
+        nearest = int(np.argmin(NEAREST.cost(choice, rows)))
+        return rows[nearest - nearest % 2 : nearest - nearest % 2 + 2]
+    best = best_member(figure, choice, goal, figure.closed())
+    return np.stack((best, figure.mirrored(best)))
+
+
+def _once(rows: Sequence[Array]) -> Array:
+    """Return the rows without those that repeat an earlier one modulo π."""
+    kept: list[Array] = []
+    for row in rows:
+        if all(np.abs(np.sin(row - other)).max() > STRETCHED for other in kept):
+            kept.append(row)
+    return np.stack(kept)
+
+
+__all__ = ["NEAREST", "SYNCHRONOUS", "Phasing", "YokeSetting", "phases"]

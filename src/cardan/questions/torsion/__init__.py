@@ -1,0 +1,1 @@
+"""Torsional vibration: one folder a question, on one model."""

@@ -1,0 +1,1 @@
+"""Absorbers: which, where, how large."""

@@ -1,0 +1,203 @@
+"""The search behind `absorber`: a drive with an absorber of any setting, run over a band of speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from math import log10
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.station import Absorber as Branch
+from cardan.drive.station import Pendulum
+from cardan.maths.arrays import Array
+from cardan.questions.torsion.model.torsional_batch import chosen
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.steady.torque_swing import torque_swings
+
+from .band import Lines, lines
+from .hosts import Host, branch_of, hung
+
+FREQUENCY = 2.0
+"""Range of the natural frequency of an absorber in the search: closed form over and times this."""
+
+DAMPING = 10.0
+"""The same of its damping."""
+
+ORDER = 1.4
+"""The same of the order a pendulum is tuned to."""
+
+COARSE = (0.3, 0.4, 0.5, 0.6, 0.7)
+"""Places in these ranges from which the search takes the best to begin with; 0.5 is the closed form."""
+
+LOST = 10.0
+"""What a motion that was not found counts as, times the largest torque without absorber."""
+
+DIGITS = 5
+"""Digits of what is written into a drive: no absorber is made more accurately."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Setting:
+    """How an absorber is set.
+
+    Attributes
+    ----------
+    inertia : float [kg·m²]
+        J_a; of pendulums all m (R + l)² together.
+    stiffness : float [N·m/rad]
+        c_a; of a pendulum J_a Ω² R/l at the middle of the band.
+    damping : float [N·m·s/rad]
+        b.
+    arm : float or None [m]
+        l of a pendulum.
+    peak : float [N·m]
+        Largest swing of a torque of the drive in the band, with it.
+    peak_speed : float [rad/s]
+        Where.
+    peak_element : int
+        In which element, from 0 in `Absorber.elements`.
+    """
+
+    inertia: float
+    stiffness: float
+    damping: float
+    arm: float | None = None
+    peak: float = float("nan")
+    peak_speed: float = float("nan")
+    peak_element: int = 0
+
+
+def rounded(value: float) -> float:
+    """Return a value with as many digits as can be made.
+
+    Examples
+    --------
+    >>> rounded(65306.12244), rounded(0.0)
+    (65306.0, 0.0)
+    """
+    return 0.0 if value == 0.0 else round(value, DIGITS - 1 - int(np.floor(log10(abs(value)))))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Task:
+    """A drive, what hangs on it, and the band it is judged in.
+
+    Attributes
+    ----------
+    drive : Drive
+        Without.
+    host : Host
+        Where it hangs.
+    kind : str
+    closed_form : Setting
+    speed : array (S,) [rad/s]
+        Speeds of the search.
+    middle : float [rad/s]
+        Speed at which trains are taken.
+    elements : array of int
+        Elements that are judged, in the model.
+    radius : float [m]
+        Of pendulums.
+    count : int
+        Of pendulums.
+    """
+
+    drive: Drive
+    host: Host
+    kind: str
+    closed_form: Setting
+    speed: Array
+    middle: float
+    elements: Array
+    radius: float
+    count: int
+
+    @property
+    def ranges(self) -> tuple[float, ...]:
+        """Range of every unknown: closed form over and times it."""
+        return {"tuned": (FREQUENCY,), "viscous": (DAMPING,), "pendulum": (ORDER,)}.get(self.kind, (FREQUENCY, DAMPING))
+
+    def setting(self, place: Array) -> Setting:
+        """Return the setting at a place (v,) of the unit box; the closed form is its middle."""
+        factors = [float(reach ** (2.0 * x - 1.0)) for reach, x in zip(self.ranges, place, strict=True)]
+        base = self.closed_form
+        if self.kind == "viscous":
+            return replace(base, damping=rounded(base.damping * factors[0]))
+        if self.kind == "pendulum":
+            assert base.arm is not None
+            arm = rounded(base.arm / factors[0] ** 2)
+            return replace(base, arm=arm, stiffness=base.inertia * self.middle**2 * self.radius / arm)
+        damping = rounded(base.damping * factors[1]) if len(factors) > 1 else 0.0
+        return replace(base, stiffness=rounded(base.stiffness * factors[0] ** 2), damping=damping)
+
+    def thing(self, setting: Setting) -> Branch | Pendulum:
+        """Return what hangs on the station."""
+        if setting.arm is None:
+            return Branch(inertia=setting.inertia, stiffness=setting.stiffness, damping=setting.damping)
+        mass = rounded(setting.inertia / (self.count * (self.radius + setting.arm) ** 2))
+        return Pendulum(mass=mass, radius=self.radius, length=setting.arm, count=self.count)
+
+    def with_it(self, setting: Setting) -> tuple[Drive, int]:
+        """Return the drive with it, and the number of its `[[stations]]`."""
+        return hung(self.drive, self.host, self.thing(setting))
+
+    def line(self, setting: Setting) -> tuple[Lines, int]:
+        """Return the drive with it as lines, and its element in the model."""
+        drive, table = self.with_it(setting)
+        found = lines([drive], self.middle)
+        return found, len(found.elements) + branch_of(drive, table)
+
+
+class Settings:
+    """A drive with an absorber of any setting, run at any speeds.
+
+    Parameters
+    ----------
+    task : Task
+    bare : float [N·m]
+        Largest swing without.
+    """
+
+    def __init__(self, task: Task, bare: float) -> None:
+        self.task, self.lost = task, LOST * bare
+        self.line, self.element = task.line(task.closed_form)
+        self._known: tuple[Array, TorsionalModel] | None = None
+
+    @property
+    def start(self) -> Array:
+        """Places from which a search takes the best to begin with, the closed form amid them: array (D, v)."""
+        return np.asarray(list(product(COARSE, repeat=len(self.task.ranges))))
+
+    def swings(self, places: Array, speed: Array) -> Array:
+        """Return the swings of the judged torques, array (D, S, E) [N·m]."""
+        found = torque_swings(self._models(places, speed), np.tile(speed, len(places)))
+        swing = found.swing[:, self.task.elements]
+        return np.where(np.isfinite(swing), swing, self.lost).reshape(len(places), len(speed), -1)
+
+    def _models(self, places: Array, speed: Array) -> TorsionalModel:
+        """Return the drives of places (D, v) at speeds (S,), in one axis (D·S,)."""
+        width, count = len(speed), len(places)
+        if self._known is None or not np.array_equal(self._known[0], speed):
+            self._known = speed, self.line.at(speed[None])
+        model = chosen(self._known[1], (width,), np.tile(np.arange(width), count), moments=False)
+        reach, middle = np.asarray(self.task.ranges), self.task.closed_form
+        factor = np.repeat(reach ** (2.0 * places - 1.0), width, axis=0)
+        stiffness, damping = model.stiffness.copy(), model.damping.copy()
+        if self.task.kind == "viscous":
+            damping[:, self.element] *= factor[:, 0]
+            stiffness[:, self.element] *= factor[:, 0]  # of what holds it
+        else:
+            stiffness[:, self.element] *= factor[:, 0] ** 2
+        if len(reach) > 1:
+            damping[:, self.element] = middle.damping * factor[:, 1]
+        return replace(model, stiffness=stiffness, damping=damping)
+
+
+def highest(swing: Array, speed: Array, elements: Sequence[int] | Array) -> tuple[float, float, int]:
+    """Return the largest of swings (S, E), its speed and its element; what was not found does not count."""
+    judged = np.nan_to_num(swing[:, np.asarray(elements, dtype=int)], nan=-1.0)
+    row, column = np.unravel_index(int(np.argmax(judged)), judged.shape)
+    return float(judged[row, column]), float(speed[row]), int(np.asarray(elements)[column])

@@ -1,0 +1,259 @@
+"""What does each joint do to a mode? Where it stands beside the node, what it excites, and what their phases leave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.questions.torsion.model.torsional_batch import Turning
+from cardan.questions.torsion.model.torsional_modes import straight_modes
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain
+from cardan.questions.torsion.steady.steady_start import at_rest
+from cardan.texts import _
+from cardan.units import rpm, thousands
+
+LITTLE = 0.05
+"""κ, over the largest that a joint of the mode has, below which a joint stands in the node for what it does."""
+
+CANCELS = 0.2
+"""Share of the sum of sizes below which excitations that add with their phases cancel for what they do."""
+
+BENT = 1e-9
+"""tan²(α/2) from which a joint excites anything."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NodeRule:
+    """What the joints of a drive do to one of its modes.
+
+    Attributes
+    ----------
+    mode : int
+        From 1.
+    omega : float [rad/s]
+    damping_ratio : float
+        ζ.
+    kappa : array (n,)
+        Position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind it.
+    bend_share : array (n,)
+        τ = tan²(α/2) of each joint.
+    parametric : complex array (n,)
+        Share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄).
+    forced : complex array (n,) [√(kg m²)]
+        How each joint pushes the mode twice a turn where order 2 meets it, with its phase, over ω²:
+        τ e^(2iψ̄) (S (1 + 2iδ) - 2i u t/ω²) with S = Σ J u behind it, its mean torque t and lag δ under load.
+    torque_of_mode : float [N·m/√(kg m²)]
+        Largest torque of an element of the mode at unit amplitude.
+    position : array (n,) [m]
+        Of the joints along the line of the shafts.
+    nodes : tuple of float [m]
+        Where the mode stands still; the input is one where its speed is forced.
+    """
+
+    mode: int
+    omega: float
+    damping_ratio: float
+    kappa: Array
+    bend_share: Array
+    parametric: Array
+    forced: Array
+    torque_of_mode: float
+    position: Array
+    nodes: tuple[float, ...]
+
+    @property
+    def modulation(self) -> float:
+        """Share by which all joints together modulate the stiffness of the mode twice a turn."""
+        return float(np.abs(np.sum(self.parametric)))
+
+    @property
+    def grows(self) -> bool:
+        """Whether the mode grows amid its principal zone: modulation above 2 ζ."""
+        return self.modulation > 2.0 * self.damping_ratio
+
+    @property
+    def push(self) -> float:
+        """How all joints together push the mode twice a turn [√(kg m²)]."""
+        return float(np.abs(np.sum(self.forced)))
+
+    @property
+    def left(self) -> float:
+        """What the phases leave of the pushes, over what they would be with all in phase; 0 where nothing pushes."""
+        whole = float(np.sum(np.abs(self.forced)))
+        return self.push / whole if whole > 0.0 else 0.0
+
+    @property
+    def resonance_torque(self) -> float:
+        """Largest torque where order 2 meets the mode, by this mode alone [N·m]; infinite without damping."""
+        if self.push == 0.0:
+            return 0.0
+        return self.torque_of_mode * self.push / (2.0 * self.damping_ratio) if self.damping_ratio > 0.0 else np.inf
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The same in words."""
+        return tuple(_sentences(self))
+
+
+def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, ...]:
+    """Return what the joints of a drive do to each of its modes, the slowest first.
+
+    Parameters
+    ----------
+    train : TorsionalTrain
+        The model of a drive.
+    speed : float [rad/s]
+        At which torques are asked for their mean and for how they change with the speed.
+
+    Returns
+    -------
+    tuple of NodeRule
+
+    Notes
+    -----
+    Angles counted free of what the joints before add, a straight line is left whose masses behind joint k are shaken
+    by ε_k = τ_k sin 2(φ + ψ̄_k): the mode is pushed by 4Ω² Σ_k τ_k S_k sin 2(φ + ψ̄_k), S_k = Σ J u behind it. As the
+    phase of joint k follows its own swing u_k, each push also changes with the swing: the parametric part, 2 τ_k κ_k of
+    the stiffness with κ_k = u_k S_k. For one mass at either end κ_k = Σ_{i≤k} c/c_i - J_b/(J_a + J_b): a joint in the
+    node of the mode excites no parametric vibration. ψ̄ as in `torsional_modes.modulation`. A drive under load pushes
+    a little otherwise, by its twist: each joint lags by δ, and its mean torque works on its swing.
+
+    Examples
+    --------
+    A joint amid a symmetric drive stands in the node:
+
+    >>> from dataclasses import replace
+    >>> from cardan.drive.drive import Drive
+    >>> from cardan.drive.duty import Duty
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> from cardan.questions.torsion.model.torsional_train import torsional_train
+    >>> ends = (Station(shaft=1, end="start", inertia=0.6), Station(shaft=2, end="end", inertia=0.6))
+    >>> drive = replace(Drive.from_angles([0.2]), stations=ends, duty=Duty(input="free", speed=50.0),
+    ...     shafts=(Shaft(number=1, stiffness=900.0), Shaft(number=2, stiffness=900.0)))
+    >>> (rule,) = node_rules(torsional_train(drive))
+    >>> abs(rule.kappa.round(12)), rule.sentences[1]
+    (array([0.]), 'Joint 1 stands in the node: it excites no parametric vibration.')
+    """
+    model = train.model
+    modes = straight_modes(model, speed=speed)
+    tau = np.tan(0.5 * model.bend) ** 2
+    leads = np.cumsum(tau * np.sin(2.0 * model.phase))
+    turn = np.exp(2j * (model.phase - np.append(0.0, leads[:-1]))) if len(tau) else np.zeros(0, dtype=complex)
+    shaft = np.asarray(model.shaft)
+    lag, carried = _under_load(train, speed)
+    driving = [one for one, _driven in train.joints]
+    rules = []
+    for k, omega in enumerate(modes.omega):
+        shape = modes.shape[k]
+        behind = np.asarray([np.sum((model.inertia * shape)[shaft >= shaft[driven]]) for _one, driven in train.joints])
+        push = behind * (1.0 + 2j * lag) - 2j * shape[driving] * carried / omega**2
+        twist = [shape[a] - shape[b] for a, b in model.elements]
+        rules.append(
+            NodeRule(
+                mode=k + 1,
+                omega=float(omega),
+                damping_ratio=float(modes.damping_ratio[k]),
+                kappa=modes.joint_weight[k],
+                bend_share=tau,
+                parametric=2.0 * tau * modes.joint_weight[k] * turn,
+                forced=tau * push * turn,
+                torque_of_mode=float(np.max(np.abs(model.stiffness * np.asarray(twist)), initial=0.0)),
+                position=train.position[driving],
+                nodes=tuple(_nodes(train, shape)),
+            )
+        )
+    return tuple(rules)
+
+
+def _under_load(train: TorsionalTrain, speed: float) -> tuple[Array, Array]:
+    """Return by how much the driving yoke of each joint is ahead under mean torques, and the torque it carries."""
+    model, count = train.model, len(train.joints)
+    orders = [torque.law.order for torque in model.torques]
+    if not model.elements or any(order is None for order in orders):
+        return np.zeros(count), np.zeros(count)
+    bare = replace(model, torques=tuple(t for t in model.torques if t.law.order == 0.0), backlash=0.0 * model.backlash)
+    turning = Turning(replace(bare, input_speed=None), (), np.asarray([speed]), np.pi)
+    twist = at_rest(turning)[0, :, 0].real
+    angle, load = twist[list(model.coordinate)], -speed * model.ground_damping
+    for torque in bare.torques:
+        load[torque.station] += float(torque.law.at(np.asarray(0.0), np.asarray(0.0), np.asarray(speed))[0])
+    shaft = np.asarray(model.shaft)
+    lag = np.asarray([angle[driving] for driving, _driven in train.joints])
+    carried = np.asarray([-np.sum(load[shaft >= shaft[driven]]) for _driving, driven in train.joints])
+    return lag.reshape(count), carried.reshape(count)
+
+
+def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[float]:
+    """Yield where a mode stands still along the line."""
+    largest, line, place = float(np.max(np.abs(shape))), set(train.line), train.position
+    if not train.model.free:
+        yield float(place[0])
+    for a, b in train.model.elements:
+        if a not in line or b not in line:
+            continue
+        one, two = float(shape[a]), float(shape[b])
+        if abs(two) <= 1e-9 * largest < abs(one):
+            yield float(place[b])
+        elif one * two < 0.0 and abs(one) > 1e-9 * largest:
+            yield float(place[a] + one / (one - two) * (place[b] - place[a]))
+
+
+def _sentences(rule: NodeRule) -> Iterator[str]:
+    text = _(
+        "Mode {mode} at {hertz:.3g} Hz: order 2 meets it at {speed:.4g} rpm, its principal zone of parametric "
+        "resonance is at {zone:.4g} rpm."
+    )
+    yield text.format(
+        mode=rule.mode,
+        hertz=rule.omega / (2.0 * np.pi),
+        speed=0.5 * rule.omega / rpm,
+        zone=rule.omega / rpm,
+    )
+    bent = np.flatnonzero(rule.bend_share > BENT)
+    if not bent.size:
+        yield _("All joints are straight: nothing excites it twice a turn.")
+        return
+    size = np.abs(rule.parametric)
+    whole = float(np.sum(size))
+    largest = float(np.max(np.abs(rule.kappa[bent])))
+    for k in bent:
+        if abs(rule.kappa[k]) <= max(LITTLE * largest, 1e-6):
+            text = _("Joint {joint} stands in the node: it excites no parametric vibration.")
+            yield text.format(joint=k + 1)
+            continue
+        text = _("Joint {joint} stands {where} (κ = {kappa:.3g}): {share:.0f} % of what drives parametric vibration.")
+        yield text.format(
+            joint=k + 1, where=_where(rule, int(k)), kappa=rule.kappa[k], share=100.0 * size[k] / (whole or 1.0)
+        )
+    if whole > 0.0:
+        text = (
+            _("Its stiffness is modulated by {share:.2g} %, more than the {limit:.2g} % from which it grows.")
+            if rule.grows
+            else _("Its stiffness is modulated by {share:.2g} %, less than the {limit:.2g} % from which it grows.")
+        )
+        yield text.format(share=100.0 * rule.modulation, limit=200.0 * rule.damping_ratio)
+    if bent.size == 1:
+        yield _("Its push of order 2 stands alone: no other joint can take it away.")
+    elif rule.left < CANCELS:
+        text = _("The pushes of order 2 cancel: {left:.2g} % of what they would be in phase is left.")
+        yield text.format(left=100.0 * rule.left)
+    else:
+        text = _("The pushes of order 2 add up to {left:.0f} % of what they would be in phase.")
+        yield text.format(left=100.0 * rule.left)
+    if np.isfinite(rule.resonance_torque):
+        text = _("By this mode alone the torque swings by {torque} N·m where order 2 meets it.")
+        torque = rule.resonance_torque
+        yield text.format(torque=f"{torque:.3g}" if torque < 1000.0 else thousands(torque))
+
+
+def _where(rule: NodeRule, joint: int) -> str:
+    """Return where a joint stands beside the nearest node."""
+    if not rule.nodes:
+        return _("away from the node")
+    nearest = min(rule.nodes, key=lambda at: abs(at - rule.position[joint]))
+    way = rule.position[joint] - nearest
+    return _("behind the node") if way > 0.0 else _("before the node")

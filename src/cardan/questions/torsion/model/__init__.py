@@ -1,0 +1,1 @@
+"""The torsional model: from a drive to its equations and natural modes."""

@@ -1,0 +1,279 @@
+"""How does a drive vibrate in torsion? Natural frequencies, shapes, and the speeds at which something excites them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.machine import HarmonicTorque
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.texts import _
+
+from .torsional_modes import meeting_speeds, modulation, straight_modes
+from .torsional_train import TorsionalTrain, torsional_train
+
+STRAIGHT = 1e-9
+"""Joints that bend less [rad] excite nothing."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Node:
+    """Place of a mode that stands still.
+
+    Attributes
+    ----------
+    before, behind : int
+        Stations on either side; the same one where it stands still itself.
+    share : float
+        How far from the one to the other.
+    position : float [m]
+        Along the line of the shafts from the input end.
+    """
+
+    before: int
+    behind: int
+    share: float
+    position: float
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Crossing:
+    """Speed at which an order of the shaft meets a natural frequency.
+
+    Attributes
+    ----------
+    mode : int
+        From 1.
+    order : float
+        Swings in one turn of the input shaft.
+    cause : str
+        What swings so.
+    speed : float [rad/s]
+        Of the input.
+    inside : bool or None
+        Whether it lies in the speed range of the duty; None where that gives none.
+    """
+
+    mode: int
+    order: float
+    cause: str
+    speed: float
+    inside: bool | None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TorsionModes:
+    """Torsional modes of a drive, the slowest first; turning without twist is left out.
+
+    Attributes
+    ----------
+    train : TorsionalTrain
+        The model.
+    omega : array (m,) [rad/s]
+        Natural frequencies, all joints straight.
+    shape : array (m, N)
+        Angle of every station, the largest 1.
+    damping_ratio : array (m,)
+        ζ, of all damping the drive names.
+    joint_weight : array (m, n)
+        κ of every joint in every mode: 0 in a node, where a joint excites no parametric vibration.
+    modulation : array (m,)
+        Share by which the joints together modulate the stiffness of the mode twice a turn.
+    nodes : tuple of m tuples of Node
+        Where each mode stands still.
+    speed : float [rad/s]
+        Input speed at which pendulums and machines were asked; 0 where the drive gives none.
+    speed_range : (float, float) or None [rad/s]
+        Input speeds in use.
+    crossings : tuple of Crossing
+        Orders of joints, engine and load that meet a natural frequency, the slowest first.
+    residual : float
+        What the balance of the modes misses, over their largest torque.
+    """
+
+    train: TorsionalTrain
+    omega: Array
+    shape: Array
+    damping_ratio: Array
+    joint_weight: Array
+    modulation: Array
+    nodes: tuple[tuple[Node, ...], ...]
+    speed: float
+    speed_range: tuple[float, float] | None
+    crossings: tuple[Crossing, ...]
+    residual: float
+
+    def at(self, speed: ArrayLike) -> Array:
+        """Return the natural frequencies at input speeds (s,), array (s, m) [rad/s]; only pendulums change them."""
+        speeds = np.abs(np.asarray(speed, dtype=float))
+        if not self.train.pendulums:
+            return np.broadcast_to(self.omega, (*speeds.shape, len(self.omega)))
+        found = np.full((len(speeds), len(self.omega)), np.nan)
+        at = list(self.train.pendulums)
+        for row, one in zip(found, speeds, strict=True):
+            stiffness = self.train.model.stiffness.copy()
+            stiffness[at] *= (one / self.speed) ** 2
+            omega = straight_modes(replace(self.train.model, stiffness=stiffness, torques=())).omega
+            row[: len(omega)] = omega
+        return found
+
+    @property
+    def order2_speed(self) -> Array:
+        """Input speed at which two swings a turn meet each natural frequency, ω/2: array (m,) [rad/s]."""
+        return 0.5 * self.omega
+
+    @property
+    def parametric_speed(self) -> Array:
+        """Input speed of each principal zone of parametric resonance, ω: array (m,) [rad/s]."""
+        return self.omega
+
+    @property
+    def zone(self) -> Array:
+        """Input speeds between which each mode grows by parametric resonance, array (m, 2) [rad/s]; nan where none.
+
+        To first order in the modulation: Ω = ω (1 ± ½ √((q/a)² - 4ζ²)), Book (221) with the corrected q.
+        """
+        square = self.modulation**2 - 4.0 * self.damping_ratio**2
+        half = 0.5 * np.sqrt(np.where(square > 0.0, square, np.nan))
+        found: Array = self.omega[:, None] * (1.0 + half[:, None] * np.asarray([-1.0, 1.0]))
+        return found
+
+    @property
+    def growth_rate(self) -> Array:
+        """How fast each mode grows amid its principal zone, array (m,) [1/s]; negative where it dies out."""
+        found: Array = self.omega * (0.5 * self.modulation - self.damping_ratio)
+        return found
+
+
+def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) -> TorsionModes:
+    """Return the torsional modes of a drive and the speeds at which something excites them.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
+    duty : Duty, optional
+        What it does; that of the drive by default. Its engine and loads give orders, its speed range what matters.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+
+    Returns
+    -------
+    TorsionModes
+
+    Raises
+    ------
+    InputError
+        What the model misses, each with the key to add.
+
+    Notes
+    -----
+    (K - ω²M) u = 0 with all joints straight, whose mean ratio is 1. Joints excite order 2, 4, …; the order ν meets ω
+    at Ω = ω/ν. Beside that they modulate the stiffness twice a turn, which excites a mode at Ω = ω however small the
+    torque, unless damped: see `torsional_modes.modulation`.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> two = (Station(shaft=1, inertia=2.0), Station(shaft=2, inertia=0.6))
+    >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=900.0),), stations=two)
+    >>> found = torsion_modes(drive, Duty(input="free"))
+    >>> found.omega, found.order2_speed
+    (array([44.15880433]), array([22.07940217]))
+    """
+    chosen = drive.duty if duty is None else duty
+    train = torsional_train(drive, chosen, pieces=pieces, loaded=chosen.speed is not None)
+    found = straight_modes(train.model, speed=chosen.speed or 0.0)
+    if not len(found.omega) and train.model.elements:
+        text = _("too few of them have inertia: nothing swings against the rest; give the inertias of the machines")
+        raise refuse("stations", text)
+    if not len(found.omega):
+        text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
+        raise refuse("shafts[0].stiffness", text)
+    largest = np.max(np.abs(found.shape), axis=-1, keepdims=True)
+    return TorsionModes(
+        train=train,
+        omega=found.omega,
+        shape=found.shape / largest,
+        damping_ratio=found.damping_ratio,
+        joint_weight=found.joint_weight,
+        modulation=np.abs(modulation(train.model, found.joint_weight)),
+        nodes=tuple(tuple(_nodes(train, shape)) for shape in found.shape / largest),
+        speed=abs(chosen.speed or 0.0),
+        speed_range=chosen.speed_range,
+        crossings=tuple(_crossings(drive, chosen, train)),
+        residual=float(np.max(found.residual)),
+    )
+
+
+def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[Node]:
+    """Yield where a mode stands still along the line."""
+    place = train.position
+    line = set(train.line)
+    for a, b in train.model.elements:
+        if a not in line or b not in line:
+            continue
+        one, two = float(shape[a]), float(shape[b])
+        if one * two < 0.0:
+            share = one / (one - two)
+            yield Node(before=a, behind=b, share=share, position=float(place[a] + share * (place[b] - place[a])))
+        elif abs(two) < 1e-12 < abs(one):
+            yield Node(before=b, behind=b, share=0.0, position=float(place[b]))
+
+
+def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
+    """Return the orders of the input shaft that something excites, each with its cause, rising.
+
+    Parameters
+    ----------
+    drive : Drive
+    duty : Duty
+
+    Examples
+    --------
+    >>> from cardan.drive.machine import Engine
+    >>> [order for order, _cause in orders(Drive.from_angles([0.1]), Duty(engine=Engine(cylinders=6)))]
+    [2.0, 3.0, 4.0, 6.0]
+    """
+    from cardan.drive.models.chain import given_chain, turning
+
+    found: dict[float, str] = {}
+    if np.any(turning(given_chain(drive), drive.joints, near=True).bend > STRAIGHT):
+        found |= {2.0: _("joints"), 4.0: _("joints")}
+    engine = duty.engine
+    if engine is not None:
+        given = [one.order for one in engine.harmonics]
+        if not given and engine.cylinders is not None:
+            given = [step * 2.0 * engine.cylinders / engine.strokes for step in (1, 2)]
+        for order in given:
+            _add(found, order * engine.speed_ratio, _("engine, order {order:g} of its crank").format(order=order))
+    for harmonic in duty.harmonics:
+        _add(found, harmonic.order, _("torque of the duty"))
+    machines = (("motor", duty.motor), ("load", duty.load), *(("torques", one) for one in duty.torques))
+    for name, machine in machines:
+        if isinstance(machine, HarmonicTorque):
+            word = {"motor": _("motor"), "load": _("load")}.get(name) or _("torque on {station}")
+            _add(found, machine.order, word.format(station=machine.station))
+    return sorted(found.items())
+
+
+def _add(found: dict[float, str], order: float, cause: str) -> None:
+    found[order] = f"{found[order]}, {cause}" if order in found else cause
+
+
+def _crossings(drive: Drive, duty: Duty, train: TorsionalTrain) -> list[Crossing]:
+    between = duty.speed_range
+    rows = []
+    for order, cause in orders(drive, duty):
+        found = meeting_speeds(train.model, order, train.pendulums, float(duty.speed or 1.0))
+        for mode, speed in enumerate(found.tolist(), start=1):
+            inside = None if between is None else between[0] <= speed <= between[1]
+            rows.append(Crossing(mode=mode, order=order, cause=cause, speed=speed, inside=inside))
+    return sorted(rows, key=lambda one: (one.speed, one.order))

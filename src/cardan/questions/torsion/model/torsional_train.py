@@ -1,0 +1,397 @@
+"""From a drive to its torsional model: stations and elements of every shaft, the joints between them, the torques.
+
+What the drive does not say counts as absent, shafts without stiffness or body as rigid; `TorsionalTrain.assumed` lists
+it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.joints import ElasticHalfCardan, Joint
+from cardan.drive.models.chain import Chain, nearly_turning_chain
+from cardan.drive.models.geometry import geometry
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.motion.motion import phase_angles
+from cardan.texts import _
+from cardan.units import mm
+
+from .machine_torques import machine_torques, turns_freely
+from .shaft_line import ShaftLine, shaft_line
+from .torques import Law
+from .torsional_batch import ARRAYS, SHARED, chosen, leading
+from .torsional_model import Torque, TorsionalModel
+
+HOLDING = 1e-5
+"""Torque of what holds a damper without spring in place, over its drag at order 2: nothing else says where it is."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TorsionalTrain:
+    """The torsional model of a drive, and where its stations are.
+
+    Attributes
+    ----------
+    model : TorsionalModel
+    position : array (N,) [m]
+        Of every station along the line of the shafts, from the input end.
+    joints : tuple of n (int, int)
+        Stations of the driving and of the driven yoke of every joint.
+    hangs : tuple of N (int or None)
+        Station that an absorber or pendulum hangs on; None for one of the line itself.
+    pendulums : tuple of int
+        Elements that hold pendulums: their stiffness goes with the square of the speed.
+    assumed : tuple of str
+        Paths of what the drive does not say and the model assumes.
+    to_scale : bool
+        Whether the positions follow from lengths that the drive gives; else some shafts are as long as others.
+    """
+
+    model: TorsionalModel
+    position: Array
+    joints: tuple[tuple[int, int], ...]
+    hangs: tuple[int | None, ...]
+    pendulums: tuple[int, ...]
+    assumed: tuple[str, ...]
+    to_scale: bool = True
+
+    @property
+    def element_names(self) -> tuple[str, ...]:
+        """Names of the elements: of their shaft where it has but one, else with the stations at their ends."""
+        model, names = self.model, self._end_names
+        line = [b for _a, b in model.elements if self.hangs[b] is None]
+        alone = {k for k in model.shaft if sum(model.shaft[b] == k for b in line) == 1}
+        found = []
+        for a, b in model.elements:
+            if self.hangs[b] is not None:
+                found.append(model.names[b])
+                continue
+            text = _("shaft {number}") if model.shaft[a] in alone else _("shaft {number}, {one} to {two}")
+            found.append(text.format(number=model.shaft[a] + 1, one=names[a], two=names[b]))
+        return tuple(found)
+
+    @property
+    def _end_names(self) -> tuple[str, ...]:
+        """Names of the stations short enough for the ends of an element: what its shaft is, is said before them."""
+        names = list(self.model.names)
+        for number, ends in enumerate(self.joints, start=1):
+            for end in ends:
+                names[end] = _("joint {number}").format(number=number)
+        starts = [0, *(driven for _driving, driven in self.joints)]
+        for k, (shaft, name) in enumerate(zip(self.model.shaft, self.model.names, strict=True)):
+            place = f"{(self.position[k] - self.position[starts[shaft]]) / mm:.4g} mm"
+            if name == _("shaft {number} at {place}").format(number=shaft + 1, place=place):
+                names[k] = place
+        return tuple(names)
+
+    @property
+    def line(self) -> tuple[int, ...]:
+        """Stations of the line itself, along the power flow."""
+        return tuple(k for k, host in enumerate(self.hangs) if host is None)
+
+
+def torsional_train(
+    drive: Drive, duty: Duty | None = None, *, speed: ArrayLike | None = None, pieces: int = 1, loaded: bool = True
+) -> TorsionalTrain:
+    """Return the torsional model of a drive with the places of its stations.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
+    duty : Duty, optional
+        What it does; that of the drive by default.
+    speed : float or array (s,), optional [rad/s]
+        Of the input, in place of that of the duty; at many, what changes with it has that axis.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+    loaded : bool
+        Whether torques act. The bare line needs no speed, but for pendulums.
+
+    Returns
+    -------
+    TorsionalTrain
+
+    Raises
+    ------
+    InputError
+        What the model misses, each with the key to add: elements without stiffness, no inertia anywhere, no speed.
+
+    Notes
+    -----
+    A body is a tube with G I_p/L between its stations and half its inertia at each end of every stretch. Bends and
+    phase angles are those of `motion`, so that a rigid drive turns exactly as there. A pendulum counts as the absorber
+    it equals at the speed: J = m (R+l)², stiffness J Ω² R/l. A damper without spring is held in place by one too soft
+    to matter, 10⁻⁵ of its drag at order 2.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> drive = Drive.from_angles([0.2, 0.2])
+    >>> tube = Shaft(number=2, length=1.0, outer=0.07, inner=0.066)
+    >>> found = torsional_train(
+    ...     replace(drive, shafts=(tube,), stations=(Station(shaft=1, inertia=0.5), Station(shaft=3, inertia=2.0))),
+    ...     loaded=False,
+    ... )
+    >>> found.model.names
+    ('shaft 1', 'joint 1, driven yoke', 'joint 2, driving yoke', 'shaft 3')
+    >>> found.model.stiffness.round(), found.position
+    (array([39167.]), array([1., 1., 2., 2.]))
+    """
+    asked = drive.duty if duty is None else duty
+    turning = asked.speed if speed is None else speed
+    if pieces < 1:
+        raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
+    problems: list[Problem] = []
+    bends = nearly_turning_chain(drive, _("torsional vibration"))
+    lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
+    lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
+    base = _joined(drive, lines, bends)
+    base = _with_branches(drive, base, lines, turning, problems)
+    problems += _empty_problems(base.model)
+    check(problems)
+    free = turns_freely(drive, asked)
+    if not free and turning is None and loaded:
+        raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+    model = replace(base.model, input_speed=None if free else np.asarray(0.0 if turning is None else turning))
+    if loaded:
+        named = {drive.stations[k].name: at for line, start in _starts(lines) for k, at in line.stations(start)}
+        last = base.line[-1]
+        ends = [start + len(line.inertia) - 1 for line, start in _starts(lines)]
+        model = replace(model, torques=machine_torques(drive, asked, named, last, ends, speed=turning, free=free))
+    return replace(base, model=model)
+
+
+def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:
+    """Return the shaft behind an elastic joint, with a station before the joint's own spring."""
+    if not isinstance(joint, ElasticHalfCardan) or joint.stiffness is None:
+        return line
+    return replace(
+        line,
+        inertia=[0.0, *line.inertia],
+        ground_damping=[0.0, *line.ground_damping],
+        stiffness=[joint.stiffness, *line.stiffness],
+        damping=[joint.damping, *line.damping],
+        backlash=[0.0, *line.backlash],
+        loss_factor=[0.0, *line.loss_factor],
+        share=[line.share[0], *line.share],
+        names=[_("{name}, before the elastic joint").format(name=line.names[0]), *line.names],
+        held=[(), *line.held],
+    )
+
+
+def torsional_model(
+    drive: Drive, duty: Duty | None = None, *, speed: float | None = None, pieces: int = 1
+) -> TorsionalModel:
+    """Return the torsional model of a drive under its duty; see `torsional_train`."""
+    return torsional_train(drive, duty, speed=speed, pieces=pieces).model
+
+
+def _starts(lines: Sequence[ShaftLine]) -> Iterator[tuple[ShaftLine, int]]:
+    """Yield every shaft with the number of its first station."""
+    start = 0
+    for line in lines:
+        yield line, start
+        start += len(line.inertia)
+
+
+def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> TorsionalTrain:
+    """Return the shafts as one model, without what hangs on it."""
+    starts = [start for _line, start in _starts(lines)]
+    driven: list[tuple[int, int] | None] = []
+    elements: list[tuple[int, int]] = []
+    for i, (line, start) in enumerate(_starts(lines)):
+        count = len(line.inertia)
+        driven += [(start - 1, i - 1) if i else None, *[None] * (count - 1)]
+        elements += [(start + k, start + k + 1) for k in range(count - 1)]
+    play = [list(line.backlash) for line in lines]
+    for i, joint in enumerate(drive.joints):
+        if joint.backlash:  # beside the joint: at the end of its driving shaft, else at the start of its driven one
+            side, at = (i, -1) if play[i] else (i + 1, 0)
+            play[side][at] += joint.backlash
+    model = TorsionalModel(
+        inertia=_row([line.inertia for line in lines]),
+        driven=tuple(driven),
+        elements=tuple(elements),
+        stiffness=_row([line.stiffness for line in lines]),
+        damping=_row([line.damping for line in lines]),
+        backlash=_row(play),
+        bend=np.asarray(bends.bend, dtype=float),
+        phase=np.asarray(phase_angles(replace(bends, laws=None)), dtype=float),
+        ground_damping=_row([line.ground_damping for line in lines]),
+        loss_factor=_row([line.loss_factor for line in lines]),
+        shaft=tuple(i for i, line in enumerate(lines) for _k in line.inertia),
+        names=tuple(name for line in lines for name in line.names),
+    )
+    place = geometry(drive)
+    length = np.asarray(place.length, dtype=float)
+    drawn = [i for i, line in enumerate(lines) if i == 0 or len(line.inertia) > 1]
+    begin = np.append(0.0, np.cumsum(length))
+    places = [begin[i] + share * length[i] for i, line in enumerate(lines) for share in line.share]
+    return TorsionalTrain(
+        model=model,
+        position=np.asarray(places, dtype=float),
+        joints=tuple((start - 1, start) for start in starts[1:]),
+        hangs=(None,) * len(driven),
+        pendulums=(),
+        assumed=tuple(path for line in lines for path in line.assumed),
+        to_scale=not any(f"shafts[{i}].length" in place.assumed for i in drawn),
+    )
+
+
+def _row(parts: Sequence[Sequence[float]]) -> Array:
+    return np.asarray([one for part in parts for one in part], dtype=float)
+
+
+def _with_branches(
+    drive: Drive, train: TorsionalTrain, lines: Sequence[ShaftLine], speed: ArrayLike | None, problems: list[Problem]
+) -> TorsionalTrain:
+    """Return the model with absorbers and pendulums, each a station behind those of the line."""
+    model = train.model
+    inertia, stiffness, damping = list(model.inertia), [*map(np.asarray, model.stiffness)], list(model.damping)
+    elements, hangs, names = list(model.elements), list(train.hangs), list(model.names)
+    pendulums: list[int] = []
+    turning = np.asarray(0.0 if speed is None else speed, dtype=float)
+    holding = 2.0 * HOLDING * np.where(turning == 0.0, 1.0, np.abs(turning))
+    for k, host in ((k, at) for line, start in _starts(lines) for k, at in line.stations(start)):
+        station = drive.stations[k]
+        if station.absorber is not None:
+            mass, damper = station.absorber.inertia, station.absorber.damping
+            spring = np.asarray(station.absorber.stiffness or holding * damper)
+            name = _("absorber on {name}")
+        elif station.pendulum is not None:
+            if speed is None:
+                problems.append(Problem("duty.speed", _("missing; the stiffness of a pendulum comes from it")))
+            hung = station.pendulum
+            mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
+            spring, damper = mass * turning**2 * hung.radius / hung.length, 0.0
+            name = _("pendulum on {name}")
+            pendulums.append(len(elements))
+        else:
+            continue
+        elements.append((host, len(inertia)))
+        inertia.append(mass)
+        stiffness.append(spring)
+        damping.append(damper)
+        hangs.append(host)
+        names.append(name.format(name=names[host]))
+    more = len(inertia) - len(model.inertia)
+    whole = replace(
+        model,
+        inertia=np.asarray(inertia),
+        driven=(*model.driven, *[None] * more),
+        elements=tuple(elements),
+        stiffness=np.stack(np.broadcast_arrays(*stiffness), axis=-1) if stiffness else np.zeros(0),
+        damping=np.asarray(damping),
+        backlash=np.append(model.backlash, [0.0] * more),
+        loss_factor=np.append(model.loss_factor, [0.0] * more),
+        ground_damping=np.append(model.ground_damping, [0.0] * more),
+        shaft=(*model.shaft, *(model.shaft[host] for host in hangs[len(model.inertia) :] if host is not None)),
+        names=tuple(names),
+    )
+    position = np.append(train.position, [train.position[host] for host in hangs if host is not None])
+    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums))
+
+
+def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:
+    """Yield what keeps a model from moving: no inertia at all, and parts that neither mass nor spring holds."""
+    if not np.any(model.inertia > 0.0):
+        text = _("nothing here has inertia: give the body or inertia of shafts, or [[stations]] with inertia")
+        yield Problem("stations", text)
+
+
+def in_time(model: TorsionalModel, frequency: ArrayLike) -> TorsionalModel:
+    """Return a model whose structural damping is viscous, equal at one frequency: b = ηc/ω on top of its dampers.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    frequency : array (...) [rad/s]
+        ω at which both lose the same.
+
+    Examples
+    --------
+    >>> from .torsional_model import torsional_line
+    >>> in_time(torsional_line([[1.0, 1.0]], stiffness=[[500.0]], loss_factor=[[0.02]]), 100.0).damping
+    array([0.1])
+    """
+    if not np.any(model.loss_factor):
+        return model
+    viscous = model.damping + model.loss_factor * model.stiffness / np.asarray(frequency, dtype=float)[..., None]
+    return replace(model, damping=viscous, loss_factor=np.zeros_like(model.loss_factor))
+
+
+def stacked(models: Sequence[TorsionalModel]) -> TorsionalModel:
+    """Return models that are built alike as one with a leading axis.
+
+    Parameters
+    ----------
+    models : sequence of N TorsionalModel
+        With the same stations, elements and kinds of torque; numbers may differ, tables of torques may not.
+
+    Raises
+    ------
+    InputError
+        They are not built alike.
+
+    Examples
+    --------
+    >>> from .torsional_model import torsional_line
+    >>> stacked([torsional_line([[1.0, 1.0]], stiffness=[[c]]) for c in (400.0, 500.0)]).stiffness.tolist()
+    [[400.0], [500.0]]
+    """
+    return _merged(models, np.stack)
+
+
+def chained(models: Sequence[TorsionalModel]) -> TorsionalModel:
+    """Return models with one leading axis each, that are built alike, as one: their drives one after the other.
+
+    Parameters
+    ----------
+    models : sequence of TorsionalModel (b,)
+
+    Raises
+    ------
+    InputError
+        They are not built alike.
+    """
+    leads = [leading(one) for one in models]
+    return _merged(
+        [chosen(one, lead, np.arange(lead[0]), moments=False) for one, lead in zip(models, leads, strict=True)],
+        np.concatenate,
+    )
+
+
+def _merged(models: Sequence[TorsionalModel], join: Callable[[list[Array]], Array]) -> TorsionalModel:
+    first = models[0]
+    built = [
+        (one.driven, one.elements, one.free, [(t.station, type(t.law), _shared(t.law)) for t in one.torques])
+        for one in models
+    ]
+    if any(one != built[0] for one in built):
+        raise refuse("models", _("are not built alike: their stations, elements or torques differ"))
+    given = [name for name in ARRAYS if getattr(first, name) is not None]
+    parts: dict[str, Any] = {name: join([getattr(one, name) for one in models]) for name in given}
+    parts["torques"] = tuple(
+        Torque(station=torque.station, law=_merged_law([one.torques[k].law for one in models], join))
+        for k, torque in enumerate(first.torques)
+    )
+    speed = None if first.input_speed is None else join([np.asarray(one.input_speed) for one in models])
+    return replace(first, input_speed=speed, **parts)
+
+
+def _shared(law: Law) -> list[object]:
+    return [np.asarray(getattr(law, one.name)).tolist() for one in fields(law) if one.name in SHARED]  # type: ignore[arg-type]
+
+
+def _merged_law(laws: Sequence[Law], join: Callable[[list[Array]], Array]) -> Law:
+    own = [one.name for one in fields(laws[0]) if one.name not in SHARED]  # type: ignore[arg-type]
+    return replace(laws[0], **{name: join([np.asarray(getattr(one, name)) for one in laws]) for name in own})  # type: ignore[type-var]

@@ -1,0 +1,275 @@
+"""Where is steady running stable? Maps of Floquet multipliers over any two quantities of a drive."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.compiled.method import Compiled, Method, chosen
+from cardan.maths.compiled.threads import share
+from cardan.maths.periodic.harmonics import Status
+from cardan.maths.periodic.switching_orbit import Shooting
+from cardan.questions.torsion.model.torsional_batch import Turning, leading, period_of
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.steady.closed_play import closed, stays_closed
+from cardan.questions.torsion.steady.multipliers import Turns, values_of
+from cardan.questions.torsion.steady.orbit import Orbit
+from cardan.questions.torsion.steady.run_stability import Floquet, Verdict, Zone, floquet, judged, shaped
+from cardan.questions.torsion.steady.steady import speeds_of, started, steady_orbits
+from cardan.questions.torsion.steady.steady_start import straight_frequencies
+from cardan.texts import _
+
+from .stability_kernel import SURE, fits, harmonics_for, mapped
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
+
+CHUNK, FEW = 2048, 64
+"""Points computed between two looks at progress, compiled and as array expressions."""
+
+WORTH = 64
+"""Points from which the kernel is worth loading."""
+
+MOST = 4_000_000
+"""Points of a map at most."""
+
+PACE, WEIGHT = 1e-4, 1000
+"""Seconds and bytes that a point takes, about."""
+
+ROUGH = 5e-7
+"""Error of the kernel's multipliers, about: so close to modulus 1 they count as neutral."""
+
+LONG = Shooting(reach=0.8, work=30_000)
+"""How motions with open play are found: at the ends of such steps, where multipliers come from, right to 1e-10."""
+
+SMALL = 1e-4
+"""Largest of the upper harmonics, over the largest of all, of a motion that is not called coarse."""
+
+FINER = (1.6, 2.4)
+"""Times the harmonics with which coarse motions are sought again."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FloquetMap:
+    """Stability of steady running over a map; axes (...) are those of the model and the speeds.
+
+    Attributes
+    ----------
+    floquet : Floquet (...)
+        Multipliers, growth rate, verdict, kind and nearest zone at every point.
+    orbit : Orbit (...)
+        The motions judged, by their lower harmonics.
+    status : array of int (...)
+        `cardan.maths.periodic.harmonics.Status` of the motions.
+    cancelled : bool
+        Whether the work was stopped; what was not done is unknown.
+    """
+
+    floquet: Floquet
+    orbit: Orbit
+    status: Array
+    cancelled: bool = False
+
+    @property
+    def unstable_share(self) -> float:
+        """Share of the points known that are unstable; nan where none is."""
+        known = self.floquet.verdict != Verdict.UNKNOWN
+        return float(np.mean(self.floquet.verdict[known] == Verdict.UNSTABLE)) if np.any(known) else float("nan")
+
+
+def floquet_map(
+    model: TorsionalModel,
+    *,
+    speed: ArrayLike | None = None,
+    method: Method | None = None,
+    harmonics: int | None = None,
+    progress: Progress | None = None,
+) -> FloquetMap:
+    """Return whether steady running is stable at every point of a map.
+
+    Parameters
+    ----------
+    model : TorsionalModel (...)
+        Any of its numbers may vary along its leading axes.
+    speed : array (...) [rad/s], optional
+        Of the input, or mean speed of free drives; by default the input speed of the model.
+    method : Plain or Compiled, optional
+        Compiled for more than a few points by default. The kernel does not know open play, tables of torques, backward
+        turning and coordinates without inertia: they go the plain way, as do points whose motion it does not find.
+    harmonics : int, optional
+        Harmonics of the motion in the kernel, for half a turn each; as many as the bends ask for by default.
+    progress : function, optional
+        Told the share done; when it answers "stop" the points not yet done stay unknown.
+
+    Returns
+    -------
+    FloquetMap
+
+    Raises
+    ------
+    InputError
+        As `cardan.questions.torsion.steady.steady.periodic_response`, and a map of too many points.
+
+    Notes
+    -----
+    The same equations as `run_stability.floquet`, eight drives at a time: motion by harmonic balance,
+    monodromy matrix by collocation of order 10.
+
+    Examples
+    --------
+    Damping against speed around the principal zone of a drive with one joint:
+
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
+    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[[[0.2]], [[6.0]]], []],
+    ...     bend=[0.4363], input_speed=[40.0, 49.386, 61.7])
+    >>> found = floquet_map(drive)
+    >>> found.floquet.stable
+    array([[ True, False,  True],
+           [ True,  True,  True]])
+    """
+    omega = speeds_of(model, speed)
+    lead = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
+    count = int(np.prod(lead, dtype=float))
+    if count > MOST:
+        text = _("{count:,} points would take about {hours:,.1f} h and {memory:,.0f} GB; at most {most:,} are done")
+        shown = text.format(count=count, hours=count * PACE / 3600.0, memory=count * WEIGHT / 1e9, most=MOST)
+        raise refuse("speed", shown)
+    if not model.free:
+        model = replace(model, input_speed=omega)
+    turning = Turning(model, lead, np.broadcast_to(omega, lead).reshape(-1), period_of(model))
+    way = chosen(method, np, count >= WORTH)
+    compiled = isinstance(way, Compiled) and fits(replace(model, backlash=np.zeros_like(model.backlash)), omega)
+    waves = (harmonics * round(turning.period / np.pi)) if harmonics else harmonics_for(model, turning.period)
+    table = _Table(turning, waves)
+    done, stopped = 0, False
+    while done < count and not stopped:
+        rows = np.arange(done, min(done + (CHUNK if compiled else FEW), count))
+        left = table.by_kernel(rows, way.threads) if compiled and isinstance(way, Compiled) else rows
+        stopped = table.plain(left, within(progress, done / count, (int(rows[-1]) + 1) / count))
+        done = int(rows[-1]) + 1
+        if not stopped and progress is not None:
+            stopped = progress(done / count) == "stop" and done < count
+    return table.found(lead, stopped)
+
+
+class _Table:
+    """What is known of the points, in one axis; the rest is blank."""
+
+    def __init__(self, turning: Turning, harmonics: int) -> None:
+        self.turning, self.harmonics = turning, harmonics
+        self.count = len(turning.speed)
+        self.columns: dict[str, Array] = {}
+
+    def put(self, rows: Array, judgement: Floquet, coefficient: Array, force: Array, status: Array) -> None:
+        """Fill in some points."""
+        parts = {f.name: getattr(judgement, f.name) for f in fields(Floquet) if f.name not in ("zone", "period")}
+        parts |= {f"zone {f.name}": getattr(judgement.zone, f.name) for f in fields(Zone)}
+        wide = np.zeros((*coefficient.shape[:-1], self.harmonics + 1), dtype=complex)
+        kept = min(wide.shape[-1], coefficient.shape[-1])
+        wide[..., :kept] = coefficient[..., :kept]
+        for name, values in (parts | {"coefficient": wide, "force": force, "status": status}).items():
+            if name not in self.columns:
+                blank = {"verdict": Verdict.UNKNOWN, "status": Status.CANCELLED}.get(name, 0)
+                fill = np.nan if values.dtype.kind in "fc" else int(blank)
+                self.columns[name] = np.full((self.count, *values.shape[1:]), fill, dtype=values.dtype)
+            self.columns[name][rows] = values
+
+    def plain(self, rows: Array, progress: Progress | None) -> bool:
+        """Find points by array expressions and tell whether the work was stopped."""
+        for first in range(0, len(rows), FEW):
+            some = rows[first : first + FEW]
+            part, last = self.turning.part(some), first + len(some)
+            told = within(progress, first / len(rows), last / len(rows))
+            orbit, status = steady_orbits(part.model, speed=part.speed, opened=LONG, progress=told)
+            self.put(some, floquet(orbit), orbit.coefficient, orbit.force, status)
+            if np.any(status == Status.CANCELLED):
+                return True
+        return False
+
+    def by_kernel(self, rows: Array, threads: int | None) -> Array:
+        """Find points by the kernel, coarse ones again with more harmonics; return those it found no motion for."""
+        lost = self.compiled(rows, self.harmonics, threads)
+        coarse = rows[self.columns["status"][rows] == Status.COARSE] if "status" in self.columns else rows[:0]
+        for more in FINER if len(coarse) else ():
+            self.compiled(coarse, round(more * self.harmonics), threads)
+            coarse = coarse[self.columns["status"][coarse] == Status.COARSE]
+        return lost
+
+    def compiled(self, rows: Array, harmonics: int, threads: int | None) -> Array:
+        """Find points by the kernel; return those it found no motion for."""
+        if not len(rows):
+            return rows
+        whole = self.turning.part(rows)
+        part = closed(whole)
+        found = mapped(part, harmonics, threads=threads)
+        sure = (found.moved <= SURE) & np.isfinite(found.matrix).all(axis=(1, 2))
+        sure &= stays_closed(whole, found.coefficient)
+        if not np.any(sure):
+            return rows
+        part, coefficient = part.part(np.flatnonzero(sure)), found.coefficient[sure]
+        turns, drives = None, part.drives(np.arange(len(part.speed)))
+        frequencies = straight_frequencies(drives)
+        size = np.max(np.abs(coefficient), axis=1)
+        tail = np.max(size[:, -max(2, harmonics // 4) :], axis=-1)
+        if part.model.free:
+            order = np.arange(coefficient.shape[-1]) * part.frequency[:, None, None]
+            rate = part.speed[:, None] + np.sum((1j * order * coefficient).real, axis=-1)
+            tangent = np.concatenate([rate, -np.sum((order**2 * coefficient).real, axis=-1)], axis=-1)
+            turns = Turns.of(drives, part.speed, tangent)
+            frequencies = frequencies[:, 1:]
+            coefficient = started(coefficient, part.period)
+        values, removed = _values(found.matrix[sure], turns, threads)
+        nothing = np.full(len(values), np.nan)
+        self.put(
+            rows[sure],
+            judged(values, removed, nothing, frequencies, part.speed, part.period, np.isfinite(part.speed), ROUGH),
+            np.pad(coefficient, ((0, 0), (part.first, 0), (0, 0))),
+            found.force[sure],
+            np.where(tail <= SMALL * np.max(size, axis=-1), int(Status.CONVERGED), int(Status.COARSE)),
+        )
+        return rows[~sure]
+
+    def found(self, lead: tuple[int, ...], stopped: bool) -> FloquetMap:
+        """Return the map."""
+        columns, period = self.columns, self.turning.period
+        rest = {f.name: columns[f.name] for f in fields(Floquet) if f.name not in ("zone", "period")}
+        zone = Zone(**{f.name: columns[f"zone {f.name}"] for f in fields(Zone)})
+        orbit = Orbit(
+            model=self.turning.model,
+            speed=self.turning.speed.reshape(lead),
+            period=period,
+            coefficient=columns["coefficient"].reshape(*lead, *columns["coefficient"].shape[1:]),
+            force=columns["force"].reshape(lead),
+        )
+        return FloquetMap(
+            floquet=shaped(Floquet(zone=zone, period=period, **rest), lead),
+            orbit=orbit,
+            status=columns["status"].reshape(lead),
+            cancelled=stopped,
+        )
+
+
+def within(progress: Progress | None, low: float, high: float) -> Progress | None:
+    """Return what tells the share of a part of the work as that of the whole, but for the end of the part."""
+    if progress is None:
+        return None
+    return lambda share: progress(low + (high - low) * share) if share < 1.0 else None
+
+
+def _values(matrix: Array, turns: Turns | None, threads: int | None) -> tuple[Array, Array]:
+    """Return `cardan.questions.torsion.steady.multipliers.values_of` matrices, found by several threads."""
+    count = len(matrix)
+    values = np.empty((count, matrix.shape[-1] - (turns is not None)), dtype=complex)
+    removed = np.empty(count, dtype=int)
+
+    def work(first: int, last: int) -> None:
+        some = slice(first, last)
+        values[some], removed[some] = values_of(matrix[some], None if turns is None else turns.part(some))
+
+    share(work, count, threads=threads, least=64)
+    return values, removed

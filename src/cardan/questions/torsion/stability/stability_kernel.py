@@ -1,0 +1,248 @@
+"""Drives as the compiled kernel of stability maps takes them: structure, numbers of each drive, tables."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.maths.compiled.threads import share
+from cardan.maths.periodic.floquet import STAGES, collocation
+from cardan.questions.torsion.model.torques import Asynchronous, Constant, Falling, Swinging
+from cardan.questions.torsion.model.torsional_balance import joint_law
+from cardan.questions.torsion.model.torsional_batch import Turning
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.steady.steady_start import at_rest, straight_frequencies
+
+LANES = 8
+"""Drives that the kernel takes at once."""
+
+KINDS = {Constant: 0, Falling: 1, Swinging: 2, Asynchronous: 3}
+"""Laws of torques that the kernel knows, and their numbers there."""
+
+REACH = 2.0
+"""Largest phase of the fastest oscillation in a step of five stages: it errs by 2e-7 of that phase, others by less."""
+
+LADDER = (16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048)
+"""Numbers of steps of a period."""
+
+TAIL = 1e-5
+"""τ to the power of the harmonics; where resonance makes them larger the motion is sought again with more."""
+
+ROUNDS = 12
+"""Newton steps at most."""
+
+SURE = 2e-5
+"""Largest last Newton step, over the motion, of a motion that the kernel is trusted with."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Mapped:
+    """What the kernel found of drives.
+
+    Attributes
+    ----------
+    matrix : array (B, m, m)
+        Monodromy matrices for (x, ẋ).
+    coefficient : array (B, R, H+1), complex
+        Of the motion of the free coordinates.
+    force : array (B,)
+        Constant torque on the first station of free drives.
+    moved : array (B,)
+        Last Newton step over the motion; nan where there is none.
+    """
+
+    matrix: Array
+    coefficient: Array
+    force: Array
+    moved: Array
+
+
+def fits(model: TorsionalModel, speed: Array) -> bool:
+    """Tell whether the kernel can take drives: turning forwards, without backlash, every coordinate with inertia."""
+    inertia = [np.zeros(())] * model.coordinates
+    for k, r in enumerate(model.coordinate):
+        inertia[r] = inertia[r] + model.inertia[..., k]
+    first = 0 if model.free else 1
+    return (
+        model.coordinates > first
+        and bool(np.all(speed > 0.0))
+        and not np.any(model.backlash > 0.0)
+        and all(bool(np.all(one > 0.0)) for one in inertia[first:])
+        and all(type(torque.law) in KINDS for torque in model.torques)
+    )
+
+
+def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> Mapped:
+    """Return motions and monodromy matrices of drives by the compiled kernel.
+
+    Parameters
+    ----------
+    turning : Turning
+        Drives for which `fits` holds.
+    harmonics : int
+        H.
+    threads : int, optional
+    """
+    from cardan.maths.compiled.floquet import kernel
+
+    count = len(turning.speed)
+    padded = -(-count // LANES) * LANES
+    drives = _numbers(turning)
+    n, states = 2 * harmonics + 1, 2 * turning.coordinates
+    known = np.zeros((padded, turning.coordinates * n + 1))
+    known[:count, : turning.coordinates * n : n] = at_rest(turning)[:, :, 0].real
+    drives, known = (
+        np.concatenate([one, np.repeat(one[-1:], padded - count, axis=0)]) for one in (drives, known[:count])
+    )
+    phase, bases, back = _tables(harmonics, turning.period)
+    steps = _steps(turning)
+    steps = np.max(np.append(steps, np.repeat(steps[-1:], padded - count)).reshape(-1, LANES), axis=-1)
+    nodes, begins = _nodes(sorted(set(steps.tolist())), harmonics, turning.period)
+    points, once = collocation(STAGES)
+    scheme = np.concatenate([[STAGES], points, once.ravel(), (once @ once[:-1]).ravel()])
+    matrix, moved = np.empty(padded * states * states), np.empty(padded)
+    flat = known.reshape(-1)
+    run = partial(
+        _call,
+        kernel,
+        (_plan(turning.model, n, drives.shape[-1]), drives.reshape(-1), bases, back, phase, nodes, scheme),
+        (np.asarray([begins[int(one)] for one in steps], dtype=np.intp), steps.astype(np.intp)),
+        (turning.period, turning.model.free, ROUNDS),
+        (flat, matrix, moved),
+    )
+    share(run, padded // LANES, threads=threads)
+    table = flat.reshape(padded, -1)[:count, :-1].reshape(count, turning.coordinates, n)
+    coefficient = table[..., : harmonics + 1].astype(complex)
+    coefficient[..., 1:] -= 1j * table[..., harmonics + 1 :]
+    return Mapped(
+        matrix=matrix.reshape(padded, states, states)[:count],
+        coefficient=coefficient,
+        force=flat.reshape(padded, -1)[:count, -1].copy(),
+        moved=moved[:count],
+    )
+
+
+def _call(kernel: object, before: tuple, steps: tuple, between: tuple, after: tuple, first: int, last: int) -> None:  # type: ignore[type-arg]
+    kernel(*before, *steps, *between, first, last, *after)  # type: ignore[operator]
+
+
+def _plan(model: TorsionalModel, n: int, width: int) -> Array:
+    """Return the structure of drives as the kernel reads it."""
+    rank, first = model.coordinates, 0 if model.free else 1
+    of = model.coordinate
+    coupled = np.eye(rank, dtype=bool)
+    for a, b in model.elements:
+        coupled[of[a], of[b]] = coupled[of[b], of[a]] = True
+    pair_of = np.full((rank, rank), -1)
+    free = np.arange(rank) >= first
+    there = coupled & free & free[:, None]
+    pair_of[there] = np.arange(int(there.sum()))
+    filled = coupled[first:, first:].copy()
+    for k in range(len(filled)):
+        below = np.flatnonzero(filled[:, k])
+        below = below[below > k]
+        filled[np.ix_(below, np.flatnonzero(filled[k]))] = True
+    lists = [
+        [-1 if one is None else one[0] for one in model.driven],
+        [-1 if one is None else one[1] for one in model.driven],
+        of,
+        np.asarray(model.elements, dtype=int).ravel(),
+        [number for torque in model.torques for number in (torque.station, KINDS[type(torque.law)], 0)],
+        pair_of.ravel(),
+        filled.ravel(),
+    ]
+    sizes = (
+        *(len(model.driven), rank, first, len(model.elements), model.bend.shape[-1], len(model.torques)),
+        *(int(there.sum()), width, n),
+    )
+    return np.concatenate([sizes, *[np.asarray(one, dtype=int) for one in lists]]).astype(np.intp)
+
+
+def _numbers(turning: Turning) -> Array:
+    """Return the numbers of each drive, array (B, width)."""
+    model = turning.part(np.arange(len(turning.speed))).model
+    count = len(turning.speed)
+    tau = np.tan(0.5 * model.bend) ** 2
+    start = joint_law(model.phase, model.bend)[0] - model.phase
+    joints = np.stack([model.phase, start, tau, np.cos(model.bend), np.sin(model.bend) ** 2], axis=-1)
+    rest = np.zeros_like(model.stiffness) if model.rest is None else model.rest
+    values = [np.broadcast_to(one, (count,)) for torque in model.torques for one in _values(torque.law)]
+    omega = turning.frequency
+    columns = [
+        *(model.inertia, model.ground_damping, model.stiffness, model.damping, rest, joints.reshape(count, -1)),
+        np.stack([*values, turning.speed, omega], axis=-1),
+    ]
+    return np.ascontiguousarray(np.concatenate(columns, axis=-1))
+
+
+def _values(law: object) -> tuple[Array, Array, Array]:
+    nothing = np.zeros(())
+    if isinstance(law, Constant):
+        return law.value, nothing, nothing
+    if isinstance(law, Falling):
+        return law.standstill, law.slope, nothing
+    if isinstance(law, Swinging):
+        return law.amplitude, law.phase, np.asarray(0.5 * law.frequency)
+    assert isinstance(law, Asynchronous)
+    return law.synchronous_speed, law.pullout_torque, law.pullout_slip
+
+
+def _waves(phase: Array, harmonics: int) -> Array:
+    """Return harmonics and their two derivatives at phases, array (p, 3, n)."""
+    order = np.arange(1, harmonics + 1)
+    cosine, sine = np.cos(phase[:, None] * order), np.sin(phase[:, None] * order)
+    one, nothing = np.ones((len(phase), 1)), np.zeros((len(phase), 1))
+    return np.stack(
+        [
+            np.concatenate([one, cosine, sine], axis=-1),
+            np.concatenate([nothing, -order * sine, order * cosine], axis=-1),
+            np.concatenate([nothing, -(order**2) * cosine, -(order**2) * sine], axis=-1),
+        ],
+        axis=1,
+    )
+
+
+def _tables(harmonics: int, period: float) -> tuple[Array, Array, Array]:
+    """Return shaft angles of the samples, harmonics there, and the way back, flat."""
+    samples = 4 * harmonics + 4
+    phase = 2.0 * np.pi * np.arange(samples) / samples
+    waves = _waves(phase, harmonics)
+    back = waves[:, 0].T * (2.0 / samples)
+    back[0] *= 0.5
+    return phase * (period / (2.0 * np.pi)), waves.ravel(), back.ravel()
+
+
+def _nodes(rungs: list[int], harmonics: int, period: float) -> tuple[Array, dict[int, int]]:
+    """Return shaft angle and harmonics at the points of the steps, flat, and where each number of steps begins."""
+    points, _once = collocation(STAGES)
+    parts, begins, total = [], {}, 0
+    for steps in rungs:
+        phase = 2.0 * np.pi * ((np.arange(steps)[:, None] + points) / steps).ravel()
+        waves = _waves(phase, harmonics).reshape(len(phase), -1)
+        parts.append(np.concatenate([phase[:, None] * (period / (2.0 * np.pi)), waves], axis=-1).ravel())
+        begins[steps] = total
+        total += len(phase)
+    return np.concatenate(parts), begins
+
+
+def _steps(turning: Turning) -> Array:
+    """Return how many steps of a period each drive needs: its fastest mode, quickened by the steepest joint."""
+    model = turning.part(np.arange(len(turning.speed))).model
+    fastest = straight_frequencies(model)[:, -1]
+    steepest = np.max(1.0 / np.cos(model.bend), axis=-1, initial=1.0)
+    phase = fastest * steepest * turning.period / turning.speed
+    near = np.sqrt(np.max(np.tan(0.5 * model.bend) ** 2, axis=-1, initial=1e-9))  # how near a joint comes to a pole
+    smooth = turning.period / np.maximum(-0.5 * np.log(near), 1e-3)
+    wanted = np.maximum(phase / REACH, smooth)
+    return np.asarray(LADDER)[np.minimum(np.searchsorted(LADDER, wanted), len(LADDER) - 1)]
+
+
+def harmonics_for(model: TorsionalModel, period: float) -> int:
+    """Return how many harmonics of the period the motion of drives needs, from their bends."""
+    tau = float(np.tan(0.5 * np.max(model.bend, initial=0.0)) ** 2)
+    wanted = math.ceil(math.log(TAIL) / math.log(max(tau, 1e-9)))
+    return min(max(wanted, 5), 10) * round(period / np.pi)

@@ -1,0 +1,277 @@
+"""Does torsional vibration of a running drive die out? At its speed, or over two quantities of the drive."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.fields.paths import place, read, with_values
+from cardan.drive.models.chain import given_chain, turning
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.motion.motion import phase_angles
+from cardan.questions.torsion.model.torsional_batch import chosen as some_of
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
+from cardan.questions.torsion.steady.run_stability import Verdict, Zone
+from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, parted
+from cardan.texts import _
+from cardan.units import deg
+
+from .floquet_map import floquet_map, within
+
+CHUNK, FEW = 2048, 128
+"""Points of a map that are judged at once: variants of one quantity beside the speed, and of two."""
+
+MOST = 1_000_000
+"""Points of a map at most."""
+
+BEND = "bend_deg"
+"""Stands for the bend of the most bent joint, the others in proportion."""
+
+PACE = 0.001
+"""Seconds that a point of a map takes, about."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stability:
+    """Stability of steady running, of one drive or over values (...) of one or two of its quantities.
+
+    Attributes
+    ----------
+    over : tuple of (str, array)
+        Paths of what varies with their values, in the unit of the path: the axes (...).
+    train : TorsionalTrain
+        The drive as it is.
+    speed : array (...) [rad/s]
+        Input speed.
+    verdict : array of int (...)
+        A `cardan.questions.torsion.steady.run_stability.Verdict` each.
+    kind : array of int (...)
+        A `cardan.questions.torsion.steady.run_stability.Kind` each: how the slowest disturbance to die out swings.
+    growth_rate : array (...) [1/s]
+        Of that disturbance; negative where it dies out.
+    spectral_radius : array (...)
+        Largest modulus of the multipliers.
+    order : array (...)
+        Lowest order of the shaft at which it swings.
+    zone : Zone
+        Nearest zone of parametric resonance.
+    multipliers : array (..., m), complex
+        What each disturbance is multiplied by over a period, the largest first.
+    here : tuple of (str, float)
+        Values of the drive itself on the axes, where it has one.
+    cancelled : bool
+        Whether the work was stopped; what was not done is unknown.
+    """
+
+    over: tuple[tuple[str, Array], ...]
+    train: TorsionalTrain
+    speed: Array
+    verdict: Array
+    kind: Array
+    growth_rate: Array
+    spectral_radius: Array
+    order: Array
+    zone: Zone
+    multipliers: Array
+    here: tuple[tuple[str, float], ...] = ()
+    cancelled: bool = False
+
+    @property
+    def stable(self) -> Array:
+        """Whether every disturbance dies out, array of bool (...)."""
+        return self.verdict == Verdict.STABLE
+
+    @property
+    def unstable_share(self) -> float:
+        """Share of the points known that are unstable."""
+        known = self.verdict != Verdict.UNKNOWN
+        return float(np.mean(self.verdict[known] == Verdict.UNSTABLE)) if np.any(known) else float("nan")
+
+
+def stability(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    over: Mapping[str, ArrayLike] | None = None,
+    pieces: int = 1,
+    progress: Progress | None = None,
+) -> Stability:
+    """Return whether a drive runs stably in torsion, at its speed or over a map of two quantities.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`; better with damping.
+    duty : Duty, optional
+        What it does; that of the drive by default.
+    over : mapping of str to array, optional
+        One or two paths, each with its values in the unit of the path, as ``{"duty.speed_rpm": [...],
+        "shafts[1].damping_Nms_per_rad": [...]}``; ``"bend_deg"`` is that of the most bent joint, the others in
+        proportion. All else stays as it is.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+    progress : function, optional
+        Told the share done; when it answers "stop", what is not yet done stays unknown.
+
+    Returns
+    -------
+    Stability
+
+    Raises
+    ------
+    InputError
+        What the model misses, a path that leads nowhere, a value that makes no drive, a map of too many points.
+
+    Notes
+    -----
+    Floquet multipliers of the exact equations about the periodic motion; see `run_stability.floquet`.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> from cardan.units import deg
+    >>> drive = Drive.from_angles([25 * deg])
+    >>> drive = replace(drive, shafts=(Shaft(number=1, stiffness=1000.0, damping=0.2),),
+    ...     stations=(Station(shaft=2, inertia=0.4),), duty=Duty(speed=50.0))
+    >>> found = stability(drive, over={"duty.speed_rad_s": [40.0, 50.0, 60.0]})
+    >>> found.stable, found.zone.name((1,))
+    (array([ True, False,  True]), 'principal zone of mode 1')
+    """
+    whole = drive if duty is None else replace(drive, duty=duty)
+    axes = _axes(whole, over or {})
+    shape = tuple(len(values) for _path, values in axes)
+    variants = _Variants(whole, axes, pieces)
+    count = int(np.prod(shape, dtype=int))
+    parts: list[dict[str, Array]] = []
+    stopped = False
+    size = CHUNK if len(variants.others) < 2 else FEW
+    for first in range(0, count, size):
+        rows = np.arange(first, min(first + size, count))
+        if stopped:
+            parts.append(_unknown(parts[0], len(rows)))
+            continue
+        told = within(progress, first / count, (int(rows[-1]) + 1) / count)
+        part, stopped = _judged(*variants.at(np.unravel_index(rows, shape) if shape else (), len(rows)), told)
+        parts.append(part)
+        if progress is not None and not stopped:
+            stopped = progress((int(rows[-1]) + 1) / count) == "stop" and int(rows[-1]) + 1 < count
+    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
+    zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
+    return Stability(over=axes, train=variants.train, zone=zone, here=variants.here, cancelled=stopped, **found)
+
+
+def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
+    """Return what is known of some points, and whether the work was stopped."""
+    found = floquet_map(model, speed=speed, progress=progress)
+    verdict = found.floquet
+    zone = {f"zone_{one.name}": getattr(verdict.zone, one.name) for one in fields(Zone)}
+    names = ("verdict", "kind", "growth_rate", "spectral_radius", "order", "multipliers")
+    return {name: getattr(verdict, name) for name in names} | zone | {"speed": speed}, found.cancelled
+
+
+def _unknown(like: dict[str, Array], count: int) -> dict[str, Array]:
+    """Return points that were not looked at."""
+    empty = {name: np.nan if values.dtype.kind in "fc" else 0 for name, values in like.items()}
+    found = {name: np.full((count, *values.shape[1:]), empty[name]) for name, values in like.items()}
+    return found | {"verdict": np.full(count, int(Verdict.UNKNOWN))}
+
+
+def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array], ...]:
+    """Return the paths with their values, and refuse what makes no map."""
+    problems: list[Problem] = []
+    axes: list[tuple[str, Array]] = []
+    if len(over) > 2:
+        text = _("{count} paths given; a map has one or two")
+        problems.append(Problem("over", text.format(count=len(over))))
+    for path, given in over.items():
+        values = np.asarray(given, dtype=float)
+        if values.ndim != 1 or not len(values) or not np.all(np.isfinite(values)):
+            problems.append(Problem(path, _("a list of finite numbers is needed")))
+        if path == BEND:
+            problems += _bend_problems(drive, values)
+        else:
+            try:
+                place(drive, path)
+            except InputError as error:
+                problems += error.problems
+        axes.append((path, values))
+    count = int(np.prod([values.size for _path, values in axes], dtype=float))
+    if count > MOST:
+        text = _("{count:,} points would take about {hours:,.0f} h; at most {most:,} are done")
+        hours = count * PACE / 3600.0
+        problems.append(Problem("over", text.format(count=count, hours=hours, most=MOST).replace(",", "\u202f")))
+    check(problems)
+    return tuple(axes)
+
+
+def _bend_problems(drive: Drive, values: Array) -> Iterator[Problem]:
+    """Yield bends that no joint can have, or that none of the drive grows with."""
+    if values.ndim == 1 and np.any((values < 0.0) | (values >= 90.0)):
+        yield Problem(BEND, _("a joint bends from 0° to less than 90°"))
+    if not np.max(given_chain(drive).bend):
+        yield Problem(BEND, _("all joints are straight; there is nothing to bend in proportion"))
+
+
+def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
+    """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
+    whole = given_chain(drive)
+    bends = turning(replace(whole, bend=whole.bend * (largest / np.max(whole.bend))), drive.joints, near=True)
+    return replace(model, bend=bends.bend, phase=phase_angles(replace(bends, laws=None)))
+
+
+class _Variants:
+    """The drive with other values at the points of a map, and at its own where there is none."""
+
+    def __init__(self, drive: Drive, axes: Sequence[tuple[str, Array]], pieces: int) -> None:
+        self.drive, self.axes, self.pieces = drive, axes, pieces
+        spots = [None if path == BEND else place(drive, path) for path, _values in axes]
+        self.bending = next((k for k, spot in enumerate(spots) if spot is None), None)
+        speeds = ((k, spot) for k, spot in enumerate(spots) if spot is not None and spot.steps == ("duty", "speed"))
+        self.speeding: int | None
+        self.speeding, factor = next(((k, spot.factor) for k, spot in speeds), (None, 1.0))
+        if drive.duty.speed is None and self.speeding is None:
+            raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+        self.speeds = np.asarray([drive.duty.speed or 0.0])
+        if self.speeding is not None:
+            path, values = axes[self.speeding]
+            self.speeds = values * factor
+            if np.any(self.speeds == 0.0):
+                raise refuse(path, _("0 is given; steady running needs a speed other than 0"))
+        self.others = [k for k in range(len(axes)) if k != self.speeding]
+        largest = float(np.max(given_chain(drive).bend, initial=0.0)) / deg
+        own = {path: largest if path == BEND else read(drive, path) for path, _values in axes}
+        self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
+        self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
+
+    def at(self, index: Sequence[Array], count: int) -> tuple[TorsionalModel, Array]:
+        """Return the models (b,) and speeds (b,) of points by their places on the axes."""
+        column = np.zeros(count, dtype=int) if self.speeding is None else index[self.speeding]
+        speed = self.speeds[column]
+        keys = np.stack([index[k] for k in self.others], axis=-1) if self.others else np.zeros((count, 0), dtype=int)
+        found: list[TorsionalModel] = []
+        order: list[Array] = []
+        for key in np.unique(keys, axis=0):
+            rows = np.flatnonzero(np.all(keys == key, axis=-1))
+            drive = self._variant(key)
+            _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces)
+            if self.bending is not None:
+                largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
+                model = _bent(drive, model, largest * deg)
+            found.append(some_of(parted(model)[0], (len(rows),), np.arange(len(rows)), moments=False))
+            order.append(rows)
+        back = np.argsort(np.concatenate(order), kind="stable")
+        whole = chained(found)
+        return some_of(whole, (count,), back, moments=False), speed
+
+    def _variant(self, key: Array) -> Drive:
+        pairs = [(self.axes[k], j) for k, j in zip(self.others, key, strict=True) if k != self.bending]
+        values = {path: float(given[j]) for (path, given), j in pairs}
+        return with_values(self.drive, values) if values else self.drive

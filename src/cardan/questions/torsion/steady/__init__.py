@@ -1,0 +1,1 @@
+"""How does the drive vibrate in torsion as it runs steadily?"""

@@ -1,0 +1,92 @@
+"""Periodic motion of torsional models, at any angle of the shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.waves import series_at
+from cardan.maths.periodic.switching_orbit import Pieces
+from cardan.questions.torsion.model.torsional_batch import Turning, chosen
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Orbit:
+    """How every coordinate moves over a period; leading axes (...) are those of the drives.
+
+    Attributes
+    ----------
+    model : TorsionalModel
+        The drives; their axes spread over (...).
+    speed : array (...) [rad/s]
+        Ω of the input, or mean speed of free drives.
+    period : float [rad]
+        Shaft angle of a period.
+    coefficient : array (..., R, H+1), complex
+        c_k of what each coordinate is off even rotation, q = φ + Re Σ c_k e^(2πikφ/period), φ = Ωt; nan where no motion
+        was found.
+    force : array (...) [N·m]
+        Constant torque on the first station of free drives that keeps the mean speed; 0 where the speed is forced.
+    pieces : mapping from int to Pieces
+        Motions found by shooting, exact at contacts, by their drive counted through the leading axes. They hold there
+        instead of the Fourier sum, which is then but their lower harmonics.
+    """
+
+    model: TorsionalModel
+    speed: Array
+    period: float
+    coefficient: Array
+    force: Array
+    pieces: Mapping[int, Pieces] = field(default_factory=dict)
+
+    @property
+    def lead(self) -> tuple[int, ...]:
+        """Leading axes."""
+        return np.shape(self.speed)
+
+    @property
+    def count(self) -> int:
+        """Number of drives."""
+        return math.prod(self.lead)
+
+    @property
+    def time(self) -> Array:
+        """Duration of a period, array (...) [s]."""
+        return self.period / np.abs(self.speed)
+
+    @cached_property
+    def turning(self) -> Turning:
+        """The drives as oscillators."""
+        return Turning(self.model, self.lead, self.speed.reshape(-1), self.period)
+
+    def drives(self, rows: Array) -> TorsionalModel:
+        """Return some of the drives, counted through the leading axes, in one axis."""
+        return chosen(self.model, self.lead, rows)
+
+    def at(self, angle: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return q, q̇ and q̈, arrays (..., p, R), at shaft angles φ (p,) [rad]."""
+        found = self.of(np.arange(self.count), angle)
+        q, rate, acceleration = (one.reshape(*self.lead, *one.shape[1:]) for one in found)
+        return q, rate, acceleration
+
+    def of(self, rows: Array, angle: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return the same of some of the drives, counted through the leading axes, arrays (b, p, R)."""
+        places = np.asarray(angle, dtype=float)
+        scale = 2.0 * np.pi / self.period
+        x, rate, bend = series_at(
+            self.coefficient.reshape(self.count, *self.coefficient.shape[-2:])[rows], places * scale
+        )
+        omega = self.speed.reshape(-1)[rows][:, None, None] * scale
+        first = 0 if self.model.free else 1
+        for k in range(len(rows) if self.pieces else 0):
+            if int(rows[k]) in self.pieces:
+                found = self.pieces[int(rows[k])].at(places * scale)
+                x[k, :, first:], rate[k, :, first:], bend[k, :, first:] = found
+        even = self.speed.reshape(-1)[rows][:, None, None]
+        return places[:, None] + x, even + omega * rate, omega**2 * bend

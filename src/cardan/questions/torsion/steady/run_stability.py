@@ -1,0 +1,274 @@
+"""Is steady running stable? Floquet multipliers of torsional models, their kind, and the zone that comes nearest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import IntEnum
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.texts import _
+
+from .multipliers import CHUNK, multipliers_in_pieces, multipliers_of
+from .orbit import Orbit
+from .steady_result import SteadyResponse
+from .steady_start import straight_frequencies
+
+NEUTRAL = 1e-7
+"""A multiplier this close to modulus 1 neither grows nor dies out."""
+
+ZONES = 4
+"""Zones that are named: m = 1 … 4."""
+
+
+class Verdict(IntEnum):
+    """What becomes of a small disturbance."""
+
+    STABLE = 0
+    NEUTRAL = 1
+    UNSTABLE = 2
+    UNKNOWN = 3
+    """No steady motion was found."""
+
+
+class Kind(IntEnum):
+    """How the disturbance that dies out slowest, or grows fastest, swings."""
+
+    REPEATING = 0
+    """Real and positive multiplier: the disturbance repeats with the period."""
+    DOUBLING = 1
+    """Real and negative multiplier: it repeats with two periods."""
+    COMBINATION = 2
+    """Pair of complex multipliers: it has a frequency of its own. Where it grows, two modes combine."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Zone:
+    """Zone of parametric resonance nearest to the speed, by the natural frequencies of the straight drive.
+
+    Attributes
+    ----------
+    modes : array of int (..., 2)
+        Numbers of the two modes from 1, alike for a zone of one mode; 0 where there is none.
+    sign : array of int (...)
+        1 for the sum of their frequencies, -1 for the difference.
+    multiple : array of int (...)
+        m: number of the zone, the principal one is 1.
+    speed : array (...) [rad/s]
+        (ω_i ± ω_j)/(2m).
+    """
+
+    modes: Array
+    sign: Array
+    multiple: Array
+    speed: Array
+
+    def name(self, index: tuple[int, ...] = ()) -> str:
+        """Return the name of one of the zones."""
+        i, j = (int(one) for one in self.modes[index])
+        m = int(self.multiple[index])
+        if i == 0:
+            return _("none")
+        if i == j:
+            text = _("principal zone of mode {i}") if m == 1 else _("zone {m} of mode {i}")
+        else:
+            text = _("sum of modes {i} and {j}") if int(self.sign[index]) > 0 else _("difference of modes {j} and {i}")
+            text = text if m == 1 else text + _(", zone {m}")
+        return text.format(i=i, j=j, m=m)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Floquet:
+    """Stability of steady running; leading axes (...) are those of the drives and speeds.
+
+    Attributes
+    ----------
+    multipliers : array (..., m), complex
+        What each disturbance is multiplied by over a period, the largest first; nan at the end where it is left out.
+        So are of a free drive the 1 of a shift in time and, where no torque changes with the speed, the drift to
+        another speed; of any drive what has neither inertia nor damper, which cannot be disturbed by itself.
+    removed : array of int (...)
+        How many were left out of a free drive.
+    period : float [rad]
+        Shaft angle of a period.
+    growth_rate : array (...) [1/s]
+        ln max|ρ| over the duration of a period; negative where disturbances die out, -inf where there are none.
+    verdict : array of int (...)
+        A `Verdict` each.
+    kind : array of int (...)
+        A `Kind` each, of the largest multiplier.
+    order : array (...)
+        Lowest order of the shaft at which that disturbance swings; the others differ by whole multiples of 2π/period,
+        either way.
+    zone : Zone
+        Nearest zone, of that kind where the disturbance grows.
+    determinant_residual : array (...)
+        ln of the product of all multipliers less the integral of the damping, which must be equal (Liouville).
+    """
+
+    multipliers: Array
+    removed: Array
+    period: float
+    growth_rate: Array
+    verdict: Array
+    kind: Array
+    order: Array
+    zone: Zone
+    determinant_residual: Array
+
+    @property
+    def modulus(self) -> Array:
+        """|ρ|, the largest first, array (..., m)."""
+        return np.abs(self.multipliers)
+
+    @property
+    def spectral_radius(self) -> Array:
+        """Largest |ρ|, array (...); not a number where nothing can be disturbed, and where no motion was found."""
+        if not self.multipliers.shape[-1]:
+            return np.full(self.multipliers.shape[:-1], np.nan)
+        return self.modulus[..., 0]
+
+    @property
+    def stable(self) -> Array:
+        """Whether every disturbance dies out, array of bool (...)."""
+        return self.verdict == Verdict.STABLE
+
+
+def floquet(response: SteadyResponse | Orbit) -> Floquet:
+    """Return whether steady running is stable.
+
+    Parameters
+    ----------
+    response : SteadyResponse or Orbit (...)
+        As `periodic_response` gives it.
+
+    Returns
+    -------
+    Floquet
+
+    Notes
+    -----
+    The balance linearised about the motion, M δq̈ + C δq̇ + K δq = 0 with K holding the torque that the drive carries,
+    integrated over a period; the eigenvalues of the matrix that maps the disturbance at its beginning to that at its
+    end. A free drive may run a moment later. Where no torque changes with the speed it may run at any other one too,
+    but for what vibration takes, and a drive that nothing governs drifts up or down; the mean speed is given here, so
+    something governs it, and such a drift is no vibration.
+
+    Examples
+    --------
+    >>> from .steady import periodic_response
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
+    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
+    ...     bend=[np.radians(25)], input_speed=49.386)
+    >>> found = floquet(periodic_response(drive))
+    >>> found.modulus, found.zone.name()
+    (array([1.14415176, 0.84726756]), 'principal zone of mode 1')
+    """
+    orbit = response.orbit if isinstance(response, SteadyResponse) else response
+    lead, count = orbit.lead, orbit.count
+    there = np.isfinite(orbit.coefficient).all(axis=(-1, -2)).reshape(-1)
+    smooth = np.asarray([there[k] and k not in orbit.pieces for k in range(count)])
+    order = np.argsort(-orbit.time.reshape(-1), kind="stable")
+    order = order[smooth[order]]
+    parts: list[tuple[Array, Array, Array, Array]] = []
+    for first in range(0, len(order), CHUNK):
+        rows = order[first : first + CHUNK]
+        parts.append((rows, *multipliers_of(orbit, rows)))
+    for row in orbit.pieces:
+        parts.append((np.asarray([row]), *multipliers_in_pieces(orbit, row)))
+    width = max((part[1].shape[-1] for part in parts), default=0)
+    multipliers = np.full((count, width), np.nan + 0j)
+    removed, residual = np.zeros(count, dtype=int), np.full(count, np.nan)
+    frequencies = straight_frequencies(orbit.drives(np.arange(count)))
+    for rows, values, gone, missed in parts:
+        multipliers[rows], removed[rows], residual[rows] = values, gone, missed
+    frequencies = frequencies[:, 1:] if orbit.model.free else frequencies
+    return shaped(
+        judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period, there), lead
+    )
+
+
+def judged(
+    multipliers: Array,
+    removed: Array,
+    residual: Array,
+    frequencies: Array,
+    speed: Array,
+    period: float,
+    there: Array,
+    neutral: float = NEUTRAL,
+) -> Floquet:
+    """Return what multipliers (b, m) of drives say, known to ``neutral``, where a motion is there; see `Floquet`."""
+    first = multipliers[:, 0] if multipliers.shape[-1] else np.zeros(len(multipliers), dtype=complex)
+    first = np.where(there, np.where(np.isfinite(first), first, 0.0), np.nan)
+    radius, omega = np.abs(first), np.abs(speed)
+    verdict = np.where(radius > 1.0 + neutral, Verdict.UNSTABLE, np.where(radius < 1.0 - neutral, 0, Verdict.NEUTRAL))
+    verdict = np.where(there, verdict, Verdict.UNKNOWN)
+    plain = np.abs(first.imag) <= 1e-7 * radius
+    kind = np.where(plain, np.where(first.real < 0.0, Kind.DOUBLING, Kind.REPEATING), Kind.COMBINATION)
+    wanted = np.where(verdict == Verdict.UNSTABLE, kind, -1)
+    with np.errstate(divide="ignore"):
+        growth = np.log(radius) * omega / period
+    return Floquet(
+        multipliers=multipliers,
+        removed=removed,
+        period=period,
+        growth_rate=growth,
+        verdict=verdict,
+        kind=kind,
+        order=np.abs(np.angle(first)) / period,
+        zone=nearest_zone(frequencies, omega, wanted),
+        determinant_residual=residual,
+    )
+
+
+def shaped(found: Floquet, lead: tuple[int, ...]) -> Floquet:
+    """Return the same with the axes ``lead`` in place of the first one."""
+
+    def whole(values: Array) -> Array:
+        return values.reshape((*lead, *values.shape[1:]))
+
+    zone = Zone(**{one.name: whole(getattr(found.zone, one.name)) for one in fields(Zone)})
+    rest = {one.name: getattr(found, one.name) for one in fields(Floquet) if one.name not in ("zone", "period")}
+    return Floquet(zone=zone, period=found.period, **{name: whole(values) for name, values in rest.items()})
+
+
+def nearest_zone(frequencies: Array, speed: Array, kind: Array) -> Zone:
+    """Return the zone of parametric resonance nearest to each speed.
+
+    Parameters
+    ----------
+    frequencies : array (b, n) [rad/s]
+        Natural ones of the straight drives.
+    speed : array (b,) [rad/s]
+    kind : array of int (b,)
+        `Kind` of the disturbance that grows: zones of one mode or combinations of two; -1 where none does, for zones
+        of one mode and sums of two, none higher than the second.
+
+    Notes
+    -----
+    Joints swing twice a turn: Ω = (ω_i ± ω_j)/(2m), i = j with the sum alone.
+    """
+    count, rows = frequencies.shape[-1], np.arange(len(speed))
+    pairs = [(i, j, 1) for i in range(count) for j in range(i, count)]
+    pairs += [(i, j, -1) for i in range(count) for j in range(i + 1, count)]
+    choices = [(i, j, sign, m) for i, j, sign in pairs for m in range(1, ZONES + 1)]
+    if not choices:
+        nothing = np.zeros(len(speed), dtype=int)
+        modes = np.zeros((len(speed), 2), dtype=int)
+        return Zone(modes=modes, sign=nothing, multiple=nothing, speed=np.full(len(speed), np.nan))
+    table = np.asarray(choices)
+    i, j, sign, m = table.T
+    where = np.abs(frequencies[:, i] + sign * frequencies[:, j]) / (2.0 * m)
+    grows = (kind == Kind.COMBINATION)[:, None] == (i != j)
+    fitting = np.where((kind < 0)[:, None], (sign > 0) & (m <= 2), grows)
+    far = np.where(fitting, np.abs(where - speed[:, None]), np.inf)
+    best = np.argmin(far, axis=-1)
+    none = ~np.isfinite(far[rows, best])
+    return Zone(
+        modes=np.where(none[:, None], 0, table[best][:, :2] + 1),
+        sign=sign[best],
+        multiple=m[best],
+        speed=np.where(none, np.nan, where[rows, best]),
+    )

@@ -1,0 +1,192 @@
+"""How far do torques swing? The quick answer for searches, over very many drives and speeds at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.errors import refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.waves import extremes, sampled_series
+from cardan.maths.periodic.harmonics import HarmonicBalance, Status, harmonic_balance
+from cardan.questions.torsion.model.torques import Swinging
+from cardan.questions.torsion.model.torsional_balance import element_torques
+from cardan.questions.torsion.model.torsional_batch import Turning, chosen, leading, period_of
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.texts import _
+
+from .orbit import Orbit
+from .steady import Progress, periodic_response
+from .steady_start import at_rest
+from .torsion_response import parted
+
+FEW, MOST = 4, 24
+"""Harmonics of half a turn to begin with, and at most."""
+
+TAIL = 1e-6
+"""Size of the last harmonics at which a motion counts as found: torques then hold five digits."""
+
+STEPS = 25
+"""Newton steps at most; a motion that takes more is not worth the wait in a search."""
+
+CHUNK = 512
+"""Motions found at once."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TorqueSwings:
+    """How far the torques of drives swing; leading axes (...) are those of the drives and speeds.
+
+    Attributes
+    ----------
+    orbit : Orbit (...)
+        The motions; nan where none was found.
+    swing : array (..., E) [N·m]
+        Half of highest less lowest torque of every element; nan where no motion was found.
+    """
+
+    orbit: Orbit
+    swing: Array
+
+    @property
+    def found(self) -> Array:
+        """Whether a motion was found, array of bool (...)."""
+        return np.isfinite(self.swing).all(axis=-1)
+
+
+def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress | None = None) -> TorqueSwings:
+    """Return how far the torques of drives swing in steady running, to about five digits.
+
+    Parameters
+    ----------
+    model : TorsionalModel (...)
+        Its axes and those of the speed spread over each other.
+    speed : array (...) [rad/s]
+        Of the input, or mean speed of free drives; not 0.
+    progress : function, optional
+        Told the share done; when it answers "stop" the remaining motions are left out.
+
+    Returns
+    -------
+    TorqueSwings
+
+    Raises
+    ------
+    InputError
+        A speed of 0, a torque that runs in time.
+
+    Notes
+    -----
+    Harmonic balance of the exact equations, as `periodic_response` but with fewer harmonics and without what a search
+    does not ask for. With backlash it is `periodic_response`. Torques of orders that no two turns hold are answered by
+    the straight line and added by their amplitudes.
+
+    Examples
+    --------
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
+    >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
+    ...     damping=[[1.0], [1.0]], bend=[0.35], input_speed=30.0)
+    >>> found = torque_swings(drive, [25.0, 30.0])
+    >>> found.swing.shape, bool(abs(found.swing[1, 0] / periodic_response(drive).peak_to_peak[0] - 0.5) < 1e-5)
+    ((2, 2), True)
+    """
+    omega = np.asarray(speed, dtype=float)
+    if not np.all(np.isfinite(omega) & (omega != 0.0)):
+        raise refuse("speed", _("steady running needs speeds other than 0"))
+    steady, loose = parted(model)
+    lead = np.broadcast_shapes(leading(replace(steady, input_speed=None)), omega.shape)
+    omega = np.broadcast_to(omega, lead)
+    if not steady.free:
+        steady = replace(steady, input_speed=omega)
+    if np.any(steady.backlash > 0.0):
+        found = periodic_response(steady, speed=omega, progress=progress)
+        orbit, swing = found.orbit, 0.5 * found.peak_to_peak
+    else:
+        orbit, swing = _quick(steady, lead, omega, progress)
+    return TorqueSwings(orbit=orbit, swing=swing + _beside(steady, loose, omega))
+
+
+def _quick(
+    model: TorsionalModel, lead: tuple[int, ...], omega: Array, progress: Progress | None
+) -> tuple[Orbit, Array]:
+    turning = Turning(model, lead, omega.reshape(-1), period_of(model))
+    half_turns = round(turning.period / np.pi)
+    how = HarmonicBalance(harmonics=FEW * half_turns, most=MOST * half_turns, tail=TAIL, steps=STEPS)
+    count = len(turning.speed)
+    whole = np.full((count, model.coordinates, how.harmonics + 1), np.nan + 0j)
+    force, swing = np.full(count, np.nan), np.full((count, len(model.elements)), np.nan)
+    for first in range(0, count, CHUNK):
+        rows = np.arange(first, min(first + CHUNK, count))
+        part = turning.part(rows)
+        waves = harmonic_balance(
+            part, part.frequency, part.coordinates, free=model.free, start=at_rest(part), method=how
+        )
+        lost = waves.status == Status.NO_CONVERGENCE
+        found = np.pad(waves.coefficient, ((0, 0), (turning.first, 0), (0, 0)))
+        found[lost] = np.nan
+        if found.shape[-1] > whole.shape[-1]:
+            whole = np.pad(whole, ((0, 0), (0, 0), (0, found.shape[-1] - whole.shape[-1])))
+        whole[rows] = 0.0
+        whole[rows, :, : found.shape[-1]] = found
+        force[rows] = np.where(lost, np.nan, waves.force)
+        swing[rows] = np.where(lost[:, None], np.nan, _read(part, found))
+        if progress is not None and progress((int(rows[-1]) + 1) / count) == "stop":
+            break
+    orbit = Orbit(
+        model=model,
+        speed=omega,
+        period=turning.period,
+        coefficient=whole.reshape(*lead, *whole.shape[1:]),
+        force=force.reshape(lead),
+    )
+    return orbit, swing.reshape(*lead, -1)
+
+
+def _read(part: Turning, coefficient: Array) -> Array:
+    """Return how far the torques of motions swing, array (b, E)."""
+    rows = np.arange(len(part.speed))
+    harmonics = coefficient.shape[-1]
+    alone = Orbit(
+        model=part.model,
+        speed=part.speed,
+        period=part.period,
+        coefficient=np.nan_to_num(coefficient),
+        force=np.zeros(len(rows)),
+    )
+    samples = 4 * (harmonics + 2)
+    q, rate, _acceleration = alone.of(rows, part.period * np.arange(samples) / samples)
+    torque = sampled_series(element_torques(part.drives(rows), q, rate).swapaxes(1, 2))
+    low, high = extremes(torque[..., : harmonics + 4])
+    found: Array = 0.5 * (high - low)
+    return found
+
+
+def _beside(model: TorsionalModel, loose: tuple[Torque, ...], omega: Array) -> Array:
+    """Return the amplitudes of torques that do not repeat within two turns, of every element."""
+    found = np.zeros(())
+    for torque in loose:
+        law = torque.law
+        assert isinstance(law, Swinging)
+        waves = straight_waves(model, torque.station, law.amplitude, law.frequency * np.abs(omega))
+        found = found + np.abs(waves.torque)
+    return found
+
+
+def some_motions(orbit: Orbit, rows: Array) -> Orbit:
+    """Return some of the motions, counted through their leading axes, in one axis.
+
+    Parameters
+    ----------
+    orbit : Orbit (...)
+    rows : array of int (b,)
+    """
+    return Orbit(
+        model=chosen(orbit.model, orbit.lead, rows, moments=False),
+        speed=orbit.speed.reshape(-1)[rows],
+        period=orbit.period,
+        coefficient=orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows],
+        force=orbit.force.reshape(-1)[rows],
+        pieces={k: orbit.pieces[int(row)] for k, row in enumerate(rows) if int(row) in orbit.pieces},
+    )

@@ -1,0 +1,256 @@
+"""How does a drive vibrate in torsion as it runs? Steady motion at a speed or over many, and whether it is stable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.machine import TorqueHistory
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.periodic.harmonics import HarmonicBalance
+from cardan.maths.periodic.switching_orbit import Shooting
+from cardan.questions.torsion.model.torques import Swinging, base_period
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
+from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.texts import _
+
+from .run_stability import Floquet, floquet
+from .steady import periodic_response
+from .steady_result import SteadyResponse
+
+Progress: TypeAlias = Callable[[float], object]
+"""Told the share done; may answer "stop"."""
+
+ROUNDING = 1e-8
+"""Share of a swing below which the mean about which it goes is left over by rounding."""
+
+SHARE = 0.35
+"""Share of the work that finds motions; the rest judges them."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Apart:
+    """A torque whose order no two turns hold a whole number of times, as the straight line answers it.
+
+    Attributes
+    ----------
+    order : float
+        Of the input shaft.
+    station : int
+        On which it acts.
+    torque : complex array (..., E) [N·m]
+        Of every element.
+    angle : complex array (..., N) [rad]
+        Of every station.
+    """
+
+    order: float
+    station: int
+    torque: Array
+    angle: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TorsionResponse:
+    """Steady torsional vibration of a drive; leading axes (...) are those of the speeds.
+
+    Attributes
+    ----------
+    train : TorsionalTrain
+        The model, and where its stations are.
+    steady : SteadyResponse (...)
+        Torques and speeds by their orders, true extremes.
+    floquet : Floquet (...)
+        Whether the motion is stable.
+    apart : tuple of Apart
+        Torques of orders that do not repeat within two turns: answered by the straight line and added by their
+        amplitudes, to first order exact; without side bands.
+    assumed : tuple of str
+        Paths of what the drive does not say and the answer assumes.
+    """
+
+    train: TorsionalTrain
+    steady: SteadyResponse
+    floquet: Floquet
+    apart: tuple[Apart, ...]
+    assumed: tuple[str, ...]
+
+    @property
+    def speed(self) -> Array:
+        """Input speed, mean speed of a free drive, array (...) [rad/s]."""
+        return self.steady.speed
+
+    @property
+    def torque_highest(self) -> Array:
+        """Highest torque of every element, array (..., E) [N·m]."""
+        found: Array = self.steady.torque_highest + self._beside
+        return found
+
+    @property
+    def torque_lowest(self) -> Array:
+        """Lowest torque of every element, array (..., E) [N·m]; below 0 it lifts off, and backlash rattles."""
+        found: Array = self.steady.torque_lowest - self._beside
+        return found
+
+    @property
+    def _beside(self) -> Array:
+        return sum((np.abs(one.torque) for one in self.apart), start=np.asarray(0.0))
+
+    @property
+    def swing(self) -> Array:
+        """Half of highest less lowest torque of every element, array (..., E) [N·m]."""
+        found: Array = 0.5 * (self.torque_highest - self.torque_lowest)
+        return found
+
+
+def torsion_response(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    speed: ArrayLike | None = None,
+    method: HarmonicBalance | Shooting | None = None,
+    pieces: int = 1,
+    progress: Progress | None = None,
+) -> TorsionResponse:
+    """Return how a drive vibrates in torsion while it runs steadily.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`; better with damping.
+    duty : Duty, optional
+        What it does; that of the drive by default.
+    speed : float or array (s,) [rad/s], optional
+        Input speeds, none of them 0; that of the duty by default.
+    method : HarmonicBalance or Shooting, optional
+        How to find the motion; harmonic balance by default, shooting where backlash opens.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+    progress : function, optional
+        Told the share done; when it answers "stop", the speeds not yet done are left out as cancelled.
+
+    Returns
+    -------
+    TorsionResponse
+
+    Raises
+    ------
+    InputError
+        What the model misses, each with the key to add; a torque that runs in time.
+
+    Notes
+    -----
+    Exact equations of motion with their periodic solution; structural damping counts as viscous, b = ηc/(2Ω), equal at
+    order 2. See `steady.periodic_response` and `stability.floquet`.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> tube = Shaft(number=2, length=1.0, outer=0.07, wall=0.002, loss_factor=0.02)
+    >>> drive = replace(Drive.from_angles([0.2, 0.2]), shafts=(tube,), stations=(Station(shaft=3, inertia=0.5),))
+    >>> found = torsion_response(drive, Duty(speed=100.0, torque=150.0))
+    >>> found.steady.torque.mean.round(1), found.floquet.stable
+    (array([150.1]), np.True_)
+    """
+    chosen = drive.duty if duty is None else duty
+    speeds = np.asarray(_speeds(chosen, speed), dtype=float)
+    train, model = loaded_model(drive, chosen, speeds, pieces=pieces)
+    model, loose = parted(model)
+    steady = periodic_response(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
+    verdict = floquet(steady)
+    if progress is not None:
+        progress(1.0)
+    return TorsionResponse(
+        train=train,
+        steady=replace(steady, stable=verdict.stable),
+        floquet=verdict,
+        apart=tuple(_apart(model, loose, speeds)),
+        assumed=train.assumed,
+    )
+
+
+def _speeds(duty: Duty, speed: ArrayLike | None) -> ArrayLike:
+    if speed is None and duty.speed is None:
+        raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+    return float(duty.speed or 0.0) if speed is None else speed
+
+
+def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) -> tuple[TorsionalTrain, TorsionalModel]:
+    """Return the model of a drive under its duty at input speeds, one or (s,), and the train of the first of them.
+
+    Raises
+    ------
+    InputError
+        What the model misses; a torque that runs in time.
+    """
+    check(_timed(duty))
+    flat = speeds.reshape(-1)
+    if not len(flat) or speeds.ndim > 1:
+        raise refuse("speed", _("one list of speeds is needed"))
+    if np.any(flat == 0.0) or not np.all(np.isfinite(flat)):
+        field = "speed" if speeds.ndim else "duty.speed"
+        raise refuse(field, _("steady running needs a speed other than 0, and a finite one"))
+    train = torsional_train(drive, duty, speed=float(flat[0]), pieces=pieces)
+    model = train.model
+    masses = duty.engine is not None and bool(duty.engine.piston_mass)
+    if speeds.ndim and (train.pendulums or masses):  # what changes with the speed
+        model = torsional_train(drive, duty, speed=speeds, pieces=pieces).model
+    if not model.elements:
+        text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
+        raise refuse("shafts[0].stiffness", text)
+    if not model.free:
+        model = replace(model, input_speed=speeds)
+    return train, in_time(model, 2.0 * np.abs(speeds))
+
+
+def _timed(duty: Duty) -> Iterator[Problem]:
+    """Yield torques that run in time."""
+    named = [("duty.motor", duty.motor), ("duty.load", duty.load)]
+    named += [(f"duty.torques[{k}]", one) for k, one in enumerate(duty.torques)]
+    for path, machine in named:
+        if isinstance(machine, TorqueHistory):
+            text = _("runs in time; steady running needs torques that follow angle or speed, so simulate it instead")
+            yield Problem(f"{path}.kind", text)
+
+
+def parted(model: TorsionalModel) -> tuple[TorsionalModel, tuple[Torque, ...]]:
+    """Return a model with the torques that repeat within two turns, and those that do not."""
+    fits = [torque.law.order is not None and base_period((torque.law.order,)) is not None for torque in model.torques]
+    loose = tuple(torque for torque, fit in zip(model.torques, fits, strict=True) if not fit)
+    return replace(model, torques=tuple(t for t, fit in zip(model.torques, fits, strict=True) if fit)), loose
+
+
+def _apart(model: TorsionalModel, loose: tuple[Torque, ...], speeds: Array) -> Iterator[Apart]:
+    """Yield how the straight line answers torques of other orders."""
+    for torque in loose:
+        law = torque.law
+        assert isinstance(law, Swinging)
+        amplitude = np.asarray(law.amplitude) * np.exp(1j * (np.asarray(law.phase) - 0.5 * np.pi))
+        found = straight_waves(model, torque.station, amplitude, law.frequency * np.abs(speeds))
+        yield Apart(order=law.frequency, station=torque.station, torque=found.torque, angle=found.angle)
+
+
+def _scaled(progress: Progress | None, low: float, high: float) -> Progress | None:
+    """Return what tells the share of a part of the work as that of the whole."""
+    if progress is None:
+        return None
+    return lambda share: progress(low + (high - low) * share)
+
+
+def level(mean: float, swing: float) -> float:
+    """Return a mean, 0 where it is nothing but rounding beside the swing about it.
+
+    Examples
+    --------
+    >>> level(3e-11, 0.2), level(400.0, 1300.0)
+    (0.0, 400.0)
+    """
+    return 0.0 if abs(mean) < ROUNDING * abs(swing) else mean

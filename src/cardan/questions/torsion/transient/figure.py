@@ -1,0 +1,78 @@
+"""Torsional vibration in time: torques of the elements and speeds of the stations."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.figures.axes import axis
+from cardan.figures.figure import Curve, Figure, Panel, Row
+from cardan.figures.palette import DASHES
+from cardan.figures.wording import significant
+from cardan.maths.ties import foremost
+from cardan.questions.torsion.steady.figure import looks, worst_elements
+from cardan.texts import _
+from cardan.units import rpm
+
+from .torsion_transient import Transient
+
+
+def transient_figures(found: Transient) -> tuple[Figure, ...]:
+    """Return the figure of a drive in time."""
+    return (transient_figure(found),)
+
+
+def transient_figure(found: Transient) -> Figure:
+    """Return torques and speeds over time.
+
+    Parameters
+    ----------
+    found : Transient
+        Of one drive.
+    """
+    motion = found.motion
+    names = found.train.element_names
+    ends = motion.extremes
+    swing = np.nan_to_num(ends.torque_high - ends.torque_low)
+    worst = worst_elements(swing)
+    line = list(found.train.line)
+    liveliest = int(foremost(np.nan_to_num(ends.speed_high - ends.speed_low)))
+    stations = list(dict.fromkeys([line[0], line[-1], liveliest]))
+    torques = Panel(
+        series=tuple(
+            Curve(x=motion.times, y=motion.torque[:, e], role=role, dash=dash, width=1.0, label=names[e])
+            for e, role, dash in looks(found.train, worst)
+        ),
+        x=axis("", "", [motion.times], margin=0.0, count=8),
+        y=axis(_("Torque"), "N·m", [motion.torque[:, worst]], count=5),
+    )
+    speeds = Panel(
+        series=tuple(
+            Curve(
+                x=motion.times,
+                y=motion.speed[:, k] / rpm,
+                role="accent" if n else "ink",
+                dash=DASHES[n % 4],
+                width=1.0,
+                label=found.train.model.names[k],
+            )
+            for n, k in enumerate(stations)
+        ),
+        x=axis(_("time"), "s", [motion.times], margin=0.0, count=8),
+        y=axis(_("Speed"), "rpm", [motion.speed[:, stations] / rpm], count=4),
+    )
+    e = worst[0]
+    high = abs(float(ends.torque_high[e])) >= abs(float(ends.torque_low[e]))
+    text = _("The torque in {name} reaches {torque} N·m after {time} s.")
+    return Figure(
+        name="torsion-transient",
+        title=_("Torques and speeds in time"),
+        sentence=text.format(
+            name=names[e],
+            torque=significant(float(ends.torque_high[e] if high else ends.torque_low[e]), 3),
+            time=significant(float(ends.torque_high_time[e] if high else ends.torque_low_time[e]), 3),
+        ),
+        source=_("exact equations of motion in steps of one length")
+        if motion.method == "fixed steps"
+        else _("exact equations of motion, steps held to their error"),
+        rows=(Row(panels=(torques,), height=2.0), Row(panels=(speeds,), height=1.4)),
+    )

@@ -1,0 +1,259 @@
+"""What a simulation found: angles, speeds and torques over time, their extremes, and the account of energy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TypeAlias
+
+import numpy as np
+
+from cardan.maths.arrays import Array
+from cardan.questions.torsion.model.torsional_balance import balance, element_torques, energy, places
+from cardan.questions.torsion.model.torsional_model import TorsionalModel
+
+from .marching import WITHIN, Freedom, Piece
+
+Progress: TypeAlias = Callable[[float], object]
+"""Called with the share done; answering "stop" ends the work."""
+
+CLOSER = 20
+"""How much finer the places around an extreme lie than before, twice."""
+
+PIECES = 96
+"""Pieces whose extremes are looked for together."""
+
+
+class Status(IntEnum):
+    """How a simulation ended."""
+
+    DONE = 0
+    DIVERGED = 1
+    """The motion left all bounds."""
+    CANCELLED = 2
+    """``progress`` said stop."""
+    SNAPPED = 3
+    """The torque snapped a joint without inertia through: its static balance ended."""
+    STALLED = 4
+    """No step was short enough for the tolerance, or contacts changed without end."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Extremes:
+    """Lowest and highest values over the whole span, found between the samples too, and when they were reached.
+
+    Attributes
+    ----------
+    torque_low, torque_high : array (..., E) [N·m]
+        Of every element.
+    torque_low_time, torque_high_time : array (..., E) [s]
+    speed_low, speed_high : array (..., N) [rad/s]
+        Of every station.
+    speed_low_time, speed_high_time : array (..., N) [s]
+    """
+
+    torque_low: Array
+    torque_high: Array
+    torque_low_time: Array
+    torque_high_time: Array
+    speed_low: Array
+    speed_high: Array
+    speed_low_time: Array
+    speed_high_time: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Simulation:
+    """Motion of one drive or of many over time; nan after a drive ended early.
+
+    Attributes
+    ----------
+    times : array (t,) [s]
+        Samples.
+    coordinate, rate : array (..., t, R) [rad, rad/s]
+        Angles and speeds of the coordinates.
+    angle, speed : array (..., t, N) [rad, rad/s]
+        Of every station.
+    torque : array (..., t, E) [N·m]
+        Of every element, positive when it carries power along the drive.
+    input_torque : array (..., t) [N·m] or None
+        Torque that forces the speed of the first station; None where it is free.
+    energy : array (..., t) [J]
+        Σ ½ J Ḟ² + Σ ½ c x_e².
+    work : array (..., t) [J]
+        What torques have brought since the start, less what dampers have taken.
+    extremes : Extremes
+    status : array of int (...)
+        A `Status` each.
+    ended : array (...) [s]
+        Time that was reached.
+    steps : int
+        Steps taken, of all drives.
+    method : str
+        What integrated: "explicit", "implicit" or "fixed steps".
+    """
+
+    times: Array
+    coordinate: Array
+    rate: Array
+    angle: Array
+    speed: Array
+    torque: Array
+    input_torque: Array | None
+    energy: Array
+    work: Array
+    extremes: Extremes
+    status: Array
+    ended: Array
+    steps: int
+    method: str
+
+    @property
+    def residual(self) -> Array:
+        """What the account of energy misses: E(t) - E(0) - work, array (..., t) [J]."""
+        return self.energy - self.energy[..., :1] - self.work
+
+    @property
+    def imbalance(self) -> Array:
+        """Greatest `residual` over the greatest energy or work, array (...)."""
+        largest = np.maximum(_largest(self.energy), _largest(self.work))
+        return _largest(self.residual) / np.where(largest > 0.0, largest, 1.0)
+
+
+def _largest(values: Array) -> Array:
+    """Return the greatest size along the last axis, of what is finite."""
+    return np.max(np.where(np.isfinite(values), np.abs(values), 0.0), axis=-1, initial=0.0)
+
+
+def reported(
+    model: TorsionalModel,
+    times: Array,
+    q: Array,
+    rate: Array,
+    work: Array,
+    *,
+    forced_acceleration: Array | None,
+    extremes: Extremes,
+    status: Array,
+    ended: Array,
+    steps: int,
+    method: str,
+) -> Simulation:
+    """Return a simulation from the coordinates at its samples.
+
+    Parameters
+    ----------
+    model : TorsionalModel
+    times : array (t,) [s]
+    q, rate : array (..., t, R) [rad, rad/s]
+    work : array (..., t) [J]
+    forced_acceleration : array (t,) [rad/s²] or None
+        Of the first coordinate, where it is forced.
+    extremes, status, ended, steps, method
+        As in `Simulation`.
+    """
+    place = places(model, q)
+    speed = place.first * rate[..., list(model.coordinate)]
+    reaction = None
+    if forced_acceleration is not None:
+        change = np.zeros_like(q)
+        change[..., 0] = forced_acceleration
+        reaction = balance(model, q, rate, change, times)[..., 0]
+    return Simulation(
+        times=times,
+        coordinate=q,
+        rate=rate,
+        angle=place.angle,
+        speed=speed,
+        torque=element_torques(model, q, rate),
+        input_torque=reaction,
+        energy=energy(model, q, rate),
+        work=work,
+        extremes=extremes,
+        status=status,
+        ended=ended,
+        steps=steps,
+        method=method,
+    )
+
+
+class Record:
+    """Gathers the samples and extremes of one drive, piece by piece."""
+
+    def __init__(self, model: TorsionalModel, times: Array) -> None:
+        self.model, self.times = model, times
+        self.q = np.full((len(times), model.coordinates), np.nan)
+        self.rate = np.full((len(times), model.coordinates), np.nan)
+        self.work = np.full(len(times), np.nan)
+        self.filled = 0
+        count = 2 * (len(model.elements) + len(model.driven))
+        self.best, self.when = np.full(count, -np.inf), np.full(count, np.nan)
+        self.around: list[list[tuple[Piece, Freedom]]] = [[] for _k in range(count)]
+        self.waiting: list[tuple[Piece, Freedom]] = []
+
+    def add(self, piece: Piece, freedom: Freedom) -> None:
+        """Take one piece."""
+        upto = int(np.searchsorted(self.times, piece.end, side="right"))
+        if upto > self.filled:
+            now = slice(self.filled, upto)
+            self.q[now], self.rate[now], self.work[now] = self._whole(piece, freedom, self.times[now])
+            self.filled = upto
+        self.waiting.append((piece, freedom))
+        if len(self.waiting) >= PIECES:
+            self._flush(more=True)
+
+    def _whole(self, piece: Piece, freedom: Freedom, times: Array) -> tuple[Array, Array, Array]:
+        q, rate, work = piece.dense(times)
+        return *freedom.whole(times, q, rate), work
+
+    def _values(self, q: Array, rate: Array) -> Array:
+        """Return what extremes are wanted of, and its negative, array (m, 2 (E + N))."""
+        place = places(self.model, q)
+        both = (element_torques(self.model, q, rate), place.first * rate[:, list(self.model.coordinate)])
+        found = np.concatenate(both, axis=-1)
+        return np.concatenate((found, -found), axis=-1)
+
+    def _flush(self, *, more: bool) -> None:
+        """Look for extremes in the pieces that wait; the last one stays if more are to come, which may go on rising."""
+        if not self.waiting:
+            return
+        times = np.concatenate([piece.within() for piece, _freedom in self.waiting])
+        parts = [self._whole(piece, freedom, piece.within()) for piece, freedom in self.waiting]
+        values = self._values(np.concatenate([one[0] for one in parts]), np.concatenate([one[1] for one in parts]))
+        top = np.argmax(values, axis=0)
+        for k, place in enumerate(top):
+            if values[place, k] > self.best[k]:
+                self.best[k], self.when[k] = values[place, k], times[place]
+                piece = place // WITHIN
+                self.around[k] = self.waiting[piece : piece + 2 if (place + 1) % WITHIN == 0 else piece + 1]
+        self.waiting = self.waiting[-1:] if more else []
+
+    def extremes(self) -> Extremes:
+        """Return the extremes so far, refined within their pieces."""
+        self._flush(more=False)
+        for k, pieces in enumerate(self.around):
+            for piece, freedom in pieces:
+                self._refine(k, piece, freedom)
+        count, half = len(self.model.elements), len(self.best) // 2
+        best, when = np.where(np.isfinite(self.best), self.best, np.nan), self.when
+        return Extremes(
+            torque_low=-best[half : half + count],
+            torque_high=best[:count],
+            torque_low_time=when[half : half + count],
+            torque_high_time=when[:count],
+            speed_low=-best[half + count :],
+            speed_high=best[count:half],
+            speed_low_time=when[half + count :],
+            speed_high_time=when[count:half],
+        )
+
+    def _refine(self, k: int, piece: Piece, freedom: Freedom) -> None:
+        spacing = (piece.end - piece.start) / WITHIN
+        for _round in range(2):
+            near = np.clip(self.when[k] + spacing * np.linspace(-1.0, 1.0, 2 * CLOSER + 1), piece.start, piece.end)
+            values = self._values(*self._whole(piece, freedom, near)[:2])[:, k]
+            top = int(np.argmax(values))
+            if values[top] > self.best[k]:
+                self.best[k], self.when[k] = values[top], near[top]
+            spacing /= CLOSER

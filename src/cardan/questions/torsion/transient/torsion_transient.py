@@ -1,0 +1,249 @@
+"""How do torques and speeds of a drive run in time: load steps, torque histories, running up, from even or settled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
+from cardan.drive.machine import TorqueHistory
+from cardan.errors import Problem, check, refuse
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.questions.torsion.model.input_motion import SpeedCourse
+from cardan.questions.torsion.model.torques import Constant, Swinging
+from cardan.questions.torsion.model.torsional_balance import gathered
+from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import straight_modes
+from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
+from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.torsion_response import parted
+from cardan.texts import _
+
+from .fixed_steps import FixedStep
+from .hanging import Hang, hanging
+from .simulation import Progress, Simulation, Status
+from .swiftness import own_rates
+from .transient import Adaptive, Method, simulate
+
+Start: TypeAlias = Literal["even", "settled"]
+
+TURNS = 20.0
+"""Turns that are simulated where nothing says how long."""
+
+SWINGS = 15.0
+"""Swings of the slowest mode that are simulated at least."""
+
+MANY = 1_000
+"""Steps that errors ask for from which steps of one length, compiled, are the quicker way."""
+
+RADIANS = 2.0
+"""Of the fastest swing that lives on, in a step that errors ask for."""
+
+SMOOTH = 20.0
+"""Steps in a period of the fastest swing: extremes are then read off to some millionths."""
+
+FOLLOWED = 1_000_000
+"""Turns or swings of the slowest mode that are followed at most: hours of work."""
+
+AFTER = 0.2
+"""Share of a run-up that is simulated behind it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Transient:
+    """Torsional motion of a drive in time.
+
+    Attributes
+    ----------
+    train : TorsionalTrain
+        The model, and where its stations are.
+    motion : Simulation
+        Angles and speeds of the stations, torques of the elements, extremes, account of energy.
+    start : str
+        "even" from even rotation with untwisted shafts, so that all torques come on at once; "settled" from the steady
+        motion.
+    """
+
+    train: TorsionalTrain
+    motion: Simulation
+    start: Start
+
+    @property
+    def hangs(self) -> tuple[Hang, ...]:
+        """Where a motor hung on a resonance: its speed stopped rising while power was there."""
+        return hanging(self.train.model, self.motion)
+
+    @property
+    def complete(self) -> bool:
+        """Whether the simulation reached its end."""
+        return int(self.motion.status) == Status.DONE
+
+
+def transient(
+    drive: Drive,
+    duty: Duty | None = None,
+    *,
+    span: float | None = None,
+    times: int | ArrayLike = 2001,
+    start: Start = "even",
+    method: Method | None = None,
+    pieces: int = 1,
+    progress: Progress | None = None,
+) -> Transient:
+    """Return how torques and speeds of a drive run in time.
+
+    Parameters
+    ----------
+    drive : Drive
+        With bodies or inertias and stiffnesses of its shafts, or `[[stations]]`.
+    duty : Duty, optional
+        What it does; that of the drive by default. A run-up takes the place of its speed.
+    span : float, optional [s]
+        How long; to behind the run-up or the end of the longest history, else some turns.
+    times : int or array (t,) [s]
+        How many samples, or when.
+    start : {"even", "settled"}
+        From even rotation with untwisted shafts, so that all torques come on at once, or from the steady motion.
+    method : Adaptive or FixedStep, optional
+        How to integrate; adaptive by default, but fixed steps where a drive without play swings fast to the end, as
+        one without damping does.
+    pieces : int
+        Into how many equal stretches the body between two stations is divided.
+    progress : function, optional
+        Told the share done; when it answers "stop", what is done is kept.
+
+    Returns
+    -------
+    Transient
+
+    Raises
+    ------
+    InputError
+        What the model misses, each with the key to add; a settled start where nothing is steady; a span of more turns
+        than anyone waits for.
+
+    Notes
+    -----
+    Exact equations of motion, see `transient.simulate`; structural damping counts as viscous, equal at
+    order 2 of the highest speed. Where nothing drives a free input, a constant torque does that equals what resists at
+    the start.
+
+    Examples
+    --------
+    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.station import Station
+    >>> drive = replace(Drive.from_angles([0.2]), shafts=(Shaft(number=1, stiffness=4000.0, damping=2.0),),
+    ...     stations=(Station(shaft=2, inertia=0.4),))
+    >>> found = transient(drive, Duty(speed=50.0, torque=100.0), span=0.5)
+    >>> found.complete, bool(found.motion.imbalance < 1e-9)
+    (True, True)
+    """
+    chosen = drive.duty if duty is None else duty
+    first, fastest = _speeds(chosen)
+    train = torsional_train(drive, chosen, speed=first or fastest, pieces=pieces)
+    model = in_time(train.model, 2.0 * abs(fastest or 1.0))
+    if not model.free and chosen.run_up is not None:
+        course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))
+        model = replace(model, input_speed=None, input_motion=course)
+    elif not model.free:
+        model = replace(model, input_speed=np.asarray(first))
+    angle: Array | None = None
+    rate: Array = np.asarray(first)
+    if start == "settled":
+        check(_unsettled(chosen, model))
+        steady = periodic_response(model, speed=first)
+        if not bool(steady.found):
+            raise refuse("start", _("no steady motion was found to start from; start even"))
+        angle, rate = (one[0, 0] for one in steady.orbit.of(np.asarray([0]), [0.0])[:2])
+        if model.free:
+            model = _held(model, float(steady.orbit.force))
+    elif model.free and first and not _pushed(model):
+        model, train = _held(model, _resisting(model, first)), replace(train, assumed=(*train.assumed, "duty.motor"))
+    length = _span(chosen, model, fastest) if span is None else span
+    check(_endless(model, fastest, length))
+    how = _method(model, rate, length) if method is None else method
+    motion = simulate(model, span=length, times=times, angle=angle, speed=rate, method=how, progress=progress)
+    return Transient(train=train, motion=motion, start=start)
+
+
+def _held(model: TorsionalModel, force: float) -> TorsionalModel:
+    """Return a drive with a constant torque on its input."""
+    return replace(model, torques=(*model.torques, Torque(station=0, law=Constant(value=force))))
+
+
+def _pushed(model: TorsionalModel) -> bool:
+    """Tell whether anything but a swinging torque acts on the input."""
+    return any(torque.station == 0 and not isinstance(torque.law, Swinging) for torque in model.torques)
+
+
+def _resisting(model: TorsionalModel, speed: float) -> float:
+    """Return the torque on the input that what resists takes at the start [N·m]."""
+    taken = float(np.sum(model.ground_damping)) * speed
+    for torque in model.torques:
+        if not isinstance(torque.law, Swinging):
+            taken -= float(torque.law.at(np.asarray(0.0), np.asarray(0.0), np.asarray(speed))[0])
+    return taken
+
+
+def _speeds(duty: Duty) -> tuple[float, float]:
+    """Return the speed at the start and the highest one meant."""
+    if duty.run_up is not None:
+        ends = duty.run_up.start, duty.run_up.end
+        return ends[0], max(ends, key=abs)
+    return duty.speed or 0.0, duty.speed or 0.0
+
+
+def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
+    """Yield what keeps a drive from running steadily."""
+    if duty.run_up is not None:
+        yield Problem("duty.run_up", _("its speed changes; a settled start needs a steady speed"))
+    if duty.speed is None:
+        yield Problem("duty.speed", _("missing; a settled start needs it"))
+    if any(torque.law.order is None for torque in model.torques):
+        yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
+    elif parted(model)[1]:
+        yield Problem("duty", _("orders of the torques do not repeat within two turns; start even"))
+
+
+def _method(model: TorsionalModel, rate: Array, span: float) -> Method:
+    """Return the quicker way to follow a drive."""
+    free = np.arange(model.coordinates)[0 if model.free else 1 :]
+    if np.any(model.backlash > 0.0) or np.any(gathered(model, model.inertia)[free] == 0.0) or not span > 0.0:
+        return Adaptive()
+    rates = np.broadcast_to(rate, (model.coordinates,))
+    _fastest, living = own_rates(model, free, np.zeros(model.coordinates), rates, 0.0, span)
+    return FixedStep(per_period=SMOOTH) if float(living) * span > RADIANS * MANY else Adaptive()
+
+
+def _span(duty: Duty, model: TorsionalModel, fastest: float) -> float:
+    """Return how long to simulate where nothing says it [s]."""
+    found = 0.0 if duty.run_up is None else (1.0 + AFTER) * duty.run_up.duration
+    for machine in (duty.motor, duty.load, *duty.torques):
+        if isinstance(machine, TorqueHistory):
+            found = max(found, machine.times[-1])
+    if not found:
+        slowest = _slowest(model)
+        swing = 2.0 * np.pi / slowest if slowest else 0.0
+        found = max(TURNS * 2.0 * np.pi / abs(fastest) if fastest else 1.0, SWINGS * swing)
+    return found
+
+
+def _slowest(model: TorsionalModel) -> float:
+    """Return the lowest natural frequency of the stretched drive, 0 where nothing swings [rad/s]."""
+    bare = replace(model, torques=(), input_speed=None if model.free else np.asarray(0.0), input_motion=None)
+    omega = straight_modes(bare).omega
+    return float(omega[0]) if len(omega) else 0.0
+
+
+def _endless(model: TorsionalModel, fastest: float, length: float) -> Iterator[Problem]:
+    """Yield a span of more turns or swings than can be followed."""
+    rate = max(abs(fastest), _slowest(model))
+    turns = rate * length / (2.0 * np.pi)
+    if turns > FOLLOWED:
+        text = _("{span:.6g} s are {turns:,.0f} turns or swings; at most {most:,} are followed, {longest:.3g} s here")
+        longest = FOLLOWED * 2.0 * np.pi / rate
+        yield Problem("span", text.format(span=length, turns=turns, most=FOLLOWED, longest=longest), "too_large")

@@ -1,0 +1,84 @@
+"""An answer as a page of the report, for one reader: HTML, PDF, workbook and app show it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cardan.answers.answer import Answer, Depth, KeyFigure
+from cardan.answers.printed import SHOWN, Cell, framed, number, printed
+from cardan.answers.quantity import Quantity, told
+from cardan.answers.reader import Reader
+from cardan.texts import _
+
+from .block import Block, Listing, Page, Picture, Points, Words
+
+MOST = 1000.0
+"""A limit that is exceeded more often is told as exceeded beyond that."""
+
+
+def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
+    """Return an answer as a page: its figures, its tables, what to mind.
+
+    Parameters
+    ----------
+    answer : Answer
+        What is said.
+    reader : Reader
+        Units and decimal sign.
+    depth : str
+        How deep it goes.
+
+    Examples
+    --------
+    >>> from cardan.answers.quantity import say
+    >>> from cardan.answers.reader import USUAL
+    >>> said = say("It slides {way}.", way=Quantity(0.0254, "length"))
+    >>> page(Answer(name="way", title="Way", sentence=said), USUAL).answer
+    'It slides 25.40 mm.'
+    """
+    return Page(
+        name=answer.name,
+        title=answer.title,
+        answer=capital(told(answer.sentence, reader)),
+        blocks=list(_blocks(answer, reader, depth)),
+        keys=answer.keys,
+        alarms=[Words(text=told(one.text, reader), tone=one.tone) for one in answer.remarks if one.alarm],
+    )
+
+
+def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
+    shown = SHOWN[depth]
+    remarks = [one for one in answer.remarks if one.depth in shown and one.tone != "next"]
+    yield from (Words(text=told(one.text, reader), tone=one.tone) for one in remarks if one.tone == "failed")
+    yield from (Picture(figure=one) for one in answer.figures())
+    yield from (printed(one, reader, depth) for one in answer.tables if one.depth in shown)
+    yield from (Words(text=told(one.text, reader)) for one in remarks if one.tone in ("plain", "good"))
+    minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
+    if minded:
+        yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))
+    yield from (Listing(title=one.title, text=one.text) for one in answer.listings if one.depth in shown)
+
+
+def row(key: KeyFigure, reader: Reader) -> list[Cell]:
+    """Return the row of a key figure: what, value, unit, limit, utilisation, verdict."""
+    value = number(key.value, reader, unit=False)
+    limit, used = Cell(text="–"), Cell(text="–")
+    if key.limit is not None and key.utilisation is not None:
+        bound = number(key.limit, reader, unit=False)
+        sign = "≥ " if key.better == "more" else "≤ "
+        limit = Cell(text=sign + bound.text, full=bound.full, amount=bound.amount, form=framed(bound.form, sign))
+        used = number(Quantity(key.utilisation, decimals=2, most=MOST), reader, unit=False)
+    unit = reader.label(key.value.dimension, key.value.unit)
+    verdict = Cell(text=key.verdict, tone=key.tone if key.verdict else "plain")
+    return [Cell(text=told(key.called, reader)), value, Cell(text=unit), limit, used, verdict]
+
+
+def capital(text: str) -> str:
+    """Return a sentence that begins with a capital letter.
+
+    Examples
+    --------
+    >>> capital("joint 2 fails first.")
+    'Joint 2 fails first.'
+    """
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,1 @@
+"""The drive in space: bodies, lines and loads that move."""

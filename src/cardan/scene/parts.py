@@ -1,0 +1,282 @@
+"""What a scene is made of, and the same as dicts and lists for a browser."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from cardan.drive.bodies.build import Track
+from cardan.figures import palette
+from cardan.maths.arrays import Array
+
+DIGITS = 6
+"""Significant digits of lengths, beside the size of the whole."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneBody:
+    """A body of a scene; its corners lie in the frame of its track.
+
+    Attributes
+    ----------
+    name : str
+        Unlike that of any other body.
+    part : str
+        What it is.
+    number : int
+        Of its shaft, joint or support.
+    path : str
+        Where the drive file speaks of it.
+    text : str
+        What it is, in words.
+    track : int
+    positions : array (m, 3) [m]
+    indices : int array (t, 3)
+        Triangles, counter-clockwise seen from outside; corners at sharp edges are doubled.
+    smooth : bool
+        Whether normals are averaged over the triangles of a corner.
+    colour : str
+    metal : bool
+    utilisation : float or None
+        Largest share of a limit that it uses.
+    utilisation_colour : str
+        Of that share.
+    """
+
+    name: str
+    part: str
+    number: int
+    path: str
+    text: str
+    track: int
+    positions: Array
+    indices: Array
+    smooth: bool
+    colour: str
+    metal: bool
+    utilisation: float | None = None
+    utilisation_colour: str = palette.ROLES["faint"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneLine:
+    """A line through points (m, 3) [m] of a track."""
+
+    group: str
+    points: Array
+    colour: str
+    dashed: bool = False
+    width: float = 1.0
+    track: int = 0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneArea:
+    """A flat, transparent area of a track: corners (m, 3) [m] and triangles."""
+
+    group: str
+    positions: Array
+    indices: Array
+    colour: str
+    opacity: float
+    text: str = ""
+    track: int = 0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneLabel:
+    """A word at a place (3,) [m] of a track."""
+
+    group: str
+    text: str
+    at: Array
+    role: str
+    track: int = 0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneArrow:
+    """An arrow from a place (3,) or (p, 3) along a vector of the same shapes [m of drawing]; bent where it turns."""
+
+    group: str
+    text: str
+    colour: str
+    curl: bool
+    start: Array
+    vector: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneCurve:
+    """A line that moves: points (frames, m, 3) [m] of a track, drawn as a tube."""
+
+    points: Array
+    colour: str
+    radius: float
+    track: int = 0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneMode:
+    """A mode shape: extra turns (frames, 4) of tracks, and curves that move."""
+
+    name: str
+    text: str
+    kind: Literal["whirl", "torsion"]
+    frames: int
+    turns: dict[int, Array] = field(default_factory=dict)
+    curves: tuple[SceneCurve, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneGroup:
+    """A switch: what is drawn round the bodies, and a sentence on it."""
+
+    name: str
+    title: str
+    on: bool
+    text: str = ""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scene:
+    """A drive in space over one turn of its input.
+
+    Attributes
+    ----------
+    name : str
+    centre : array (3,) [m]
+        Middle of everything.
+    size : float [m]
+        From corner to corner.
+    angle : array (p,) [rad]
+        Input angle of each frame; the frame behind the last is the first one again.
+    tracks : tuple of Track
+        How bodies move; the first stands still.
+    bodies, lines, areas, labels, arrows, modes, groups : tuples
+    scale : tuple of (float, str, str)
+        Utilisation, its colour, and what it means.
+    missing : dict of str
+        What cannot be shown -> which key would allow it.
+    """
+
+    name: str
+    centre: Array
+    size: float
+    angle: Array
+    tracks: tuple[Track, ...]
+    bodies: tuple[SceneBody, ...]
+    lines: tuple[SceneLine, ...]
+    areas: tuple[SceneArea, ...]
+    labels: tuple[SceneLabel, ...]
+    arrows: tuple[SceneArrow, ...]
+    modes: tuple[SceneMode, ...]
+    groups: tuple[SceneGroup, ...]
+    scale: tuple[tuple[float, str, str], ...] = ()
+    missing: dict[str, str] = field(default_factory=dict)
+
+    def described(self) -> dict[str, Any]:
+        """Return the scene as dicts, lists, numbers and words, ready for JSON."""
+        places = max(0, DIGITS - 1 - math.floor(math.log10(self.size)))
+        return _described(self, places)
+
+
+def _described(shown: Scene, places: int) -> dict[str, Any]:
+    def flat(values: Array) -> list[float]:
+        found: list[float] = (np.round(np.asarray(values, dtype=float), places) + 0.0).ravel().tolist()
+        return found
+
+    def turn(values: Array) -> list[float]:
+        found: list[float] = (np.round(values, DIGITS) + 0.0).ravel().tolist()
+        return found
+
+    return {
+        "name": shown.name,
+        "centre": flat(shown.centre),
+        "size": float(f"{shown.size:.6g}"),
+        "frames": len(shown.angle),
+        "angle": turn(shown.angle),
+        "tracks": [{"origin": flat(one.origin), "turn": turn(one.turn)} for one in shown.tracks],
+        "bodies": [
+            {
+                "name": one.name,
+                "part": one.part,
+                "number": one.number,
+                "path": one.path,
+                "text": one.text,
+                "track": one.track,
+                "positions": flat(one.positions),
+                "indices": one.indices.ravel().tolist(),
+                "smooth": one.smooth,
+                "colour": one.colour,
+                "metal": one.metal,
+                "utilisation": None if one.utilisation is None else float(f"{one.utilisation:.4g}"),
+                "utilisation_colour": one.utilisation_colour,
+            }
+            for one in shown.bodies
+        ],
+        "lines": [
+            {
+                "group": one.group,
+                "points": flat(one.points),
+                "colour": one.colour,
+                "dashed": one.dashed,
+                "width": one.width,
+                "track": one.track,
+            }
+            for one in shown.lines
+        ],
+        "areas": [
+            {
+                "group": one.group,
+                "positions": flat(one.positions),
+                "indices": one.indices.ravel().tolist(),
+                "colour": one.colour,
+                "opacity": one.opacity,
+                "text": one.text,
+                "track": one.track,
+            }
+            for one in shown.areas
+        ],
+        "labels": [
+            {"group": one.group, "text": one.text, "at": flat(one.at), "role": one.role, "track": one.track}
+            for one in shown.labels
+        ],
+        "arrows": [
+            {
+                "group": one.group,
+                "text": one.text,
+                "colour": one.colour,
+                "curl": one.curl,
+                "from": flat(one.start),
+                "vector": flat(one.vector),
+            }
+            for one in shown.arrows
+        ],
+        "modes": [
+            {
+                "name": one.name,
+                "text": one.text,
+                "kind": one.kind,
+                "frames": one.frames,
+                "turns": {str(track): turn(values) for track, values in one.turns.items()},
+                "curves": [
+                    {
+                        "points": flat(curve.points),
+                        "count": curve.points.shape[1],
+                        "colour": curve.colour,
+                        "radius": float(f"{curve.radius:.4g}"),
+                        "track": curve.track,
+                    }
+                    for curve in one.curves
+                ],
+            }
+            for one in shown.modes
+        ],
+        "groups": [{"name": one.name, "title": one.title, "on": one.on, "text": one.text} for one in shown.groups],
+        "scale": [{"value": value, "colour": colour, "text": text} for value, colour, text in shown.scale],
+        "missing": dict(shown.missing),
+    }

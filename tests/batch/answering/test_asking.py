@@ -1,0 +1,225 @@
+"""Questions at many points: the fast way, the drive made anew, and JAX tell the same."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, equivalent_joint, example, life, losses
+from cardan.batch.answering.asking import ask_of
+from cardan.batch.answering.many import many
+from cardan.batch.answering.motion_questions import MOTION
+from cardan.batch.answering.questions import questions
+from cardan.batch.work import Status
+from cardan.drive.duty import Duty
+from cardan.drive.fields.paths import with_values
+from cardan.io import loads
+from cardan.units import deg, rpm
+
+RUNNING = Duty(speed=2000 * rpm)
+ANGLES = replace(Drive.from_angles([0.3, 0.2, 0.25, 0.1], yoke_angles=[0.1, 0.2, 0.3]), duty=RUNNING)
+POINTS = replace(
+    Drive.from_points(
+        [(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0), (1.5, 0.1, 0.2), (2, 0, 0), (2.5, 0, 0)], yoke_angles=[0.1, 0.2, 0.3]
+    ),
+    duty=RUNNING,
+)
+SLOPES = loads(
+    "format = 1\n[[joints]]\n[[joints]]\n[[shafts]]\nnumber = 1\nside_slope_deg = 0\n[[shafts]]\nnumber = 2\n"
+    "side_slope_deg = 8\nplan_slope_deg = 3\n[[shafts]]\nnumber = 3\nside_slope_deg = 2\n[duty]\nspeed_rpm = 2000\n"
+)
+MIXED = loads(
+    'format = 1\n[[joints]]\nbend_deg = 12\n[[joints]]\nkind = "constant_velocity"\nbend_deg = 20\n[[joints]]\n'
+    "bend_deg = 9\n[duty]\nspeed_rpm = 2000\n"
+)
+PAIR = replace(Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0.1), (1.5, 0, 0)], yoke_angles=[0.3]), duty=RUNNING)
+NAMES = [one.name for one in MOTION if one.name != "length"]
+CASES = {
+    "angles": (
+        ANGLES,
+        {"joints[1].bend_deg": (-5, 95), "shafts[1].yoke_angle_deg": (-90, 90), "duty.speed_rpm": (1, 9)},
+    ),
+    "planes": (ANGLES, {"joints[2].plane_twist_deg": (-90, 90), "shafts[2].yoke_lead_deg": (0, 90)}),
+    "points": (
+        POINTS,
+        {"joints[1].centre_mm[2]": (-400, 400), "output.point_m[0]": (1.9, 3.0), "input.start_phase_deg": (0, 180)},
+    ),
+    "pair": (PAIR, {"joints[1].centre_mm[2]": (-500, 900), "shafts[1].yoke_angle_deg": (0, 90)}),
+    "slopes": (SLOPES, {"shafts[1].side_slope_deg": (-60, 60), "shafts[2].plan_slope_deg": (-80, 80)}),
+    "mixed": (
+        MIXED,
+        {"joints[0].bend_deg": (0, 91), "joints[1].bend_deg": (0, 30), "shafts[1].yoke_angle_deg": (0, 90)},
+    ),
+}
+
+
+def drawn(case, count=60):
+    drive, ranges = CASES[case]
+    rng = np.random.default_rng(3)
+    points = np.stack([rng.uniform(*ends, count) for ends in ranges.values()], axis=-1)
+    return drive, list(ranges), points
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
+    drive, paths, points = drawn(case)
+    names = NAMES + (["length"] if case == "points" else [])
+    ask = ask_of(drive, paths, names)
+    assert ask.fast
+    found = ask(points)
+    answered = found["status"] == 0
+    assert 0 < answered.sum() < len(points) or case not in ("angles", "points")
+    for k in range(len(points)):
+        answers, status, _problems = ask.at(dict(zip(paths, points[k], strict=True)))
+        assert found["status"][k] == status
+        for name, value in answers.items():  # the same formulas; only the shapes of the arrays differ
+            assert found[name][k] == pytest.approx(value, rel=1e-12, abs=1e-12)
+    for column in ask.answers:
+        assert np.array_equal(np.isnan(found[column.name]), ~answered)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("case", "names"), [("pair", NAMES), ("mixed", ["irregularity"])])
+def test_jax_tells_what_numpy_tells(case, names):
+    pytest.importorskip("jax")
+    drive, paths, points = drawn(case, 33)
+    here, there = (ask_of(drive, paths, names, device=device)(points) for device in ("cpu", "gpu"))
+    assert np.array_equal(here["status"], there["status"])
+    for name, values in here.items():  # other libraries round sines differently; α_eq is a root, hence 1e-8 near 0
+        assert np.allclose(there[name], values, rtol=1e-9, atol=1e-8, equal_nan=True)
+
+
+@pytest.mark.slow
+def test_the_kernel_tells_what_plain_arrays_tell():
+    drive, paths, points = drawn("points", 200)
+    plain, compiled = (ask_of(drive, paths, NAMES, size=size)(points) for size in (0, 10**6))
+    for name, values in plain.items():
+        assert np.allclose(compiled[name], values, rtol=1e-9, atol=1e-8, equal_nan=True)
+
+
+def test_answers_stand_in_the_unit_of_their_column():
+    found = ask_of(ANGLES, ["joints[0].bend_deg"], ["alpha_eq", "acceleration", "ratio"])(np.asarray([[10.0]]))
+    joint = equivalent_joint(with_values(ANGLES, {"joints[0].bend_deg": 10.0}))
+    assert found["alpha_eq_deg"][0] == pytest.approx(joint.bend / deg)
+    assert found["output_acceleration_rad_s2"][0] == pytest.approx(joint.max_acceleration * (2000 * rpm) ** 2)
+    assert found["ratio_max"][0] == pytest.approx(joint.ratio_max)
+
+
+def test_other_fields_remake_the_drive():
+    drive = example("truck-duty-cycle")
+    ask = ask_of(drive, ["joints[2].size", "duty.shock_factor"], ["life", "irregularity"])
+    assert not ask.fast
+    given = {"joints[2].size": np.asarray(["example-150", "example-180"]), "duty.shock_factor": np.asarray([1.2, 1.2])}
+    found = ask.rows(given, 2)
+    assert found["life_h"][0] == pytest.approx(life(drive).drive / 3600.0)
+    assert found["life_h"][1] > found["life_h"][0]
+    assert found["irregularity"][0] == found["irregularity"][1]
+
+
+def test_losses_over_friction():
+    drive = example("pto-drive")
+    path = "joints[0].friction"
+    found = ask_of(drive, [path], ["losses"])(np.asarray([[0.01], [0.05]]))
+    again = losses(with_values(drive, {path: 0.05}))
+    assert found["heat_W"][1] == pytest.approx(again.heat)
+    assert found["efficiency"][1] == pytest.approx(again.efficiency)
+
+
+def test_a_point_that_makes_no_drive_says_so_and_why():
+    ask = ask_of(ANGLES, ["joints[0].cross.span_mm"], ["irregularity"])
+    assert ask(np.asarray([[60.0], [-1.0]]))["status"].tolist() == [Status.ANSWERED, Status.NO_DRIVE]
+    problems = ask.at({"joints[0].cross.span_mm": -1.0})[2]
+    assert problems[0].field == "joints[0].cross.span_mm"
+
+
+def test_a_question_without_an_answer_leaves_the_others_theirs():
+    ask = ask_of(ANGLES, ["duty.torque_Nm"], ["life", "irregularity"])
+    found = ask(np.asarray([[100.0]]))
+    assert found["status"][0] == Status.NO_ANSWER
+    assert np.isnan(found["life_h"][0])
+    assert found["irregularity"][0] == pytest.approx(float(equivalent_joint(ANGLES).irregularity))
+
+
+def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
+    text = 'format = 1\n[[joints]]\nkind = "tracta"\nbend_deg = 10\n'
+    drive = loads(text.replace("tracta", "pin_coupling") + "driving_distance_mm = 50\ndriven_distance_mm = 52\n")
+    ask = ask_of(drive, ["joints[0].bend_deg"], ["irregularity", "alpha_eq", "bend"])
+    assert not ask.fast
+    found = ask(np.asarray([[0.0], [10.0], [20.0]]))
+    assert np.all(found["status"] == 0)
+    assert 0.0 <= found["irregularity"][0] < found["irregularity"][1] < found["irregularity"][2]
+    assert np.allclose(found["bend_deg[0]"], [0.0, 10.0, 20.0])
+
+
+def test_every_question_tells_columns_of_its_own():
+    names = [told.name for one in questions().values() for told in one.told(POINTS)]
+    assert len(names) == len(set(names))
+    for one in questions().values():
+        assert (one.of_many is None) != (one.of_one is None)
+        assert one.doc
+
+
+DRIVES = {
+    "critical_speed": "truck-duty-cycle",
+    "natural_frequency": "unstable-drive",
+    "stability": "unstable-drive",
+    "tolerance": "instrument-joint",
+    "forces": "truck-supports",
+    "movement": "truck-rear-axle",
+    "strength": "truck-duty-cycle",
+    "check": "truck-duty-cycle",
+    "mass": "truck-duty-cycle",
+}
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_questions_about_the_whole_drive_are_answered(name):
+    drive = example(DRIVES[name])
+    answers, status, problems = ask_of(drive, [], [name]).at({})
+    assert (status, problems) == (0, ())
+    assert all(np.isfinite(value) for value in list(answers.values())[:1])
+
+
+@pytest.mark.parametrize(
+    ("paths", "names", "expected"),
+    [
+        (["joints[0].bend"], ["irregularity"], "needs a unit"),
+        (["joints[9].bend_deg"], ["irregularity"], "no index 9"),
+        (["joints[0].bend_deg", "joints[0].bend_rad"], ["irregularity"], "varies twice"),
+        (["joints[0].bend_deg"], ["irregularty"], "nearest is irregularity"),
+        (["joints[0].bend_deg"], [], "nothing is asked"),
+        (["joints[0].bend_deg"], ["length"], "joint centres"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(paths, names, expected):
+    with pytest.raises(InputError, match=expected):
+        ask_of(Drive.from_angles([0.1, 0.1]), paths, names)
+
+
+def test_an_acceleration_needs_a_speed_or_varies_it():
+    bare = Drive.from_angles([0.1, 0.1])
+    with pytest.raises(InputError, match=r"duty\.speed"):
+        ask_of(bare, ["joints[0].bend_deg"], ["acceleration"])
+    assert ask_of(bare, ["duty.speed_rpm"], ["acceleration"])(np.asarray([[100.0]]))["status"].tolist() == [0]
+
+
+def test_the_gpu_answers_motion_alone():
+    with pytest.raises(InputError, match="GPU"):
+        ask_of(example("truck-duty-cycle"), ["duty.torque_Nm"], ["life"], device="gpu")
+
+
+@pytest.mark.parametrize("case", ["angles", "pair", "slopes", "mixed"])
+def test_the_formulas_keep_to_the_array_standard(case):
+    """Whatever library holds the arrays: nothing but the standard is asked of it."""
+    import array_api_strict as xp
+
+    drive, paths, points = drawn(case, 20)
+    ask = ask_of(drive, paths, NAMES)
+    si = {spot.bare: spot.si(points[:, k]) for k, spot in enumerate(ask.spots)}
+    here, real = many(drive, si, 20)
+    there, same = many(drive, si, 20, xp=xp)
+    assert np.array_equal(np.asarray(same), real)
+    for question in MOTION:
+        if question.name != "length":
+            for one, other in zip(question.of_many(here), question.of_many(there), strict=True):
+                assert np.allclose(np.asarray(other), one, rtol=1e-9, atol=1e-8)

@@ -1,0 +1,66 @@
+"""Bars of the limits used."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from cardan import check, example
+from cardan.checks import Verdict
+from cardan.checks.figure import MOST, WIDEST, check_figures
+from cardan.figures.figure import Bars
+from cardan.figures.render_svg import inline_svg
+
+
+def bars(name):
+    (figure,) = check_figures(check(example(name)), name=name)
+    return figure, next(one for one in figure.rows[0].panels[0].series if isinstance(one, Bars))
+
+
+def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
+    figure, drawn = bars("truck-duty-cycle")
+    run = [one for one in check(example("truck-duty-cycle")) if one.run and not one.advice]
+    used = sorted((float(one.utilisation) for one in run), reverse=True)[:MOST]
+    assert drawn.size.tolist() == used
+    assert drawn.ends.tolist() == used
+    assert [role == "failed" for role in drawn.roles] == [one > 1.0 for one in used]
+    assert [role == "warning" for role in drawn.roles] == [0.9 <= one <= 1.0 for one in used]
+    assert "2 of" in figure.sentence
+
+
+def test_signs_tell_without_colour():
+    _figure, drawn = bars("car-propshaft")
+    assert all(text.startswith("●") for text in drawn.texts)
+
+
+def test_a_limit_of_nothing_is_used_without_end():
+    nothing_left = Verdict(check="spline_overlap", title="engaged length", value=0.0, limit=0.04, sense="at_least")
+    (figure,) = check_figures([nothing_left, *check(example("car-propshaft"))])
+    drawn = next(one for one in figure.rows[0].panels[0].series if isinstance(one, Bars))
+    assert drawn.texts[0].endswith(" ∞")
+
+
+def test_nothing_judged_nothing_drawn():
+    drive = example("single-20deg")
+    assert check_figures([one for one in check(drive) if not one.run or one.advice]) == ()
+
+
+def test_one_limit_is_told_as_one_and_the_colours_in_words():
+    (figure,) = check_figures(check(example("single-20deg")))
+    assert figure.sentence == "The one limit that could be judged is not kept."
+    assert "amber comes near, red fails" in figure.source
+
+
+def test_what_uses_far_too_much_is_cut_with_an_arrow_and_keeps_its_number():
+    verdicts = [one for one in check(example("six-joints")) if one.run and not one.advice]
+    first = next(one for one in verdicts if one.sense == "at_most")
+    far = replace(first, value=23.4 * first.limit)
+    (figure,) = check_figures([far, *(one for one in verdicts if one is not first)])
+    drawn, panel = next(one for one in figure.panels[0].series if isinstance(one, Bars)), figure.panels[0]
+    assert drawn.size[0] == pytest.approx(23.4)
+    assert drawn.ends[0] == WIDEST < panel.x.high
+    assert drawn.texts[0].startswith("▶ ")
+    assert drawn.texts[0].endswith(" 23.40")
+    assert not any(text.startswith("▶") for text in drawn.texts[1:])
+    svg = inline_svg(figure)
+    assert max(float(one) for one in re.findall(r'<rect [^>]*width="(\d+)"', svg)) < 7200 * figure.width

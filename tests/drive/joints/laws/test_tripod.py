@@ -1,0 +1,68 @@
+"""Against three rollers put into three tracks by least squares."""
+
+from __future__ import annotations
+
+import array_api_strict as strict
+import mpmath
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from cardan.drive.joints.laws import tripod
+from cardan.units import deg
+
+THIRDS = 2 * np.pi / 3 * np.arange(3)
+
+
+def tracks(phi, bend, radius):
+    """Return where the tracks, lines along z in space, pierce the spider's plane, and at which height."""
+    x, y = radius * np.cos(phi + THIRDS), radius * np.sin(phi + THIRDS)
+    z = x * np.tan(bend)  # the plane rises along x by the bend
+    return np.stack([x / np.cos(bend), y], axis=-1), z
+
+
+def closed(phi, bend, radius):
+    """Return angle and centre of a spider whose three arms pass through the tracks."""
+    points, _z = tracks(phi, bend, radius)
+
+    def gap(x):
+        way = points - x[1:]
+        arm = np.stack([np.cos(x[0] + THIRDS), np.sin(x[0] + THIRDS)], axis=-1)
+        return way[:, 0] * arm[:, 1] - way[:, 1] * arm[:, 0]
+
+    found = least_squares(gap, [phi, 0.0, 0.0], xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    assert np.abs(found.fun).max() < 1e-12 * radius
+    return found.x
+
+
+@pytest.mark.parametrize("bend", [5 * deg, 20 * deg, 50 * deg])
+@pytest.mark.parametrize("phi", [0.0, 0.4, 2.0, -5.0])
+def test_the_spider_turns_evenly_and_runs_round_three_times(phi, bend):
+    psi, x, y = closed(phi, bend, 20.0)
+    assert psi == pytest.approx(phi, abs=1e-12)
+    assert np.allclose(tripod.spider_centre(phi, bend, 20.0), [x, y], rtol=0, atol=2e-11)
+    points, z = tracks(phi, bend, 20.0)
+    reach = np.linalg.norm(points - [x, y], axis=-1)
+    assert np.allclose(tripod.roller_reach(phi + THIRDS, bend, 20.0), reach, rtol=0, atol=2e-11)
+    assert np.allclose(tripod.track_travel(phi + THIRDS, bend, 20.0), z, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("bend", ["1e-12", "1e-5", "0.3", "1.5"])
+def test_small_orbits_keep_their_digits(bend):
+    with mpmath.workdps(50):
+        want = (1 / mpmath.cos(mpmath.mpf(float(bend))) - 1) / 2
+    assert float(tripod.orbit_radius(float(bend), 1.0)) == pytest.approx(float(want), rel=1e-14)
+
+
+def test_a_straight_joint_stands_still():
+    assert np.all(np.asarray(tripod.spider_centre([0.0, 1.0], 0.0, 0.02)) == 0.0)
+    assert np.all(tripod.roller_reach([0.0, 1.0], 0.0, 0.02) == 0.02)
+    assert np.isnan(tripod.orbit_radius(np.nan, 0.02))
+    assert float(tripod.shaft_tilt(20 * deg, 20.0, 400.0)) == pytest.approx(0.6417777 / 400, rel=1e-6)
+
+
+def test_any_array_library_computes_them():
+    phi, bend, radius = (strict.asarray(x) for x in ([0.3, 0.7], 0.2, 0.02))
+    for name in ("spider_centre", "roller_reach", "track_travel"):
+        found = getattr(tripod, name)
+        assert np.array_equal(np.asarray(found(phi, bend, radius)), found([0.3, 0.7], 0.2, 0.02))

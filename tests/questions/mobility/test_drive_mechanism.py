@@ -1,0 +1,161 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError, assembly, example
+from cardan.drive.cross import Cross
+from cardan.drive.fields.keys import fields_of
+from cardan.drive.joints import JOINTS
+from cardan.drive.models.chain import chain
+from cardan.drive.models.geometry import geometry
+from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.support import Support
+from cardan.io import example_names
+from cardan.questions.forces.kinetostatics import standing
+from cardan.questions.mobility.drive_mechanism import marks, mechanism_of
+from cardan.questions.mobility.mobility import mobility
+from cardan.questions.mobility.mobility_turn import mobility_over_turn
+from cardan.questions.mobility.repair import repairs
+
+HELD = [
+    name
+    for name in example_names()
+    if example(name).supports and all(joint.kind == "hooke" for joint in example(name).joints)
+]
+"""Examples that statics can judge too: it knows crosses alone."""
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_redundancy_is_what_the_statics_of_the_shafts_leaves_open(name):
+    """Another formulation: unknown forces less equations of balance, of rigid shafts with massless crosses."""
+    drive = example(name)
+    found = mobility(drive)
+    assert found.agrees
+    try:
+        degree = assembly(drive).degree
+    except InputError:  # a file that leaves bearings out: nothing holds a shaft
+        assert found.parasitic > 0
+        return
+    assert (found.mobility, found.parasitic, found.redundant) == (1, 0, degree)
+
+
+def test_the_pump_binds_by_its_bearings():
+    drive = example("overconstrained-pump")
+    found = mobility(drive)
+    assert found.redundant == 3
+    best = repairs(drive)[0]
+    assert best.after == 0
+    assert all(one.bearing for one in best.changes)
+
+
+def held(drive, *supports, **more):
+    return replace(drive, supports=supports, **more)
+
+
+FIRM = {"radial": True, "axial": True, "tilt": True}
+SINGLE = Drive.from_angles([0.4])
+
+
+def two(after):
+    return held(SINGLE, Support(shaft=1, position=-0.3, **FIRM), Support(shaft=2, position=0.3, **after))
+
+
+@pytest.mark.parametrize(
+    ("holds", "kind", "redundant"),
+    [
+        ({"radial": True}, "SG", 0),
+        ({"radial": True, "axial": True}, "S", 1),
+        ({"radial": True, "tilt": True}, "C", 2),
+        (FIRM, "R", 3),
+        ({"radial": False, "axial": True}, "PT", 0),
+        ({"radial": False, "axial": True, "tilt": True}, "E", 1),
+    ],
+)
+def test_what_a_support_holds_says_which_pair_it_is(holds, kind, redundant):
+    whole = mechanism_of(two(holds))
+    assert whole.joints[-1].type == kind
+    found = mobility(two(holds))
+    assert found.redundant == redundant or found.parasitic
+
+
+def test_a_support_that_holds_the_slope_alone_is_two_pairs():
+    whole = mechanism_of(two({"radial": False, "tilt": True}))
+    assert [one.type for one in whole.joints[-2:]] == ["P", "E"]
+    assert mobility(whole).formula == 6 * 4 - 5 * 3 - 5 - 3
+    assert mobility(whole).agrees
+
+
+def test_a_spline_parts_its_shaft_where_it_is():
+    drive = Drive.from_angles([0.3, 0.3])
+    spline = Spline(position=0.5)
+    ends = Support(shaft=1, position=-0.2, **FIRM), Support(shaft=3, position=0.2, **FIRM)
+    without = held(drive, *ends, shafts=(Shaft(number=2, length=0.8),))
+    splined = held(drive, *ends, shafts=(Shaft(number=2, length=0.8, spline=spline),))
+    assert (mobility(without).mobility, mobility(without).redundant) == (1, 1)
+    assert (mobility(splined).mobility, mobility(splined).redundant) == (1, 0)
+    middle = held(drive, *ends, Support(shaft=2, position=0.6), shafts=splined.shafts)
+    assert mechanism_of(middle).joints[-1].links[1] == "shaft 2 behind its spline"
+
+
+def test_a_cross_that_slides_frees_its_pins():
+    firm = two(FIRM)
+    sliding = replace(firm, joints=(replace(SINGLE.joints[0], cross=Cross(slides=True)),))
+    assert [one.type for one in mechanism_of(sliding).joints[:2]] == ["C", "C"]
+    assert mobility(sliding).redundant == assembly(sliding).degree
+
+
+def test_housings_that_are_off_strain_what_is_held_too_much():
+    firm = two(FIRM)
+    off = replace(firm, supports=(firm.supports[0], replace(firm.supports[1], offset=(0.0, 1e-3, 0.0))))
+    assert mobility(off).misfit > 0.0
+    loose = two({"radial": True})
+    off = replace(loose, supports=(loose.supports[0], replace(loose.supports[1], offset=(0.0, 1e-3, 0.0))))
+    assert mobility(off).misfit == 0.0
+
+
+def test_marks_are_those_by_which_forces_are_calculated():
+    drive = Drive.from_angles([0.3, 0.5], plane_twists=[0.7], yoke_angles=[0.4], start_phase=0.2)
+    place = geometry(drive)
+    driving, driven = marks(drive, place, 1.1)
+    stand = standing(chain(drive), place.axis, place.normal, np.asarray([1.1]), speed=1.0)
+    np.testing.assert_allclose(driving, stand.driving_arm[0], atol=1e-14)  # rounding of two turns
+    np.testing.assert_allclose(driven, stand.driven_arm[0], atol=1e-14)
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+def test_joints_of_every_kind_are_pairs(kind):
+    values = {one.name: 0.02 for one in fields_of(JOINTS[kind]).values() if one.required}
+    if kind == "offset_cross":
+        values = {"offset": 0.01, "reach": 0.3}
+    joint = JOINTS[kind](bend=0.2, **values)
+    found = mobility(replace(two(FIRM), joints=(joint,)))
+    assert found.agrees
+    assert found.driven == 1
+    assert found.parasitic == 0
+    held = {"tripod": 2, "half_cardan": 2}
+    loose = ("elastic_half_cardan", "pin_coupling", "clemens")
+    assert found.redundant == (0 if kind in loose else held.get(kind, 3))
+
+
+def test_a_drive_binds_alike_over_its_turn():
+    found = mobility_over_turn(example("overconstrained-pump"), positions=12)
+    assert found.turns
+    assert (found.structural, found.special.size) == (3, 0)
+
+
+@pytest.mark.parametrize(
+    ("drive", "fields"),
+    [
+        (SINGLE, ["supports"]),
+        (
+            replace(Drive.from_angles([0.2, 0.2]), supports=(Support(shaft=1, position=-0.1),)),
+            ["shafts[1].length"],
+        ),
+    ],
+)
+def test_what_misses_is_named(drive, fields):
+    with pytest.raises(InputError) as caught:
+        mobility(drive)
+    assert [one.field for one in caught.value.problems] == fields
+    assert np.all([one.message.startswith("missing") for one in caught.value.problems])

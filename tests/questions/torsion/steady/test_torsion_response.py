@@ -1,0 +1,219 @@
+"""Steady torsional vibration and stability of whole drives, against the model's own solvers and closed forms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import Drive, InputError
+from cardan.book.straight_line import line_response
+from cardan.drive.duty import Duty
+from cardan.drive.machine import ConstantTorque, Engine, HarmonicTorque, LinearTorque, TorqueHistory
+from cardan.drive.shaft import Shaft
+from cardan.drive.station import Pendulum, Station
+from cardan.questions.torsion.model.torques import Constant
+from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
+from cardan.questions.torsion.model.torsional_waves import straight_waves
+from cardan.questions.torsion.stability import torsion_stability
+from cardan.questions.torsion.stability.torsion_stability import stability
+from cardan.questions.torsion.steady.run_stability import Verdict, floquet
+from cardan.questions.torsion.steady.steady import periodic_response
+from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.units import deg, rpm
+
+LINE = replace(
+    Drive.from_angles([20 * deg]),
+    shafts=(Shaft(number=1, stiffness=4000.0, damping=1.0), Shaft(number=2, stiffness=6000.0, damping=1.0)),
+    stations=(
+        Station(shaft=1, end="end", inertia=0.02),
+        Station(shaft=2, end="start", inertia=0.02),
+        Station(shaft=2, end="end", name="load", inertia=0.4),
+    ),
+    duty=Duty(speed=30.0, torque=60.0),
+)
+
+
+def test_a_drive_file_gives_what_its_model_gives() -> None:
+    """The first case of the reference computations, by the keys of a drive file."""
+    found = torsion_response(LINE)
+    load = Torque(station=3, law=Constant(value=-60.0))
+    model = torsional_line(
+        [[0.0, 0.02], [0.02, 0.4]],
+        stiffness=[[4000.0], [6000.0]],
+        damping=[[1.0], [1.0]],
+        bend=[20 * deg],
+        torques=[load],
+        input_speed=30.0,
+    )
+    wanted = periodic_response(model)
+    np.testing.assert_allclose(found.steady.torque.amplitude, wanted.torque.amplitude, rtol=1e-12, atol=1e-9)
+    assert found.steady.torque.amplitude[:, 0] == pytest.approx([122.89011706, 116.74258043])
+    np.testing.assert_allclose(found.floquet.multipliers, floquet(wanted).multipliers, rtol=1e-9)
+    assert found.torque_highest == pytest.approx(wanted.torque_highest)
+
+
+def test_a_list_of_speeds_is_each_alone() -> None:
+    speeds = np.asarray([25.0, 34.0, 90.0])
+    swept = torsion_response(LINE, speed=speeds)
+    for k, speed in enumerate(speeds):
+        alone = torsion_response(LINE, speed=float(speed))
+        np.testing.assert_allclose(swept.swing[k], alone.swing, rtol=1e-8)
+
+
+def test_structural_damping_counts_at_order_two_of_every_speed() -> None:
+    lossy = replace(LINE, shafts=tuple(replace(one, damping=None, loss_factor=0.05) for one in LINE.shafts))
+    for speed in (25.0, 40.0):
+        viscous = [replace(one, loss_factor=None, damping=0.05 * one.stiffness / (2 * speed)) for one in lossy.shafts]
+        wanted = torsion_response(replace(lossy, shafts=tuple(viscous)), speed=speed).swing
+        np.testing.assert_allclose(torsion_response(lossy, speed=[speed, 90.0]).swing[0], wanted, rtol=1e-9)
+
+
+def test_what_changes_with_the_speed_is_taken_at_every_speed() -> None:
+    engine = Engine(cylinders=4, bore=0.08, stroke=0.09, mean_pressure=8e5, piston_mass=0.7)
+    hung = replace(LINE.stations[2], pendulum=Pendulum(mass=0.2, radius=0.2, length=0.06))
+    first = Station(shaft=1, end="start", inertia=0.5)
+    drive = replace(LINE, stations=(first, *LINE.stations[:2], hung), duty=Duty(speed=30.0, torque=60.0, engine=engine))
+    swept = torsion_response(drive, speed=[80.0, 160.0])
+    alone = torsion_response(drive, replace(drive.duty, speed=160.0))
+    np.testing.assert_allclose(swept.swing[1], alone.swing, rtol=1e-7)
+
+
+def test_an_order_that_no_turns_hold_is_answered_by_the_straight_line() -> None:
+    swinging = HarmonicTorque(amplitude=9.0, order=6.8, phase=0.4, station="load")
+    duty = replace(LINE.duty, torques=(swinging,))
+    found, plain = torsion_response(LINE, duty), torsion_response(LINE)
+    (apart,) = found.apart
+    chain = line_response(
+        [1e12, 0.04, 0.4], [4000.0, 6000.0], [6.8 * 30.0], [0.0, 0.0, 9.0], damping=[1.0, 1.0]
+    )  # an input that turns evenly is a very heavy one
+    np.testing.assert_allclose(np.abs(apart.torque), np.abs(chain.torque[:, 0]), rtol=1e-9)
+    np.testing.assert_allclose(found.torque_highest, plain.torque_highest + np.abs(apart.torque))
+    nearly = torsion_response(
+        replace(LINE, joints=(replace(LINE.joints[0], bend=1e-4),)),
+        replace(duty, torques=(replace(swinging, order=7.0),)),
+    )
+    waves = straight_waves(nearly.steady.model, 3, 9.0, 7.0 * 30.0)
+    assert nearly.steady.torque.amplitude[:, 6] == pytest.approx(np.abs(waves.torque), rel=2e-5)  # it follows the swing
+
+
+def test_a_free_drive_needs_the_torque_that_its_losses_and_load_take() -> None:
+    first = Station(shaft=1, end="start", inertia=1.5)
+    duty = Duty(
+        speed=70.0, input="free", load=LinearTorque(standstill=40.0, slope=0.2), motor=ConstantTorque(torque=50.0)
+    )
+    found = torsion_response(replace(LINE, stations=(first, *LINE.stations)), duty)
+    assert float(found.steady.drive_torque.mean[0]) + 50.0 == pytest.approx(54.1, abs=0.2)  # near the mean of the load
+    assert float(found.steady.power_residual) < 1e-9
+
+
+def test_a_torque_in_time_is_sent_to_the_simulation() -> None:
+    history = TorqueHistory(file="a.csv", times=(0.0, 1.0), torques=(0.0, 1.0))
+    with pytest.raises(InputError, match=r"duty\.load\.kind: runs in time") as caught:
+        torsion_response(LINE, Duty(speed=1.0, load=history))
+    assert len(caught.value.problems) == 1
+
+
+@pytest.mark.parametrize(
+    ("speed", "field"), [(0.0, "duty.speed"), ([10.0, 0.0], "speed"), ([[1.0]], "speed"), ([], "speed")]
+)
+def test_standing_still_is_no_running(speed: float | list[float], field: str) -> None:
+    with pytest.raises(InputError) as caught:
+        torsion_response(LINE, speed=speed)
+    assert [problem.field for problem in caught.value.problems] == [field]
+
+
+def test_a_stop_keeps_what_is_done() -> None:
+    found = torsion_response(LINE, speed=np.linspace(20.0, 90.0, 300), progress=lambda _share: "stop")
+    assert np.all(np.isfinite(found.swing[:256]))
+    assert np.all(found.floquet.verdict[256:] == Verdict.UNKNOWN)
+
+
+LOOSE = replace(
+    Drive.from_angles([25 * deg]),
+    shafts=(Shaft(number=1, stiffness=1000.0, damping=0.2),),
+    stations=(Station(shaft=2, inertia=0.4),),
+    duty=Duty(speed=50.0),
+)
+
+
+def test_the_principal_zone_grows_unless_damped() -> None:
+    """One joint of 25° with a spring before it, run at its natural frequency: |ρ| 1.144, growing 2.12 1/s."""
+    yoke = replace(LOOSE, stations=(*LOOSE.stations, Station(shaft=1, end="end", inertia=0.01)))
+    at = replace(LOOSE.duty, speed=math.sqrt(1000.0 / 0.41))
+    found = stability(yoke, at)
+    assert float(found.spectral_radius) == pytest.approx(1.144, abs=2e-3)
+    assert float(found.growth_rate) == pytest.approx(2.12, abs=0.02)
+    assert (found.verdict, found.zone.name()) == (Verdict.UNSTABLE, "principal zone of mode 1")
+    damped = stability(replace(yoke, shafts=(replace(LOOSE.shafts[0], damping=6.0),)), at)
+    assert float(damped.spectral_radius) == pytest.approx(0.721, abs=2e-3)
+    assert damped.stable
+
+
+def test_a_drift_of_the_speed_is_no_vibration() -> None:
+    """Above the resonance of order 2 vibration takes less the faster it turns: constant torques would run away."""
+    first = Station(shaft=1, end="start", inertia=1.2)
+    duty = Duty(speed=52.0, torque=60.0, input="free")
+    drive = replace(LINE, stations=(first, *LINE.stations))
+    dragged = replace(first, ground_damping=1e-9)  # something changes with the speed: the drift is told
+    drifting = torsion_response(replace(drive, stations=(dragged, *LINE.stations)), duty).floquet
+    assert 1.0 < drifting.multipliers[0].real < 1.02
+    assert not drifting.stable
+    found = torsion_response(drive, duty)
+    assert found.floquet.stable
+    assert float(found.floquet.removed) == 2
+    assert float(found.floquet.growth_rate) < -0.8
+    braked = torsion_response(drive, replace(duty, torque=None, load=LinearTorque(standstill=60.0, slope=0.05)))
+    assert float(braked.floquet.removed) == 1  # here the load holds the speed
+    assert stability(drive, duty).growth_rate == pytest.approx(float(found.floquet.growth_rate), rel=1e-6)
+    np.testing.assert_allclose(found.floquet.multipliers[:3], drifting.multipliers[1:4], rtol=1e-6)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_map_is_each_point_alone(turned: bool) -> None:
+    speeds, bends = [400.0, 477.0, 560.0], [10.0, 25.0]
+    axes = [("duty.speed_rpm", speeds), ("joints[0].bend_deg", bends)]
+    found = stability(LOOSE, over=dict(axes[::-1] if turned else axes))
+    for i, speed in enumerate(speeds):
+        for j, bend in enumerate(bends):
+            drive = replace(LOOSE, joints=(replace(LOOSE.joints[0], bend=bend * deg),))
+            alone = stability(drive, Duty(speed=speed * rpm))
+            index = (j, i) if turned else (i, j)
+            assert found.spectral_radius[index] == pytest.approx(float(alone.spectral_radius), rel=1e-9)
+            assert found.zone.name(index) == alone.zone.name()
+    assert 0.0 < found.unstable_share < 1.0
+
+
+def test_a_map_over_two_parts_of_the_drive() -> None:
+    path = "shafts[0].damping_Nms_per_rad", "shafts[0].stiffness_Nm_per_rad"
+    found = stability(LOOSE, over={path[0]: [0.2, 6.0], path[1]: [900.0, 1000.0, 1100.0]})
+    assert found.stable.shape == (2, 3)
+    assert found.stable[1].all()
+    assert found.stable[0].tolist() == [True, False, True] or not found.stable[0, 1]
+
+
+@pytest.mark.parametrize(
+    ("over", "field"),
+    [
+        ({"joints[3].bend_deg": [1.0]}, "joints[3].bend_deg"),
+        ({"duty.speed_rpm": [0.0, 10.0]}, "duty.speed_rpm"),
+        ({"duty.speed_rpm": []}, "duty.speed_rpm"),
+        ({"duty.speed_rpm": np.arange(1.0, 4e4), "joints[0].bend_deg": np.linspace(1, 2, 40000)}, "over"),
+        ({"duty.speed_rpm": [1.0], "joints[0].bend_deg": [1.0], "duty.torque_Nm": [1.0]}, "over"),
+        ({"joints[0].bend_deg": [100.0]}, "joints[0].bend_deg"),
+    ],
+)
+def test_what_makes_no_map_is_named(over: dict[str, list[float]], field: str) -> None:
+    with pytest.raises(InputError) as caught:
+        stability(LOOSE, over=over)
+    assert field in [problem.field for problem in caught.value.problems]
+
+
+def test_a_map_that_is_stopped_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(torsion_stability, "CHUNK", 16)
+    found = stability(LOOSE, over={"duty.speed_rpm": np.linspace(300.0, 600.0, 40)}, progress=lambda _share: "stop")
+    assert found.cancelled
+    assert np.all(found.verdict[:16] != Verdict.UNKNOWN)
+    assert np.all(found.verdict[16:] == Verdict.UNKNOWN)
