@@ -99,7 +99,7 @@ def test_a_report_names_what_it_leaves_out() -> None:
 @pytest.mark.slow
 def test_a_report_tells_which_joint_could_be_even() -> None:
     text = page(loads(file_of("pin_coupling")))
-    assert "Joint 1 is even where the parts of both its shafts are alike. What the other joints add" in text
+    assert "Joint 1 is uniform where the parts of both its shafts are alike. What the other joints add" in text
 
 
 @pytest.mark.parametrize("kind", ["double_cardan", "rzeppa", "pin_coupling"])

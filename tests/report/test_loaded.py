@@ -279,9 +279,9 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
 
 def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
     text = front(example("pto-spline-thrust"))  # bends equal to 0.0001°
-    assert "cannot be made synchronous" not in text
+    assert "cannot be made uniform" not in text
     assert "instead of" not in text
-    assert "Nothing needs to be changed for an even output" in text
+    assert "Nothing needs to be changed for a uniform output" in text
 
 
 def test_what_holds_too_often_is_counted_once_on_the_first_page():

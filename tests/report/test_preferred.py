@@ -163,7 +163,7 @@ def test_what_stands_in_a_file_stays():
     assert shown.answer == "Set joints[1].centre_mm: 0,492 in."
     assert shown.blocks[0] is page.blocks[0]
     assert [one.text for one in shown.blocks[1].rows[0]] == ["joints[1].centre_mm", "12.5", "13.5"]
-    assert shown.blocks[2].items == ("0,0984 in",)
+    assert shown.blocks[2].items == ["0,0984 in"]
 
 
 def test_nothing_to_change_gives_the_same_object():

@@ -23,7 +23,6 @@ from . import lacking as lacks
 from .accuracy import erring
 from .assembly import straining
 from .balance import refused
-from .bending import whirling
 from .block import Page
 from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
 from .forces import carrying
@@ -271,13 +270,6 @@ ANSWERS: dict[str, Answer] = {
         page=_watched(running_up),
         lacking=_of(lacks.of_run_up),
         otherwise=_free,
-        quick=False,
-    ),
-    "bending": Answer(
-        title=lambda: _("Critical speeds"),
-        page=_plain(whirling),
-        lacking=_of(lacks.of_bending),
-        otherwise=_nothing,
         quick=False,
     ),
     "strength": Answer(

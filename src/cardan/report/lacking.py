@@ -96,21 +96,6 @@ def of_run_up(drive: Drive) -> Lacking:
     return (*of_torsion(drive), *_absent((drive.duty.run_up is not None, "duty.run_up")))
 
 
-def of_bending(drive: Drive) -> Lacking:
-    """Return what the critical speeds lack."""
-    held = {support.shaft for support in drive.supports}
-    ends = [shaft for shaft in (drive.shafts[0], drive.shafts[-1]) if shaft.has_body and shaft.number in held]
-    between = drive.shafts[1:-1]
-    bodies = tuple(
-        (f"shafts[{shaft.number - 1}].outer", f"shafts[{shaft.number - 1}].segments")
-        for shaft in between
-        if not shaft.has_body
-    )
-    if not between:
-        return _absent((bool(ends), "shafts[0].outer"), (bool(ends) or bool(held), "supports"))
-    return (*bodies, *_absent((bool(drive.supports) or len(between) == 1, "supports")))
-
-
 def of_movement(drive: Drive) -> Lacking:
     """Return what the movement lacks."""
     return _absent((bool(drive.movements), "movements"))

@@ -13,13 +13,11 @@ from cardan.texts import _
 from .accuracy import erring
 from .assembly import straining
 from .balance import refused
-from .bending import whirling
 from .block import Page
 from .forces import carrying
 from .losses import rubbing
 from .mobility import binding
 from .page import page as page_for
-from .rotor import whirling_cracked
 from .run_up import running_up
 from .strength import bearing_up
 from .subject import Subject
@@ -35,8 +33,8 @@ PAGES: dict[str, Callable[[Subject], Page | None]] = {
     "assembly": straining,
     "torsion": twisting,
     "run-up": running_up,
-    "bending": whirling,
-    "rotor": whirling_cracked,
+    "bending": lambda _on: None,
+    "rotor": lambda _on: None,
     "balance": lambda _on: None,
 }
 """What makes each part, in the order of the report; None where the drive file does not ask for it."""
