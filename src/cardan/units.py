@@ -23,7 +23,7 @@ pound = 0.45359237
 lbf = pound * 9.80665
 
 DIMENSIONS: dict[str, dict[str, float]] = {
-    "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch, "km": 1e3},
+    "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch, "km": 1e3, "um": 1e-6},
     "angle": {"deg": deg, "rad": 1.0, "arcmin": arcmin},
     "angular_speed": {"rpm": rpm, "rad_s": 1.0, "deg_s": deg},
     "angular_acceleration": {"rad_s2": 1.0, "deg_s2": deg},
@@ -59,6 +59,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
 """Dimension -> unit suffix -> factor to SI. A frequency is an angular one in Python [rad/s]."""
 
 LABELS = {
+    "um": "µm",
     "deg": "°",
     "rad_s": "rad/s",
     "rad_s2": "rad/s²",
