@@ -43,7 +43,9 @@ QUESTIONS: dict[str, Question] = {
             module="cardan.questions.accuracy.answer",
             title=mark("Accuracy"),
             group=MOTION,
-            help=mark("What machining tolerances do to the output, and the cheapest ones for a target."),
+            help=mark(
+                "What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."
+            ),
         ),
         Question(
             name="forces",

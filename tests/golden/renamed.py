@@ -6,7 +6,7 @@ none: ``life_h`` is found as ``life_s``. ``python -m tests.golden.check --sugges
 
 from __future__ import annotations
 
-COMMAND_LINES: tuple[tuple[str, str], ...] = ()
+COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
 PATHS: tuple[tuple[str, str, str], ...] = (

@@ -179,8 +179,8 @@ def test_accuracy_tells_both_bounds_and_what_matters():
     drive = example("instrument-joint")
     most, worst = (tolerance(drive, method=way).output.largest / arcmin for way in (Linear(), WorstCase()))
     text = words(drive)
-    assert f"within {significant(most, 3)}′, at worst {significant(worst, 3)}′" in text
-    assert "yoke phase of joint 1 matters most" in text
+    assert f"±{significant(most, 3)}′ (root of squares), ±{significant(worst, 3)}′ in the worst case" in text
+    assert "yoke phase of joint 1 makes 75 % of the variance" in text
     assert "Shift of the output shaft" in text
 
 
@@ -189,19 +189,19 @@ def test_a_held_output_does_not_shift():
     held = tuple(replace(one, axial=True) if k == 3 else one for k, one in enumerate(drive.supports))
     text = words(replace(drive, supports=held))
     assert "Shift of the output shaft" not in text
-    assert "output shift" not in text
+    assert "variance of the shift" not in text
 
 
 @pytest.mark.parametrize(
     ("error", "says"),
-    [(Error(alpha2=0.5 * arcmin), "known errors put the output"), (Error(a2=1e-5), "Shift of the output shaft")],
+    [(Error(alpha2=0.5 * arcmin), "known errors make an angle error"), (Error(a2=1e-5), "Shift of the output shaft")],
 )
 def test_known_errors_alone_have_a_part(error, says):
     single = Drive.from_angles([0.4])
     drive = replace(single, joints=(replace(single.joints[0], error=error),))
     seen = parsed(page(drive))
     assert "accuracy" in seen.ids
-    assert says in "".join(seen.words)
+    assert says in "".join(seen.words).replace("Known", "known")
 
 
 def test_errors_that_cannot_be_assembled_are_called_so():
@@ -235,7 +235,7 @@ def test_the_first_page_has_the_key_figures_of_forces_and_losses():
 def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
     instrument = example("instrument-joint")
     most = tolerance(instrument).output.largest / arcmin
-    assert f"error of the output angle, root of squares {significant(most, 3)} ′" in front(instrument)
+    assert f"angle error of the output, root of squares {significant(most, 3)} ′" in front(instrument)
     pump = example("overconstrained-pump")
     text = front(pump)
     assert f"{plain(significant(assembly(pump).joint_peak[0].value))} N" in text

@@ -104,14 +104,15 @@ COMMANDS = {
             "cardan joint hooke rzeppa tracta --bend-deg 25 --speed-rpm 1000 --plot joints.svg",
         ),
     ),
-    "tolerance": Entry(
-        "tolerance",
+    "accuracy": Entry(
+        "accuracy",
         QUESTIONS,
-        _("What machining tolerances do to the output, and the cheapest ones for a target."),
+        _("What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."),
         (
-            "cardan tolerance instrument.toml --method worst",
-            "cardan tolerance instrument.toml --allocate 2arcmin -o better.toml",
+            "cardan accuracy instrument.toml --method worst",
+            "cardan accuracy instrument.toml --allocate 2arcmin -o better.toml",
         ),
+        aliases=("tolerance",),
     ),
     "bending": Entry(
         "bending",

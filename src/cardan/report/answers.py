@@ -20,7 +20,6 @@ from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from . import lacking as lacks
-from .accuracy import erring
 from .assembly import straining
 from .balance import refused
 from .block import Page
@@ -215,10 +214,6 @@ def _straight(_on: Subject) -> str:
     return _("The joints bend next to nothing: they do not make torsional vibration grow.")
 
 
-def _exact(_on: Subject) -> str:
-    return _("The errors given do nothing to the output.")
-
-
 def _fits(_on: Subject) -> str:
     return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
 
@@ -241,9 +236,6 @@ ANSWERS: dict[str, Answer] = {
         title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
     ),
     "losses": Answer(title=lambda: _("Losses"), page=_plain(rubbing), lacking=_of(lacks.of_losses), otherwise=_nothing),
-    "accuracy": Answer(
-        title=lambda: _("Accuracy"), page=_plain(erring), lacking=_of(lacks.of_accuracy), otherwise=_exact
-    ),
     "torsion": Answer(
         title=lambda: _("Modes and running"),
         page=_plain(swinging),

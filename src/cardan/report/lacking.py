@@ -62,13 +62,6 @@ def of_strength(drive: Drive) -> Lacking:
     return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
 
 
-def of_accuracy(drive: Drive) -> Lacking:
-    """Return what the accuracy lacks."""
-    some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
-    keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
-    return _absent((some, *(keys or ("joints[0].type",))))
-
-
 def of_assembly(drive: Drive) -> Lacking:
     """Return what the forces of assembly lack."""
     some = any(any(one.offset) or one.stiffness or one.axial_stiffness for one in drive.supports)

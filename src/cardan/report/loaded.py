@@ -10,7 +10,6 @@ from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from .accuracy import erring
 from .assembly import straining
 from .balance import refused
 from .block import Page
@@ -28,7 +27,7 @@ PAGES: dict[str, Callable[[Subject], Page | None]] = {
     "losses": rubbing,
     "strength": bearing_up,
     "life": lambda _on: None,
-    "accuracy": erring,
+    "accuracy": lambda _on: None,
     "mobility": binding,
     "assembly": straining,
     "torsion": twisting,
