@@ -16,7 +16,6 @@ from .balance import refused
 from .bending import whirling
 from .block import Page
 from .forces import carrying
-from .losses import rubbing
 from .mobility import binding
 from .page import page as page_for
 from .rotor import whirling_cracked
@@ -27,7 +26,7 @@ from .torsion import twisting
 
 PAGES: dict[str, Callable[[Subject], Page | None]] = {
     "forces": carrying,
-    "losses": rubbing,
+    "losses": lambda _on: None,
     "strength": bearing_up,
     "life": lambda _on: None,
     "accuracy": erring,
