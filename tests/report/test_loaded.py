@@ -87,13 +87,13 @@ def test_stopped_by_the_reader_no_part_is_added():
     assert not PARTS & set(parsed(text).ids)
 
 
-def test_forces_says_what_the_worst_support_takes():
+def test_forces_says_what_the_worst_support_carries():
     drive = example("truck-supports")
     found = forces(drive)
     top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
     text = words(drive)
-    assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
-    assert significant(top) in text.split("greatest force in all")[1]  # in the table too, radial and axial together
+    assert f"support 4 (pinion, front) carries most, up to {significant(top)} N." in text
+    assert significant(top) in text.split("in all")[1]  # in the table too, radial and axial together
     assert significant(max(float(np.max(one.journals.size[1])) for one in (found, found.reverse))) in text
 
 
@@ -103,7 +103,7 @@ def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
     text = words(replace(drive, supports=rigid))
     assert "more than statics can tell" in text
     assert "Torque and secondary couple of every shaft" in text
-    assert "What the supports take" not in text
+    assert "What the supports carry" not in text
 
 
 def test_a_loose_shaft_is_named():
@@ -274,7 +274,7 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     moved = replace(drive, movements=(swing,))
     found = moving_forces(moved)
     text = words(moved)
-    assert "What the supports take while the drive moves" in text
+    assert "What the supports carry while the drive moves" in text
     assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
     assert "while moving, 3 (implement, near)" in text
 

@@ -26,7 +26,6 @@ from .balance import refused
 from .bending import whirling
 from .block import Page
 from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
-from .forces import carrying
 from .lacking import Lacking, named, told
 from .mobility import binding
 from .moving import moving
@@ -249,9 +248,7 @@ ANSWERS: dict[str, Answer] = {
     "phases": Answer(
         title=lambda: _("Yoke angles"), page=_plain(_yokes), lacking=_of(lacks.of_nothing), otherwise=_nothing
     ),
-    "forces": Answer(
-        title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
-    ),
+    "forces": _registered("forces"),
     "losses": _registered("losses"),
     "accuracy": Answer(
         title=lambda: _("Accuracy"), page=_plain(erring), lacking=_of(lacks.of_accuracy), otherwise=_exact

@@ -15,7 +15,6 @@ from .assembly import straining
 from .balance import refused
 from .bending import whirling
 from .block import Page
-from .forces import carrying
 from .mobility import binding
 from .page import page as page_for
 from .rotor import whirling_cracked
@@ -25,7 +24,7 @@ from .subject import Subject
 from .torsion import twisting
 
 PAGES: dict[str, Callable[[Subject], Page | None]] = {
-    "forces": carrying,
+    "forces": lambda _on: None,
     "losses": lambda _on: None,
     "strength": bearing_up,
     "life": lambda _on: None,
