@@ -12,6 +12,11 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
 PATHS: tuple[tuple[str, str, str], ...] = (
     ("rotor", r"peak_rpm", "peak_at_rpm"),
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
+    ("losses", r"efficiency_small_bends", "efficiency_small_joint_angles"),
+    ("losses", r"(.*[._])?heat_W", r"\1power_loss_W"),
+    ("forces", r"(.*[._])heat(_mean)?_W", r"\1power_loss\2_W"),
+    ("forces", r"(shafts\.|.*\.shaft_\d+_)bending(.*)", r"\1secondary_couple\2"),
+    ("forces", r"joints\.bend_(.*)", r"joints.joint_angle_\1"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""

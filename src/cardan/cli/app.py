@@ -59,7 +59,7 @@ COMMANDS = {
     "losses": Entry(
         "losses",
         QUESTIONS,
-        _("How much of the power turns to heat, and where."),
+        _("How much of the power is lost, and where."),
         ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
     ),
     "life": Entry(

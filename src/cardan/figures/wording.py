@@ -11,6 +11,7 @@ from cardan.answers.numbers import fixed as fixed
 from cardan.answers.numbers import half_turn as half_turn
 from cardan.answers.numbers import raised
 from cardan.answers.numbers import significant as significant
+from cardan.maths.ties import power_of
 from cardan.texts import _, plural
 
 if TYPE_CHECKING:
@@ -63,6 +64,51 @@ def percent(share: float, digits: int = 3) -> str:
     if abs(share) < 1e-13:
         return "0 %"
     return f"{significant(100.0 * share, digits)} %"
+
+
+def together(words: Iterable[str]) -> str:
+    """Return what is alike named in one breath.
+
+    Examples
+    --------
+    >>> together(["2"]), together(["2", "3"]), together(["1", "2", "4"])
+    ('2', '2 and 3', '1, 2 and 4')
+    """
+    *before, last = words
+    return _(" and ").join((", ".join(before), last)) if before else last
+
+
+def closely(residual: float) -> str:
+    """Return how closely a check holds: its digits beyond the power of ten are the processor's.
+
+    Parameters
+    ----------
+    residual : float
+        What is left over, relative.
+
+    Examples
+    --------
+    >>> closely(7e-16), closely(3.2e-10), closely(0.02), closely(float("nan"))
+    ('to rounding', 'to 10⁻⁹', 'to 0.1', 'not at all')
+    """
+    if not math.isfinite(residual):
+        return _("not at all")
+    power = power_of(residual)
+    return _("to rounding") if power is None else _("to {size}").format(size=powers_of_ten((10.0**power,))[0])
+
+
+def leftover(residual: float) -> str:
+    """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding.
+
+    Examples
+    --------
+    >>> leftover(7e-16), leftover(3.2e-10), leftover(float("nan"))
+    ('rounding', '< 10⁻⁹', '–')
+    """
+    if not math.isfinite(residual):
+        return "–"
+    power = power_of(residual)
+    return _("rounding") if power is None else f"< {powers_of_ten((10.0**power,))[0]}"
 
 
 def noiseless(slope: Iterable[float], largest: float) -> list[float]:

@@ -24,9 +24,7 @@ from .assembly import straining
 from .balance import refused
 from .block import Page
 from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
-from .forces import carrying
 from .lacking import Lacking, named, told
-from .losses import rubbing
 from .mobility import binding
 from .moving import moving
 from .page import page
@@ -218,6 +216,18 @@ def _fits(_on: Subject) -> str:
     return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
 
 
+def _registered(name: str) -> Answer:
+    """Return a question of the register as the app shows it."""
+    question = QUESTIONS[name]
+    return Answer(
+        title=lambda: _(question.title),
+        page=lambda on, progress, choices: page_of(question, on, progress, choices),
+        lacking=_of(question.lacking),
+        otherwise=_nothing,
+        quick=question.quick,
+    )
+
+
 ANSWERS: dict[str, Answer] = {
     "motion": Answer(
         title=lambda: _("Motion"), page=_plain(_turning), lacking=_of(lacks.of_nothing), otherwise=_nothing
@@ -232,10 +242,9 @@ ANSWERS: dict[str, Answer] = {
     "phases": Answer(
         title=lambda: _("Yoke angles"), page=_plain(_yokes), lacking=_of(lacks.of_nothing), otherwise=_nothing
     ),
-    "forces": Answer(
-        title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
-    ),
-    "losses": Answer(title=lambda: _("Losses"), page=_plain(rubbing), lacking=_of(lacks.of_losses), otherwise=_nothing),
+    "forces": _registered("forces"),
+    "losses": _registered("losses"),
+    "accuracy": _registered("accuracy"),
     "torsion": Answer(
         title=lambda: _("Modes and running"),
         page=_plain(swinging),
@@ -264,6 +273,8 @@ ANSWERS: dict[str, Answer] = {
         otherwise=_free,
         quick=False,
     ),
+    "bending": _registered("bending"),
+    "life": _registered("life"),
     "strength": Answer(
         title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
     ),

@@ -13,8 +13,6 @@ from cardan.texts import _
 from .assembly import straining
 from .balance import refused
 from .block import Page
-from .forces import carrying
-from .losses import rubbing
 from .mobility import binding
 from .page import page as page_for
 from .run_up import running_up
@@ -23,8 +21,8 @@ from .subject import Subject
 from .torsion import twisting
 
 PAGES: dict[str, Callable[[Subject], Page | None]] = {
-    "forces": carrying,
-    "losses": rubbing,
+    "forces": lambda _on: None,
+    "losses": lambda _on: None,
     "strength": bearing_up,
     "life": lambda _on: None,
     "accuracy": lambda _on: None,
