@@ -14,8 +14,8 @@ from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
-    from cardan.questions.forces.swing import Evenness
     from cardan.questions.motion.motion import Motion
+    from cardan.questions.motion.swing import Evenness
 
     from .answer import Answer, Remark, Table
 
@@ -67,8 +67,8 @@ def motion(
     check_positions(angle, step)
     check_speed(speed_rpm)
 
-    from cardan.questions.forces.swing import each_shaft
     from cardan.questions.motion.motion import motion as question
+    from cardan.questions.motion.swing import each_shaft
     from cardan.units import rpm
 
     from .source import read
@@ -352,7 +352,7 @@ def steep_joints(drive: Drive) -> Iterator[Remark]:
 
 def _orders(each: Evenness) -> list[tuple[int, float]]:
     """Return orders of the output's angle error with their amplitudes [1/turn, rad]."""
-    from cardan.questions.forces.swing import Swing
+    from cardan.questions.motion.swing import Swing
 
     if isinstance(each, Swing):
         return each.orders(ORDERS)

@@ -72,7 +72,7 @@ def report(
             decimal=who.decimal,
         )
 
-    from cardan.questions.forces.swing import each_shaft
+    from cardan.questions.motion.swing import each_shaft
 
     from .answer import Answer, Remark
     from .motion import sentence

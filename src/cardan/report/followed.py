@@ -23,12 +23,12 @@ from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_ove
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
-from cardan.questions.forces.swing import Swing, swing
 from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
 from cardan.questions.motion.figures.motion import motion_figure
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
+from cardan.questions.motion.swing import Swing, swing
 from cardan.questions.phases.phases import phases
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
