@@ -9,7 +9,17 @@ from __future__ import annotations
 COMMAND_LINES: tuple[tuple[str, str], ...] = ()
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
-PATHS: tuple[tuple[str, str, str], ...] = (("life", r"parts\.bend_deg", "parts.joint_angle_deg"),)
+PATHS: tuple[tuple[str, str, str], ...] = (
+    ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
+    ("motion", r"equivalent_bend_deg", "equivalent_joint_angle_deg"),
+    ("motion", r"irregularity", "speed_fluctuation_percent"),
+    ("motion", r"joints\.bend_deg", "joints.joint_angle_deg"),
+    ("motion", r"joints\.phase_angle_deg", "joints.initial_yoke_position_deg"),
+    ("motion", r"max_lead_deg", "angle_error_deg"),
+    ("motion", r"orders\.lead_deg", "orders.angle_error_deg"),
+    ("motion", r"shafts\.irregularity_percent", "shafts.speed_fluctuation_percent"),
+    ("motion", r"shafts\.max_lead_deg", "shafts.angle_error_deg"),
+)
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""
 

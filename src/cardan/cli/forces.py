@@ -141,14 +141,16 @@ def _sizes(found: Forces) -> Any:
 def _remarks(drive: Drive, file: Path, found: Forces) -> Iterator[Remark]:
     import numpy as np
 
+    from cardan.answers.quantity import told
+    from cardan.answers.reader import USUAL
     from cardan.questions.forces.reactions import Held
     from cardan.questions.forces.solving_order import reaction_groups
+    from cardan.questions.motion.kinds import steep_joints
     from cardan.texts import plural
 
     from .answer import Remark, significant
-    from .motion import steep_joints
 
-    yield from steep_joints(drive)
+    yield from (Remark(text=told(one.text, USUAL), tone=one.tone) for one in steep_joints(drive))
     surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
         held = plural("{n} force", "{n} forces", surplus).format(n=surplus)

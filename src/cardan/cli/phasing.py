@@ -98,7 +98,6 @@ def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float]
     from cardan.figures.wording import letters
 
     from .answer import Remark
-    from .motion import steep_joints
 
     if not found.complete:
         yield Remark(text=_("Warning: the search was stopped; these are the best settings so far."), tone="warning")
@@ -112,7 +111,6 @@ def _remarks(drive: Drive, file: Path, found: Phasing, held: Mapping[int, float]
         yield Remark(text=text.format(most="10⁻⁶"))
     if found.spline_refusal:
         yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
-    yield from steep_joints(drive)
     writable = (*found.pose_settings, *found.settings)
     if writable and abs(writable[0].change).max() > WORTH:
         text = _("Write setting {label} into a copy of the file:").format(label=writable[0].label)

@@ -25,7 +25,7 @@ from .assembly import straining
 from .balance import refused
 from .bending import whirling
 from .block import Page
-from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
+from .followed import Followed, asked_by_laws, yokes_refused
 from .forces import carrying
 from .lacking import Lacking, named, told
 from .losses import rubbing
@@ -38,7 +38,6 @@ from .selection import choosing, of_selection
 from .strength import bearing_up
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
-from .turning import turning
 from .verdicts import judged
 
 Choices: TypeAlias = Mapping[str, Any]
@@ -163,11 +162,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _turning(on: Subject) -> Page:
-    own = _by_laws(on)
-    return turning(on) if own is None else turning_by_laws(own)
-
-
 def _yokes(on: Subject) -> Page:
     own = _by_laws(on)
     return phasing(on) if own is None else yokes_refused(own)
@@ -225,9 +219,6 @@ def _fits(_on: Subject) -> str:
 
 
 ANSWERS: dict[str, Answer] = {
-    "motion": Answer(
-        title=lambda: _("Motion"), page=_plain(_turning), lacking=_of(lacks.of_nothing), otherwise=_nothing
-    ),
     "movement": Answer(
         title=lambda: _("While moving"),
         page=_plain(_moving),
@@ -304,7 +295,7 @@ ANSWERS: dict[str, Answer] = {
 """Every question by its name, in the order in which one asks them."""
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
-    (lambda: _("Motion"), ("motion", "movement")),
+    (lambda: _("Motion"), ("motion", "movement", "classical")),
     (lambda: _("Phases"), ("phases",)),
     (lambda: _("Forces"), ("forces",)),
     (lambda: _("Losses"), ("losses",)),
@@ -318,3 +309,18 @@ GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
     (lambda: _("Selection"), ("selection",)),
 )
 """Questions that belong together, with what they are called together."""
+
+
+def _registered(name: str) -> Answer:
+    """Return a question of the register as an answer among the others."""
+    question = QUESTIONS[NAMES.get(name, name)]
+    return Answer(
+        title=lambda: _(question.title),
+        page=lambda on, progress, choices: page_of(question, on, progress, choices),
+        lacking=lambda on: question.lacking(on.drive),
+        otherwise=lambda on: str(question.home.otherwise(on.drive)),
+        quick=question.quick,
+    )
+
+
+ANSWERS = {name: ANSWERS.get(name) or _registered(name) for _title, names in GROUPS for name in names}

@@ -21,10 +21,9 @@ from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_over
 from cardan.errors import InputError
-from cardan.figures.wording import fixed, percent, significant
+from cardan.figures.wording import fixed, percent
 from cardan.maths.arrays import Array
-from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
-from cardan.questions.motion.figures.motion import motion_figure
+from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
@@ -40,7 +39,6 @@ from .block import (
     Column,
     Listing,
     Page,
-    Picture,
     Points,
     Table,
     Words,
@@ -48,10 +46,6 @@ from .block import (
     words,
 )
 from .key_figures import acceleration
-from .turning import extremes_table
-
-ORDERS = 4
-"""Orders of the angle error that are listed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -89,35 +83,6 @@ def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
         found=motion(whole),
         whole=swing(whole),
         phase=by_laws(whole, np.zeros(1))["joint_angle"][:, 0],
-    )
-
-
-def turning_by_laws(on: Followed) -> Page:
-    """Return the page of the motion."""
-    figure = motion_figure(on.found)
-    return Page(
-        name="motion",
-        title=_("Motion"),
-        answer=_("Followed from joint to joint, each by its own law; extremes are those seen over a turn."),
-        blocks=[Picture(figure=figure), _extremes(on), _orders(on)],
-    )
-
-
-def _extremes(on: Followed) -> Table:
-    seen = on.whole
-    parts = (seen.ratio_min, seen.ratio_max, seen.irregularity, seen.max_lead, seen.max_acceleration)
-    return extremes_table(np.stack(parts, axis=-1), on.drive.duty.speed, even=SYNCHRONOUS)
-
-
-def _orders(on: Followed) -> Table:
-    rows = [
-        [number(str(order), float(order)), number(significant(size / deg, 3), size / deg)]
-        for order, size in on.whole.orders(ORDERS)
-    ]
-    return Table(
-        title=_("Largest orders of the output's angle error"),
-        columns=(Column(heading=_("times a turn")), Column(heading=_("amplitude"), unit="°")),
-        rows=rows,
     )
 
 
