@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -29,14 +30,14 @@ COMMANDS = {
             "cardan motion truck.toml --plot motion.svg",
         ),
     ),
-    "phases": Entry(
-        "phases",
+    "phasing": Entry(
+        "phasing",
         QUESTIONS,
-        _("Which yoke angles make the output even, or how even it can be."),
+        _("Which yoke angles make the output uniform, or how uniform it can be."),
         (
-            "cardan phases truck.toml --fix 2=90",
-            "cardan phases truck.toml --apply A -o better.toml",
-            "cardan phases boxed.toml --layout -o better.toml",
+            "cardan phasing truck.toml --fix 2=90",
+            "cardan phasing truck.toml --apply A -o better.toml",
+            "cardan phasing boxed.toml --layout -o better.toml",
         ),
     ),
     "articulation": Entry(
@@ -297,11 +298,14 @@ COMMANDS = {
 }
 """Name of a command -> what the help says of it; its code is the file of the same name."""
 
+ALIASES = {"phases": replace(COMMANDS["phasing"], hidden=True)}
+"""Older names of commands."""
+
 
 class Commands(Group):
     """All commands."""
 
-    entries = COMMANDS
+    entries = COMMANDS | ALIASES
 
 
 app = typer.Typer(

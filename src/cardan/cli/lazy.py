@@ -30,6 +30,8 @@ class Entry:
         Lines below its own help.
     entries : mapping of str to Entry
         Commands of a group; of a command with a module of its own, what else its first word may ask for.
+    hidden : bool
+        Not listed: an older name of another command.
     """
 
     module: str
@@ -37,6 +39,7 @@ class Entry:
     help: str
     examples: tuple[str, ...] = ()
     entries: Mapping[str, Entry] = field(default_factory=dict)
+    hidden: bool = False
 
 
 @cache
@@ -124,7 +127,7 @@ class Group(TyperGroup):
 def _listed(name: str, entry: Entry) -> Any:
     """Return what stands in a group for a command that is not imported yet, or a group within it."""
     if entry.module or not entry.entries:
-        return Command(name, help=entry.help, rich_help_panel=entry.panel)
+        return Command(name, help=entry.help, rich_help_panel=entry.panel, hidden=entry.hidden)
 
     class Inner(Group):
         entries = entry.entries

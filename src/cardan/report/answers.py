@@ -25,14 +25,13 @@ from .assembly import straining
 from .balance import refused
 from .bending import whirling
 from .block import Page
-from .followed import Followed, asked_by_laws, yokes_refused
+from .followed import Followed, asked_by_laws
 from .forces import carrying
 from .lacking import Lacking, named, told
 from .losses import rubbing
 from .mobility import binding
 from .moving import moving
 from .page import page
-from .phasing import phasing
 from .run_up import running_up
 from .selection import choosing, of_selection
 from .strength import bearing_up
@@ -162,11 +161,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _yokes(on: Subject) -> Page:
-    own = _by_laws(on)
-    return phasing(on) if own is None else yokes_refused(own)
-
-
 def _moving(on: Subject) -> Page:
     own = on if _by_laws(on) is None else Subject(drive=on.drive)
     if own.unmoved is not None:
@@ -225,9 +219,6 @@ ANSWERS: dict[str, Answer] = {
         lacking=_of(lacks.of_movement),
         otherwise=_nothing,
         quick=False,
-    ),
-    "phases": Answer(
-        title=lambda: _("Yoke angles"), page=_plain(_yokes), lacking=_of(lacks.of_nothing), otherwise=_nothing
     ),
     "forces": Answer(
         title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
@@ -296,7 +287,7 @@ ANSWERS: dict[str, Answer] = {
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
     (lambda: _("Motion"), ("motion", "movement", "classical")),
-    (lambda: _("Phases"), ("phases",)),
+    (lambda: _("Phasing"), ("phasing",)),
     (lambda: _("Forces"), ("forces",)),
     (lambda: _("Losses"), ("losses",)),
     (lambda: _("Accuracy"), ("accuracy",)),

@@ -16,9 +16,12 @@ from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.laws import unmapped
+from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
 from cardan.questions.motion import answer as motion
+from cardan.questions.phases import answer as yokes
+from cardan.questions.phases.phases import Phasing
 from cardan.texts import _
 
 from .balance import refused
@@ -32,14 +35,12 @@ from .followed import (
     judgement_by_laws,
     method_by_laws,
     warnings_by_laws,
-    yokes_refused,
 )
 from .key_figures import key_figures, key_table
 from .loaded import loaded
 from .method import method
 from .moving import moving
 from .page import page
-from .phasing import phasing
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
 from .verdicts import Judged, judged
@@ -150,7 +151,7 @@ def content(
     if unmapped(drive.joints):
         return _by_laws(replace(asked_by_laws(drive, duty), known=known), source_text)
     on = replace(asked(drive, duty, progress), known=known)
-    pages: list[Page] = [description(on), *moved(on.drive), phasing(on)]
+    pages: list[Page] = [description(on), *moved(on.drive), phased(on.drive, on.phasing)]
     if on.moving is not None:
         pages.append(moving(on))
     if on.unmoved is not None:
@@ -175,7 +176,7 @@ def content(
 def _by_laws(on: Followed, source_text: str | None) -> Content:
     """Return the report of a drive with joints that turn by laws of their own."""
     alike = cast(Subject, on)  # what these pages ask for it has under the same names
-    pages = [description(alike), *moved(on.drive), yokes_refused(on), *loaded(alike)]
+    pages = [description(alike), *moved(on.drive), _phased_by_laws(on.drive), *loaded(alike)]
     limits = judged(alike)
     if limits.page is not None:
         pages.append(limits.page)
@@ -229,6 +230,19 @@ def moved(drive: Drive) -> list[Page]:
     if seen is not None and classical.differ(seen):
         pages.append(page(classical.answer(drive, seen), USUAL))
     return pages
+
+
+def phased(drive: Drive, found: Phasing) -> Page:
+    """Return the page of the yokes."""
+    return page(yokes.answer(drive, found), USUAL)
+
+
+def _phased_by_laws(drive: Drive) -> Page:
+    """Return the page of the yokes of a drive with joints that turn by laws of their own: mostly why there is none."""
+    try:
+        return phased(drive, yokes.ask(drive))
+    except InputError as error:
+        return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
 
 
 def _with_keys(pages: Sequence[Page]) -> list[Page]:

@@ -19,31 +19,20 @@ from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_over
-from cardan.errors import InputError
-from cardan.figures.wording import fixed, percent
+from cardan.drive.models.laws import has_map
 from cardan.maths.arrays import Array
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.swing import Swing, swing
-from cardan.questions.phases.phases import phases
-from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
-from cardan.units import deg
 
-from .balance import refused
 from .block import (
-    Cell,
-    Column,
     Listing,
     Page,
     Points,
-    Table,
     Words,
-    number,
-    words,
 )
 from .key_figures import acceleration
 
@@ -84,30 +73,6 @@ def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
         whole=swing(whole),
         phase=by_laws(whole, np.zeros(1))["joint_angle"][:, 0],
     )
-
-
-def yokes_refused(on: Followed) -> Page:
-    """Return the page of the yoke angles: which joints keep them from being found."""
-    left = [left_over(joint, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True)]
-    far = [i for i, rest in enumerate(left) if not rest <= NEGLIGIBLE]
-    if far:
-        problems = [kind_problem(i, on.drive.joints[i], _("yoke angles")) for i in far]
-        return replace(refused("phases", _("Yoke angles"), InputError(problems)), alarms=())
-    rows = [
-        [words(one.label), *(number(fixed(float(g) / deg), float(g) / deg) for g in one.yoke_angle), _left(one)]
-        for found in [phases(on.drive)]
-        for one in (found.as_built, *found.settings, *found.spline_settings[:3])
-    ]
-    between = [Column(heading=_("γ shaft {number}").format(number=k), unit="°") for k in range(2, on.joints + 1)]
-    columns = (Column(heading=_("setting"), left=True), *between, Column(heading=_("leaves δ"), unit="%"))
-    text = _("What joints leave by laws of their own, below {most} rad, is not in these figures.")
-    table = Table(columns=columns, rows=rows, title=_("Settings to choose from"), note=text.format(most="10⁻⁶"))
-    answer = _("Yoke angles of the joints beside those that turn by laws of their own.")
-    return Page(name="phases", title=_("Yoke angles"), answer=answer, blocks=[table])
-
-
-def _left(one: YokeSetting) -> Cell:
-    return number(percent(one.irregularity).removesuffix(" %"), 100.0 * one.irregularity)
 
 
 def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
