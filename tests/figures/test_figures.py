@@ -204,6 +204,7 @@ def test_a_layout_shows_bends_before_and_after():
     np.testing.assert_allclose(bars[0].size, np.degrees(found.bend_before))
     np.testing.assert_allclose(bars[1].size, np.degrees(found.bend))
     for figure in figures.for_result(found):
+        figure = for_reader(figure, USUAL)
         ElementTree.fromstring(inline_svg(figure))
 
 
