@@ -29,15 +29,16 @@ COMMANDS = {
             "cardan motion truck.toml --plot motion.svg",
         ),
     ),
-    "phases": Entry(
-        "phases",
+    "phasing": Entry(
+        "phasing",
         QUESTIONS,
-        _("Which yoke angles make the output even, or how even it can be."),
+        _("Which yoke angles make the output uniform, or how uniform it can be."),
         (
-            "cardan phases truck.toml --fix 2=90",
-            "cardan phases truck.toml --apply A -o better.toml",
-            "cardan phases boxed.toml --layout -o better.toml",
+            "cardan phasing truck.toml --fix 2=90",
+            "cardan phasing truck.toml --apply A -o better.toml",
+            "cardan phasing boxed.toml --layout -o better.toml",
         ),
+        aliases=("phases",),
     ),
     "articulation": Entry(
         "articulation",
