@@ -166,7 +166,7 @@ def intervals(speed: Any, mask: Any) -> str:
 def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.figures.wording import closely
+    from cardan.answers.checks import closely
 
     from .answer import Remark, significant
     from .torsion_parts import assumptions

@@ -196,7 +196,7 @@ def _station_table(found: Transient) -> Table:
 def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     import numpy as np
 
-    from cardan.figures.wording import closely
+    from cardan.answers.checks import closely
     from cardan.questions.torsion.transient.simulation import Status
     from cardan.units import rpm
 

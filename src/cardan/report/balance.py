@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from cardan.answers.checks import leftover
 from cardan.errors import InputError
-from cardan.figures.wording import leftover, significant
+from cardan.figures.wording import significant
 from cardan.texts import _
 
 from .block import Cell, Column, Page, Table, Words, number, words
