@@ -189,6 +189,7 @@ def articulation(
     A hitch half way between the joints keeps the drive synchronous at any angle.
 
     >>> from cardan.drive.movement import Hitch
+    >>> from cardan.units import deg
     >>> drive = Drive.from_points([[-1, 0, 0], [-0.4, 0, 0], [0.4, 0, 0], [1, 0, 0]])
     >>> turn = Hitch(moves=("joints[1]", "output"), pivot=(0, 0, 0), yaw=40 * deg, frequency=1.0)
     >>> found = articulation(drive, turn)
