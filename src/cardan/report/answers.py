@@ -26,7 +26,6 @@ from .block import Page
 from .followed import Followed, asked_by_laws
 from .lacking import Lacking, named, told
 from .mobility import binding
-from .moving import moving
 from .page import page
 from .run_up import running_up
 from .selection import choosing, of_selection
@@ -157,13 +156,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _moving(on: Subject) -> Page:
-    own = on if _by_laws(on) is None else Subject(drive=on.drive)
-    if own.unmoved is not None:
-        return refused("movement", _("While moving"), own.unmoved)
-    return moving(own)
-
-
 def _limits(on: Subject) -> Page | None:
     return judged(on).page
 
@@ -205,13 +197,6 @@ def _fits(_on: Subject) -> str:
 
 
 ANSWERS: dict[str, Answer] = {
-    "movement": Answer(
-        title=lambda: _("While moving"),
-        page=_plain(_moving),
-        lacking=_of(lacks.of_movement),
-        otherwise=_nothing,
-        quick=False,
-    ),
     "torsion": Answer(
         title=lambda: _("Modes and running"),
         page=_plain(swinging),
@@ -264,7 +249,7 @@ ANSWERS: dict[str, Answer] = {
 """Every question by its name, in the order in which one asks them."""
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
-    (lambda: _("Motion"), ("motion", "movement", "classical")),
+    (lambda: _("Motion"), ("motion", "articulation", "classical")),
     (lambda: _("Phasing"), ("phasing",)),
     (lambda: _("Forces"), ("forces",)),
     (lambda: _("Losses"), ("losses",)),

@@ -174,7 +174,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
     if on.moving is not None:
-        failed = {flag.message for one in on.moving.splines for flag in one.flags}
+        failed = [flag.message for one in on.moving.splines for flag in one.flags]
         yield from (Words(text=text, tone="failed" if text in failed else "warning") for text in on.moving.warnings)
     if not on.complete:
         yield Words(text=_("Stopped by the reader: what was not calculated by then is left out."), tone="warning")

@@ -96,8 +96,13 @@ def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:
             yield number, one
 
 
+def quantity_of(one: Inside, digits: int = 4) -> Quantity:
+    """Return a measure of the inside of a joint as a quantity."""
+    return Quantity(one.value, one.dimension or "", digits)
+
+
 def beside_turning(drive: Drive) -> Iterator[Say]:
     """Yield in a sentence each what else moves inside the joints of a drive."""
     for number, one in inside(drive):
         text = _("Joint {number}: {title}, {value}.")
-        yield say(text, number=number, title=one.meaning, value=one.quantity(3))
+        yield say(text, number=number, title=one.meaning, value=quantity_of(one, 3))
