@@ -18,7 +18,7 @@ from cardan.questions.forces.assembly_answer import answer, ask, lacking, otherw
 from cardan.report.page import page
 from cardan.texts import speaking
 
-POUNDS = Reader(units={"force": "lbf", "length": "in"}, decimal=",")
+POUNDS = Reader(units={"force": "lbf", "displacement": "mil"}, decimal=",")
 PUMP = example("overconstrained-pump")
 
 
@@ -69,7 +69,7 @@ def test_the_tables_are_those_of_the_analysis():
 
 def test_readers_are_told_in_their_units_and_language():
     said = data(of(PUMP), POUNDS)
-    assert said["joints"][0]["gap_max_in"] == pytest.approx(0.05 / 25.4)
+    assert said["joints"][0]["gap_max_mil"] == pytest.approx(50.0 / 25.4)
     assert said["answer"].endswith("with up to 488,9 lbf.")
     with speaking("ru"):
         assert printed(of(PUMP).tables[0], USUAL).columns[0].heading == "опора"
