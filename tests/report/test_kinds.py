@@ -120,7 +120,7 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
         (["losses"], "losses"),
         (["tolerance"], "errors and tolerances"),
         (["life"], "bearing life"),
-        (["assembly"], "forces from misfit"),
+        (["assembly"], "forces from misalignment"),
         (["forces"], "forces"),
         (["phasing"], "yoke angles"),
         (["torsion", "modes"], "torsional vibration"),

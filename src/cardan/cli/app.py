@@ -138,13 +138,13 @@ COMMANDS = {
     "assembly": Entry(
         "assembly",
         QUESTIONS,
-        _("Whether the drive binds: forces of parts that do not fit, and what to let go."),
+        _("What misalignment loads: support forces of parts that do not fit, and what to release."),
         ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
     ),
     "mobility": Entry(
         "mobility",
         QUESTIONS,
-        _("Whether a drive or mechanism turns, where it is held too often, and what to let go."),
+        _("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
         ("cardan mobility pump.toml", "cardan mobility slider.toml --turn --plot slider.svg"),
     ),
     "torsion": Entry(

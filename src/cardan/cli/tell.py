@@ -24,6 +24,7 @@ from .show import GAP, NARROWEST, SIGNS, WIDEST, _blocks, _filled, print_lines, 
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
+    from cardan.mechanism.mechanism import Mechanism
 
 LONGEST = 28
 """Letters of a name at the head of a row."""
@@ -32,7 +33,7 @@ LONGEST = 28
 def tell(
     answer: Answer,
     file: Path | None = None,
-    drive: Drive | None = None,
+    drive: Drive | Mechanism | None = None,
     *,
     json: bool = False,
     csv: bool = False,
@@ -46,7 +47,7 @@ def tell(
         What to say.
     file : path, optional
         The file that was asked about.
-    drive : Drive, optional
+    drive : Drive or Mechanism, optional
         What it describes.
     json, csv : bool
         ``--json`` and ``--csv``.
@@ -72,7 +73,7 @@ def tell(
     return answer.code
 
 
-def _name(drive: Drive | None, file: Path | None) -> str:
+def _name(drive: Drive | Mechanism | None, file: Path | None) -> str:
     """Return what to call a drive in a sentence: its name, else that of its file."""
     if drive is not None and drive.name:
         return drive.name

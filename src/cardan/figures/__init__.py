@@ -15,7 +15,7 @@ _MAKERS = {
     "questions.motion.equivalence.EquivalentJoint": "questions.motion.figures.equivalence.equivalence_figures",
     "questions.forces.drive_forces.Forces": "questions.forces.figures.forces.forces_figures",
     "questions.forces.moving_forces.MovingForces": "questions.forces.figures.moving_forces.moving_forces_figures",
-    "questions.forces.assembly.AssemblyForces": "questions.forces.figures.assembly.assembly_figures",
+    "questions.forces.assembly.AssemblyForces": "questions.forces.figures.assembly.misalignment_figures",
     "questions.mobility.mobility.Mobility": "questions.mobility.figure.mobility_figures",
     "questions.mobility.mobility_turn.MobilityTurn": "questions.mobility.figure.turn_figures",
     "questions.mobility.finite_mobility.FiniteMobility": "questions.mobility.figure.closure_figures",

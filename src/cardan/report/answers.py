@@ -14,18 +14,15 @@ from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
-from cardan.questions.mobility.mobility import mobility
 from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from . import lacking as lacks
-from .assembly import straining
 from .balance import refused
 from .block import Page
 from .followed import Followed, asked_by_laws
 from .lacking import Lacking, named, told
-from .mobility import binding
 from .page import page
 from .run_up import running_up
 from .selection import choosing, of_selection
@@ -165,18 +162,6 @@ def _unjudged(on: Subject) -> str:
     return told(named(missing)) if missing else _nothing(on)
 
 
-def _unheld(on: Subject) -> Lacking:
-    try:
-        mobility(on.drive)
-    except InputError as error:
-        return named([one.field for one in error.problems])
-    return ()
-
-
-def _loose(_on: Subject) -> str:
-    return _("The drive file leaves bearings out: shafts that nothing holds say nothing of binding. Add supports.")
-
-
 def _weak(on: Subject) -> str:
     missing = strength(on.drive, known=on.known).missing
     return told(named(missing)) if missing else _nothing(on)
@@ -190,10 +175,6 @@ def _free(on: Subject) -> str:
 
 def _straight(_on: Subject) -> str:
     return _("The joints bend next to nothing: they do not make torsional vibration grow.")
-
-
-def _fits(_on: Subject) -> str:
-    return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
 
 
 ANSWERS: dict[str, Answer] = {
@@ -234,10 +215,6 @@ ANSWERS: dict[str, Answer] = {
         lacking=_of(lacks.of_nothing),
         otherwise=_unjudged,
         quick=False,
-    ),
-    "mobility": Answer(title=lambda: _("How it is held"), page=_plain(binding), lacking=_unheld, otherwise=_loose),
-    "assembly": Answer(
-        title=lambda: _("Assembly"), page=_plain(straining), lacking=_of(lacks.of_assembly), otherwise=_fits
     ),
     "selection": Answer(
         title=lambda: _("Choice of joints"),

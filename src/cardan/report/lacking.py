@@ -44,12 +44,6 @@ def of_strength(drive: Drive) -> Lacking:
     return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
 
 
-def of_assembly(drive: Drive) -> Lacking:
-    """Return what the forces of assembly lack."""
-    some = any(any(one.offset) or one.stiffness or one.axial_stiffness for one in drive.supports)
-    return _absent((some, "supports[0].offset", "supports[0].stiffness", "supports[0].axial_stiffness"))
-
-
 def of_torsion(drive: Drive) -> Lacking:
     """Return what torsional vibration lacks."""
     some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
