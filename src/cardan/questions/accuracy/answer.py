@@ -362,8 +362,8 @@ def _keys(result: Accuracy) -> Iterator[KeyFigure]:
     ways = {"angle_error": result.band, "angle_error_worst": result.worst}
     for name, found in ways.items():
         if found.output.largest > 0.0 and not (name != "angle_error" and found is result.band):
-            title = say(_("angle error of the output, {way}"), way=_way(found.method))
-            yield KeyFigure(name=name, title=title, value=ANGLE.quantity(found.output.largest))
+            title, way = _("angle error of the output"), _way(found.method)
+            yield KeyFigure(name=name, title=title, place=way, value=ANGLE.quantity(found.output.largest))
 
 
 def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:
