@@ -47,8 +47,8 @@ SEARCHED = {}
 def each_search_once(monkeypatch):
     """Let commands and tests that ask the same share the answer; what is asked otherwise is searched."""
     for name, module, real in (
-        ("absorber", torsion_absorber, absorbers.absorber),
-        ("optimise", torsion_optimise, calms.calm),
+        ("ask", torsion_absorber, absorbers.absorber),
+        ("calm", torsion_optimise, calms.calm),
     ):
 
         def once(drive, name=name, real=real, progress=None, **options):
@@ -59,7 +59,7 @@ def each_search_once(monkeypatch):
                 SEARCHED[asked] = real(drive, **own)
             return SEARCHED[asked]
 
-        monkeypatch.setattr(module, "ask", once)
+        monkeypatch.setattr(module, name, once)
 
 
 @pytest.fixture

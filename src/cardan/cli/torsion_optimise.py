@@ -10,8 +10,8 @@ import typer
 from cardan.errors import Problem, check
 from cardan.io import edit
 from cardan.maths.curves.evolution import Evolution
-from cardan.questions.torsion.calm.answer import answer, ask
-from cardan.questions.torsion.calm.calm import Grid
+from cardan.questions.torsion.calm.answer import answer
+from cardan.questions.torsion.calm.calm import Grid, calm
 from cardan.texts import _
 
 from .asked import TorqueNm, check_options, on_duty
@@ -70,7 +70,7 @@ def torsion_optimise(
     drive = on_duty(drive, speed_rpm, torque)
     method = Evolution(rounds=rounds, seed=seed) if grid is None else Grid(points=grid)
     with asked_of(file, OPTIONS), keeping(_("searching designs")) as progress:
-        found = ask(drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress)
+        found = calm(drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress)
     if out is not None:
         changed = {one.path: found.values[one.path] for one in found.free if found.values[one.path] != one.built}
         written(file, text, out, lambda: edit(text, changed, folder=file.parent) if changed else text, found.drive)

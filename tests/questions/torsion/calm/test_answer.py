@@ -11,8 +11,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
-from cardan.questions.torsion.calm.answer import answer, ask, lacking, reasons
-from cardan.questions.torsion.calm.calm import Grid
+from cardan.questions.torsion.calm.answer import answer, ask, lacking, otherwise, reasons
+from cardan.questions.torsion.calm.calm import Grid, calm
 from cardan.report.page import page
 from cardan.texts import speaking
 from cardan.units import deg
@@ -28,7 +28,7 @@ YOKE = "shafts[1].yoke_angle_deg"
 
 @pytest.fixture(scope="module")
 def found():
-    return ask(DRIVE, free={YOKE: (-60.0, 20.0)}, method=Grid(points=3))
+    return calm(DRIVE, free={YOKE: (-60.0, 20.0)}, method=Grid(points=3))
 
 
 def test_values_and_torques_are_those_of_the_search(found):
@@ -62,3 +62,8 @@ def test_speeds_and_something_that_twists_are_asked_for():
     assert not lacking(DRIVE)
     assert lacking(replace(DRIVE, duty=Duty(torque=60.0))) == (("duty.speed_range", "duty.speed"),)
     assert lacking(Drive.from_angles([0.2, 0.2]))[0] == ("stations", "shafts[1].stiffness")
+
+
+def test_a_drive_whose_yokes_are_fixed_is_told_so():
+    assert ask(replace(DRIVE, shafts=(replace(DRIVE.shafts[1], yoke_fixed=True),))) is None
+    assert "--free" in otherwise(DRIVE)

@@ -21,16 +21,14 @@ from cardan.questions.torsion.absorber.before_after import (
     speed,
     torque,
 )
+from cardan.questions.torsion.steady.torsion_response import Progress
 from cardan.texts import _
 
-from .calm import Calm
-from .calm import calm as ask
+from .calm import Calm, calm
 from .calm_designs import Free
 from .calm_search import Peak
 from .figure import calm_figures
 from .node_rule import NodeRule
-
-__all__ = ["answer", "ask", "lacking", "reasons", "rule_reasons"]
 
 AGREE = 0.02
 """Independent searches whose answers differ by no more than this share agree."""
@@ -53,6 +51,26 @@ def lacking(drive: Drive) -> Lacking:
     duty = drive.duty
     speeds = duty.speed_range is not None or bool(duty.speed)
     return (*lacking_line(drive), *absent((speeds, "duty.speed_range", "duty.speed")))
+
+
+def ask(drive: Drive, *, progress: Progress | None = None) -> Calm | None:
+    """Return the yoke angles with the least torsional vibration; None where no yoke may be turned.
+
+    Parameters
+    ----------
+    drive : Drive
+        With what `calm` needs; its yokes that are not fixed may turn.
+    progress : function, optional
+        Told the share done; when it answers "stop" the best so far is returned.
+    """
+    if all(shaft.yoke_fixed for shaft in drive.shafts[1:-1]):
+        return None
+    return calm(drive, progress=progress)
+
+
+def otherwise(_drive: Drive) -> str:
+    """Return why nothing can be told although nothing is missing."""
+    return _("No yoke of this drive may be turned; cardan torsion optimise --free takes other keys that may change.")
 
 
 def answer(_drive: Drive, result: Calm) -> Answer:
