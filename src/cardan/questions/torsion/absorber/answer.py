@@ -13,13 +13,14 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
 from cardan.drive.fields.tables import tree_of
+from cardan.maths.ties import foremost
 from cardan.texts import _
 from cardan.units import deg
 
 from .absorber import Absorber
 from .absorber import absorber as ask
 from .absorber_search import Setting
-from .before_after import LITTLE, band, cautions, curves, foremost, lacking_line, speed, torque
+from .before_after import LITTLE, band, cautions, curves, lacking_line, speed, torque
 from .figure import absorber_figures
 
 __all__ = ["answer", "ask", "lacking"]
@@ -202,7 +203,7 @@ def _remarks(result: Absorber, away: float | None) -> Iterator[Remark]:
     yield from _borne(result)
     if result.tuned_speed is not None:
         worst = np.max(result.after[:, list(result.judged)], axis=-1)
-        k = foremost(worst)
+        k = int(foremost(worst))
         text = _("It serves this speed alone: at {speed} it resonates itself, and the alternating torque is ±{torque}.")
         yield Remark(text=say(text, speed=speed(result.speed[k]), torque=torque(worst[k])), tone="warning")
     yield from cautions(result)

@@ -17,9 +17,6 @@ from cardan.texts import _
 LITTLE = 0.9
 """What leaves more than this share of the alternating torque is hardly worth it."""
 
-ALIKE = 1e-9
-"""Torques that differ by less than this share are alike: the first speed counts."""
-
 NAMED = 4
 """Speeds of instability that are named."""
 
@@ -53,18 +50,6 @@ def band(speeds: Array) -> Say:
     if len(speeds) > 1:
         return say(_("{low:bare} to {high}"), low=speed(speeds[0]), high=speed(speeds[-1]))
     return say(_("at {low}"), low=speed(speeds[0]))
-
-
-def foremost(values: Array) -> int:
-    """Return the place of the largest value, of those that rounding alone tells apart the first; nan is none.
-
-    Examples
-    --------
-    >>> foremost(np.asarray([np.nan, 3.0, 3.0 + 1e-13]))
-    1
-    """
-    table = np.where(np.isnan(values), -np.inf, values)
-    return int(np.argmax(table >= np.max(table) * (1.0 - ALIKE)))
 
 
 def curves(speeds: Array, named: Sequence[tuple[str, Array]]) -> list[Column]:

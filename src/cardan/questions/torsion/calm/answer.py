@@ -11,12 +11,12 @@ from cardan.answers.answer import Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
+from cardan.maths.ties import foremost
 from cardan.questions.torsion.absorber.before_after import (
     LITTLE,
     band,
     cautions,
     curves,
-    foremost,
     lacking_line,
     speed,
     torque,
@@ -124,7 +124,9 @@ def _range(one: Free) -> Say:
 
 def _peaks(result: Calm) -> Table:
     """Return the largest alternating torque of every element, before and after."""
-    most = [[foremost(curve[:, e]) for e in range(len(result.elements))] for curve in (result.before, result.after)]
+    most = [
+        [int(foremost(curve[:, e])) for e in range(len(result.elements))] for curve in (result.before, result.after)
+    ]
     columns = []
     for word, heading, curve, places in (
         ("before", _("as built ±"), result.before, most[0]),
