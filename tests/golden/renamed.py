@@ -6,7 +6,10 @@ none: ``life_h`` is found as ``life_s``. ``python -m tests.golden.check --sugges
 
 from __future__ import annotations
 
-COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
+COMMAND_LINES: tuple[tuple[str, str], ...] = (
+    (r"^tolerance ", "accuracy "),
+    (r"^torsion calm ", "torsion optimise "),
+)
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
 PATHS: tuple[tuple[str, str, str], ...] = (
@@ -46,6 +49,13 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("phases", r"settings\.joint_phase_angle_deg", "settings.initial_yoke_position_deg"),
     ("phases", r"settings\.(shaft_|pose_|)irregularity", r"settings.\1speed_fluctuation_percent"),
     ("phases", r"(joints\.|)bend(_before|)_deg", r"\1joint_angle\2_deg"),
+    ("torsion (absorber|calm)", r"(\w+)\.swing_Nm", r"\1.alternating_torque_Nm"),
+    ("torsion (absorber|calm)", r"curves\.(\w+)_swing_(\d+)_Nm", r"curves.\1_alternating_torque_\2_Nm"),
+    ("torsion absorber", r"curves\.absorber_swing_deg", "curves.absorber_twist_deg"),
+    ("torsion absorber", r"curves\.absorber_heat_W", "curves.absorber_power_loss_W"),
+    ("torsion absorber", r"largest_heat_W", "largest_power_loss_W"),
+    ("torsion (absorber|calm)", r"play_closed", "backlash_closed"),
+    ("torsion calm", r"(\w+)\.push_left", r"\1.excitation_left"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""

@@ -42,7 +42,7 @@ _MAKERS = {
     "questions.bending.rotor_response.RotorResponse": "questions.bending.figures.rotor.rotor_figures",
     "questions.phases.phases.Phasing": "questions.phases.figures.phases.phasing_figures",
     "questions.phases.layout.Layout": "questions.phases.figures.layout.layout_figures",
-    "questions.torsion.absorber.absorber.Absorber": "questions.torsion.calm.figure.absorber_figures",
+    "questions.torsion.absorber.absorber.Absorber": "questions.torsion.absorber.figure.absorber_figures",
     "questions.torsion.calm.calm.Calm": "questions.torsion.calm.figure.calm_figures",
     "questions.motion.articulation.Articulation": "questions.motion.figures.articulation.articulation_figures",
     "questions.diagnosis.signals.orders.OrderSpectrum": "questions.diagnosis.figures.orders.spectrum_figures",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+from cardan.answers.checks import closely as closely
+from cardan.answers.checks import leftover as leftover
 from cardan.answers.numbers import THIN as THIN
 from cardan.answers.numbers import fixed as fixed
 from cardan.answers.numbers import half_turn as half_turn

@@ -67,7 +67,7 @@ def balls(build: Build, i: int) -> None:
     theta = _theta(build, i)
     middle, _across, _normal = _halving(build, i)
     cage = build.along(build.centre(i), middle, _in_plane(build, i, theta))
-    text = _say(build, i, _("cage of {joint}, in the plane that halves the bend"))
+    text = _say(build, i, _("cage of {joint}, in the bisecting plane"))
     build.add("cage", i + 1, path, text, cage, _cage(groove), role="cross", shade=0.1)
     said = _say(build, i, _("ball of {joint}"))
     for j in range(count):
@@ -151,7 +151,7 @@ def tracta(build: Build, i: int) -> None:
     inner = 0.96 * (size.radius - 0.5 * size.ear)
     halves = (placed(ball(inner, 22, 0.06, 1.0), None), placed(ball(inner, 22, -1.0, -0.06), None))
     tongue = plate(circle(0.86 * inner, 24), -0.3 * inner, 0.3 * inner)
-    text = _say(build, i, _("tongue of {joint}, in the plane that halves the bend"))
+    text = _say(build, i, _("tongue of {joint}, in the bisecting plane"))
     build.add("tongue", i + 1, path, text, own, *halves, placed(tongue, ACROSS), role="cross", shade=0.2)
 
 

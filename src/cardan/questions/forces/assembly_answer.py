@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
+from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
-from cardan.figures.wording import closely
 from cardan.maths.ties import foremost, largest
 from cardan.texts import _, plural
 
