@@ -9,7 +9,12 @@ from __future__ import annotations
 COMMAND_LINES: tuple[tuple[str, str], ...] = ()
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
-PATHS: tuple[tuple[str, str, str], ...] = (("life", r"parts\.bend_deg", "parts.joint_angle_deg"),)
+PATHS: tuple[tuple[str, str, str], ...] = (
+    ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
+    ("strength", r"shafts\.bending_Nm", "shafts.secondary_couple_Nm"),
+    ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
+    ("check", r"cures\.(.*)", r"remedies.\1"),
+)
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""
 

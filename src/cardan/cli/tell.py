@@ -122,7 +122,7 @@ def _print_table(console: Console, table: Table) -> None:
     if table.title:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
-    cells = [[cell.text for cell in row] for row in table.rows]
+    cells = [[f"{SIGNS[cell.tone][0]} {cell.text}".strip() for cell in row] for row in table.rows]
     headings = [[column.heading for column in columns], [column.unit for column in columns]]
     widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
     if columns and columns[-1].wrap:

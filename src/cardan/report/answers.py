@@ -9,8 +9,6 @@ from typing import Any, TypeAlias, cast
 from cardan.answers.question import Question
 from cardan.answers.reader import USUAL
 from cardan.catalogue import Catalogue
-from cardan.checks import check
-from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
@@ -35,11 +33,9 @@ from .page import page
 from .phasing import phasing
 from .run_up import running_up
 from .selection import choosing, of_selection
-from .strength import bearing_up
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
 from .turning import turning
-from .verdicts import judged
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
@@ -180,15 +176,6 @@ def _moving(on: Subject) -> Page:
     return moving(own)
 
 
-def _limits(on: Subject) -> Page | None:
-    return judged(on).page
-
-
-def _unjudged(on: Subject) -> str:
-    missing = [path for one in check(on.drive, known=on.known) for path in one.missing]
-    return told(named(missing)) if missing else _nothing(on)
-
-
 def _unheld(on: Subject) -> Lacking:
     try:
         mobility(on.drive)
@@ -199,11 +186,6 @@ def _unheld(on: Subject) -> Lacking:
 
 def _loose(_on: Subject) -> str:
     return _("The drive file leaves bearings out: shafts that nothing holds say nothing of binding. Add supports.")
-
-
-def _weak(on: Subject) -> str:
-    missing = strength(on.drive, known=on.known).missing
-    return told(named(missing)) if missing else _nothing(on)
 
 
 def _free(on: Subject) -> str:
@@ -278,16 +260,6 @@ ANSWERS: dict[str, Answer] = {
         page=_plain(whirling),
         lacking=_of(lacks.of_bending),
         otherwise=_nothing,
-        quick=False,
-    ),
-    "strength": Answer(
-        title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
-    ),
-    "limits": Answer(
-        title=lambda: _("Limits"),
-        page=_plain(_limits),
-        lacking=_of(lacks.of_nothing),
-        otherwise=_unjudged,
         quick=False,
     ),
     "mobility": Answer(title=lambda: _("How it is held"), page=_plain(binding), lacking=_unheld, otherwise=_loose),

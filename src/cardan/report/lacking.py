@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
-from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import in_a_joint
+from cardan.drive.fields.keys import in_a_joint, key_of
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
@@ -55,11 +54,6 @@ def of_losses(drive: Drive) -> Lacking:
             "shafts[1].spline.friction",
         ),
     )
-
-
-def of_strength(drive: Drive) -> Lacking:
-    """Return what the strength lacks."""
-    return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
 
 
 def of_accuracy(drive: Drive) -> Lacking:

@@ -21,14 +21,13 @@ from .mobility import binding
 from .page import page as page_for
 from .rotor import whirling_cracked
 from .run_up import running_up
-from .strength import bearing_up
 from .subject import Subject
 from .torsion import twisting
 
 PAGES: dict[str, Callable[[Subject], Page | None]] = {
     "forces": carrying,
     "losses": rubbing,
-    "strength": bearing_up,
+    "strength": lambda _on: None,
     "life": lambda _on: None,
     "accuracy": erring,
     "mobility": binding,
