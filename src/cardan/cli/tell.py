@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.text import Text
 
-from cardan.answers.answer import FILE, Answer, Remark
+from cardan.answers.answer import FILE, Answer, Remark, Tone
 from cardan.answers.data import as_csv, as_json, data
 from cardan.answers.printed import SHOWN, Column, Table, printed
 from cardan.answers.quantity import told
@@ -127,7 +127,10 @@ def _print_table(console: Console, table: Table) -> None:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
     cells = [
-        [_short(cell.text) if k < table.fixed < len(row) else cell.text for k, cell in enumerate(row)]
+        [
+            _signed(cell.tone, _short(cell.text) if k < table.fixed < len(row) else cell.text)
+            for k, cell in enumerate(row)
+        ]
         for row in table.rows
     ]
     headings = [[column.heading for column in columns], [column.unit for column in columns]]
@@ -148,6 +151,11 @@ def _print_table(console: Console, table: Table) -> None:
                 console.print(text, soft_wrap=True)
     if table.note:
         console.print(Text(_filled(table.note, min(console.width, WIDEST)), style="dim"), soft_wrap=True)
+
+
+def _signed(tone: Tone, text: str) -> str:
+    """Return the words of a cell behind the sign of its tone."""
+    return f"{SIGNS[tone][0]} {text}".strip()
 
 
 def _short(name: str) -> str:
