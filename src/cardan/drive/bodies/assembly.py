@@ -13,6 +13,8 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import ConstantVelocity
 from cardan.drive.models.chain import Chain, given_chain
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
+from cardan.drive.shapes.ring import disc, flange, ring, washer
+from cardan.drive.shapes.support import bearing, bracket, floor_frame, rubber
 from cardan.drive.station import Station
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
@@ -22,10 +24,9 @@ from cardan.texts import _
 from .build import Build, Track, length_text
 from .crossed import double_joint, hooke, offset_cross, offset_shaft
 from .even import MAKERS
-from .shaft import disc, flange, ring, shaft_pieces, shaft_stretches, washer
+from .shaft import shaft_pieces, shaft_stretches
 from .sizes import bearing_radius, sizes
 from .solids import Arms, arms
-from .support import bearing, bracket, floor_frame, rubber
 
 FRAMES = 120
 """Places of a turn."""

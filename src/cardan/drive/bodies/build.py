@@ -237,7 +237,7 @@ def forks(
 
     It swings ``away`` off the joint centre; ears without bores end at ``tip``, counted toward the hub.
     """
-    from .yoke import caps, fork
+    from cardan.drive.shapes.yoke import caps, fork
 
     k = i + 1 if driving else i + 2
     track = build.ends[k] if driving else build.starts[k]

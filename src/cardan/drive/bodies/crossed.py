@@ -9,14 +9,14 @@ import numpy as np
 
 from cardan.drive.joints import DoubleCardan, OffsetCross
 from cardan.drive.joints.laws import double_cardan
+from cardan.drive.shapes.support import bearing, bracket, floor_frame
+from cardan.drive.shapes.yoke import caps, cross_body, fork
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import ball, placed, revolved
 from cardan.texts import _
 
 from .build import BACK, Build, cross_text, forks, length_text, name_of
 from .sizes import JointSize
-from .support import bearing, bracket, floor_frame
-from .yoke import caps, cross_body, fork
 
 
 def hooke(build: Build, i: int) -> None:

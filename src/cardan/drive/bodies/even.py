@@ -8,15 +8,15 @@ import numpy as np
 
 from cardan.drive.joints import Clemens, ElasticHalfCardan, HalfCardan, PinCoupling, Rzeppa, Tripod, Weiss
 from cardan.drive.joints.laws import tripod
+from cardan.drive.shapes.ring import ring
+from cardan.drive.shapes.yoke import ACROSS, bolt_ring
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import Surface, ball, circle, joined, placed, plate, revolved
 from cardan.texts import _
 
 from .build import BACK, Build, forks, name_of
-from .shaft import ring
 from .sizes import JointSize
-from .yoke import ACROSS, bolt_ring
 
 
 def _sides(build: Build, i: int) -> tuple[tuple[int, int, Array | None], tuple[int, int, Array | None]]:
