@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from cardan.drive.joints import Hooke, Joint
+from cardan.drive.joints import Joint
 from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
@@ -48,7 +48,7 @@ class Check:
                 stuck = own and (self.crosses == "map" or bool(design.varied))
                 yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
             return
-        others = [i for i, joint in enumerate(joints) if type(joint) is not Hooke]
+        others = [i for i, joint in enumerate(joints) if not joint.single_cross]
         for one in self.judge(design):
             number = re.match(r"joints\[(\d+)\]", one.subject)
             whole = self.crosses == "all" or any(path.endswith(".kind") for path in one.missing)

@@ -13,7 +13,7 @@ from .options import AsCsv, AsJson, Plot
 
 if TYPE_CHECKING:
     from cardan.catalogue.rows import JointType
-    from cardan.questions.motion.joint_inside import Inside
+    from cardan.drive.joints.common.inside import Inside
     from cardan.questions.motion.joint_law import JointBends, JointTurn
 
     from .answer import Answer, Cell, Remark, Table
@@ -318,7 +318,7 @@ def _remarks(several: Sequence[Asked], turns: Sequence[JointTurn]) -> Iterator[R
         yield Remark(text=text.format(names=", ".join(ideal)), command=("cardan", "joint"), tone="next")
     elif len(several) == 1:
         text = _("Beside others:")
-        other = "hooke" if several[0].kind != "hooke" else "double_cardan"
+        other = turns[0].joint.beside
         yield Remark(text=text, command=("cardan", "joint", several[0].kind, *_sizes(several[0]), other), tone="next")
 
 

@@ -115,13 +115,15 @@ def made(several: Sequence[Asked]) -> list[Joint]:
 
 
 def _made(one: Asked) -> Joint:
-    from cardan.drive.fields.keys import fields_of, spellings_of
+    from dataclasses import fields
+
+    from cardan.drive.fields.keys import spellings_of
     from cardan.drive.joints import JOINTS
     from cardan.drive.joints.joint import Joint
     from cardan.io.reader import drive_from_tree
 
     kind = JOINTS[one.kind]
-    places = set(fields_of(Joint))
+    places = {field.name for field in fields(Joint)}
     strange = [key for key in one.keys if _named(key, spellings_of(kind)) in places]
     text = _("means nothing for a joint by itself; its sizes are {keys}")
     known = ", ".join(_written(kind)) or _("none")
@@ -136,9 +138,8 @@ def _named(key: str, spellings: dict[str, tuple[str, float]]) -> str:
 def _written(kind: type[Joint]) -> list[str]:
     """Return the keys of a kind's own sizes as we write them."""
     from cardan.drive.fields.keys import fields_of
-    from cardan.drive.joints.joint import Joint
 
-    return [one.spelling for name, one in fields_of(kind).items() if name not in fields_of(Joint)]
+    return [one.spelling for name, one in fields_of(kind).items() if name in kind.own_fields()]
 
 
 def kinds_answer() -> Answer:
@@ -147,7 +148,6 @@ def kinds_answer() -> Answer:
 
     from cardan.drive.fields.keys import fields_of
     from cardan.drive.joints import JOINTS
-    from cardan.drive.joints.joint import Joint
     from cardan.questions.motion.joint_law import types_of
 
     from .answer import Answer, Column, Remark, Table
@@ -186,7 +186,7 @@ def kinds_answer() -> Answer:
                     "keys": [
                         {"key": one.spelling, "required": one.required, "doc": _(one.key.doc)}
                         for field, one in fields_of(kind).items()
-                        if field not in fields_of(Joint)
+                        if field in kind.own_fields()
                     ],
                 }
                 for name, kind in JOINTS.items()

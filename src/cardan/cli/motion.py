@@ -159,7 +159,7 @@ def sentence(drive: Drive, file: Path, each: Evenness) -> str:
 
     if unmapped(drive.joints):
         text = _("{name}: {count}, {share} irregular, as much as one cross joint bent {bend:.2f}°.")
-    elif len(drive.joints) == 1 and drive.joints[0].kind == "hooke":
+    elif len(drive.joints) == 1 and drive.joints[0].single_cross:
         text = _("{name}: one joint bent {bend:.2f}°, {share} irregular.")
     else:
         text = _("{name}: {count} turn the output like one joint bent {bend:.2f}°, {share} irregular.")
@@ -330,7 +330,7 @@ def _remarks(drive: Drive, file: Path, found: Motion, each: Evenness) -> Iterato
     if _even(each):
         yield Remark(text=_("The whole drive on one page:"), command=("cardan", "report", str(file)), tone="next")
     elif len(drive.joints) == 1:
-        if drive.joints[0].kind == "hooke":
+        if drive.joints[0].single_cross:
             yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
     elif not unmapped(drive.joints):
         text = _("Find the yoke angles that leave least:")

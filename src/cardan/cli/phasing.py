@@ -167,7 +167,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     from .answer import Remark
 
     if len(drive.joints) == 1:
-        if drive.joints[0].kind == "hooke":
+        if drive.joints[0].single_cross:
             yield Remark(text=_("One joint is never even; a second one of equal bend can undo it."), tone="next")
         return
     if found.limiting_joint is None or not found.free:
@@ -180,7 +180,8 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             "joint {number} ({bend:.2f}°) less."
         ).format(tied=tied, number=found.limiting_joint, bend=bend)
     else:
-        text = excess(found, len(drive.joints), bend * deg, drive.joints[found.limiting_joint - 1].kind)
+        plain = drive.joints[found.limiting_joint - 1].single_cross
+        text = excess(found, len(drive.joints), bend * deg, single_cross=plain)
     yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
 
 

@@ -117,7 +117,7 @@ LITTLE = 0.01
 """An irregularity below which what the yokes leave is called little."""
 
 
-def excess(found: Phasing, joints: int, bend: float, kind: str = "hooke") -> str:
+def excess(found: Phasing, joints: int, bend: float, *, single_cross: bool = True) -> str:
     """Return in one sentence which joint keeps a drive from being even, and at what bend it would not.
 
     Parameters
@@ -128,14 +128,14 @@ def excess(found: Phasing, joints: int, bend: float, kind: str = "hooke") -> str
         Number of joints.
     bend : float [rad]
         Bend of that joint.
-    kind : str
-        Its kind; of another than Hooke's no bend is named.
+    single_cross : bool
+        Whether it is a cross joint; of another no bend is named.
 
     Notes
     -----
     The side L = -ln cos α of that joint is asinh(δ/2) too long.
     """
-    if kind != "hooke":
+    if not single_cross:
         text = _("Joint {number} is more uneven than the others can undo. What remains is {left}.")
         return text.format(number=found.limiting_joint, left=percent(found.irregularity_min))
     spare = math.asinh(0.5 * found.irregularity_min)

@@ -107,7 +107,7 @@ def _why_not(on: Subject, found: Phasing) -> str:
         text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
         return text.format(least=least)
     i = found.limiting_joint - 1
-    why = excess(found, on.joints, float(on.bend[i]), on.drive.joints[i].kind)
+    why = excess(found, on.joints, float(on.bend[i]), single_cross=on.drive.joints[i].single_cross)
     return _("It cannot be made synchronous. {why}").format(why=why)
 
 

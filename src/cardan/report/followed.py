@@ -16,7 +16,7 @@ from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_over
+from cardan.drive.models.laws import NEGLIGIBLE, has_map, lawless, left_over
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
@@ -124,7 +124,7 @@ def yokes_refused(on: Followed) -> Page:
     left = [left_over(joint, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True)]
     far = [i for i, rest in enumerate(left) if not rest <= NEGLIGIBLE]
     if far:
-        problems = [kind_problem(i, on.drive.joints[i], _("yoke angles")) for i in far]
+        problems = [lawless(i, on.drive.joints[i], _("yoke angles")) for i in far]
         return replace(refused("phases", _("Yoke angles"), InputError(problems)), alarms=())
     rows = [
         [words(one.label), *(number(fixed(float(g) / deg), float(g) / deg) for g in one.yoke_angle), _left(one)]

@@ -115,7 +115,7 @@ def _sides(on: Subject) -> str:
         "side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles can close the "
         "path. It could be closed if that joint bent {bend}°."
     )
-    if on.drive.joints[closing.longest - 1].kind != "hooke":
+    if not on.drive.joints[closing.longest - 1].single_cross:
         text = _(
             "Every joint is a side of length L = −ln cos α, here {sides}, and the yoke angles are the corners. The "
             "longest side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles "

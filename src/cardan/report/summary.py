@@ -151,7 +151,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if limits is not None:
         yield evenness(on)
     for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend / deg, strict=True), start=1):
-        if joint.kind != "hooke":
+        if not joint.single_cross:
             text = too_steep(joint, k, bend * deg)
             yield from [Words(text=text, tone="failed")] if text else []
         elif bend > ILL:
@@ -174,7 +174,9 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         why = _("Joints tied by held yokes act as one that is too uneven for the others.")
         if len(on.phasing.limiting_joints) == 1:
             limiting = on.phasing.limiting_joint - 1
-            why = excess(on.phasing, on.joints, float(on.bend[limiting]), on.drive.joints[limiting].kind)
+            why = excess(
+                on.phasing, on.joints, float(on.bend[limiting]), single_cross=on.drive.joints[limiting].single_cross
+            )
         yield Words(text=_("It cannot be made synchronous. {why}").format(why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
@@ -244,7 +246,7 @@ def _changes(on: Subject) -> Iterator[tuple[str, float]]:
             continue
         angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
         yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
-    plain = on.drive.joints[on.closing.longest - 1].kind == "hooke"
+    plain = on.drive.joints[on.closing.longest - 1].single_cross
     if on.joints > 1 and plain and not on.phasing.feasible and not on.phasing.fixed:
         bend = fixed(on.closing.bend_allowed / deg)
         now = fixed(float(on.bend[on.closing.longest - 1]) / deg)

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.drive.body import body_length
+from cardan.drive.joints.common.inside import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.wording import fixed, half_turn, percent, significant
 from cardan.maths.arrays import Array
-from cardan.questions.motion.joint_inside import Inside
 from cardan.questions.motion.kinds import figure_of, inside, kind_name, too_steep
 from cardan.texts import _, plural
 from cardan.units import deg, mm, rpm

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import is_dataclass
 from typing import Any
 
-from cardan.drive.joints import Joint
+from cardan.drive.joints import DEFAULT, JOINTS, Joint
 from cardan.drive.machine import MachineTorque
 from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
@@ -38,7 +38,7 @@ def written(value: float, dimension: str) -> tuple[str, float]:
 
 def _table(thing: Any) -> dict[str, Any]:
     table: dict[str, Any] = {}
-    if isinstance(thing, Movement | MachineTorque) or (isinstance(thing, Joint) and thing.kind != "hooke"):
+    if isinstance(thing, Movement | MachineTorque) or (isinstance(thing, Joint) and JOINTS[DEFAULT] is not type(thing)):
         table["kind"] = thing.kind
     for one in fields_of(type(thing)).values():
         value = getattr(thing, one.name)

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
+from cardan.drive.joints.common.inside import Inside
 from cardan.drive.models.chain import given_chain
 from cardan.figures.wording import significant
 from cardan.texts import _
 from cardan.units import deg, factor, label, preferred
 
-from .joint_inside import Inside, joint_inside
+from .joint_inside import joint_inside
 
 
 def kind_name(joint: Joint) -> str:
@@ -23,21 +24,7 @@ def kind_name(joint: Joint) -> str:
     >>> kind_name(Hooke())
     'Hooke'
     """
-    names = {
-        "hooke": _("Hooke"),
-        "offset_cross": _("offset cross"),
-        "double_cardan": _("double cardan"),
-        "constant_velocity": _("constant velocity"),
-        "tracta": _("Tracta"),
-        "rzeppa": _("Rzeppa"),
-        "weiss": _("Weiss"),
-        "tripod": _("tripod"),
-        "half_cardan": _("half-cardan"),
-        "elastic_half_cardan": _("elastic half-cardan"),
-        "pin_coupling": _("pin coupling"),
-        "clemens": _("Clemens"),
-    }
-    return names[joint.kind]
+    return joint.in_words()
 
 
 def too_steep(joint: Joint, number: int, bend: float) -> str:
@@ -59,7 +46,7 @@ def too_steep(joint: Joint, number: int, bend: float) -> str:
     if bend <= joint.steepest * (1.0 + 1e-12):
         return ""
     text = _("Joint {number} bends {bend:.1f}°; above {limit:g}° no real joint of its kind, {kind}, works.")
-    if joint.kind == "hooke":
+    if joint.single_cross:
         text = _("Joint {number} bends {bend:.1f}°; above {limit:g}° no real cross joint works.")
     return text.format(number=number, bend=bend / deg, limit=round(joint.steepest / deg, 6), kind=kind_name(joint))
 
