@@ -24,6 +24,7 @@ lbf = pound * 9.80665
 
 DIMENSIONS: dict[str, dict[str, float]] = {
     "length": {"mm": mm, "m": 1.0, "cm": 1e-2, "in": inch, "ft": 12 * inch, "km": 1e3},
+    "displacement": {"um": 1e-6, "mm": mm, "m": 1.0, "mil": 1e-3 * inch, "in": inch},
     "angle": {"deg": deg, "rad": 1.0, "arcmin": arcmin},
     "angular_speed": {"rpm": rpm, "rad_s": 1.0, "deg_s": deg},
     "angular_acceleration": {"rad_s2": 1.0, "deg_s2": deg},
@@ -59,6 +60,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
 """Dimension -> unit suffix -> factor to SI. A frequency is an angular one in Python [rad/s]."""
 
 LABELS = {
+    "um": "µm",
     "deg": "°",
     "rad_s": "rad/s",
     "rad_s2": "rad/s²",

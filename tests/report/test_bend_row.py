@@ -7,13 +7,14 @@ import pytest
 from cardan.checks import check
 from cardan.drive.drive import Drive
 from cardan.io import example
-from cardan.report.key_figures import key_figures
+from cardan.report.key_figures import key_figures, key_table
 from cardan.report.subject import asked
 from cardan.units import deg
 
 
 def row(drive):
-    return next(one for one in key_figures(asked(drive, None, None)).rows if one[0].text.startswith("largest bend"))
+    keys = key_table(key_figures(asked(drive, None, None))).rows
+    return next(one for one in keys if one[0].text.startswith("largest joint angle"))
 
 
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "pto-drive"])
@@ -37,5 +38,5 @@ def test_a_bend_while_moving_says_so():
     drive = example("truck-rear-axle")
     drive = replace(drive, limits=replace(drive.limits, bend=12 * deg))
     shown = row(drive)
-    assert shown[0].text == "largest bend while moving, joint 2, in the pose empty"
+    assert shown[0].text == "largest joint angle, joint 2, while the drive moves; in the pose empty"
     assert shown[3].text == "≤ 12"

@@ -8,8 +8,8 @@ from cardan.io import example, example_text, loads
 from cardan.io.amend import amend
 from cardan.report.answers import subject
 from cardan.report.block import Picture, Table, Words
-from cardan.report.compare import Variant, _merged, compared, differences_table
-from cardan.report.key_figures import key_figures
+from cardan.report.compare import Variant, compared, differences_table
+from cardan.report.key_figures import key_figures, key_table
 from cardan.texts import speaking
 
 TEXT = example_text("z-arrangement")
@@ -33,16 +33,16 @@ def row(found, name):
 def test_the_figures_are_those_of_the_report(page):
     found = table(page, "Key figures")
     for k, text in enumerate((TEXT, BENT)):
-        for cells in key_figures(subject(loads(text))).rows[:4]:
+        for cells in key_table(key_figures(subject(loads(text)))).rows[:4]:
             assert row(found, cells[0].text)[2 + k] == cells[1].text
 
 
 def test_the_best_is_named_and_has_its_sign(page):
     found = table(page, "Key figures")
-    line = next(one for one in found.rows if one[0].text.startswith("irregularity"))
+    line = next(one for one in found.rows if one[0].text.startswith("speed fluctuation"))
     assert [cell.sign for cell in line[2:4]] == ["✓", ""]
     assert line[-1].text == "as drawn"
-    assert row(found, "largest bend")[0] == "largest bend, joint 1 / 2"
+    assert row(found, "largest joint angle")[0] == "largest joint angle, joint 1 / joint 2"
 
 
 def test_outputs_are_drawn_over_one_another(page):
@@ -88,7 +88,7 @@ def test_the_same_drive_twice_has_no_best():
     page = compared([Variant(name=one, drive=loads(BENT)) for one in "ab"])
     assert {one[-1].text for one in table(page, "Key figures").rows} <= {"all alike", "–"}
     assert table(page, "What differs in the files").note == "The files say the same."
-    assert page.answer.startswith("All of them are")
+    assert page.answer.startswith("All of them have")
 
 
 def test_who_stops_gets_what_there_is():
@@ -109,12 +109,6 @@ def test_progress_rises_to_the_end():
 def test_it_speaks_the_language_of_the_reader():
     with speaking("ru"):
         assert differences_table(["а", "б"], [loads(TEXT), loads(BENT)]).columns[0].heading == "ключ"
-
-
-def test_names_that_differ_by_their_parts_become_one():
-    assert _merged(["life of joint 1, the first", "life of joint 2, the first"]) == "life of joint 1 / 2, the first"
-    assert _merged(["ended by a", "ended by a"]) == "ended by a"
-    assert _merged(["ended by " + "long " * 8 + "x", "ended by twist"]) == "ended by …"
 
 
 @pytest.mark.parametrize("names", [(), ("a", "a")])

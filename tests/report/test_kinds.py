@@ -98,7 +98,7 @@ def test_a_report_names_what_it_leaves_out() -> None:
 
 def test_a_report_tells_which_joint_could_be_even() -> None:
     text = page(loads(file_of("pin_coupling")))
-    assert "Joint 1 is even where the parts of both its shafts are alike. What the other joints add" in text
+    assert "Joint 1 is uniform where the parts of both its shafts are alike. What the other joints add" in text
 
 
 @pytest.mark.parametrize("kind", ["double_cardan", "rzeppa", "pin_coupling"])
@@ -121,7 +121,7 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
         (["life"], "bearing life"),
         (["assembly"], "forces from misfit"),
         (["forces"], "forces"),
-        (["phases"], "yoke angles"),
+        (["phasing"], "yoke angles"),
         (["torsion", "modes"], "torsional vibration"),
     ],
 )

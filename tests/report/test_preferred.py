@@ -19,12 +19,12 @@ AMERICAN = {"length": "in", "angle": "rad", "angular_speed": "rad_s", "torque": 
 
 USUAL = tuple(next(iter(DIMENSIONS[one])) for one in AMERICAN)
 
-QUICK = tuple(name for name, one in ANSWERS.items() if one.quick and name not in ("selection", "phases"))
+QUICK = tuple(name for name, one in ANSWERS.items() if one.quick and name not in ("selection", "phasing"))
 
 LONG = {
     "unstable-drive": ("torsion", "orders", "stability"),
     "pto-drive": ("limits", "bending"),
-    "pto-hitch": ("movement",),
+    "pto-hitch": ("articulation",),
 }
 
 SI = {label(unit): factor for units in DIMENSIONS.values() for unit, factor in units.items() if label(unit)}
@@ -162,7 +162,7 @@ def test_what_stands_in_a_file_stays():
     assert shown.answer == "Set joints[1].centre_mm: 0,492 in."
     assert shown.blocks[0] is page.blocks[0]
     assert [one.text for one in shown.blocks[1].rows[0]] == ["joints[1].centre_mm", "12.5", "13.5"]
-    assert shown.blocks[2].items == ("0,0984 in",)
+    assert shown.blocks[2].items == ["0,0984 in"]
 
 
 def test_nothing_to_change_gives_the_same_object():

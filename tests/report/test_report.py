@@ -13,6 +13,8 @@ from cardan.errors import InputError
 from cardan.figures.wording import percent
 from cardan.io import example, example_names, example_text
 from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.report.block import Page, Words
+from cardan.report.content import moved, phased
 from cardan.report.report import page, report
 from cardan.units import deg
 
@@ -60,6 +62,11 @@ def parsed(text: str) -> Nesting:
     return seen
 
 
+def proof(yokes: Page) -> str:
+    """Return what the page of the yokes says of the sides of the polygon."""
+    return next(one.text for one in yokes.blocks if isinstance(one, Words))
+
+
 @cache
 def of_example(name: str) -> str:
     """Return the report of an example, made once for all tests."""
@@ -94,7 +101,7 @@ def test_the_truck_says_what_is_wrong_and_what_helps():
     words = "".join(parsed(of_example("truck-printed-angles")).words)
     assert "12.51" in words
     assert "20.049" in words
-    assert "with its yokes set differently it turns exactly evenly" in words
+    assert "with its yokes re-phased it is exactly uniform" in words
     for shaft in ("4.06", "3.21", "5.49"):
         assert shaft in words
     # Book (80) as in the worked example: 12.335 % with mean phases.
@@ -103,54 +110,52 @@ def test_the_truck_says_what_is_wrong_and_what_helps():
 
 def test_a_synchronous_drive_is_called_so():
     words = "".join(parsed(page(Drive.from_angles([0.3, 0.3]))).words)
-    assert "synchronous as built" in words
-    assert "exactly even" in words
+    assert "uniform as specified" in words
+    assert "exactly uniform" in words
 
 
 def test_an_infeasible_drive_says_why_and_what_bend_would_do():
     words = "".join(parsed(page(Drive.from_angles([10 * deg, 30 * deg, 20 * deg]))).words)
-    assert "cannot be made synchronous. Joint 2 bends more than all others together" in words
+    assert "cannot be made uniform. The angle of joint 2 is too large for the others" in words
     # cos x = cos 10° cos 20°, by hand: x = 22.27°.
     assert "22.27°" in words
 
 
 def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     """Its two bends of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
-    from cardan.report.key_figures import key_figures
-    from cardan.report.phasing import phasing
+    from cardan.report.key_figures import key_figures, key_table
     from cardan.report.subject import asked
-    from cardan.report.summary import evenness
-    from cardan.report.turning import turning
+    from cardan.report.summary import uniformity
 
     on = asked(example("pto-spline-thrust"), None, None)
     assert on.rounded
     assert not on.phasing.feasible
-    proof = phasing(on)
-    said = [evenness(on).text, proof.answer, proof.blocks[0].text, proof.blocks[1].figure.sentence, turning(on).answer]
+    yokes = phased(on.drive, on.phasing)
+    drawn = yokes.blocks[0].figure.sentence
+    said = [uniformity(on).text, yokes.answer, proof(yokes), drawn, moved(on.drive)[0].answer]
     assert all("but for the rounding" in text.lower() for text in said)
-    rows = {row[0].text: row for row in key_figures(on).rows}
-    assert rows["output ahead and back of its mean by"][1].text == "9.283·10⁻⁶"
+    rows = {row[0].text: row for row in key_table(key_figures(on)).rows}
+    assert rows["angle error of the output, ±"][1].text == "9.283·10⁻⁶"
     assert "times smaller" not in "".join(parsed(page(on.drive)).words)
 
 
 def test_joints_that_turn_evenly_by_themselves_are_said_to():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
-    from cardan.report.turning import turning
 
     for name in ("front-halfshaft", "pto-hitch"):
         on = asked(example(name), None, None)
-        told = (phasing(on).blocks[0].text, phasing(on).answer, turning(on).answer)
-        assert all("joint turns evenly by itself" in text for text in told)
+        yokes = phased(on.drive, on.phasing)
+        told = (proof(yokes), yokes.answer, moved(on.drive)[0].answer)
+        assert all("joint turns uniformly by itself" in text for text in told)
         assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
 
 
 def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
 
-    text = phasing(asked(example("double-cardan-propshaft"), None, None)).blocks[0].text
-    assert "if the Hooke joint that turns like that joint bent 1.00°. α is the bend of the Hooke joint" in text
+    on = asked(example("double-cardan-propshaft"), None, None)
+    text = proof(phased(on.drive, on.phasing))
+    assert "if the Hooke joint that turns like that joint had an angle of 1.00°. α is the angle of the Hooke" in text
 
 
 def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
@@ -164,35 +169,39 @@ def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
 
 
 def test_key_figures_name_the_pose_that_is_worst():
-    from cardan.report.key_figures import key_figures
+    from cardan.report.key_figures import key_figures, key_table
     from cardan.report.subject import asked
 
     rows = {
-        row[0].text: row[1].text for row in key_figures(asked(example("rolling-mill-upper-spindle"), None, None)).rows
+        row[0].text: row[1].text
+        for row in key_table(key_figures(asked(example("rolling-mill-upper-spindle"), None, None))).rows
     }
-    assert rows["largest bend, joint 1, in the pose roll change"] == "3.719"
-    rows = {row[0].text: row[1] for row in key_figures(asked(example("truck-rear-axle"), None, None)).rows}
-    assert float(rows["largest bend while moving, joint 2, in the pose empty"].full) == pytest.approx(13.5, abs=0.1)
-    assert float(rows["irregularity δ of the output, in the pose empty"].full) == pytest.approx(0.251, abs=1e-3)
-    assert rows["shortest engaged length of the spline of shaft 2, in the pose empty"].text == "84.2"
+    assert rows["largest joint angle, joint 1, in the pose roll change"] == "3.719"
+    rows = {row[0].text: row[1] for row in key_table(key_figures(asked(example("truck-rear-axle"), None, None))).rows}
+    assert float(rows["largest joint angle while moving, joint 2, in the pose empty"].full) == pytest.approx(
+        13.5, abs=0.1
+    )
+    assert float(rows["speed fluctuation δ of the output, in the pose empty"].full) == pytest.approx(0.251, abs=1e-3)
+    assert (
+        rows["shortest engaged length of the spline, shaft 2, while the drive moves; in the pose empty"].text == "84.2"
+    )
 
 
 def test_lengths_of_end_shafts_that_the_file_gives_are_shown():
+    from cardan.report.description import description
     from cardan.report.subject import asked
-    from cardan.report.understood import understood
 
-    page_two = understood(asked(example("w-arrangement"), None, None))
+    page_two = description(asked(example("w-arrangement"), None, None))
     shafts = next(block for block in page_two.blocks if getattr(block, "title", "") == "Shafts")
     assert [row[1].text for row in shafts.rows] == ["300.0", "1\u202f450.0", "250.0"]
     assert not any("lengths of the end shafts" in item for item in page_two.blocks[-1].items)
 
 
 def test_a_degree_off_costs_something_where_the_slope_is_zero():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
 
     on = asked(example("three-joints-unequal"), None, None)
-    blocks = phasing(on).blocks
+    blocks = phased(on.drive, on.phasing).blocks
     costs = next(block for block in blocks if getattr(block, "title", "").startswith("Growth of δ"))
     assert abs(on.best.sensitivity).max() < 1e-8
     assert all(0.0 < float(row[2].full) < float(row[1].full) for row in costs.rows)
@@ -201,8 +210,8 @@ def test_a_degree_off_costs_something_where_the_slope_is_zero():
 def test_spline_travel_is_judged_and_a_spline_that_does_not_follow_is_told_once():
     drive = example("pto-hitch")
     held = "".join(parsed(page(drive)).words)
-    judged = held[held.index("shortest engaged length of the spline of shaft 2") :].split()
-    assert judged[9:15] == ["189.0", "mm", "≥", "150", "0.79", "✓passed"]
+    judged = held[held.index("shortest engaged length of the spline, shaft 2") :].split()
+    assert judged[8:14] == ["189.0", "mm", "≥", "150", "0.79", "✓passed"]
     tight = dataclasses.replace(drive.shafts[1].spline, gap=0.003)
     shafts = (drive.shafts[0], dataclasses.replace(drive.shafts[1], spline=tight), *drive.shafts[2:])
     failed = "".join(parsed(page(dataclasses.replace(drive, shafts=shafts))).words)

@@ -9,11 +9,11 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Limits
 from cardan.io import example
 from cardan.questions.motion.equivalence import SPECK
-from cardan.report.key_figures import key_figures
-from cardan.report.phasing import phasing
+from cardan.report.block import Picture, Words
+from cardan.report.content import moved, phased
+from cardan.report.key_figures import key_figures, key_table
 from cardan.report.subject import Subject
-from cardan.report.summary import evenness
-from cardan.report.turning import turning
+from cardan.report.summary import uniformity
 
 SMALL = math.radians(0.05)
 
@@ -24,10 +24,10 @@ def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(bends):
     assert 1e-8 < float(on.whole.irregularity) < SPECK
     assert not on.rounded
     assert not on.curable
-    page = phasing(on)
-    turn = turning(on)
-    said = (evenness(on).text, page.answer, page.blocks[0].text, turn.answer)
-    said += tuple(one.figure.sentence for one in (page.blocks[1], turn.blocks[0]))
+    said = [uniformity(on).text]
+    for page in (phased(on.drive, on.phasing), moved(on.drive)[0]):
+        said += [page.answer, *(one.text for one in page.blocks if isinstance(one, Words))]
+        said += [one.figure.sentence for one in page.blocks if isinstance(one, Picture)]
     assert not any("rounding" in text for text in said)
 
 
@@ -43,7 +43,7 @@ def test_a_speck_is_rounding_unless_the_user_asks_for_less(drive):
     asked = Subject(drive=replace(drive, limits=Limits(irregularity=limit)))
     assert not asked.rounded
     assert not asked.curable
-    assert [evenness(one).tone for one in (on, asked)] == ["good", "warning"]
+    assert [uniformity(one).tone for one in (on, asked)] == ["good", "warning"]
     assert Subject(drive=replace(drive, limits=Limits(irregularity=4.0 * limit))).rounded
 
 
@@ -55,5 +55,9 @@ def test_yokes_that_leave_a_speck_cure_a_drive_whose_joints_undo_each_other():
 
 @pytest.mark.parametrize("bends", [[SMALL], [0.0, SMALL]])
 def test_a_small_acceleration_is_told(bends):
-    (row,) = [row for row in key_figures(Subject(drive=Drive.from_angles(bends))).rows if "acceleration" in row[0].text]
+    (row,) = [
+        row
+        for row in key_table(key_figures(Subject(drive=Drive.from_angles(bends)))).rows
+        if "acceleration" in row[0].text
+    ]
     assert row[1].text == "7.615·10⁻⁷"

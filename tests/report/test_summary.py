@@ -6,7 +6,7 @@ from cardan.drive.drive import Drive
 from cardan.io import example, loads
 from cardan.report.block import Words
 from cardan.report.subject import Subject
-from cardan.report.summary import changes, evenness
+from cardan.report.summary import changes, uniformity
 
 
 def posed(bends: tuple[float, float], pose: str, yoke: float = 0.0) -> Subject:
@@ -26,11 +26,11 @@ def told(on: Subject) -> str:
 
 def test_a_drive_that_is_even_only_as_drawn_is_not_called_even_in_its_poses():
     on = posed((10.0, 10.0), '"joints[0].bend_deg" = 20')
-    said = evenness(on)
+    said = uniformity(on)
     # One joint of 20° against one of 10°, by hand: cos 20°/cos 10° = cos α, δ = 1/cos α - cos α = 9.38 %.
-    assert said.text == "D is synchronous as drawn. In the pose low, the output is 9.38 % irregular."
+    assert said.text == "D is uniform as drawn. In the pose low the speed fluctuation is 9.38 %."
     assert said.tone == "warning"
-    assert told(on) == "The yokes stand right; what is left comes from bends that differ in the poses."
+    assert told(on) == "The yokes are phased right; what is left comes from joint angles that differ in the poses."
 
 
 def test_yokes_that_would_suit_the_poses_are_named():
@@ -41,5 +41,5 @@ def test_yokes_that_would_suit_the_poses_are_named():
 @pytest.mark.parametrize("drive", [example("rolling-mill-upper-spindle"), Drive.from_angles([0.2, 0.2])])
 def test_what_is_even_in_every_pose_needs_no_change(drive):
     on = Subject(drive=drive)
-    assert "as built" in evenness(on).text
-    assert told(on) == "Nothing needs to be changed for an even output."
+    assert "as specified" in uniformity(on).text
+    assert told(on) == "Nothing needs to be changed for a uniform output."

@@ -12,7 +12,7 @@ from cardan.report.block import Page, Table, Words
 from cardan.report.preferred import in_choice
 from cardan.report.report import page
 from cardan.report.subject import asked
-from cardan.report.summary import evenness, judgement, warnings
+from cardan.report.summary import judgement, uniformity, warnings
 from cardan.report.verdicts import judged
 from tests.report.test_report import parsed
 
@@ -67,8 +67,8 @@ def test_the_first_sentence_says_whether_the_limits_are_kept_and_the_next_how_ev
     first = judgement(on, pages)
     assert first.tone == tone
     assert first.text.startswith(f"{on.drive.name}: {said}")
-    assert next(warnings(on, pages)).text == evenness(on).text
-    assert judgement(on) == evenness(on)
+    assert next(warnings(on, pages)).text == uniformity(on).text
+    assert judgement(on) == uniformity(on)
 
 
 def test_no_kept_limit_hides_what_fails_elsewhere():
@@ -145,9 +145,9 @@ def test_the_colour_of_the_first_sentence_has_a_reason_in_words():
     assert limits is not None
     asks = Page(name="bending", title="", answer="", blocks=[], alarms=[Words(text="half", tone="warning")])
     first = judgement(on, [asks, limits])
-    assert (first.tone, first.text.endswith("asks for attention.")) == ("warning", True)
+    assert (first.tone, first.text.endswith("See the warnings below.")) == ("warning", True)
     calm = judgement(on, [limits])
-    assert (calm.tone, calm.text.endswith("asks for attention.")) == ("good", False)
+    assert (calm.tone, calm.text.endswith("See the warnings below.")) == ("good", False)
     assert any(
         cell.text == "beyond"
         for block in limits.blocks

@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from .quantity import Quantity, Text, told
+from .quantity import Joined, Quantity, Text, told
 from .reader import Reader
 
 Tone: TypeAlias = Literal["plain", "good", "warning", "failed", "next"]
@@ -39,8 +39,8 @@ class Cell:
         Colour of a chip before it.
     formula : str
         The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
-    before : str
-        Sign before it: ``≤``.
+    before, after : str
+        Signs before and behind it: ``≤ ``, brackets.
     """
 
     value: Any
@@ -48,6 +48,7 @@ class Cell:
     chip: str = ""
     formula: str = ""
     before: str = ""
+    after: str = ""
 
 
 Value: TypeAlias = float | int | str | bool | Text | Cell | None
@@ -61,8 +62,8 @@ class Column:
     ----------
     key : str
         Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
-    heading : str
-        What stands above it, in the language spoken where it was made.
+    heading : Text
+        What stands above it, in the language spoken where it was made; a quantity where it is the place on an axis.
     values : sequence of Value, or array
         From the top; numbers in SI.
     dimension, unit : str
@@ -78,7 +79,7 @@ class Column:
     """
 
     key: str
-    heading: str = ""
+    heading: Text = ""
     values: Any
     dimension: str = ""
     unit: str = ""
@@ -186,9 +187,11 @@ class KeyFigure:
     name : str
         For programs and for comparing.
     title : Text
-        What it is.
+        What it is: the same for every drive.
     value : Quantity
         What it comes to.
+    place : Text
+        Where, when or in which condition it is so.
     limit : Quantity, optional
         What it is allowed.
     better : str
@@ -202,10 +205,16 @@ class KeyFigure:
     name: str
     title: Text
     value: Quantity
+    place: Text = ""
     limit: Quantity | None = None
     better: Literal["more", "less", ""] = "less"
     verdict: str = ""
     tone: Tone = "plain"
+
+    @property
+    def called(self) -> Text:
+        """What it is, and where."""
+        return Joined([self.title, self.place])
 
     @property
     def utilisation(self) -> float | None:

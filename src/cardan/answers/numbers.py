@@ -78,6 +78,17 @@ def raised(number: int) -> str:
     return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
+def half_turn(angle: float) -> float:
+    """Return an angle [°] in (-90, 90]: yokes and planes are lines, not arrows.
+
+    Examples
+    --------
+    >>> half_turn(-90.0), half_turn(178.0)
+    (90.0, -2.0)
+    """
+    return 90.0 - (90.0 - angle) % 180.0
+
+
 def spreadsheet(value: float, digits: int = 4, decimals: int | None = None) -> str:
     """Return the number format of spreadsheets that shows as many digits as `significant` or `fixed`.
 

@@ -117,7 +117,10 @@ def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table
     if table.tones:
         rows = [[_toned(row[0], tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
     return Table(
-        columns=[Column(heading=one.heading, unit=one.label(reader), left=one.words, wrap=one.wrap) for one in columns],
+        columns=[
+            Column(heading=told(one.heading, reader), unit=one.label(reader), left=one.words, wrap=one.wrap)
+            for one in columns
+        ],
         rows=rows,
         title=table.title,
         note=told(table.note, reader),
@@ -129,16 +132,14 @@ def cell(value: answer.Value, column: answer.Column, reader: Reader) -> Cell:
     """Return one value as it is printed in a column."""
     if isinstance(value, answer.Cell):
         inner = cell(value.value, column, reader)
-        before = f"{value.before} " if value.before else ""
-        form = f'"{before}"{inner.form}' if before and inner.form else inner.form
         return Cell(
-            text=before + inner.text,
+            text=value.before + inner.text + value.after,
             tone=value.tone,
             full=inner.full,
             chip=value.chip,
             formula=value.formula,
             amount=inner.amount,
-            form=form,
+            form=framed(inner.form, value.before, value.after),
         )
     if value is None:
         return Cell(text="–")
@@ -164,6 +165,17 @@ def number(quantity: Quantity, reader: Reader, *, unit: bool = True) -> Cell:
     if unit and shown.unit:
         form += f'" {shown.unit}"'
     return Cell(text=str(shown) if unit else shown.number, full=repr(amount), amount=amount, form=form)
+
+
+def framed(form: str, before: str, after: str = "") -> str:
+    """Return a number format of spreadsheets with signs around the number.
+
+    Examples
+    --------
+    >>> framed("0.0", "≤ "), framed("0.0", "(", ")"), framed("", "≤ ")
+    ('"≤ "0.0', '"("0.0")"', '')
+    """
+    return "".join((f'"{before}"' if before else "", form, f'"{after}"' if after else "")) if form else ""
 
 
 def _toned(one: Cell, tone: Tone) -> Cell:

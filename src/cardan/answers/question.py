@@ -20,19 +20,16 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
+    from cardan.drive.conditions import Gathering
     from cardan.drive.drive import Drive
 
     from .answer import Answer
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 """Paths of the drive file that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
-
-Gathering: TypeAlias = Literal["worst", "mean", "sum", "each"]
-"""How a question gathers what it finds over the conditions of a drive: the worst of them, the mean by share of the
-time, damage summed, or each by itself."""
 
 
 @dataclass(frozen=True, kw_only=True)

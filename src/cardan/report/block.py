@@ -1,14 +1,20 @@
-"""What a page of the report is made of: words, tables, pictures. Only data; the template gives it its looks."""
+"""What a page of the report is made of: words, tables, pictures, written out for who reads here.
+
+Only data; the template gives it its looks. Texts may hold quantities: they are told in the units of the reader, see
+`cardan.answers.reader.reading`, as soon as they stand on a page.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
-from cardan.answers.answer import Tone
-from cardan.answers.printed import SIGNS, Cell, Column, Table
-from cardan.answers.reader import USUAL
+from cardan.answers import answer
+from cardan.answers.answer import Depth, Tone
+from cardan.answers.printed import SIGNS, Cell, Column, Table, printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import reader
 from cardan.figures import Figure
 from cardan.figures.for_reader import for_reader
 from cardan.figures.palette import colour, shaft
@@ -16,14 +22,30 @@ from cardan.figures.wording import significant
 from cardan.texts import _
 from cardan.units import spoken
 
+Text: TypeAlias = Any
+"""A `cardan.answers.quantity.Text` where a page is made, a str on the page."""
+
+
+def shown(text: Text) -> str:
+    """Return a text as who reads here is told it."""
+    return told(text, reader())
+
+
+def table(given: answer.Table, depth: Depth = "full") -> Table:
+    """Return a table as who reads here sees it."""
+    return printed(given, reader(), depth)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Words:
     """A paragraph; with a tone, a boxed remark."""
 
-    text: str
+    text: Text
     tone: Tone = "plain"
     title: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", shown(self.text))
 
     @property
     def sign(self) -> str:
@@ -36,7 +58,10 @@ class Points:
     """A list of short remarks."""
 
     title: str
-    items: Sequence[str]
+    items: Sequence[Text]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "items", [shown(one) for one in self.items])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +79,7 @@ class Picture:
     figure: Figure
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "figure", for_reader(self.figure, USUAL))
+        object.__setattr__(self, "figure", for_reader(self.figure, reader()))
 
 
 Block: TypeAlias = Table | Words | Points | Listing | Picture
@@ -70,22 +95,25 @@ class Page:
         For links.
     title : str
         Heading.
-    answer : str
+    answer : Text
         What it comes to, in a sentence.
     blocks : sequence of block
         From the top.
-    keys : sequence of row
-        What of it stands on the first page, see `key`.
+    keys : sequence of KeyFigure
+        What of it stands on the first page.
     alarms : sequence of Words
         What of it the reader of the first page must not overlook.
     """
 
     name: str
     title: str
-    answer: str
+    answer: Text
     blocks: Sequence[Block]
-    keys: Sequence[Sequence[Cell]] = ()
+    keys: Sequence[Any] = ()
     alarms: Sequence[Words] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "answer", shown(self.answer))
 
 
 __all__ = ["SIGNS", "Block", "Cell", "Column", "Listing", "Page", "Picture", "Points", "Table", "Tone", "Words"]

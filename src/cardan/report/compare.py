@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import takewhile
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from cardan.answers.answer import KeyFigure
+from cardan.answers.printed import number
+from cardan.answers.quantity import Joined, Quantity
+from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.checks import Verdict, check
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
-from cardan.figures.wording import percent, used
 from cardan.io.differences import differences
 from cardan.questions.motion.figures.variants import variants_figure
 from cardan.questions.motion.motion import motion
 from cardan.texts import _, plural
 
 from .answers import answered, subject
-from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, number, words
+from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, shown, words
 from .followed import Followed, figures_by_laws
 from .key_figures import key_figures
 from .subject import Progress, Subject
@@ -41,8 +43,8 @@ ALIKE = 1e-9
 MOST = 40
 """Verdicts listed."""
 
-LONG = 28
-"""Letters by which names of one figure may differ; more are left out."""
+MOST_USED = 1000.0
+"""A limit that is exceeded more often is told as exceeded beyond that."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -102,12 +104,12 @@ def compared(variants: Sequence[Variant], progress: Progress | None = None) -> P
     >>> from cardan.units import deg
     >>> plain, better = Drive.from_angles([20 * deg]), Drive.from_angles([20 * deg, 20 * deg])
     >>> compared([Variant(name="one", drive=plain), Variant(name="two", drive=better)]).answer
-    'two turns most evenly: 0 % irregular, one 12.5 %.'
+    'two is the most uniform: 0 % speed fluctuation, one 12.5 %.'
     """
     names = [one.name for one in variants]
     if not variants or len(set(names)) < len(names):
         raise refuse("variants", _("at least one is needed, each with a name of its own"))
-    rows: list[list[list[Cell]]] = []
+    rows: list[list[KeyFigure]] = []
     for k, one in enumerate(variants):
         rows.append(_keys(one, partial(_told, progress, k, len(variants))))
         if progress is not None and progress((k + 1) / len(variants)) == "stop":
@@ -150,51 +152,27 @@ def _told(progress: Progress | None, k: int, count: int, share: float) -> object
     return None if progress is None else progress((k + share) / count)
 
 
-def _keys(one: Variant, progress: Callable[[float], object]) -> list[list[Cell]]:
-    """Return the rows of key figures of a drive."""
+def _keys(one: Variant, progress: Callable[[float], object]) -> list[KeyFigure]:
+    """Return the key figures of a drive."""
     on: object = one.subject
     pages = []
     for k, name in enumerate(PAGES):
         pages.append(answered(name, one.subject))
         if progress((k + 1) / (len(PAGES) + 1)) == "stop":
             break
-    table = figures_by_laws(on, pages) if isinstance(on, Followed) else key_figures(one.subject, pages)
-    return [list(row) for row in table.rows]
+    return figures_by_laws(on, pages) if isinstance(on, Followed) else key_figures(one.subject, pages)
 
 
-def _known() -> tuple[tuple[str, Sense], ...]:
-    """Return what key figures are called, where their names tell more than digits, and which way they are better."""
-    return (
-        (_("torque rating of the whole drive, ended by {title}"), "more"),
-        (_("life of joint {number}, the first to fail"), "more"),
-        (_("critical speed, {part}"), "more"),
-        (_("efficiency"), "more"),
-        (_("shortest engaged length of the spline of shaft {k}"), "more"),
-        (_("least way left to bottoming of shaft {k}"), "more"),
-        (_("slowest torsional mode"), ""),
-        (_("speed at which order 2 meets it"), ""),
-        (_("largest force on a support, {name}"), "less"),
-        (_("largest acceleration of the output at {speed} rpm"), "less"),
-        (_("largest acceleration of the output over ω₁²"), "less"),
-    )
-
-
-def _figures(variants: Sequence[Variant], found: Sequence[Sequence[Sequence[Cell]]]) -> Table:
+def _figures(variants: Sequence[Variant], found: Sequence[Sequence[Any]]) -> Table:
     """Return the key figures side by side, the best of each named."""
-    grouped: dict[tuple[str, str, str], dict[int, Sequence[Cell]]] = {}
-    senses: dict[tuple[str, str, str], Sense] = {}
-    for k, rows in enumerate(found):
-        count: dict[str, int] = {}
-        for row in rows:
-            head, sense = _head(row[0].text)
-            count[head] = count.get(head, 0) + 1
-            key = (head, row[2].text, str(count[head]))
-            grouped.setdefault(key, {})[k] = row
-            senses[key] = sense
-    lines = []
-    if any(one.verdicts for one in variants):
-        lines.append(_kept(variants))
-    lines += [_line(rows, unit, senses[head, unit, nth], variants) for (head, unit, nth), rows in grouped.items()]
+    grouped: dict[tuple[str, int], dict[int, KeyFigure]] = {}
+    for k, keys in enumerate(found):
+        count: Counter[str] = Counter()
+        for key in (one for one in keys if isinstance(one, KeyFigure)):
+            grouped.setdefault((key.name, count[key.name]), {})[k] = key
+            count[key.name] += 1
+    lines = [_kept(variants)] if any(one.verdicts for one in variants) else []
+    lines += [_line(keys, variants) for keys in grouped.values()]
     return Table(
         columns=(Column(heading=_("what"), left=True), Column(heading="", left=True), *_columns(variants), _best()),
         rows=lines,
@@ -211,51 +189,41 @@ def _best() -> Column:
     return Column(heading=_("best"), left=True)
 
 
-def _head(name: str) -> tuple[str, Sense]:
-    """Return what is the same in the names of a figure of several drives, and which way it is better."""
-    for text, sense in _known():
-        pattern = "(.*)".join(re.escape(part) for part in re.split(r"\{\w+\}", text))
-        if re.fullmatch(pattern, name):
-            return text, sense
-    return re.sub(r"\d[\d\u202f.]*", "{}", name), "less"
-
-
 def _kept(variants: Sequence[Variant]) -> list[Cell]:
     values = [float(one.failed) if one.verdicts else None for one in variants]
     cells = [
         words("–")
         if not one.verdicts
-        else number(str(one.failed), float(one.failed), "good" if not one.failed else "failed")
+        else Cell(text=str(one.failed), amount=one.failed, form="0", tone="good" if not one.failed else "failed")
         for one in variants
     ]
     return [words(_("limits not kept")), words(""), *cells, _winner(values, "less", variants)]
 
 
-def _line(rows: dict[int, Sequence[Cell]], unit: str, sense: Sense, variants: Sequence[Variant]) -> list[Cell]:
-    values = [_value(rows[k][1]) if k in rows else None for k in range(len(variants))]
-    best = _bests(values, sense)
+def _line(keys: Mapping[int, KeyFigure], variants: Sequence[Variant]) -> list[Cell]:
+    """Return the row of a key figure: what it is, its unit, its value in each drive, and which is best."""
+    one = next(iter(keys.values()))
+    values = [_value(keys[k]) if k in keys else None for k in range(len(variants))]
+    best = _bests(values, one.better)
     cells = []
     for k in range(len(variants)):
-        if k not in rows:
+        if k not in keys:
             cells.append(words("–"))
             continue
-        cell = rows[k][1]
-        verdict = rows[k][5].tone if len(rows[k]) > 5 else "plain"
-        tone: Tone = "failed" if verdict == "failed" else "good" if k in best else "plain"
-        cells.append(Cell(text=cell.text, full=cell.full, tone=tone))
-    return [
-        words(_merged([row[0].text for row in rows.values()])),
-        words(unit),
-        *cells,
-        _winner(values, sense, variants),
-    ]
+        tone: Tone = "failed" if keys[k].tone == "failed" else "good" if k in best else "plain"
+        cells.append(replace(number(keys[k].value, reader(), unit=False), tone=tone))
+    unit = reader().label(one.value.dimension, one.value.unit)
+    return [words(_named(list(keys.values()))), words(unit), *cells, _winner(values, one.better, variants)]
 
 
-def _value(cell: Cell) -> float | None:
-    try:
-        value = float(cell.full)
-    except ValueError:
-        return math.inf if cell.text == "∞" else None
+def _named(keys: Sequence[KeyFigure]) -> str:
+    """Return what a key figure is called, with every place where one of the drives has it."""
+    places = dict.fromkeys(shown(key.place) for key in keys)
+    return shown(Joined([keys[0].title, " / ".join(place or "–" for place in places) if any(places) else ""]))
+
+
+def _value(key: KeyFigure) -> float | None:
+    value = float(key.value.value)
     return None if math.isnan(value) else value
 
 
@@ -281,32 +249,6 @@ def _winner(values: Sequence[float | None], sense: Sense, variants: Sequence[Var
     known = [one for one in values if one is not None]
     alike = sense and len(known) > 1
     return words(_("all alike") if alike else "–")
-
-
-def _merged(names: Sequence[str]) -> str:
-    """Return the name of a figure that several drives call by numbers or parts of their own.
-
-    Examples
-    --------
-    >>> _merged(["largest bend, joint 2", "largest bend, joint 1"])
-    'largest bend, joint 2 / 1'
-    """
-    different = list(dict.fromkeys(names))
-    if len(different) == 1:
-        return different[0]
-    parts = [re.findall(r"[\w.]+|\W", one) for one in different]
-    front = _shared(parts)
-    tails = [row[front:] for row in parts]
-    back = _shared([tail[::-1] for tail in tails])
-    middles = ["".join(tail[: len(tail) - back]).strip() for tail in tails]
-    begin, end = "".join(parts[0][:front]), "".join(tails[0][len(tails[0]) - back :])
-    return f"{begin}…" if max(map(len, middles)) > LONG else f"{begin}{' / '.join(middles)}{end}"
-
-
-def _shared(rows: Sequence[Sequence[str]]) -> int:
-    """Return in how many words rows begin alike."""
-    alike = (len(set(words)) == 1 for words in zip(*rows, strict=False))
-    return sum(takewhile(bool, alike))
 
 
 def _verdicts(variants: Sequence[Variant]) -> Table:
@@ -337,7 +279,7 @@ def _verdicts(variants: Sequence[Variant]) -> Table:
 
 def _used(one: Verdict) -> Cell:
     share = float(one.utilisation)
-    return Cell(text=used(share), full=repr(share), tone=TONES[one.state])
+    return replace(number(Quantity(share, decimals=2, most=MOST_USED), reader()), tone=TONES[one.state])
 
 
 def _answer(variants: Sequence[Variant]) -> str:
@@ -356,15 +298,15 @@ def _answer(variants: Sequence[Variant]) -> str:
 
 def _evenness(variants: Sequence[Variant]) -> str:
     shares = [float(np.ravel(one.subject.whole.irregularity)[-1]) for one in variants]
-    told = [percent(share) for share in shares]
+    told = [shown(Quantity(share, "share", 3)) for share in shares]
     best = shares.index(min(shares))
     if len(variants) == 1:
-        return _("{name} is {share} irregular.").format(name=variants[0].name, share=told[0])
+        return _("{name} has {share} speed fluctuation.").format(name=variants[0].name, share=told[0])
     if len(set(told)) == 1:
-        return _("All of them are {share} irregular.").format(share=told[0])
+        return _("All of them have {share} speed fluctuation.").format(share=told[0])
     rest = ", ".join(
         f"{one.name} {share}" for k, (one, share) in enumerate(zip(variants, told, strict=True)) if k != best
     )
-    return _("{name} turns most evenly: {share} irregular, {others}.").format(
+    return _("{name} is the most uniform: {share} speed fluctuation, {others}.").format(
         name=variants[best].name, share=told[best], others=rest
     )

@@ -11,45 +11,30 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan import __version__
+from cardan.answers.answer import KeyFigure, Tone
+from cardan.answers.quantity import Quantity, say
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import NEGLIGIBLE, has_map, lawless, left_over
-from cardan.errors import InputError
-from cardan.figures.wording import fixed, percent, significant
+from cardan.drive.models.laws import has_map
 from cardan.maths.arrays import Array
-from cardan.questions.forces.swing import Swing, swing
-from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
-from cardan.questions.motion.figures.motion import motion_figure
+from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
-from cardan.questions.phases.phases import phases
-from cardan.questions.phases.setting import YokeSetting
+from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _, plural
-from cardan.units import deg, rpm
 
-from .balance import refused
 from .block import (
-    Cell,
-    Column,
     Listing,
     Page,
-    Picture,
     Points,
-    Table,
     Words,
-    key,
-    number,
-    verdict_columns,
-    words,
 )
-from .turning import extremes_table
-
-ORDERS = 4
-"""Orders of the angle error that are listed."""
+from .key_figures import acceleration
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -90,70 +75,17 @@ def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
     )
 
 
-def turning_by_laws(on: Followed) -> Page:
-    """Return the page of the motion."""
-    figure = motion_figure(on.found)
-    return Page(
-        name="motion",
-        title=_("Motion"),
-        answer=_("Followed from joint to joint, each by its own law; extremes are those seen over a turn."),
-        blocks=[Picture(figure=figure), _extremes(on), _orders(on)],
-    )
-
-
-def _extremes(on: Followed) -> Table:
-    seen = on.whole
-    parts = (seen.ratio_min, seen.ratio_max, seen.irregularity, seen.max_lead, seen.max_acceleration)
-    return extremes_table(np.stack(parts, axis=-1), on.drive.duty.speed, even=SYNCHRONOUS)
-
-
-def _orders(on: Followed) -> Table:
-    rows = [
-        [number(str(order), float(order)), number(significant(size / deg, 3), size / deg)]
-        for order, size in on.whole.orders(ORDERS)
-    ]
-    return Table(
-        title=_("Largest orders of the output's angle error"),
-        columns=(Column(heading=_("times a turn")), Column(heading=_("amplitude"), unit="°")),
-        rows=rows,
-    )
-
-
-def yokes_refused(on: Followed) -> Page:
-    """Return the page of the yoke angles: which joints keep them from being found."""
-    left = [left_over(joint, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True)]
-    far = [i for i, rest in enumerate(left) if not rest <= NEGLIGIBLE]
-    if far:
-        problems = [lawless(i, on.drive.joints[i], _("yoke angles")) for i in far]
-        return replace(refused("phases", _("Yoke angles"), InputError(problems)), alarms=())
-    rows = [
-        [words(one.label), *(number(fixed(float(g) / deg), float(g) / deg) for g in one.yoke_angle), _left(one)]
-        for found in [phases(on.drive)]
-        for one in (found.as_built, *found.settings, *found.spline_settings[:3])
-    ]
-    between = [Column(heading=_("γ shaft {number}").format(number=k), unit="°") for k in range(2, on.joints + 1)]
-    columns = (Column(heading=_("setting"), left=True), *between, Column(heading=_("leaves δ"), unit="%"))
-    text = _("What joints leave by laws of their own, below {most} rad, is not in these figures.")
-    table = Table(columns=columns, rows=rows, title=_("Settings to choose from"), note=text.format(most="10⁻⁶"))
-    answer = _("Yoke angles of the joints beside those that turn by laws of their own.")
-    return Page(name="phases", title=_("Yoke angles"), answer=answer, blocks=[table])
-
-
-def _left(one: YokeSetting) -> Cell:
-    return number(percent(one.irregularity).removesuffix(" %"), 100.0 * one.irregularity)
-
-
 def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
     """Return the one sentence the reader came for."""
-    name, share = on.drive.name or _("The drive"), float(on.whole.irregularity[-1])
-    text = _("{name} is {share} irregular.").format(name=name, share=percent(share))
+    share = float(on.whole.irregularity[-1])
+    said = {"name": on.drive.name or _("The drive"), "share": Quantity(share, "share", 3)}
+    text = _("{name} has {share} speed fluctuation.")
     if share < SPECK:
-        text = _("{name} turns evenly, but for {share} that nobody notices.").format(name=name, share=percent(share))
+        text = _("{name} is uniform, but for {share} that nobody notices.")
     alarms = [alarm.tone for page in pages for alarm in page.alarms]
     steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
-    if steep or "failed" in alarms:
-        return Words(text=text, tone="failed")
-    return Words(text=text, tone="good" if share < SPECK and "warning" not in alarms else "warning")
+    tone: Tone = "good" if share < SPECK and "warning" not in alarms else "warning"
+    return Words(text=say(text, **said), tone="failed" if steep or "failed" in alarms else tone)
 
 
 def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
@@ -165,31 +97,26 @@ def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
             yield Words(text=text, tone="failed")
 
 
-def figures_by_laws(on: Followed, pages: Sequence[Page]) -> Table:
+def figures_by_laws(on: Followed, pages: Sequence[Page]) -> list[KeyFigure]:
     """Return the figures a reader compares drives by."""
-    share, speed = float(on.whole.irregularity[-1]), on.drive.duty.speed
-    steep = float(on.whole.max_acceleration[-1])
-    rows = [
-        key(_("irregularity δ of the output"), 100.0 * share, "%", words(""), percent(share, 4).removesuffix(" %")),
-        key(_("output ahead and back of its mean by"), float(on.whole.max_lead[-1]) / deg, "°", words("")),
+    whole = on.whole
+    share, error = Quantity(float(whole.irregularity[-1]), "share"), Quantity(float(whole.max_lead[-1]), "angle")
+    return [
+        KeyFigure(name="speed_fluctuation", title=_("speed fluctuation δ of the output"), value=share),
+        KeyFigure(name="angle_error", title=_("angle error of the output, ±"), value=error),
+        acceleration(float(whole.max_acceleration[-1]), on.drive.duty.speed),
+        *(one for page in pages for one in page.keys),
     ]
-    if speed is None:
-        rows.append(key(_("largest acceleration of the output over ω₁²"), steep, "–", words("")))
-    else:
-        name = _("largest acceleration of the output at {speed} rpm").format(speed=significant(abs(speed) / rpm))
-        rows.append(key(name, steep * speed**2, "rad/s²", words("")))
-    rows += [list(row) for page in pages for row in page.keys]
-    return Table(columns=verdict_columns(), rows=rows)
 
 
 def changes_by_laws(on: Followed) -> Words:
     """Return what would make the drive even."""
     if float(on.whole.irregularity[-1]) < SPECK:
-        return Words(text=_("Nothing needs to be changed for an even output."))
+        return Words(text=_("Nothing needs to be changed for a uniform output."))
     own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not has_map(joint)]
     text = plural(
-        "Joint {own} is even where the parts of both its shafts are alike.",
-        "Joints {own} are even where the parts of both their shafts are alike.",
+        "Joint {own} is uniform where the parts of both its shafts are alike.",
+        "Joints {own} are uniform where the parts of both their shafts are alike.",
         len(own),
     ).format(own=", ".join(own))
     if len(own) < on.joints:
@@ -199,8 +126,6 @@ def changes_by_laws(on: Followed) -> Words:
 
 def method_by_laws(on: Followed, source_text: str | None) -> Page:
     """Return the page of the method."""
-    from cardan import __version__
-
     own = [f"{k}: {kind_name(joint)}" for k, joint in enumerate(on.drive.joints, start=1)]
     blocks: list[Words | Points | Listing] = [
         Words(

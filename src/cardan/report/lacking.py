@@ -7,7 +7,6 @@ from typing import TypeAlias
 
 from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import in_a_joint
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
@@ -40,33 +39,9 @@ def of_forces(drive: Drive) -> Lacking:
     return _absent((drive.duty.torque is not None, "duty.torque"), (bool(drive.supports), "supports"))
 
 
-def of_losses(drive: Drive) -> Lacking:
-    """Return what the losses lack."""
-    joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
-    supports = any(support.friction is not None for support in drive.supports)
-    splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
-    return _absent(
-        (drive.duty.torque is not None, "duty.torque"),
-        (drive.duty.speed is not None, "duty.speed"),
-        (
-            joints or supports or splines,
-            *in_a_joint(drive, "friction"),
-            "supports[0].friction",
-            "shafts[1].spline.friction",
-        ),
-    )
-
-
 def of_strength(drive: Drive) -> Lacking:
     """Return what the strength lacks."""
     return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
-
-
-def of_accuracy(drive: Drive) -> Lacking:
-    """Return what the accuracy lacks."""
-    some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
-    keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
-    return _absent((some, *(keys or ("joints[0].type",))))
 
 
 def of_assembly(drive: Drive) -> Lacking:
@@ -94,21 +69,6 @@ def of_stability(drive: Drive) -> Lacking:
 def of_run_up(drive: Drive) -> Lacking:
     """Return what a run-up lacks."""
     return (*of_torsion(drive), *_absent((drive.duty.run_up is not None, "duty.run_up")))
-
-
-def of_bending(drive: Drive) -> Lacking:
-    """Return what the critical speeds lack."""
-    held = {support.shaft for support in drive.supports}
-    ends = [shaft for shaft in (drive.shafts[0], drive.shafts[-1]) if shaft.has_body and shaft.number in held]
-    between = drive.shafts[1:-1]
-    bodies = tuple(
-        (f"shafts[{shaft.number - 1}].outer", f"shafts[{shaft.number - 1}].segments")
-        for shaft in between
-        if not shaft.has_body
-    )
-    if not between:
-        return _absent((bool(ends), "shafts[0].outer"), (bool(ends) or bool(held), "supports"))
-    return (*bodies, *_absent((bool(drive.supports) or len(between) == 1, "supports")))
 
 
 def of_movement(drive: Drive) -> Lacking:

@@ -7,12 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import __version__
-from cardan.figures.wording import angular, fixed, half_turn, significant
+from cardan.answers import answer
+from cardan.answers.answer import Cell, Column
+from cardan.answers.numbers import half_turn
+from cardan.answers.quantity import Quantity, Text, say
+from cardan.book.evidence import SelfCheck
 from cardan.questions.motion.kinds import kind_name
 from cardan.texts import _
 from cardan.units import deg
 
-from .block import Block, Cell, Column, Listing, Page, Table, Words, number, words
+from .block import Block, Listing, Page, Table, Words, table
 from .subject import Subject
 
 
@@ -33,12 +37,13 @@ def method(on: Subject, source_text: str | None) -> Page:
     if source_text is not None:
         blocks.append(Listing(title=_("Input file"), text=source_text))
     passed = all(check.passed for check in on.checks)
-    answer = (
-        _("Calculated by cardan {version}; all self-checks leave nothing but rounding.")
+    text = (
+        _("Calculated by cardan {version}; all self-checks pass at round-off level.")
         if passed
         else _("Calculated by cardan {version}; a self-check leaves more than rounding.")
     )
-    return Page(name="method", title=_("Method and evidence"), answer=answer.format(version=__version__), blocks=blocks)
+    said = text.format(version=__version__)
+    return Page(name="method", title=_("Method and evidence"), answer=said, blocks=blocks)
 
 
 def _kinds(on: Subject) -> Iterator[Block]:
@@ -52,86 +57,89 @@ def _kinds(on: Subject) -> Iterator[Block]:
             "drive is a chain of Hooke joints; their bends stand in the equations."
         )
     )
-    rows = [
-        [words(str(k)), words(kind_name(joint)), number(fixed(float(own) / deg), float(own) / deg), _equal(float(bend))]
-        for k, (joint, own, bend) in enumerate(zip(on.drive.joints, on.bend, on.train.bend, strict=True), start=1)
-    ]
-    yield Table(
-        title=_("Joints and the Hooke joints that turn alike"),
-        columns=(
-            Column(heading=_("joint")),
-            Column(heading=_("kind"), left=True),
-            Column(heading=_("bend α"), unit="°"),
-            Column(heading=_("of the Hooke joint"), unit="°"),
-        ),
-        rows=rows,
+    joints = on.drive.joints
+    yield table(
+        answer.Table(
+            title=_("Joints and the Hooke joints that turn alike"),
+            columns=(
+                Column(key="joint", heading=_("joint"), values=list(range(1, on.joints + 1))),
+                Column(key="kind", heading=_("kind"), values=[kind_name(joint) for joint in joints]),
+                Column(key="joint_angle", heading=_("joint angle α"), values=on.bend, dimension="angle", decimals=2),
+                Column(
+                    key="hooke", heading=_("of the Hooke joint"), values=on.train.bend, dimension="angle", decimals=3
+                ),
+            ),
+        )
     )
-
-
-def _equal(bend: float) -> Cell:
-    return number(fixed(bend / deg, 3), bend / deg)
 
 
 def _equations(on: Subject) -> Table:
-    rows = [[words(name), line, words(put), words(source)] for name, line, put, source in _lines(on)]
-    return Table(
-        title=_("Equations used"),
-        columns=(
-            Column(heading=_("what"), left=True),
-            Column(heading=_("equation"), left=True),
-            Column(heading=_("with the numbers of this drive"), left=True),
-            Column(heading=_("source"), left=True),
-        ),
-        rows=rows,
+    lines = list(_lines(on))
+    return table(
+        answer.Table(
+            title=_("Equations used"),
+            columns=(
+                Column(key="what", heading=_("what"), values=[name for name, *_rest in lines]),
+                Column(key="equation", heading=_("equation"), values=[line for _n, line, *_rest in lines], left=True),
+                Column(
+                    key="numbers",
+                    heading=_("with the numbers of this drive"),
+                    values=[put for _n, _l, put, _s in lines],
+                    left=True,
+                ),
+                Column(key="source", heading=_("source"), values=[source for *_rest, source in lines]),
+            ),
+        )
     )
 
 
-def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
+def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
     """Yield what is calculated, its equation, the same with numbers, and its source."""
     a, b = (float(abs(part)) for part in on.whole.pair)
     if on.even:
         b = 0.0
+    pair = {"a": Quantity(a, decimals=6), "b": Quantity(b, decimals=6)}
     half = 0.5 * float(on.train.bend[0])
     yield (
         _("joint 1"),
-        Cell(text="τ = tan²(α/2)", formula="tau = tan^2 alpha/2"),
-        f"tan²({fixed(half / deg, 3)}°) = {significant(float(np.tan(half)) ** 2)}",
+        Cell(value="τ = tan²(α/2)", formula="tau = tan^2 alpha/2"),
+        say("tan²({half}) = {tau}", half=_angle(half, 3), tau=Quantity(float(np.tan(half)) ** 2)),
         _("Book (18), as a map of the circle"),
     )
     if on.joints > 1:
         turn = np.asarray(on.train.turn_before)[1]
-        gamma, beta = (fixed(float(part[0]) / deg) for part in (on.train.yoke_angle, on.train.plane_twist))
+        gamma, beta = (_angle(float(part[0])) for part in (on.train.yoke_angle, on.train.plane_twist))
         yield (
             _("between joints 1 and 2"),
-            Cell(text="μ = 90° − γ − β", formula="mu = 90° - gamma - beta"),
-            f"90° − ({gamma}°) − ({beta}°) = {_as_line(float(turn) / deg)}",
+            Cell(value="μ = 90° − γ − β", formula="mu = 90° - gamma - beta"),
+            say("90° − ({gamma}) − ({beta}) = {turn}", gamma=gamma, beta=beta, turn=_as_line(float(turn))),
             _("Book (31), (38)"),
         )
     yield (
         _("whole drive"),
         Cell(
-            text="G = J R … J R = [[a, b], [b̄, ā]]",
+            value="G = J R … J R = [[a, b], [b̄, ā]]",
             formula='G = J R dots.h.c J R = mat(a, b; macron(b), macron(a); delim: "[")',
         ),
-        f"|a| = {fixed(a, 6)}, |b| = {fixed(b, 6)}",
+        say("|a| = {a}, |b| = {b}", **pair),
         _("matrix product"),
     )
     yield (
-        _("irregularity"),
-        Cell(text="δ = 4|a||b|", formula="delta = 4 abs(a) abs(b)"),
-        f"4 · {fixed(a, 6)} · {fixed(b, 6)} = {significant(4.0 * a * b)}",
+        _("speed fluctuation"),
+        Cell(value="δ = 4|a||b|", formula="delta = 4 abs(a) abs(b)"),
+        say("4 · {a} · {b} = {delta}", **pair, delta=Quantity(4.0 * a * b)),
         _("Book (79), exact"),
     )
     yield (
         _("equivalent joint"),
-        Cell(text="cos α = (|a| − |b|)²", formula="cos alpha = (abs(a) - abs(b))^2"),
-        f"({fixed(a, 6)} − {fixed(b, 6)})² = {significant((a - b) ** 2, 6)}",
+        Cell(value="cos α = (|a| − |b|)²", formula="cos alpha = (abs(a) - abs(b))^2"),
+        say("({a} − {b})² = {cosine}", **pair, cosine=Quantity((a - b) ** 2, digits=6)),
         _("matrix product"),
     )
     yield (
-        _("ahead and back"),
-        Cell(text="arcsin τ, τ = |b|/|a|", formula="arcsin tau, quad tau = abs(b)/abs(a)"),
-        f"arcsin {significant(b / a)} = {angular(float(np.arcsin(b / a)) / deg)}°",
+        _("angle error"),
+        Cell(value="arcsin τ, τ = |b|/|a|", formula="arcsin tau, quad tau = abs(b)/abs(a)"),
+        say("arcsin {tau} = {error}", tau=Quantity(b / a), error=Quantity(float(np.arcsin(b / a)), "angle")),
         _("extreme of Book (19)"),
     )
     closing = on.closing
@@ -140,59 +148,57 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, str, str]]:
         if not closing.closes and on.rounding(on.phasing.irregularity_min):
             sign = "≈"
         yield (
-            _("can be even"),
+            _("can be uniform"),
             Cell(
-                text=_("L_max ≤ Σ of the others, L = −ln cos α"),
+                value=_("L_max ≤ Σ of the others, L = −ln cos α"),
                 formula="L_max <= sum L - L_max, quad L = -ln cos alpha",
             ),
-            f"{fixed(float(closing.length[closing.longest - 1]), 5)} {sign} {fixed(closing.others, 5)}",
+            say(
+                "{longest} {sign} {others}",
+                longest=Quantity(float(closing.length[closing.longest - 1]), decimals=5),
+                sign=sign,
+                others=Quantity(float(closing.others), decimals=5),
+            ),
             _("in place of Book (77), (86)"),
         )
 
 
-def _as_line(angle: float) -> str:
-    """Return an angle [°], and where it is another the one in (-90, 90] that means the same: yokes are lines."""
-    own, line = fixed(angle), fixed(half_turn(angle))
-    return f"{own}°" if own == line else f"{own}° ≡ {line}° (mod 180°)"
+def _angle(value: float, decimals: int = 2) -> Quantity:
+    return Quantity(value, "angle", decimals=decimals)
+
+
+def _as_line(angle: float) -> Text:
+    """Return an angle [rad], and where it is another that in (-90°, 90°] which means the same: yokes are lines."""
+    line = half_turn(angle / deg) * deg
+    if round(angle / deg, 2) == round(line / deg, 2):
+        return _angle(angle)
+    return say("{own} ≡ {line} (mod 180°)", own=_angle(angle), line=_angle(line))
 
 
 def _checks(on: Subject) -> Table:
-    rows: list[list[Cell]] = [
-        [
-            words(check.name),
-            words(check.way),
-            number(_small(check.residual), check.residual),
-            number(_small(check.allowed), check.allowed),
-            words(_("passed") if check.passed else _("failed"), "good" if check.passed else "failed"),
-        ]
-        for check in on.checks
-    ]
+    every = list(on.checks)
     if on.replayed is not None and on.best is not None:
-        miss = abs(on.replayed - on.best.irregularity)
         # Sampled at whole steps: the swing seen can fall short of the true one by the curvature of the peak.
-        allowed = 1e-12 + 0.001 * on.best.irregularity
-        good = miss <= allowed
-        rows.append(
-            [
-                words(_("irregularity at setting {label}").format(label=on.best.label)),
-                words(_("swing of the output by plain vectors, sampled over a turn")),
-                number(_small(miss), miss),
-                number(_small(allowed), allowed),
-                words(_("passed") if good else _("failed"), "good" if good else "failed"),
-            ]
+        every.append(
+            SelfCheck(
+                name=_("speed fluctuation at setting {label}").format(label=on.best.label),
+                way=_("output speed by plain vectors, sampled over a turn"),
+                residual=abs(on.replayed - on.best.irregularity),
+                allowed=1e-12 + 0.001 * on.best.irregularity,
+            )
         )
-    return Table(
-        title=_("Self-checks on this drive"),
-        columns=(
-            Column(heading=_("what"), left=True),
-            Column(heading=_("compared with"), left=True),
-            Column(heading=_("residual")),
-            Column(heading=_("allowed")),
-            Column(heading=_("verdict"), left=True),
-        ),
-        rows=rows,
+    verdicts = [
+        Cell(value=_("passed"), tone="good") if one.passed else Cell(value=_("failed"), tone="failed") for one in every
+    ]
+    return table(
+        answer.Table(
+            title=_("Self-checks on this drive"),
+            columns=(
+                Column(key="what", heading=_("what"), values=[one.name for one in every]),
+                Column(key="way", heading=_("compared with"), values=[one.way for one in every]),
+                Column(key="residual", heading=_("residual"), values=[float(one.residual) for one in every], digits=2),
+                Column(key="allowed", heading=_("allowed"), values=[float(one.allowed) for one in every], digits=2),
+                Column(key="verdict", heading=_("verdict"), values=verdicts, left=True),
+            ),
+        )
     )
-
-
-def _small(value: float) -> str:
-    return "0" if value == 0.0 else significant(value, 2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cardan.answers.answer import Answer, Depth, KeyFigure
-from cardan.answers.printed import SHOWN, Cell, number, printed
+from cardan.answers.printed import SHOWN, Cell, framed, number, printed
 from cardan.answers.quantity import Quantity, told
 from cardan.answers.reader import Reader
 from cardan.texts import _
@@ -41,7 +41,7 @@ def page(answer: Answer, reader: Reader, depth: Depth = "full") -> Page:
         title=answer.title,
         answer=capital(told(answer.sentence, reader)),
         blocks=list(_blocks(answer, reader, depth)),
-        keys=[row(one, reader) for one in answer.keys],
+        keys=answer.keys,
         alarms=[Words(text=told(one.text, reader), tone=one.tone) for one in answer.remarks if one.alarm],
     )
 
@@ -65,12 +65,12 @@ def row(key: KeyFigure, reader: Reader) -> list[Cell]:
     limit, used = Cell(text="–"), Cell(text="–")
     if key.limit is not None and key.utilisation is not None:
         bound = number(key.limit, reader, unit=False)
-        sign = "≥" if key.better == "more" else "≤"
-        limit = Cell(text=f"{sign} {bound.text}", full=bound.full, amount=bound.amount, form=f'"{sign} "{bound.form}')
+        sign = "≥ " if key.better == "more" else "≤ "
+        limit = Cell(text=sign + bound.text, full=bound.full, amount=bound.amount, form=framed(bound.form, sign))
         used = number(Quantity(key.utilisation, decimals=2, most=MOST), reader, unit=False)
     unit = reader.label(key.value.dimension, key.value.unit)
     verdict = Cell(text=key.verdict, tone=key.tone if key.verdict else "plain")
-    return [Cell(text=told(key.title, reader)), value, Cell(text=unit), limit, used, verdict]
+    return [Cell(text=told(key.called, reader)), value, Cell(text=unit), limit, used, verdict]
 
 
 def capital(text: str) -> str:

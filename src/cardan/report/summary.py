@@ -6,26 +6,30 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cardan.figures.wording import excess, fixed, half_turn, percent
+from cardan.answers import answer
+from cardan.answers.answer import Cell, Column
+from cardan.answers.numbers import half_turn
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.questions.motion.equivalence import WARN_BEND
 from cardan.questions.motion.kinds import too_steep
+from cardan.questions.phases.answer import excess
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
 
-from .block import Cell, Column, Page, Table, Tone, Words, number, words
+from .block import Page, Table, Tone, Words, shown, table
 from .key_figures import CALM, UTMOST
 from .subject import Subject
 
 ILL = 80.0
-"""Bend [°] above which rounding grows so much that the last digits mean nothing."""
+"""Joint angle [°] above which rounding grows so much that the last digits mean nothing."""
 
 SAME = 1e-6
 """Yokes that differ by less than this [rad] are one and the same setting."""
 
 
 def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
-    """Return the one sentence the reader came for: whether the drive keeps its limits, else how evenly it turns.
+    """Return the one sentence the reader came for: whether the drive keeps its limits, else how uniformly it turns.
 
     It is red where a limit or a part of the report fails, amber where a limit is nearly used up or what follows asks
     for attention, and then says so; rules of thumb colour nothing.
@@ -35,103 +39,109 @@ def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
     on : Subject
         The drive.
     pages : sequence of Page
-        Parts of the report; one that failed is not hidden behind an even motion.
+        Parts of the report; one that failed is not hidden behind a uniform motion.
     """
-    turns, alarms = evenness(on), {alarm.tone for page in pages for alarm in page.alarms}
+    turns, alarms = uniformity(on), {alarm.tone for page in pages for alarm in page.alarms}
     limits = _limits(pages)
     failed = turns.tone == "failed" or "failed" in alarms
     if limits is None:
         tone: Tone = "failed" if failed else "warning" if "warning" in alarms and turns.tone == "good" else turns.tone
         return Words(text=turns.text, tone=tone)
-    said = _("{name}: {answer}").format(
-        name=on.drive.name or _("The drive"), answer=limits.answer[:1].lower() + limits.answer[1:]
-    )
+    said = f"{on.drive.name or _('The drive')}: {limits.answer[:1].lower()}{limits.answer[1:]}"
     if failed and not limits.alarms:
         said += " " + _("But what follows fails.")
     elif "warning" in alarms and not failed:
-        said += " " + _("But what follows asks for attention.")
+        said += " " + _("See the warnings below.")
     return Words(text=said, tone="failed" if failed else "warning" if "warning" in alarms or _close(limits) else "good")
 
 
 def _close(limits: Page) -> bool:
     """Tell whether a limit that must be kept is nearly used up: the first table of the page has them."""
-    table = next((one for one in limits.blocks if isinstance(one, Table)), None)
-    return table is not None and any(cell.tone == "warning" for row in table.rows for cell in row)
+    found = next((one for one in limits.blocks if isinstance(one, Table)), None)
+    return found is not None and any(cell.tone == "warning" for row in found.rows for cell in row)
 
 
 def _limits(pages: Sequence[Page]) -> Page | None:
-    """Return the page of the limits; None where none could be judged."""
-    page = next((one for one in pages if one.name == "limits"), None)
+    """Return the page of the checks; None where none could be judged."""
+    page = next((one for one in pages if one.name in ("limits", "check")), None)
     return None if page is None or any(alarm.tone == "warning" for alarm in page.alarms) else page
 
 
-def evenness(on: Subject) -> Words:
-    """Return a sentence on how evenly the drive turns."""
-    name = on.drive.name or _("The drive")
-    share = percent(float(on.whole.irregularity))
-    best = on.best
+def uniformity(on: Subject) -> Words:
+    """Return a sentence on how uniformly the drive turns."""
+    share = Quantity(float(on.whole.irregularity), "share", 3)
     steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
     posed, pose = _in_poses(on)
-    if on.even:
-        tone: Tone = "good"
-        text = _("{name} is synchronous as built: the output turns exactly evenly.").format(name=name)
-        if on.moving is not None:
-            text = _("{name} is synchronous as drawn, standing still.").format(name=name)
-        elif posed > UTMOST:
-            text = _("{name} is synchronous as drawn.").format(name=name)
-    elif on.rounded:
-        tone = "good"
-        text = _("{name} is synchronous as built but for the rounding of its figures, which leaves {share}.").format(
-            name=name, share=share
+    text, tone = _as_specified(on, posed)
+    parts: list[Text] = [
+        say(
+            text,
+            name=on.drive.name or _("The drive"),
+            share=share,
+            least=_share(on.best.irregularity if on.best else 0.0),
         )
-    elif on.curable and best is not None:
-        tone = "warning"
-        text = _("{name} is {share} irregular as built; with its yokes set differently it turns exactly evenly.")
-        if not on.phasing.feasible:
-            text = _(
-                "{name} is {share} irregular as built; with its yokes set differently it turns evenly to rounding."
-            )
-        text = text.format(name=name, share=share)
-    elif best is None:
-        tone = "warning"
-        text = _("{name} has one joint and turns {share} irregularly; one joint alone is never even.")
-        if on.mixed:
-            text = _("{name} has one joint and turns {share} irregularly.")
-        text = text.format(name=name, share=share)
-    elif float(on.whole.irregularity) - best.irregularity > UTMOST:
-        tone = "warning"
-        text = _(
-            "{name} is {share} irregular as built; no setting of the yokes makes it even, the best one leaves {least}."
-        ).format(name=name, share=share, least=percent(best.irregularity))
-    else:
-        tone = "warning"
-        text = _("{name} is {share} irregular, and no setting of the yokes makes it any better.").format(
-            name=name, share=share
-        )
+    ]
     limit = on.drive.limits.irregularity
     if float(on.whole.irregularity) < (CALM if limit is None else min(CALM, limit)):
         tone = "good"
     swings = _while_moving(on)
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
-        text += " " + _("While it moves, the output is up to {share} irregular.").format(share=percent(swings))
+        parts.append(say(_("While it moves, the speed fluctuation reaches {share}."), share=_share(swings)))
     if posed > max(swings, float(on.whole.irregularity)) + UTMOST:
         tone = "warning" if tone == "good" and posed > CALM else tone
-        text += " " + _("In the pose {name}, the output is {share} irregular.").format(name=pose, share=percent(posed))
+        parts.append(say(_("In the pose {name} the speed fluctuation is {share}."), name=pose, share=_share(posed)))
     if on.moving is not None and any(one.flags for one in on.moving.splines):
-        text += " " + _("A spline does not follow the movement.")
+        parts.append(_("A spline does not follow the movement."))
         tone = "failed"
-    return Words(text=text, tone="failed" if steep else tone)
+    return Words(text=Joined(parts, between=" "), tone="failed" if steep else tone)
+
+
+def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
+    """Return what is said of the drive as specified, with its tone."""
+    if on.even:
+        if on.moving is not None:
+            return _("{name} is uniform as drawn, standing still."), "good"
+        if posed > UTMOST:
+            return _("{name} is uniform as drawn."), "good"
+        return _("{name} is uniform as specified: the output turns at exactly constant speed."), "good"
+    if on.rounded:
+        return _("{name} is uniform as specified but for the rounding of its figures, which leaves {share}."), "good"
+    if on.curable and on.best is not None:
+        if on.phasing.feasible:
+            text = _(
+                "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is exactly uniform."
+            )
+            return text, "warning"
+        text = _(
+            "{name} has {share} speed fluctuation as specified; with its yokes re-phased it is uniform to rounding."
+        )
+        return text, "warning"
+    if on.best is None:
+        if on.mixed:
+            return _("{name} has one joint and {share} speed fluctuation."), "warning"
+        return _("{name} has one joint and {share} speed fluctuation; a single joint always fluctuates."), "warning"
+    if float(on.whole.irregularity) - on.best.irregularity > UTMOST:
+        text = _(
+            "{name} has {share} speed fluctuation as specified; no phasing of the yokes makes it uniform, the best "
+            "leaves {least}."
+        )
+        return text, "warning"
+    return _("{name} has {share} speed fluctuation, and no phasing of the yokes reduces it."), "warning"
+
+
+def _share(value: float) -> Quantity:
+    return Quantity(value, "share", 3)
 
 
 def _while_moving(on: Subject) -> float:
-    """Return the largest irregularity over the movement, the movement counted where a speed is known."""
+    """Return the largest speed fluctuation over the movement, the movement counted where a speed is known."""
     found = {one.what: one.value for one in on.moving.worst} if on.moving else {}
     return float(found.get("moving_irregularity", found.get("irregularity", 0.0)))
 
 
 def _in_poses(on: Subject) -> tuple[float, str]:
-    """Return the irregularity as built in the pose where it is largest, and the name of that; 0 without poses."""
+    """Return the speed fluctuation in the pose where it is largest, and the name of that; 0 without poses."""
     share = on.phasing.as_built.pose_irregularity
     return (float(np.max(share)), on.phasing.poses[int(np.argmax(share))]) if share.size else (0.0, "")
 
@@ -149,35 +159,15 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     limits = _limits(pages)
     yield from (alarm for page in pages if page is not limits for alarm in page.alarms)
     if limits is not None:
-        yield evenness(on)
-    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend / deg, strict=True), start=1):
-        if not joint.single_cross:
-            text = too_steep(joint, k, bend * deg)
-            yield from [Words(text=text, tone="failed")] if text else []
-        elif bend > ILL:
-            yield Words(
-                text=_(
-                    "Joint {k} bends {bend}°: the motion is so steep that rounding costs digits; see the residuals in "
-                    "the last part."
-                ).format(k=k, bend=fixed(bend, 1)),
-                tone="failed",
-            )
-        elif bend > WARN_BEND:
-            yield Words(
-                text=_("Joint {k} bends {bend}°; no real cross joint works above {limit:g}°.").format(
-                    k=k, bend=fixed(bend, 1), limit=WARN_BEND
-                ),
-                tone="failed",
-            )
-    uneven = not on.rounding(min(float(on.whole.irregularity), on.phasing.irregularity_min))
-    if on.joints > 1 and uneven and not on.phasing.feasible and on.phasing.limiting_joint is not None:
-        why = _("Joints tied by held yokes act as one that is too uneven for the others.")
+        yield uniformity(on)
+    yield from steep_joints(on)
+    fluctuating = not on.rounding(min(float(on.whole.irregularity), on.phasing.irregularity_min))
+    if on.joints > 1 and fluctuating and not on.phasing.feasible and on.phasing.limiting_joint is not None:
+        why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
         if len(on.phasing.limiting_joints) == 1:
             limiting = on.phasing.limiting_joint - 1
-            why = excess(
-                on.phasing, on.joints, float(on.bend[limiting]), single_cross=on.drive.joints[limiting].single_cross
-            )
-        yield Words(text=_("It cannot be made synchronous. {why}").format(why=why), tone="warning")
+            why = excess(on.phasing, on.joints, float(on.bend[limiting]), plain=on.drive.joints[limiting].single_cross)
+        yield Words(text=say(_("It cannot be made uniform. {why}"), why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
     if on.moving is not None:
@@ -189,89 +179,118 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         yield Words(text=_("A self-check failed; see the last part."), tone="failed")
 
 
+def steep_joints(on: Subject) -> Iterator[Words]:
+    """Yield joints whose angle no joint of their kind works at."""
+    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
+        angle = Quantity(float(bend), "angle", decimals=1)
+        if not joint.single_cross:
+            text = too_steep(joint, k, float(bend))
+            yield from [Words(text=text, tone="failed")] if text else []
+        elif bend > ILL * deg:
+            text = _("Joint {k} has a joint angle of {angle}: the motion is so steep that rounding costs digits.")
+            yield Words(text=say(text, k=k, angle=angle), tone="failed")
+        elif bend > WARN_BEND * deg:
+            text = _("Joint {k} has a joint angle of {angle}; no real cross joint works above {limit}.")
+            limit = Quantity(WARN_BEND * deg, "angle", trim=True)
+            yield Words(text=say(text, k=k, angle=angle, limit=limit), tone="failed")
+
+
 def changes(on: Subject) -> Table | Words:
     """Return the changes that help most, with their effect, at most three."""
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
     if on.even or on.rounded:
-        little, moving, posed = max(UTMOST, 2.0 * float(on.whole.irregularity)), _while_moving(on), _in_poses(on)[0]
-        for one in on.phasing.pose_settings[:1]:
-            left = float(np.max(one.pose_irregularity))
-            if posed > little and posed - left > max(UTMOST, 0.01 * posed):
-                text = _("The drive is even as drawn; “{label}” leaves {left} in the worst pose instead of {now}.")
-                return Words(text=text.format(label=one.label, left=percent(left), now=percent(posed)))
-        if moving > little:
-            return Words(
-                text=_("The yokes stand right; what is left comes from bends that differ while the drive moves.")
-            )
-        if posed > little:
-            return Words(text=_("The yokes stand right; what is left comes from bends that differ in the poses."))
-        return Words(text=_("Nothing needs to be changed for an even output."))
+        return Words(text=_nothing_as_drawn(on))
     now = float(on.whole.irregularity)
-    found = sorted((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now))
-    rows = [_change(text, now, after) for after, text in found[:3]]
-    if not rows:
+    found = sorted(((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now)), key=_first)
+    if not found:
         if on.joints == 1 and on.mixed:
-            return Words(text=_("Nothing but other sizes or another bend of the joint helps."))
+            return Words(text=_("Nothing but other sizes or another joint angle helps."))
         if on.joints == 1:
-            return Words(
-                text=_("Add a second joint of the same bend, its yokes set to undo the first: then the output is even.")
+            text = _(
+                "Add a second joint at the same joint angle, phased to undo the first: then the output is uniform."
             )
-        return Words(text=f"{_('No change of the yokes helps; only other bends do.')} {drawn}".strip())
-    return Table(
-        columns=(
-            Column(heading=_("change"), left=True),
-            Column(heading=_("irregularity now"), unit="%"),
-            Column(heading=_("afterwards"), unit="%"),
-        ),
-        rows=rows,
-        title=_("Changes that make the output more even"),
-        note=drawn,
+            return Words(text=text)
+        return Words(text=f"{_('No phasing of the yokes helps; only other joint angles do.')} {drawn}".strip())
+    best = found[:3]
+    afterwards = [Cell(value=after, tone="good" if after < UTMOST else "plain") for after, _text in best]
+    return table(
+        answer.Table(
+            columns=(
+                Column(key="change", heading=_("change"), values=[text for _after, text in best], left=True),
+                Column(
+                    key="now", heading=_("speed fluctuation now"), values=[now] * len(best), dimension="share", digits=3
+                ),
+                Column(key="afterwards", heading=_("afterwards"), values=afterwards, dimension="share", digits=3),
+            ),
+            title=_("Changes that make the output more uniform"),
+            note=drawn,
+        )
     )
 
 
-def _changes(on: Subject) -> Iterator[tuple[str, float]]:
-    """Yield changes and the irregularity each would leave."""
-    told: list[YokeSetting] = []
+def _first(change: tuple[float, Text]) -> tuple[float, str]:
+    """Return what changes are sorted by: what they leave, then their words."""
+    return change[0], shown(change[1])
+
+
+def _nothing_as_drawn(on: Subject) -> Text:
+    """Return what is left to be done where the drive as drawn is uniform."""
+    little, moving, posed = max(UTMOST, 2.0 * float(on.whole.irregularity)), _while_moving(on), _in_poses(on)[0]
+    for one in on.phasing.pose_settings[:1]:
+        left = float(np.max(one.pose_irregularity))
+        if posed > little and posed - left > max(UTMOST, 0.01 * posed):
+            text = _("The drive is uniform as drawn; “{label}” leaves {left} in the worst pose instead of {now}.")
+            return say(text, label=one.label, left=_share(left), now=_share(posed))
+    if moving > little:
+        return _("The yokes are phased right; what is left comes from joint angles that differ while the drive moves.")
+    if posed > little:
+        return _("The yokes are phased right; what is left comes from joint angles that differ in the poses.")
+    return _("Nothing needs to be changed for a uniform output.")
+
+
+def _changes(on: Subject) -> Iterator[tuple[Text, float]]:
+    """Yield changes and the speed fluctuation each would leave."""
+    seen: list[YokeSetting] = []
 
     def new(one: YokeSetting) -> bool:
-        fresh = all(np.max(np.abs(np.sin(one.yoke_angle - other.yoke_angle))) > SAME for other in told)
-        told.append(one)
+        fresh = all(np.max(np.abs(np.sin(one.yoke_angle - other.yoke_angle))) > SAME for other in seen)
+        seen.append(one)
         return bool(fresh)
 
     for one in (*on.phasing.settings[:1], *on.phasing.spline_settings[:1]):
         if new(one):
-            yield _set_to(one, one.label, on), one.irregularity
+            yield _set_to(one), one.irregularity
     for k, one in on.alone[:2]:
-        if not new(one):
-            continue
-        angle = fixed(half_turn(float(one.yoke_angle[k - 2]) / deg))
-        yield _("turn only the yokes of shaft {k}: to {angle}°").format(k=k, angle=angle), one.irregularity
+        if new(one):
+            text = _("turn only the yokes of shaft {k}: to {angle}")
+            yield say(text, k=k, angle=_yoke_angle(one, k)), one.irregularity
     plain = on.drive.joints[on.closing.longest - 1].single_cross
     if on.joints > 1 and plain and not on.phasing.feasible and not on.phasing.fixed:
-        bend = fixed(on.closing.bend_allowed / deg)
-        now = fixed(float(on.bend[on.closing.longest - 1]) / deg)
-        text = _("bend joint {k} by {bend}° instead of {now}° and set the yokes anew")
-        if bend != now:
-            yield text.format(k=on.closing.longest, bend=bend, now=now), 0.0
+        closing, now = float(on.closing.bend_allowed), float(on.bend[on.closing.longest - 1])
+        if round(closing / deg, 2) != round(now / deg, 2):
+            text = _("reduce joint angle {k} from {now} to {closing} and re-phase the yokes")
+            angles = {
+                "closing": Quantity(closing, "angle", decimals=2),
+                "now": Quantity(now, "angle", decimals=2),
+            }
+            yield say(text, k=on.closing.longest, **angles), 0.0
 
 
-def _set_to(one: YokeSetting, label: str, on: Subject) -> str:
-    moved = [k for k, change in enumerate(one.change, start=2) if abs(float(change)) > 1e-6]
-    angles = ", ".join(f"{fixed(float(one.yoke_angle[k - 2]) / deg)}°" for k in moved[:6])
+def _set_to(one: YokeSetting) -> Text:
+    """Return what is to be turned for a setting of the yokes."""
+    moved = [k for k, change in enumerate(one.change, start=2) if abs(float(change)) > SAME]
     if len(moved) > 6:
-        return _("set the yokes of {count} shafts as in setting {label}").format(count=len(moved), label=label)
-    numbers = ", ".join(map(str, moved))
-    return plural(
+        text = _("set the yokes of {count} shafts as in setting {label}")
+        return say(text, count=len(moved), label=one.label)
+    text = plural(
         "setting {label}: yokes of shaft {numbers} to {angles}",
         "setting {label}: yokes of shafts {numbers} to {angles}",
         len(moved),
-    ).format(label=label, numbers=numbers, angles=angles)
+    )
+    angles = Joined([_yoke_angle(one, k, line=False) for k in moved])
+    return say(text, label=one.label, numbers=", ".join(map(str, moved)), angles=angles)
 
 
-def _change(text: str, before: float, after: float) -> list[Cell]:
-    tone: Tone = "good" if after < UTMOST else "plain"
-    return [
-        words(text),
-        number(percent(before).removesuffix(" %"), 100.0 * before),
-        number(percent(after).removesuffix(" %"), 100.0 * after, tone),
-    ]
+def _yoke_angle(one: YokeSetting, shaft: int, *, line: bool = True) -> Quantity:
+    angle = float(one.yoke_angle[shaft - 2])
+    return Quantity(half_turn(angle / deg) * deg if line else angle, "angle", decimals=2)

@@ -125,7 +125,7 @@ def _said(blocks: Sequence[Block]) -> str:
     """Return the sentence under the first figure, or what stands instead of one."""
     for one in blocks:
         if isinstance(one, (Picture, Words)):
-            return one.figure.sentence if isinstance(one, Picture) else one.text
+            return str(one.figure.sentence if isinstance(one, Picture) else one.text)
     return ""
 
 

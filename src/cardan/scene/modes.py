@@ -15,7 +15,7 @@ from cardan.figures import palette
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.questions.bending.bending import CriticalSpeeds, bending_speeds
-from cardan.questions.bending.figures.bending import said
+from cardan.questions.bending.figures.bending import mode_name
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _
 from cardan.units import rpm
@@ -90,7 +90,9 @@ def _whirls(found: CriticalSpeeds, build: Build, size: float) -> Iterator[SceneM
             radius = 0.55 * build.body_radius(k)
             curves.append(SceneCurve(points=points, colour=palette.colour(f"shaft {k}"), radius=radius))
         text = _("critical speed {number}: {speed} rpm").format(number=number, speed=significant(float(speed) / rpm))
-        yield SceneMode(name=text, text=said(found.part[number - 1]), kind="whirl", frames=FRAMES, curves=tuple(curves))
+        yield SceneMode(
+            name=text, text=mode_name(found.part[number - 1]), kind="whirl", frames=FRAMES, curves=tuple(curves)
+        )
 
 
 def _torsions(found: TorsionModes, build: Build) -> Iterator[SceneMode]:

@@ -130,7 +130,8 @@ class Verdicts:
         chosen = self.session.choices
 
         def spoken(text: str) -> str:
-            return in_choice(Words(text=text), chosen.units, chosen.decimal).text
+            said: str = in_choice(Words(text=text), chosen.units, chosen.decimal).text
+            return said
 
         self.lights = tuple(found)
         self._list.show(lights_html(self.lights, self.opened, spoken))

@@ -67,7 +67,7 @@ PLACES = 360
 
 REFUSALS: Mapping[str, str] = MappingProxyType(
     {
-        "articulation": mark("while its joint angle changes, only a cross joint or one that is exactly even is followed"),
+        "articulation": mark("while its joint angle changes, only cross joints and exactly even ones are followed"),
         "forces": mark("it does not hold both shafts at its centre, so that they take forces besides its couple"),
         "moving forces": mark("while its joint angle changes, only the couple of a cross is known"),
         "assembly": mark("how it gives way to a misfit is known of the pins of a cross only"),

@@ -60,7 +60,7 @@ def mixed(joints: Sequence[Joint]) -> bool:
 
     Examples
     --------
-    >>> from .joints import Hooke
+    >>> from cardan.drive.joints import Hooke
     >>> mixed([Hooke(bend=0.1)])
     False
     """
@@ -82,7 +82,7 @@ def is_even(joint: Joint) -> bool:
 
     Examples
     --------
-    >>> from .joints import Hooke, Tripod
+    >>> from cardan.drive.joints import Hooke, Tripod
     >>> is_even(Tripod()), is_even(Hooke())
     (True, False)
     """
@@ -101,7 +101,7 @@ def left_over(joint: Joint, bend: float) -> float:
     --------
     Six balls whose cage misses the middle share what they ask for, and nothing is left but a trace of order 6:
 
-    >>> from .joints import PinCoupling, Rzeppa
+    >>> from cardan.drive.joints import PinCoupling, Rzeppa
     >>> left_over(Rzeppa(lever_b=0.35, lever_c=0.65), 0.5) < NEGLIGIBLE
     True
     >>> left_over(PinCoupling(driving_distance=0.05, driven_distance=0.052), 0.3) < NEGLIGIBLE

@@ -251,15 +251,16 @@ def _cautions(result: Life) -> Iterator[Remark]:
 def _keys(result: Life) -> Iterator[KeyFigure]:
     if not math.isfinite(result.drive):
         return
-    title = say(_("life of joint {number}, the first to fail"), number=result.governing)
+    title, place = _("life of the joint that fails first"), say(_("joint {number}"), number=result.governing)
     if result.demanded is None:
-        yield KeyFigure(name="life", title=title, value=_hours(result.drive), better="more")
+        yield KeyFigure(name="life", title=title, place=place, value=_hours(result.drive), better="more")
         return
     used = result.demanded / result.drive
     tone: Tone = "failed" if used > 1.0 else "warning" if used >= CLOSE else "good"
     yield KeyFigure(
         name="life",
         title=title,
+        place=place,
         value=_hours(result.drive),
         limit=_hours(result.demanded),
         better="more",

@@ -7,14 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.numbers import significant
+from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import DASHES, dash_of, shaft
-from cardan.figures.wording import significant
 from cardan.formulas.critical_speed import ARTICLE
 from cardan.questions.bending.bending import CriticalSpeeds, Part, Running
 from cardan.questions.bending.speed_map import CriticalSpeedMap
-from cardan.texts import _, plural
+from cardan.texts import _
 from cardan.units import mm, rpm
 
 SHOWN = 6
@@ -26,18 +27,31 @@ def bending_figures(found: CriticalSpeeds) -> tuple[Figure, ...]:
     return (speeds_figure(found), shapes_figure(found))
 
 
-def said(part: Part) -> str:
-    """Return what moves in a mode, in words.
+def mode_name(part: Part, name: str = "") -> str:
+    """Return what a mode is called, in words.
+
+    Parameters
+    ----------
+    part : Part
+        What moves in it.
+    name : str
+        Name of that support or shaft.
 
     Examples
     --------
-    >>> said(Part(kind="support", number=1)), said(Part(kind="shaft", number=3, waves=2))
-    ('support 1 bounces', 'shaft 3 bows in 2 half waves')
+    >>> mode_name(Part(kind="support", number=1), "centre"), mode_name(Part(kind="shaft", number=3, waves=2))
+    ('bounce mode on support 1 (centre)', 'second bending mode, shaft 3')
     """
+    which = numbered(part.number, name)
     if part.kind == "support":
-        return _("support {number} bounces").format(number=part.number)
-    text = plural("shaft {number} bows", "shaft {number} bows in {n} half waves", part.waves)
-    return text.format(number=part.number, n=part.waves)
+        return _("bounce mode on support {which}").format(which=which)
+    texts = {
+        1: _("first bending mode, shaft {which}"),
+        2: _("second bending mode, shaft {which}"),
+        3: _("third bending mode, shaft {which}"),
+    }
+    text = texts.get(part.waves, _("bending mode with {n} half waves, shaft {which}"))
+    return text.format(which=which, n=part.waves)
 
 
 def speeds_figure(found: CriticalSpeeds) -> Figure:
@@ -62,7 +76,7 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
         Bars(
             at=at,
             size=actual,
-            texts=tuple(significant(float(speed)) for speed in actual),
+            texts=tuple(Quantity(float(speed) * rpm, "angular_speed") for speed in actual),
             roles=tuple(_tone(found, k) for k in range(count)),
             thick=0.42,
             lying=True,
@@ -75,20 +89,28 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
         series.append(Shape(x=band[[0, 1, 1, 0]], y=across, role=role, opacity=0.75, label=label))
     top = 1.12 * max(float(np.max(actual)), *included)
     ticks = steps(0.0, top, 8)
-    names = tuple(f"{k + 1}: {said(part)}" for k, part in enumerate(found.part[:count]))
+    names = tuple(f"{k + 1}: {mode_name(part)}" for k, part in enumerate(found.part[:count]))
     return Figure(
         name="critical-speeds",
         title=_("Bending critical speeds"),
-        sentence=sentence(found),
+        sentence="",
         source=_("Timoshenko beams with gyroscopic action, hinged at the joints; transfer matrices, exact"),
         rows=(
             Row(
                 panels=(
                     Panel(
                         series=tuple(series),
-                        x=Axis(label=_("speed"), unit="rpm", low=0.0, high=top, ticks=ticks, texts=written(ticks)),
+                        x=Axis(
+                            label=_("speed"),
+                            unit="rpm",
+                            dimension="angular_speed",
+                            low=0.0,
+                            high=top,
+                            ticks=ticks,
+                            texts=written(ticks),
+                        ),
                         y=Axis(low=0.4, high=count + 1.3, ticks=tuple(at), texts=names, grid=False),
-                        title=_("Critical speed of the real shafts [rpm]"),
+                        title=_("Critical speed of the real shafts"),
                     ),
                 ),
                 height=0.34 * count + 0.7,
@@ -114,26 +136,6 @@ def _tone(found: CriticalSpeeds, k: int) -> str:
     return "warning" if k == found.deciding and found.status == Running.CLOSE else "accent"
 
 
-def sentence(found: CriticalSpeeds) -> str:
-    """Return in one sentence how the drive runs beside its critical speeds.
-
-    Parameters
-    ----------
-    found : CriticalSpeeds
-        Of one drive.
-    """
-    first = _("The shafts whirl first at {speed} rpm, where {part}").format(
-        speed=significant(float(found.actual[0]) / rpm), part=said(found.part[0])
-    )
-    if found.margin is None:
-        return first + "."
-    ratio = significant(found.margin.ratio, 3)
-    if found.deciding == 0:
-        return first + _("; that is {ratio} times the highest speed in use.").format(ratio=ratio)
-    text = _("; the first at which a shaft bows, {speed} rpm, is {ratio} times the highest speed in use.")
-    return first + text.format(speed=significant(found.margin.actual / rpm), ratio=ratio)
-
-
 def shapes_figure(found: CriticalSpeeds) -> Figure:
     """Return the shapes in which the line whirls, with joints and supports.
 
@@ -148,8 +150,11 @@ def shapes_figure(found: CriticalSpeeds) -> Figure:
     rows = []
     for k in range(count):
         last = k == count - 1
-        title = _("{number}: {speed} rpm as computed, {part}").format(
-            number=k + 1, speed=significant(float(found.speed[k]) / rpm), part=said(found.part[k])
+        title = say(
+            _("{number}: {speed} as computed, {part}"),
+            number=k + 1,
+            speed=Quantity(float(found.speed[k]), "angular_speed"),
+            part=mode_name(found.part[k]),
         )
         panel = Panel(
             series=_shape(found, k, across.high - across.low),
@@ -253,7 +258,7 @@ def speed_map_figure(found: CriticalSpeedMap) -> Figure:
             )
         )
     if stiff:
-        along, unit_text = _("stiffness of support {number}").format(number=found.number), "N/mm"
+        along, unit_text = _("stiffness of support {number}").format(number=found.number), "N_per_mm"
     else:
         along, unit_text = _("length of shaft {number}").format(number=found.number), "mm"
     return Figure(
@@ -266,8 +271,10 @@ def speed_map_figure(found: CriticalSpeedMap) -> Figure:
                 panels=(
                     Panel(
                         series=tuple(series),
-                        x=_decades(along, unit_text, value) if stiff else axis(along, unit_text, [value], count=8),
-                        y=axis(_("Critical speed"), "rpm", [speed], include=(0.0,), count=6),
+                        x=_decades(along, unit_text, value)
+                        if stiff
+                        else axis(along, unit_text, [value], dimension="length", count=8),
+                        y=axis(_("Critical speed"), "rpm", [speed], dimension="angular_speed", include=(0.0,), count=6),
                     ),
                 ),
                 height=2.4,
@@ -287,15 +294,16 @@ def _decades(label: str, unit: str, value: np.ndarray) -> Axis:
     if len(ticks) < 4:
         ticks = [m * ten for ten in tens for m in (1.0, 2.0, 5.0) if low <= m * ten <= high * (1.0 + 1e-9)]
     texts = tuple(significant(one, 1) if one < 1.0 else written((one,))[0] for one in ticks)
-    return Axis(label=label, unit=unit, low=low, high=high, ticks=tuple(ticks), texts=texts, log=True)
+    return Axis(
+        label=label, unit=unit, dimension="stiffness", low=low, high=high, ticks=tuple(ticks), texts=texts, log=True
+    )
 
 
-def _map_sentence(found: CriticalSpeedMap) -> str:
+def _map_sentence(found: CriticalSpeedMap) -> Say:
     order = np.argsort(np.asarray(found.value))
-    first = np.asarray(found.speed)[order, 0] / rpm
-    ends = significant(float(first[0]), 3), significant(float(first[-1]), 3)
+    first = np.asarray(found.speed)[order, 0]
+    one, other = (Quantity(float(speed), "angular_speed", 3) for speed in (first[0], first[-1]))
+    text = _("As shaft {number} grows longer, the first critical speed goes from {one:bare} to {other}.")
     if found.over == "stiffness":
-        text = _("As support {number} grows stiffer, the first critical speed goes from {one} to {other} rpm.")
-    else:
-        text = _("As shaft {number} grows longer, the first critical speed goes from {one} to {other} rpm.")
-    return text.format(number=found.number, one=ends[0], other=ends[1])
+        text = _("As support {number} grows stiffer, the first critical speed goes from {one:bare} to {other}.")
+    return say(text, number=found.number, one=one, other=other)

@@ -6,15 +6,16 @@ import math
 
 import numpy as np
 
+from cardan.answers.numbers import significant
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import DASHES, shaft
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.questions.bending.cracked_run import CrackedRun
 from cardan.questions.bending.cracked_shafts import CrackedShafts
 from cardan.questions.bending.rotor_response import RotorResponse
-from cardan.texts import _, mark
+from cardan.texts import _
 from cardan.units import rpm
 
 ORDERS = (1, 2, 3, -1)
@@ -26,8 +27,8 @@ LOWEST = 1e-5
 POINTS = 721
 """Points of an orbit."""
 
-MICRO, UNIT = 1e-6, mark("µm")
-"""Metres in a micrometre, and how that is written."""
+MICRO = 1e-6
+"""Metres in a micrometre."""
 
 
 def rotor_figures(found: RotorResponse) -> tuple[Figure, ...]:
@@ -65,7 +66,7 @@ def response_figure(found: RotorResponse) -> Figure:
         if high > low:
             series.append(Band(low=low, high=high, upright=True, text=_("in use"), role="accent", opacity=0.08))
     series += [
-        Band(low=low / rpm, high=high / rpm, upright=True, text=_("grows"), role="failed", opacity=0.15)
+        Band(low=low / rpm, high=high / rpm, upright=True, text=_("unstable"), role="failed", opacity=0.15)
         for low, high in found.unstable
         if high > low
     ]
@@ -82,50 +83,27 @@ def response_figure(found: RotorResponse) -> Figure:
     ]
     panel = Panel(
         series=tuple(series),
-        x=axis(_("speed"), "rpm", [speed], margin=0.0, count=8),
-        y=_decades(_("Amplitude amid the shaft"), UNIT, list(shown.values()), LOWEST * top),
+        x=axis(_("speed"), "rpm", [speed], dimension="angular_speed", margin=0.0, count=8),
+        y=_decades(_("Amplitude amid the shaft"), list(shown.values()), LOWEST * top),
     )
     return Figure(
         name="rotor",
         title=_("Whirling of shaft {number} over the speed").format(number=found.rotor.shaft),
-        sentence=sentence(found),
+        sentence="",
         source=_("lowest mode of bending as one mass; orders of the cracked rotor, exact"),
         rows=(Row(panels=(panel,), height=2.6),),
     )
 
 
-def sentence(found: RotorResponse) -> str:
-    """Return in one sentence how a shaft whirls.
-
-    Parameters
-    ----------
-    found : RotorResponse
-        Of one shaft.
-    """
-    sizes = {order: found.peak(order) for order in ORDERS}
-    known = {order: one for order, one in sizes.items() if math.isfinite(one[1])}
-    if not known:
-        return _("Shaft {number} has no steady motion at these speeds.").format(number=found.rotor.shaft)
-    order = max(known, key=lambda one: known[one][1])
-    speed, size = known[order]
-    text = _("Shaft {number} whirls most in {order}: {size} µm at {speed} rpm, {share} of its critical speed.")
-    return text.format(
-        number=found.rotor.shaft,
-        order=order_name(order),
-        size=significant(size / MICRO, 3),
-        speed=significant(speed / rpm, 3),
-        share=f"{speed / found.rotor.critical:.2f}",
-    )
-
-
-def _decades(label: str, unit: str, rows: list[Array], least: float) -> Axis:
+def _decades(label: str, rows: list[Array], least: float) -> Axis:
     """Return a logarithmic axis over whole decades."""
     low = max(min(float(np.nanmin(row)) for row in rows), least) / 1.2
     high = max(float(np.nanmax(row)) for row in rows) * 1.3
     ticks = tuple(10.0**k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1))
     return Axis(
         label=label,
-        unit=unit,
+        unit="um",
+        dimension="displacement",
         low=low,
         high=high,
         ticks=ticks,
@@ -139,7 +117,9 @@ def _way(z: Array, title: str, reach: float, *, role: str = "accent") -> Panel:
     ticks = steps(-reach, reach, 4)
 
     def along(name: str) -> Axis:
-        return Axis(label=name, unit=UNIT, low=-reach, high=reach, ticks=ticks, texts=written(ticks))
+        return Axis(
+            label=name, unit="um", dimension="displacement", low=-reach, high=reach, ticks=ticks, texts=written(ticks)
+        )
 
     curve = Curve(x=z.imag / MICRO, y=-z.real / MICRO, role=role, width=1.1)
     start = Curve(x=z.imag[:1] / MICRO, y=-z.real[:1] / MICRO, role="ink", width=0.0, marker=5.0)
@@ -167,8 +147,9 @@ def orbits_figure(found: RotorResponse) -> Figure:
     return Figure(
         name="rotor-orbits",
         title=_("Way of the centre of shaft {number} in a turn").format(number=found.rotor.shaft),
-        sentence=_("The shaft hangs down {sag} µm and whirls about that; a loop inside is the mark of a crack.").format(
-            sag=significant(found.rotor.sag / MICRO, 3)
+        sentence=say(
+            _("The shaft sags by {sag} and whirls about that; an inner loop is the mark of a crack."),
+            sag=Quantity(found.rotor.sag, "displacement", 3),
         ),
         source=_("seen against the power flow; the dot is where the crack, or the driving yoke, looks down"),
         rows=(Row(panels=tuple(panels), height=2.4),),
@@ -190,8 +171,8 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
     speed, order, size = found.orders()
     course = Panel(
         series=(Curve(x=found.speed / rpm, y=away, role="accent", width=0.7),),
-        x=axis(_("speed"), "rpm", [found.speed / rpm], margin=0.0, count=8),
-        y=axis(_("Distance from its place at rest"), UNIT, [away], include=(0.0,)),
+        x=axis(_("speed"), "rpm", [found.speed / rpm], dimension="angular_speed", margin=0.0, count=8),
+        y=axis(_("Distance from its place at rest"), "um", [away], dimension="displacement", include=(0.0,)),
     )
     curves = tuple(
         Curve(
@@ -205,20 +186,15 @@ def run_figure(number: int, found: CrackedRun) -> Figure:
     )
     orders = Panel(
         series=curves,
-        x=axis(_("speed"), "rpm", [found.speed / rpm], margin=0.0, count=8),
-        y=axis(_("Amplitudes of its orders"), UNIT, [one.y for one in curves], include=(0.0,)),
+        x=axis(_("speed"), "rpm", [found.speed / rpm], dimension="angular_speed", margin=0.0, count=8),
+        y=axis(
+            _("Amplitudes of its orders"), "um", [one.y for one in curves], dimension="displacement", include=(0.0,)
+        ),
     )
-    text = _("From {start} to {end} rpm shaft {number} goes {size} µm from its place, at {speed} rpm.")
     return Figure(
         name="rotor-run",
         title=_("Shaft {number} while the speed changes").format(number=number),
-        sentence=text.format(
-            start=significant(float(found.speed[0]) / rpm, 3),
-            end=significant(float(found.speed[-1]) / rpm, 3),
-            number=number,
-            size=significant(found.peak / MICRO, 3),
-            speed=significant(found.peak_speed / rpm, 3),
-        ),
+        sentence="",
         source=_("motion in time of the lowest mode; orders fitted over four turns"),
         rows=(Row(panels=(course,), height=1.7), Row(panels=(orders,), height=1.7)),
     )
@@ -243,13 +219,11 @@ def joined_figure(numbers: tuple[int, int], found: CrackedShafts, *, turns: floa
         path = path - np.mean(path)
         reach = 1.15 * float(np.max(np.abs(path))) / MICRO or 1.0
         panels.append(_way(path, _("shaft {number}").format(number=number), reach, role=shaft(number)))
-    text = _("At {speed} rpm through a joint bent {bend}°: the last {turns} turns.")
+    text = _("The last {turns} turns.")
     return Figure(
         name="rotor-joined",
         title=_("Ways of the centres of shafts {one} and {two}").format(one=numbers[0], two=numbers[1]),
-        sentence=text.format(
-            speed=significant(found.speed / rpm, 3), bend=f"{math.degrees(found.bend):.1f}", turns=f"{turns:g}"
-        ),
+        sentence=text.format(turns=f"{turns:g}"),
         source=_("motion in time of both lowest modes, joined by the exact joint"),
         rows=(Row(panels=tuple(panels), height=3.0),),
         legend=False,

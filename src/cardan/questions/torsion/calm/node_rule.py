@@ -130,7 +130,7 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     >>> from cardan.drive.duty import Duty
     >>> from cardan.drive.shaft import Shaft
     >>> from cardan.drive.station import Station
-    >>> from .torsional_train import torsional_train
+    >>> from cardan.questions.torsion.model.torsional_train import torsional_train
     >>> ends = (Station(shaft=1, end="start", inertia=0.6), Station(shaft=2, end="end", inertia=0.6))
     >>> drive = replace(Drive.from_angles([0.2]), stations=ends, duty=Duty(input="free", speed=50.0),
     ...     shafts=(Shaft(number=1, stiffness=900.0), Shaft(number=2, stiffness=900.0)))

@@ -124,7 +124,7 @@ def floquet_map(
     --------
     Damping against speed around the principal zone of a drive with one joint:
 
-    >>> from .torsional_model import torsional_line
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[[[0.2]], [[6.0]]], []],
     ...     bend=[0.4363], input_speed=[40.0, 49.386, 61.7])
     >>> found = floquet_map(drive)

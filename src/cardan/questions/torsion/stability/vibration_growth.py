@@ -40,8 +40,8 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
 
     Examples
     --------
-    >>> from .torque_swing import torque_swings
-    >>> from .torsional_model import torsional_line
+    >>> from cardan.questions.torsion.steady.torque_swing import torque_swings
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
     ...     bend=[np.radians(25)], input_speed=49.386)
     >>> print(np.exp(vibration_growth(torque_swings(drive, [49.386]).orbit, np.asarray([0]))))

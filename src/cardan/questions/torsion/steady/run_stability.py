@@ -158,7 +158,7 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     Examples
     --------
     >>> from .steady import periodic_response
-    >>> from .torsional_model import torsional_line
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
     ...     bend=[np.radians(25)], input_speed=49.386)
     >>> found = floquet(periodic_response(drive))

@@ -86,8 +86,8 @@ def periodic_response(
 
     Examples
     --------
-    >>> from .torques import Constant
-    >>> from .torsional_model import Torque, torsional_line
+    >>> from cardan.questions.torsion.model.torques import Constant
+    >>> from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
     >>> load = Torque(station=3, law=Constant(value=-60.0))
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
     ...     damping=[[1.0], [1.0]], bend=[0.35], torques=[load], input_speed=30.0)

@@ -85,7 +85,7 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
 
     Examples
     --------
-    >>> from .torsional_model import torsional_line
+    >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
     ...     damping=[[1.0], [1.0]], bend=[0.35], input_speed=30.0)
     >>> found = torque_swings(drive, [25.0, 30.0])

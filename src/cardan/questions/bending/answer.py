@@ -1,0 +1,399 @@
+"""What there is to say of critical speeds: where the shafts whirl, what moves there, how far the drive stays away."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
+from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import spelled
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.texts import _, plural
+
+from .bending import CriticalSpeeds, Part, Running
+from .bending import bending_speeds as ask
+from .figures.bending import bending_figures, mode_name, speed_map_figures
+from .speed_map import CriticalSpeedMap
+
+__all__ = ["answer", "answer_of_map", "ask", "lacking"]
+
+MESH = 2e-3
+"""Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""
+
+LONG = 1.5
+"""Distance of joints [m] above which two pieces are advised."""
+
+SHOWN = 13
+"""Values of the map that people are shown."""
+
+CLOSE = 0.9
+"""Share of a limit from which it is near."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for its critical speeds."""
+    held = {support.shaft for support in drive.supports}
+    ends = [shaft for shaft in (drive.shafts[0], drive.shafts[-1]) if shaft.has_body and shaft.number in held]
+    between = drive.shafts[1:-1]
+    bodies = tuple(
+        (f"shafts[{shaft.number - 1}].outer", f"shafts[{shaft.number - 1}].segments")
+        for shaft in between
+        if not shaft.has_body
+    )
+    if not between:
+        return absent((bool(ends), "shafts[0].outer"), (bool(ends) or bool(held), "supports"))
+    return (*bodies, *absent((bool(drive.supports) or len(between) == 1, "supports")))
+
+
+def answer(drive: Drive, result: CriticalSpeeds) -> Answer:
+    """Return what there is to say of the critical speeds of a drive."""
+    close = result.status in (Running.CLOSE, Running.BEYOND)
+    minded = bool(result.half_crossed.any()) or bool(result.crossed.any())
+    clear: Tone = "plain" if result.status == Running.UNKNOWN else "good"
+    return Answer(
+        name="bending",
+        title=_("Bending critical speeds"),
+        sentence=_sentence(drive, result),
+        tone="failed" if close else "warning" if minded else clear,
+        tables=(_modes(drive, result), _shafts(drive, result)),
+        remarks=(*_remarks(drive, result), _next()),
+        keys=tuple(_keys(drive, result)),
+        figures=lambda: bending_figures(result),
+        facts=_facts(drive, result),
+        full=lambda: _everything(result),
+        code=1 if close else 0,
+    )
+
+
+def answer_of_map(drive: Drive, result: CriticalSpeeds, varied: CriticalSpeedMap) -> Answer:
+    """Return what there is to say of critical speeds over the stiffness of a support or the length of a shaft."""
+    whole = answer(drive, result)
+    step = max(1, (len(varied.value) - 1) // (SHOWN - 1))
+    rows = slice(None, None, step)
+    things = drive.supports if varied.over == "stiffness" else drive.shafts
+    text = _("Critical speeds over the stiffness of support {which}")
+    if varied.over != "stiffness":
+        text = _("Critical speeds over the length of shaft {which}")
+    title = text.format(which=numbered(varied.number, things[varied.number - 1].name))
+    return Answer(
+        name="bending",
+        title=whole.title,
+        sentence=whole.sentence,
+        tone=whole.tone,
+        tables=(_map(varied, rows, name="", title=title),),
+        remarks=tuple(_remarks(drive, result)),
+        keys=whole.keys,
+        figures=lambda: (*bending_figures(result), *speed_map_figures(varied)),
+        facts={**whole.facts, "modes": _mode_facts(result)},
+        full=lambda: _map(varied, slice(None), name="map"),
+        code=whole.code,
+    )
+
+
+def _speed(value: float) -> Quantity:
+    return Quantity(float(value), "angular_speed")
+
+
+def _named(drive: Drive, part: Part) -> str:
+    """Return the name of a mode, with that of the part which the file gives."""
+    things: Any = drive.supports if part.kind == "support" else drive.shafts
+    return mode_name(part, things[part.number - 1].name)
+
+
+def _sentence(drive: Drive, result: CriticalSpeeds) -> Text:
+    first, margin = _named(drive, result.part[0]), result.margin
+    if margin is None:
+        text = _("the first critical speed is {speed}, {part}.")
+        return say(text, speed=_speed(result.actual[0]), part=first)
+    text = {
+        Running.CLEAR: _("{part} at {speed}, {ratio} times the highest speed in use: far enough."),
+        Running.CLOSE: _("{part} at {speed}, only {ratio} times the highest speed in use."),
+        Running.BEYOND: _("{part} at {speed}, {ratio} times the highest speed in use: it is reached."),
+    }[result.status]
+    part = _named(drive, result.bowing) if result.bowing else first
+    return say(text, part=part, speed=_speed(margin.actual), ratio=Quantity(margin.ratio, digits=3))
+
+
+def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
+    actual = [Cell(value=float(speed), tone=_tone(result, k)) for k, speed in enumerate(result.actual)]
+    over = [None if result.used is None else float(speed) / result.used[1] for speed in result.actual]
+    band = [
+        say("{low:bare} … {high}", low=_speed(low), high=_speed(high)) if result.part[k].kind == "shaft" else None
+        for k, (low, high) in enumerate(result.half_band)
+    ]
+    return Table(
+        title=_("Critical speeds, the lowest first"),
+        columns=(
+            Column(key="", heading=_("no."), values=list(range(1, len(result.part) + 1))),
+            Column(key="", heading=_("mode"), values=[mode_name(part) for part in result.part], left=True),
+            Column(key="critical", heading=_("computed"), values=result.speed, dimension="angular_speed"),
+            Column(key="wear_factor", heading="k_n", values=result.wear, decimals=2),
+            Column(key="actual", heading=_("real"), values=actual, dimension="angular_speed"),
+            Column(key="ratio", heading=_("margin n_crit/n"), values=over, digits=3),
+            Column(key="half", heading=_("half-critical"), values=0.5 * result.actual, dimension="angular_speed"),
+            Column(key="half_band", heading=_("half-critical band, ± 8 %"), values=band, left=True, depth="full"),
+            Column(
+                key="at_rest",
+                heading=_("not rotating"),
+                values=result.at_rest,
+                dimension="frequency",
+                unit="per_min",
+            ),
+        ),
+        note=say(
+            _(
+                "The real shaft whirls at k_n times the computed speed; not rotating, a tap shows the natural "
+                "frequency. Makers allow {automotive} of the computed critical speed in vehicles and {industrial} in "
+                "industry."
+            ),
+            automotive=Quantity(CATALOGUE["automotive"], "share", trim=True),
+            industrial=Quantity(CATALOGUE["industrial"], "share", trim=True),
+        ),
+    )
+
+
+def _tone(result: CriticalSpeeds, k: int) -> Tone:
+    if result.crossed[k]:
+        return "warning" if result.part[k].kind == "support" else "failed"
+    if k == result.deciding and result.margin is not None:
+        return "failed" if result.margin.violated else "good"
+    return "plain"
+
+
+def _shafts(drive: Drive, result: CriticalSpeeds) -> Table:
+    """Return each shaft by itself as a plain tube, and in the line."""
+    known = [shaft for shaft in drive.shafts if not math.isnan(result.shaft_span[shaft.number - 1][0])]
+    spans = [result.shaft_span[shaft.number - 1] for shaft in known]
+    own: list[float | None] = []
+    for shaft in known:
+        speeds = (
+            float(result.actual[k])
+            for k, part in enumerate(result.part)
+            if part.kind == "shaft" and part.number == shaft.number
+        )
+        own.append(next(speeds, None))
+    alone = [float(result.alone[shaft.number - 1]) for shaft in known]
+    return Table(
+        title=_("Each shaft by itself"),
+        columns=(
+            Column(
+                key="",
+                heading=_("shaft"),
+                values=[f"{shaft.number} {shaft.name}".strip() for shaft in known],
+                left=True,
+            ),
+            Column(key="", heading=_("length"), values=[float(b - a) for a, b in spans], dimension="length"),
+            Column(key="", heading=_("as a plain tube"), values=alone, dimension="angular_speed"),
+            Column(key="", heading=_("in the line, real"), values=own, dimension="angular_speed"),
+        ),
+        note=_("The formula of the plain tube, Book (257), ignores yokes, forged ends, shear, spin and soft bearings."),
+    )
+
+
+def _map(varied: CriticalSpeedMap, rows: slice, *, name: str, title: str = "") -> Table:
+    """Return the critical speeds over what varies."""
+    stiff = varied.over == "stiffness"
+    first = Column(
+        key="stiffness" if stiff else "length",
+        heading=_("stiffness") if stiff else _("length"),
+        values=np.asarray(varied.value)[rows],
+        dimension="stiffness" if stiff else "length",
+        unit="N_per_mm" if stiff else "",
+    )
+    modes = (
+        Column(
+            key=f"critical_{k}",
+            heading=_("mode {number}").format(number=k),
+            values=speeds,
+            dimension="angular_speed",
+        )
+        for k, speeds in enumerate(np.asarray(varied.speed)[rows].T, start=1)
+    )
+    return Table(name=name, title=title, columns=(first, *modes))
+
+
+def _everything(result: CriticalSpeeds) -> Table:
+    """Return the critical speeds with all that is known of them."""
+    shares = {f"shaft_{k}_share": column for k, column in enumerate(result.shaft_share.T, start=1)}
+    shares |= {f"support_{k}_share": column for k, column in enumerate(result.support_share.T, start=1)}
+    parts = result.part
+    return Table(
+        columns=(
+            Column(key="mode", values=list(range(1, len(parts) + 1))),
+            Column(key="critical", values=result.speed, dimension="angular_speed"),
+            Column(key="wear_factor", values=result.wear),
+            Column(key="actual", values=result.actual, dimension="angular_speed"),
+            Column(key="at_rest", values=result.at_rest, dimension="angular_speed"),
+            Column(key="half_band_low", values=result.half_band[:, 0], dimension="angular_speed"),
+            Column(key="half_band_high", values=result.half_band[:, 1], dimension="angular_speed"),
+            Column(key="crossed", values=[bool(one) for one in result.crossed]),
+            Column(key="half_crossed", values=[bool(one) for one in result.half_crossed]),
+            Column(key="moves", values=[part.kind for part in parts]),
+            Column(key="number", values=[part.number for part in parts]),
+            Column(key="half_waves", values=[part.waves for part in parts]),
+            *(Column(key=key, values=values) for key, values in shares.items()),
+        ),
+    )
+
+
+def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
+    yield from _judged(drive, result)
+    yield from _passed(drive, result)
+    if result.held:
+        text = plural(
+            "Joint {which} is assumed rigidly supported; describe its outer shaft to change that.",
+            "Joints {which} are assumed rigidly supported; describe the outer shafts to change that.",
+            len(result.held),
+        )
+        which = Joined([str(number) for number in result.held], last=_(" and "))
+        yield Remark(text=say(text, which=which))
+    worn = [path for path in result.assumed if path.endswith("wear_factor")]
+    if worn:
+        text = _("With a spline the real speed counts as 0.9 of the computed one; {key} changes that (0.7 when worn).")
+        yield Remark(text=say(text, key=", ".join(map(spelled, worn))))
+    if result.used is None:
+        yield Remark(text=_("How far the drive stays away needs duty.speed_range_rpm or duty.speed_rpm in the file."))
+    bad = bool(result.missed) or result.residual > MESH
+    text = _("Checked: finite elements agree with transfer matrices, and no mode is missed.")
+    if bad:
+        text = _("Check failed: finite elements and transfer matrices differ by {rest}; modes missed: {count}.")
+    rest = Quantity(float(result.residual), "share", 2)
+    yield Remark(text=say(text, rest=rest, count=int(result.missed)), tone="failed" if bad else "plain")
+
+
+def _next() -> Remark:
+    return Remark(text=_("What would move them:"), command=("cardan", "bending", FILE, "--map"), tone="next")
+
+
+def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
+    """Yield the rules that are broken, and what would keep them."""
+    margin = result.margin
+    if margin is None:
+        return
+    texts = {
+        "article_1.6": _("Failed: the real critical speed should be 60 % above the highest speed, {limit}."),
+        "catalogue": _("Failed: makers allow {share} of the computed critical speed, {limit}."),
+        "supercritical": _("Failed: the drive runs at or above a bending critical speed of a shaft."),
+    }
+    share = CATALOGUE[drive.duty.application]
+    limits = {"article_1.6": ARTICLE * margin.most, "catalogue": share * margin.critical}
+    for rule in margin.violated:
+        limit = _speed(limits.get(rule, 0.0))
+        said = say(texts[rule], limit=limit, share=Quantity(share, "share", trim=True))
+        yield Remark(text=said, tone="failed", alarm=True)
+    if margin.violated and result.bowing is not None:
+        number = result.bowing.number
+        start, end = result.shaft_span[number - 1]
+        length = float(end - start) * (margin.ratio / ARTICLE) ** 0.5
+        text = _("Shaft {number} at most about {length} long, or {share} thicker, would keep the rules.")
+        if end - start > LONG:
+            text = _(
+                "Shaft {number} at most about {length} long, or {share} thicker, would keep the rules; so would two "
+                "pieces with a bearing between."
+            )
+        thicker = Quantity(ARTICLE / margin.ratio - 1.0, "share", decimals=0)
+        yield Remark(text=say(text, number=number, length=Quantity(length, "length", 3), share=thicker))
+
+
+def _passed(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
+    """Yield critical speeds that the drive passes, and halves of them that it runs in."""
+    for k, part in enumerate(result.part):
+        if result.crossed[k]:
+            text = _("Warning: the drive passes {speed}, {part}.")
+            if part.kind == "support":
+                text = _("Warning: the drive passes {speed}, {part}; its rubber has to damp that.")
+            said = say(text, speed=_speed(result.actual[k]), part=_named(drive, part))
+            yield Remark(text=said, tone="warning", alarm=part.kind == "support")
+    for k, part in enumerate(result.part):
+        if result.half_crossed[k] and part.kind == "shaft":
+            low, high = (_speed(speed) for speed in result.half_band[k])
+            text = _(
+                "Warning: from {low:bare} to {high} the joints, whose excitation is of 2nd order, excite half the "
+                "critical speed: {part}. Pass this band quickly, or reduce the joint angles."
+            )
+            yield Remark(text=say(text, low=low, high=high, part=_named(drive, part)), tone="warning", alarm=True)
+
+
+def _keys(drive: Drive, result: CriticalSpeeds) -> Iterator[KeyFigure]:
+    if result.bowing is None:
+        return
+    margin, place = result.margin, _named(drive, result.bowing)
+    title, actual = _("bending critical speed"), margin.actual if margin else result.actual[result.deciding or 0]
+    if margin is None:
+        yield KeyFigure(name="critical_speed", title=title, place=place, value=_speed(actual), better="more")
+        return
+    limit = ARTICLE * margin.most
+    tone: Tone = "failed" if margin.violated else "warning" if limit / actual >= CLOSE else "good"
+    yield KeyFigure(
+        name="critical_speed",
+        title=title,
+        place=place,
+        value=_speed(actual),
+        limit=_speed(limit),
+        better="more",
+        tone=tone,
+        verdict={"failed": _("too low"), "warning": _("near the limit"), "good": _("passed")}[tone],
+    )
+
+
+def _mode_facts(result: CriticalSpeeds) -> list[dict[str, Any]]:
+    return [
+        {
+            "critical": _speed(result.speed[k]),
+            "wear_factor": result.wear[k],
+            "actual": _speed(result.actual[k]),
+            "at_rest": _speed(result.at_rest[k]),
+            "half_band": Quantity(result.half_band[k], "angular_speed"),
+            "crossed": bool(result.crossed[k]),
+            "half_crossed": bool(result.half_crossed[k]),
+            "moves": part.kind,
+            "number": part.number,
+            "half_waves": part.waves,
+            "shaft_shares": result.shaft_share[k],
+            "support_shares": result.support_share[k],
+            "deflection": result.deflection[k],
+        }
+        for k, part in enumerate(result.part)
+    ]
+
+
+def _facts(drive: Drive, result: CriticalSpeeds) -> dict[str, Any]:
+    margin = result.margin
+    return {
+        "status": result.status.name.lower(),
+        "speed_range": None if result.used is None else Quantity(list(result.used), "angular_speed"),
+        "modes": _mode_facts(result),
+        "place": Quantity(result.place, "length"),
+        "joint_place": Quantity(result.joint_place, "length"),
+        "support_place": Quantity(result.support_place, "length"),
+        "shafts": [
+            {
+                "number": shaft.number,
+                "name": shaft.name,
+                "span": Quantity(result.shaft_span[shaft.number - 1], "length"),
+                "closed_form": _speed(result.alone[shaft.number - 1]),
+            }
+            for shaft in drive.shafts
+        ],
+        "margin": None
+        if margin is None
+        else {
+            "critical": _speed(margin.critical),
+            "actual": _speed(margin.actual),
+            "ratio": margin.ratio,
+            "rule_60_percent_met": margin.rule_60_percent,
+            "violated": list(margin.violated),
+            "half_critical_band": Quantity(list(margin.band), "angular_speed"),
+            "half_critical_inside": margin.half_inside,
+        },
+        "held_joints": result.held,
+        "residual": result.residual,
+        "missed": result.missed,
+        "assumed": [spelled(path) for path in result.assumed],
+    }

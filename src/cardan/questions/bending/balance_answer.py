@@ -1,0 +1,193 @@
+"""What there is to say of balance: what unbalance each shaft may have, and the masses that cancel what it has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
+from cardan.answers.quantity import Quantity, Text, listed, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import spelled
+from cardan.texts import _
+
+from .balance import SLOW
+from .shaft_balance import Balance
+from .shaft_balance import balance as ask
+
+__all__ = ["answer", "ask", "lacking"]
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for the balance of its shafts: a highest speed, bodies or masses."""
+    duty = drive.duty
+    bodies = any(shaft.has_body or shaft.mass is not None for shaft in drive.shafts)
+    return absent(
+        (duty.speed is not None or duty.speed_range is not None, "duty.speed_range", "duty.speed"),
+        (bodies, "shafts[1].outer", "shafts[1].mass"),
+    )
+
+
+def answer(drive: Drive, result: Balance) -> Answer:
+    """Return what there is to say of the balance of the shafts of a drive."""
+    tone: Tone = "plain" if result.balanced is None else "good" if result.balanced else "failed"
+    return Answer(
+        name="balance",
+        title=_("Balance"),
+        sentence=_sentence(result),
+        tone=tone,
+        tables=(_shafts(drive, result), *_corrections(result)),
+        remarks=tuple(_remarks(result)),
+        facts=_facts(result),
+        full=lambda: _shafts(drive, result, name=""),
+        code=1 if result.balanced is False else 0,
+    )
+
+
+def _sentence(result: Balance) -> Text:
+    speed = Quantity(result.speed, "angular_speed")
+    if result.balanced is not None:
+        bad = [one.number for one in result.shafts if one.balanced is False]
+        if bad:
+            return say(_("too much unbalance on shaft {which} at {speed}."), which=listed(bad), speed=speed)
+        return say(_("balanced well enough for {speed}."), speed=speed)
+    limits = [one for one in result.shafts if not math.isnan(one.limit)]
+    if not limits:
+        return _("no limit could be told; masses are missing.")
+    least = min(limits, key=lambda one: one.limit)
+    text = _("at {speed} shaft {number} may have {limit} at most.")
+    return say(text, speed=speed, number=least.number, limit=Quantity(least.limit, "unbalance", 3))
+
+
+def _shafts(drive: Drive, result: Balance, name: str = "") -> Table:
+    names = {shaft.number: shaft.name for shaft in drive.shafts}
+    states = {
+        True: Cell(value=_("balanced"), tone="good"),
+        False: Cell(value=_("too much"), tone="failed"),
+        None: Cell(value=""),
+    }
+    shafts = result.shafts
+
+    def column(key: str, heading: str, field: str, dimension: str) -> Column:
+        return Column(key=key, heading=heading, values=[getattr(one, field) for one in shafts], dimension=dimension)
+
+    return Table(
+        name=name,
+        columns=(
+            Column(
+                key="shaft",
+                heading=_("shaft"),
+                values=[f"{one.number} {names.get(one.number, '')}".strip() for one in shafts],
+                left=True,
+            ),
+            column("mass", _("mass"), "mass", "mass"),
+            column("allowed", _("allowed"), "allowed", "unbalance"),
+            column("plane", _("allowed per plane"), "allowed_plane", "unbalance"),
+            column("standard", _("vehicle standard"), "norm", "unbalance"),
+            column("unbalance", _("measured"), "unbalance", "unbalance"),
+            column("force", _("rotating force"), "force", "force"),
+            Column(key="state", heading="", values=[states[one.balanced] for one in shafts], left=True),
+        ),
+    )
+
+
+def _corrections(result: Balance) -> Iterator[Table]:
+    rows = [
+        (one.number, fix, force)
+        for one in result.shafts
+        for fix, force in zip(one.corrections, one.joint_forces, strict=True)
+    ]
+    if rows:
+        fixes = [fix for _number, fix, _force in rows]
+        yield Table(
+            title=_("Correction masses at the ends of the tubes"),
+            columns=(
+                Column(key="shaft", heading=_("shaft"), values=[number for number, *_rest in rows]),
+                Column(
+                    key="position", heading=_("position"), values=[fix.position for fix in fixes], dimension="length"
+                ),
+                Column(
+                    key="angle",
+                    heading=_("angle"),
+                    values=[fix.angle for fix in fixes],
+                    dimension="angle",
+                    decimals=1,
+                ),
+                Column(
+                    key="unbalance",
+                    heading=_("unbalance"),
+                    values=[fix.unbalance for fix in fixes],
+                    dimension="unbalance",
+                ),
+                Column(
+                    key="mass",
+                    heading=_("mass"),
+                    values=[fix.mass for fix in fixes],
+                    dimension="mass",
+                    unit="g",
+                    digits=3,
+                ),
+                Column(
+                    key="force", heading=_("force on the joint"), values=[f for *_rest, f in rows], dimension="force"
+                ),
+            ),
+        )
+
+
+def _remarks(result: Balance) -> Iterator[Remark]:
+    if result.grade is not None:
+        yield Remark(text=_("Grade {grade}: {source}.").format(grade=result.grade.id, source=result.grade.source))
+    if result.assumed:
+        text = _("Neither grade nor vehicle is given; {grade} is usual for these shafts.")
+        yield Remark(text=text.format(grade=result.grade.id if result.grade else ""))
+    if result.norm is not None:
+        text = _("Vehicle standard: {note}; {source}.")
+        yield Remark(text=text.format(note=result.norm.note or result.norm.id, source=result.norm.source))
+    if not result.needed:
+        least = Quantity(SLOW, "angular_speed", trim=True)
+        yield Remark(text=say(_("Below {speed} makers do not balance."), speed=least))
+    missing = [path for one in result.shafts for path in one.missing]
+    if missing:
+        text = _("Warning: some limits could not be told; the file lacks {keys}, or a body.")
+        yield Remark(text=text.format(keys=", ".join(map(spelled, missing))), tone="warning")
+    if not any(one.corrections for one in result.shafts):
+        text = _("Measured unbalances go into the file as shafts[…].unbalance: place, amount and angle.")
+        yield Remark(text=text)
+    yield Remark(text=_("Unbalance from clearances cannot be balanced out. Mark parts before they come apart."))
+
+
+def _facts(result: Balance) -> dict[str, Any]:
+    return {
+        "speed": Quantity(result.speed, "angular_speed"),
+        "grade": None if result.grade is None else result.grade.id,
+        "grade_assumed": result.assumed,
+        "standard": None if result.norm is None else result.norm.id,
+        "balanced": result.balanced,
+        "shafts": [
+            {
+                "number": one.number,
+                "mass": Quantity(one.mass, "mass"),
+                "allowed": Quantity(one.allowed, "unbalance"),
+                "allowed_plane": Quantity(one.allowed_plane, "unbalance"),
+                "eccentricity": Quantity(one.eccentricity, "length"),
+                "standard": Quantity(one.norm, "unbalance"),
+                "unbalance": Quantity(one.unbalance, "unbalance"),
+                "force": Quantity(one.force, "force"),
+                "joint_forces": Quantity(list(one.joint_forces), "force"),
+                "balanced": one.balanced,
+                "corrections": [
+                    {
+                        "position": Quantity(fix.position, "length"),
+                        "unbalance": Quantity(fix.unbalance, "unbalance"),
+                        "angle": Quantity(fix.angle, "angle"),
+                        "mass": Quantity(fix.mass, "mass", unit="g"),
+                    }
+                    for fix in one.corrections
+                ],
+                "missing": one.missing,
+            }
+            for one in result.shafts
+        ],
+    }
