@@ -50,6 +50,10 @@ class _Column:
     values: list[float]
 
 
+FAULT = 70
+"""Exit code of a fault of cardan itself."""
+
+
 def line_now(line: str) -> str:
     """Return how a stored command line is written now."""
     for pattern, new in renamed.COMMAND_LINES:
@@ -97,6 +101,8 @@ def _code(old: dict[str, Any], answer: dict[str, Any]) -> str:
 
 
 def _refused(line: str, old: dict[str, Any], answer: dict[str, Any]) -> list[Difference]:
+    if old["code"] == FAULT and answer["code"] != FAULT:
+        return []  # a fault was no answer: whatever is said instead of it is none that is lost
     if "fields" not in answer:
         free = any(re.match(pattern, line) for pattern in renamed.ANSWERED)
         return [] if free else [Difference(line, "", "answer", f"was refused for {old['fields']}, is answered")]

@@ -23,7 +23,7 @@ from cardan.catalogue.telling import SENTENCES, WORDS
 from cardan.cli.example import about
 from cardan.drive.fields.keys import fields_of
 from cardan.io import example_names, example_text, mechanism_names, recording_names
-from cardan.io.reference import SECTIONS
+from cardan.io.reference import sections
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, speaking
@@ -78,7 +78,7 @@ def sentences(code: str) -> Iterator[Texts]:
 
 def _declared() -> Iterator[tuple[str, str]]:
     """Yield the sentences of tables, keys and rows, and the labels of units, each with where it stands."""
-    for cls in dict.fromkeys((*(cls for _title, cls in SECTIONS), Mechanism, Pair, *TABLES.values())):
+    for cls in dict.fromkeys((*(cls for _title, cls in sections()), Mechanism, Pair, *TABLES.values())):
         name = cls.__module__.removeprefix("cardan.").replace(".", "/") + ".py"
         yield name, (cls.__doc__ or "").strip().splitlines()[0]
         for one in fields_of(cls).values():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 
@@ -70,8 +71,8 @@ def largest_of(
     array (..., k)
         Infinite where a joint bends 90° or more at an instant.
     """
-    lead = points.shape[:-2]
-    yokes = np.broadcast_to(kinematic.yoke_angle, (*lead, kinematic.joints - 1)).reshape(-1, 1, kinematic.joints - 1)
+    lead, between = points.shape[:-2], kinematic.joints - 1
+    yokes = np.broadcast_to(kinematic.yoke_angle, (*lead, between)).reshape(math.prod(lead), 1, between)
     phase = np.broadcast_to(kinematic.start_phase, lead).reshape(-1, 1)
     found = []
     for part, moved in _moved(points, movements):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from cardan.drive.joints import Hooke, Joint
+from cardan.drive.joints import Joint
 from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
@@ -64,7 +64,7 @@ class Check:
                 stuck = own and (self.crosses == "map" or bool(design.varied))
                 yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
             return
-        others = [i for i, joint in enumerate(joints) if type(joint) is not Hooke]
+        others = [i for i, joint in enumerate(joints) if not joint.single_cross]
         for one in self._judged(design):
             whole = self.crosses == "all" or any(path.endswith(".kind") for path in one.missing)
             concerned = others if whole else [one.number - 1] if one.subject.startswith("joints[") else []

@@ -13,10 +13,8 @@ import numpy as np
 from cardan.catalogue import Catalogue, catalogue, completed
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.fields.keys import fields_of
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.fields.paths import bare_path, place
-from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, given_chain, turning
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.drive.models.laws import unmapped
@@ -351,7 +349,7 @@ def _variable(drive: Drive, bare: str, path: str) -> None:
         text = _("shaft {number} is an end shaft; only a shaft between two joints has this")
         raise refuse(path, text.format(number=1 if bare.startswith("shafts[0]") else len(drive.joints) + 1))
     match = re.match(r"joints\[(\d+)\]\.(\w+)", bare)
-    own = fields_of(type(drive.joints[int(match[1])])).keys() - fields_of(Joint).keys() if match else ()
+    own = drive.joints[int(match[1])].own_fields() if match else ()
     if match is not None and match[2] in own:
         raise refuse(path, _("is not varied in a batch; the law of motion of the joint depends on it"))
 

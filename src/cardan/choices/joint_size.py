@@ -20,7 +20,7 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
     """Return the smallest row of the catalogue that passes, for one joint or for all alike."""
     if number:
         refuse_other(drive, number)
-    chosen = [number - 1] if number else [i for i, joint in enumerate(drive.joints) if joint.kind == "hooke"]
+    chosen = [number - 1] if number else [i for i, joint in enumerate(drive.joints) if not joint.refusal("sizing")]
     if not chosen:
         raise refuse("part", _("no joint of the drive is a cross joint, and rows of the catalogue are of such"))
     subjects = [f"joints[{i}]" for i in chosen]
@@ -83,10 +83,10 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
 
 def refuse_other(drive: Drive, number: int) -> None:
     """Refuse a joint that is no cross joint: its parts are not sized."""
-    kind = drive.joints[number - 1].kind
-    if kind != "hooke":
+    joint = drive.joints[number - 1]
+    if joint.refusal("sizing"):
         text = _("joint {number} is of kind {kind}; only cross joints are sized")
-        raise refuse("part", text.format(number=number, kind=kind), "out_of_range")
+        raise refuse("part", text.format(number=number, kind=joint.kind), "out_of_range")
 
 
 def _order(row: JointSize) -> tuple[float, ...]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
-from cardan.drive.fields.keys import fields_of, spellings_of
+from cardan.drive.fields.keys import spellings_of
 from cardan.drive.joints import JOINTS
 from cardan.drive.joints.joint import Joint
 from cardan.errors import InputError, Problem, check
@@ -114,7 +114,7 @@ def made(several: Sequence[Asked]) -> list[Named]:
 
 def _made(one: Asked) -> Joint:
     kind = JOINTS[one.kind]
-    places = set(fields_of(Joint))
+    places = {field.name for field in fields(Joint)}
     strange = [key for key in one.keys if _named(key, spellings_of(kind)) in places]
     text = _("means nothing for a joint by itself; its sizes are {keys}")
     known = ", ".join(written(kind)) or _("none")

@@ -17,7 +17,7 @@ from cardan.drive.fields.ranges import allowed
 from cardan.drive.fields.tables import written
 from cardan.drive.inspection import Inspection
 from cardan.drive.joint_parts import Needles, Rating, Section, Yoke
-from cardan.drive.joints import JOINTS, Profile
+from cardan.drive.joints import JOINTS
 from cardan.drive.machine import LAWS, Engine, EngineHarmonic, RunUp
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
@@ -30,52 +30,66 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair
 from cardan.units import DIMENSIONS
 
-SECTIONS: tuple[tuple[str, type], ...] = (
-    ("Head of the file", Drive),
-    ("`[settings]`", Settings),
-    ("`input`", Input),
-    ("`output`", Output),
-    *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
-    ("`driving` and `driven` of a Clemens coupling", Profile),
-    ("`cross` of a joint", Cross),
-    ("`needles` of a joint", Needles),
-    ("`yoke` of a joint", Yoke),
-    ("`section` of a yoke", Section),
-    ("`rating` of a joint", Rating),
-    ("`inspection` of a joint", Inspection),
-    ("`error` of a joint", Error),
-    ("`tolerance` of a joint", Tolerance),
-    ("`cost` of tolerances", Cost),
-    ("`[[shafts]]`", Shaft),
-    ("`material`", Material),
-    ("`segments` of a shaft", Segment),
-    ("`masses` of a shaft", Lump),
-    ("`spline` of a shaft", Spline),
-    ("`notch` of a shaft", Notch),
-    ("`layup` of a shaft", Layup),
-    ("`ply` of a layup", Ply),
-    ("`unbalance` of a shaft", Unbalance),
-    ("`crack` of a shaft", ShaftCrack),
-    ("`[[supports]]`", Support),
-    ("`[[stations]]`", Station),
-    ("`to_next` of a station", ToNext),
-    ("`absorber` of a station", Absorber),
-    ("`pendulum` of a station", Pendulum),
-    ("`[duty]`", Duty),
-    ("`harmonics` of the duty", Harmonic),
-    ("`blocks` of the duty", Block),
-    ("`torque_history` of the duty", History),
-    ("`vehicle` of the duty", Vehicle),
-    ("`upkeep` of the duty", Upkeep),
-    ("`engine` of the duty", Engine),
-    ("`harmonics` of an engine", EngineHarmonic),
-    *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
-    ("`run_up` of the duty", RunUp),
-    ("`[limits]`", Limits),
-    *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
-    ("`spectrum` of a random movement", Spectrum),
-    ("`[[poses]]`", Pose),
-)
+
+def sections() -> tuple[tuple[str, type], ...]:
+    """Return title and class of every table of the drive file."""
+    return (
+        ("Head of the file", Drive),
+        ("`[settings]`", Settings),
+        ("`input`", Input),
+        ("`output`", Output),
+        *((f'`[[joints]]` with `kind = "{name}"`', cls) for name, cls in JOINTS.items()),
+        *_tables_of_kinds(),
+        ("`cross` of a joint", Cross),
+        ("`needles` of a joint", Needles),
+        ("`yoke` of a joint", Yoke),
+        ("`section` of a yoke", Section),
+        ("`rating` of a joint", Rating),
+        ("`inspection` of a joint", Inspection),
+        ("`error` of a joint", Error),
+        ("`tolerance` of a joint", Tolerance),
+        ("`cost` of tolerances", Cost),
+        ("`[[shafts]]`", Shaft),
+        ("`material`", Material),
+        ("`segments` of a shaft", Segment),
+        ("`masses` of a shaft", Lump),
+        ("`spline` of a shaft", Spline),
+        ("`notch` of a shaft", Notch),
+        ("`layup` of a shaft", Layup),
+        ("`ply` of a layup", Ply),
+        ("`unbalance` of a shaft", Unbalance),
+        ("`crack` of a shaft", ShaftCrack),
+        ("`[[supports]]`", Support),
+        ("`[[stations]]`", Station),
+        ("`to_next` of a station", ToNext),
+        ("`absorber` of a station", Absorber),
+        ("`pendulum` of a station", Pendulum),
+        ("`[duty]`", Duty),
+        ("`harmonics` of the duty", Harmonic),
+        ("`blocks` of the duty", Block),
+        ("`torque_history` of the duty", History),
+        ("`vehicle` of the duty", Vehicle),
+        ("`upkeep` of the duty", Upkeep),
+        ("`engine` of the duty", Engine),
+        ("`harmonics` of an engine", EngineHarmonic),
+        *((f'`motor`, `load` or `[[duty.torques]]` with `kind = "{name}"`', cls) for name, cls in LAWS.items()),
+        ("`run_up` of the duty", RunUp),
+        ("`[limits]`", Limits),
+        *((f'`[[movements]]` with `kind = "{name}"`', cls) for name, cls in MOVEMENTS.items()),
+        ("`spectrum` of a random movement", Spectrum),
+        ("`[[poses]]`", Pose),
+    )
+
+
+def _tables_of_kinds() -> Iterator[tuple[str, type]]:
+    """Yield title and class of the tables that only joints of one kind have."""
+    for name, kind in JOINTS.items():
+        own: dict[type, list[str]] = {}
+        for field, one in fields_of(kind).items():
+            if field in kind.own_fields() and isinstance(one.type, type) and is_dataclass(one.type):
+                own.setdefault(one.type, []).append(f"`{field}`")
+        for cls, fields in own.items():
+            yield f'{" and ".join(fields)} of a joint with `kind = "{name}"`', cls
 
 
 def reference() -> str:
@@ -86,7 +100,7 @@ def reference() -> str:
     >>> reference().splitlines()[0]
     '## Head of the file'
     """
-    return "\n".join(line for title, cls in SECTIONS for line in _section(title, cls))
+    return "\n".join(line for title, cls in sections() for line in _section(title, cls))
 
 
 def mechanism_reference() -> str:

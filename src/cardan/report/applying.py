@@ -110,7 +110,7 @@ def _why_not(on: Subject, found: Phasing) -> str:
         text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
         return text.format(least=least)
     i = found.limiting_joint - 1
-    why = excess(found, on.joints, float(on.bend[i]), plain=on.drive.joints[i].kind == "hooke")
+    why = excess(found, on.joints, float(on.bend[i]), plain=on.drive.joints[i].single_cross)
     return say(_("It cannot be made uniform. {why}"), why=why).told(reader())
 
 

@@ -11,10 +11,10 @@ from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.body import body_length
+from cardan.drive.joints.common.inside import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
-from cardan.questions.motion.joint_inside import Inside
 from cardan.questions.motion.kinds import inside, kind_name, too_steep
 from cardan.texts import _, plural
 from cardan.units import deg

@@ -167,9 +167,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
         if len(on.phasing.limiting_joints) == 1:
             limiting = on.phasing.limiting_joint - 1
-            why = excess(
-                on.phasing, on.joints, float(on.bend[limiting]), plain=on.drive.joints[limiting].kind == "hooke"
-            )
+            why = excess(on.phasing, on.joints, float(on.bend[limiting]), plain=on.drive.joints[limiting].single_cross)
         yield Words(text=say(_("It cannot be made uniform. {why}"), why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
@@ -186,7 +184,7 @@ def steep_joints(on: Subject) -> Iterator[Words]:
     """Yield joints whose angle no joint of their kind works at."""
     for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
         angle = Quantity(float(bend), "angle", decimals=1)
-        if joint.kind != "hooke":
+        if not joint.single_cross:
             text = too_steep(joint, k, float(bend))
             yield from [Words(text=text, tone="failed")] if text else []
         elif bend > ILL * deg:
@@ -267,7 +265,7 @@ def _changes(on: Subject) -> Iterator[tuple[Text, float]]:
         if new(one):
             text = _("turn only the yokes of shaft {k}: to {angle}")
             yield say(text, k=k, angle=_yoke_angle(one, k)), one.irregularity
-    plain = on.drive.joints[on.closing.longest - 1].kind == "hooke"
+    plain = on.drive.joints[on.closing.longest - 1].single_cross
     if on.joints > 1 and plain and not on.phasing.feasible and not on.phasing.fixed:
         closing, now = float(on.closing.bend_allowed), float(on.bend[on.closing.longest - 1])
         if round(closing / deg, 2) != round(now / deg, 2):

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
-from cardan.drive.bodies.support import floor_frame
+from cardan.drive.shapes.support import floor_frame
 from cardan.figures import palette
 from cardan.figures.wording import fixed, half_turn, significant
 from cardan.maths.arrays import Array

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.drive.bodies.build import Build
-from cardan.drive.bodies.support import floor_frame
 from cardan.drive.drive import Drive
+from cardan.drive.shapes.support import floor_frame
 from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.figures.wording import significant

@@ -16,6 +16,7 @@ from cardan.drive.bodies.build import Build, Solid
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import pose_drives
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.laws import mixed
 from cardan.errors import InputError, refuse
 from cardan.figures import palette
 from cardan.maths.arrays import Array
@@ -160,8 +161,7 @@ def _extent(build: Build) -> tuple[Array, float]:
 
 def _stuck(drive: Drive, build: Build) -> dict[str, str]:
     """Return that joints do not turn at their bend, where any does not."""
-    own = {"pin_coupling", "clemens", "rzeppa", "weiss"}
-    if not any(joint.kind in own for joint in drive.joints):
+    if not mixed(drive.joints):
         return {}
     numbers = [str(i + 1) for i in turns(drive, build)]
     if not numbers:

@@ -11,21 +11,21 @@ from cardan.drive.body import body_length
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import ConstantVelocity
+from cardan.drive.joints.common.drawn import length_text
 from cardan.drive.models.chain import Chain, given_chain
 from cardan.drive.models.geometry import Geometry, geometry, geometry_from_points
+from cardan.drive.shapes.ring import disc, flange, ring, washer
+from cardan.drive.shapes.support import bearing, bracket, floor_frame, rubber
 from cardan.drive.station import Station
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import placed
 from cardan.texts import _
 
-from .build import Build, Track, length_text
-from .crossed import double_joint, hooke, offset_cross, offset_shaft
-from .even import MAKERS
-from .shaft import disc, flange, ring, shaft_pieces, shaft_stretches, washer
+from .build import Build, Track
+from .shaft import shaft_pieces, shaft_stretches
 from .sizes import bearing_radius, sizes
 from .solids import Arms, arms
-from .support import bearing, bracket, floor_frame, rubber
 
 FRAMES = 120
 """Places of a turn."""
@@ -75,8 +75,7 @@ def assembled(
     for k in range(1, build.count + 2):
         _shaft(build, k)
     for i, joint in enumerate(drive.joints):
-        makers = {"hooke": hooke, "offset_cross": offset_cross, "double_cardan": double_joint, **MAKERS}
-        makers[joint.kind](build, i)
+        joint.solid(build.site(i))
     for number in range(len(drive.supports)):
         _support(build, number)
     for number in range(len(drive.stations)):
@@ -136,12 +135,8 @@ def _shaft_tracks(build: Build) -> None:
     for k in range(1, build.count + 2):
         axis = build.axis(k)
         if k > 1:
-            kind = build.drive.joints[k - 2].kind
-            build.starts[k] = (
-                offset_shaft(build, k - 2)
-                if kind == "offset_cross"
-                else build.along(build.centre(k - 2), axis, build.arms.driven[k - 2])
-            )
+            origin, along = build.drive.joints[k - 2].shaft_behind(build.stance(k - 2))
+            build.starts[k] = build.along(origin, along, build.arms.driven[k - 2])
         if k <= build.count:
             build.ends[k] = build.along(build.centre(k - 1), axis, build.arms.driving[k - 1])
 

@@ -9,18 +9,16 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
+from cardan.drive.joints.common.site import BACK, Side, Site
+from cardan.drive.joints.common.stance import Stance
 from cardan.drive.models.geometry import Geometry
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.maths.kernel.meshes import Surface, joined, placed, quaternions
+from cardan.maths.kernel.meshes import Surface, joined, quaternions
 from cardan.texts import _
-from cardan.units import mm
 
-from .sizes import ROOM, JointSize, Sizes
+from .sizes import ROOM, Sizes
 from .solids import Arms
-
-BACK = np.diag([-1.0, 1.0, -1.0])
-"""Turns a yoke round, so that its hub lies against the power flow."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -180,8 +178,48 @@ class Build:
     def reach(self, i: int, *, driving: bool) -> float:
         """Return from the centre of joint i to the end of a yoke's hub [m]."""
         size = self.sizes.joints[i]
-        more = self.apart[i] if self.drive.joints[i].kind == "double_cardan" else 0.0
+        more = self.drive.joints[i].half_length(self.apart[i])
         return float(min(more + size.reach, self.room(i, driving=driving)))
+
+    def stance(self, i: int) -> Stance:
+        """Return where joint i, from 0, stands over a turn."""
+        return Stance(
+            centre=self.centre(i),
+            before=self.axis(i + 1),
+            after=self.axis(i + 2),
+            normal=self.place.normal[i],
+            bend=float(self.place.bend[i]),
+            driving=self.arms.driving[i],
+            driven=self.arms.driven[i],
+            length=float(self.place.length[i + 1]),
+        )
+
+    def site(self, i: int) -> Site:
+        """Return what the bodies of joint i, from 0, have to fit; its shafts are there already."""
+        return Site(
+            stage=self,
+            number=i + 1,
+            name=name_of(self.drive.joints[i], i),
+            first=i == 0 and self.count > 1,
+            stance=self.stance(i),
+            size=self.sizes.joints[i],
+            apart=self.apart[i],
+            driving=self._side(i, driving=True),
+            driven=self._side(i, driving=False),
+            gravity=self.drive.settings.gravity,
+        )
+
+    def _side(self, i: int, *, driving: bool) -> Side:
+        k = i + 1 if driving else i + 2
+        return Side(
+            driving=driving,
+            number=k,
+            track=self.ends[k] if driving else self.starts[k],
+            turn=BACK if driving else None,
+            reach=self.reach(i, driving=driving),
+            body=self.end_radius(k, driving=driving),
+            thickest=self.body_radius(k),
+        )
 
     @cached_property
     def apart(self) -> tuple[float, ...]:
@@ -204,62 +242,3 @@ def name_of(joint: Joint, i: int) -> str:
     """Return what a joint is called, in words."""
     number = _("joint {number}").format(number=i + 1)
     return f"{number}, {joint.name}" if joint.name else number
-
-
-def length_text(*values: float) -> str:
-    """Return lengths in millimetres as people write them."""
-    return " × ".join(f"{value / mm:.4g}" for value in values)
-
-
-def cross_text(joint: Joint, i: int, size: JointSize) -> str:
-    """Return what to say of a cross."""
-    if size.given:
-        return _("cross of {joint}: span {span} mm, journals {journal} mm").format(
-            joint=name_of(joint, i), span=length_text(2.0 * size.radius), journal=length_text(size.journal)
-        )
-    return _("cross of {joint}; the file gives no span, so its size is in proportion to the shafts").format(
-        joint=name_of(joint, i)
-    )
-
-
-def forks(
-    build: Build,
-    i: int,
-    size: JointSize,
-    *,
-    driving: bool,
-    bore: bool = True,
-    away: float = 0.0,
-    part: str = "",
-    tip: float = 0.0,
-) -> None:
-    """Add a yoke of joint i and its bearing caps.
-
-    It swings ``away`` off the joint centre; ears without bores end at ``tip``, counted toward the hub.
-    """
-    from .yoke import caps, fork
-
-    k = i + 1 if driving else i + 2
-    track = build.ends[k] if driving else build.starts[k]
-    reach = build.reach(i, driving=driving) - away
-    cavity = min(size.cavity, 0.66 * reach)
-    body = build.end_radius(k, driving=driving)
-    made = fork(size.radius, size.ear, size.lug, size.cap if bore else 0.0, cavity, reach, body, tip)
-    turn = BACK if driving else None
-    shift = np.asarray([-away if driving else away, 0.0, 0.0])
-    text = _("driving yoke of shaft {number}") if driving else _("driven yoke of shaft {number}")
-    name = part or ("driving yoke" if driving else "driven yoke")
-    path = f"joints[{i}]"
-    build.add(name, k, path, text.format(number=k), track, placed(made, turn, shift), role=f"shaft {k}")
-    if bore:
-        cap = placed(caps(size.radius, size.ear, size.cap), turn, shift)
-        build.add(
-            "bearing cap",
-            i + 1,
-            path,
-            _("bearings of joint {number}").format(number=i + 1),
-            track,
-            cap,
-            role="cross",
-            shade=0.35,
-        )

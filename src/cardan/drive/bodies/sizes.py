@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cardan.drive.drive import Drive
-from cardan.drive.joints import Joint
+from cardan.drive.joints.common.site import JointSize
 from cardan.drive.models.geometry import Geometry
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
@@ -20,52 +20,6 @@ ROOM = 0.46
 
 SHOWN = 4.0
 """How much of an end shaft is drawn behind its yoke, in radii of the joint, where nothing stands farther out."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class JointSize:
-    """Sizes of a joint [m].
-
-    Attributes
-    ----------
-    radius : float
-        From the joint centre to the middle of a bearing.
-    ear : float
-        Thickness of the ears of a yoke, along the journals.
-    journal : float
-        Diameter of the journals.
-    cap : float
-        Outer radius of a bearing cap.
-    lug : float
-        Outer radius of an ear.
-    cavity : float
-        From the joint centre to the bottom between the ears.
-    given : bool
-        Whether the file says how large the joint is.
-    """
-
-    radius: float
-    ear: float
-    journal: float
-    cap: float
-    lug: float
-    cavity: float
-    given: bool
-
-    @property
-    def base(self) -> float:
-        """From the joint centre to where the hub of a yoke begins [m]."""
-        return self.cavity + 0.4 * self.radius
-
-    @property
-    def reach(self) -> float:
-        """From the joint centre to the end of a yoke's hub [m]."""
-        return self.base + 0.35 * self.radius
-
-    @property
-    def outer(self) -> float:
-        """Radius that the joint needs when it turns straight [m]."""
-        return self.radius + 0.5 * self.ear + 0.04 * self.radius
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -137,23 +91,9 @@ def thickest(shaft: Shaft) -> float | None:
     return 0.5 * max(one.outer for one in shaft.segments) if shaft.segments else None
 
 
-def span_of(joint: Joint) -> float | None:
-    """Return the distance of the middles of opposite bearings of a joint [m], None where the file does not say."""
-    if joint.cross is not None and joint.cross.span is not None:
-        return joint.cross.span
-    outer = joint.rating.outer if joint.rating is not None else None
-    if outer is not None:
-        return 0.78 * outer
-    for name, share in (("groove_radius", 2.3), ("track_radius", 2.4)):
-        value = getattr(joint, name, None)
-        if value is not None:
-            return share * float(value)
-    return None
-
-
 def _usual(drive: Drive, lengths: Sequence[float]) -> float:
     """Return the radius of a joint whose size the file does not say [m]."""
-    given = [0.5 * span for span in map(span_of, drive.joints) if span is not None]
+    given = [0.5 * span for joint in drive.joints if (span := joint.span) is not None]
     tubes = [1.02 * radius for radius in map(thickest, drive.shafts[1:-1]) if radius is not None]
     between = lengths[1:-1]
     if between:
@@ -170,7 +110,7 @@ def _usual(drive: Drive, lengths: Sequence[float]) -> float:
 
 def _joint(drive: Drive, i: int, usual: float, bend: float) -> JointSize:
     joint = drive.joints[i]
-    span = span_of(joint)
+    span = joint.span
     radius = usual if span is None else 0.5 * span
     cross, needles = joint.cross, joint.needles
     journal = cross.journal if cross is not None and cross.journal is not None else 0.52 * radius

@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.joints import Hooke, Joint
+from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, given_chain
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.maths.arrays import Array, ArrayLike
@@ -79,7 +79,7 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence
     start = np.asarray(angle, dtype=float) + train.start_phase
     driving, driven = [frames.rotate(first, axis[0], start)], []
     for i in range(train.joints):
-        if joints and type(joints[i]) is not Hooke:
+        if joints and not joints[i].single_cross:
             driven.append(_driven_mark(joints[i], place, i, driving[-1], np.asarray(train.bend)[i]))
         else:
             driven.append(frames.unit(frames.cross(axis[i + 1], driving[-1])))

@@ -12,14 +12,14 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
-from cardan.drive.joints import JOINTS, Joint
+from cardan.drive.joints import DEFAULT, JOINTS, Joint
 from cardan.drive.machine import LAWS, MachineTorque
 from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Movement
 from cardan.units import DIMENSIONS, KEY, Key, preferred
 
 KINDS: dict[type, tuple[Mapping[str, type], str | None]] = {
-    Joint: (JOINTS, "hooke"),
+    Joint: (JOINTS, DEFAULT),
     Movement: (MOVEMENTS, None),
     MachineTorque: (LAWS, None),
 }

@@ -6,13 +6,10 @@ from collections.abc import Iterator
 from dataclasses import is_dataclass
 from typing import Any
 
-from cardan.drive.joints import Joint
-from cardan.drive.machine import MachineTorque
-from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.units import DIMENSIONS
 
-from .keys import NAMED, Field, exact_in_unit, fields_of, in_unit
+from .keys import KINDS, NAMED, Field, exact_in_unit, fields_of, in_unit
 
 
 def tree_of(thing: Any) -> dict[str, Any]:
@@ -38,7 +35,9 @@ def written(value: float, dimension: str) -> tuple[str, float]:
 
 def _table(thing: Any) -> dict[str, Any]:
     table: dict[str, Any] = {}
-    if isinstance(thing, Movement | MachineTorque) or (isinstance(thing, Joint) and thing.kind != "hooke"):
+    if any(
+        isinstance(thing, base) and type(thing) is not kinds.get(usual or "") for base, (kinds, usual) in KINDS.items()
+    ):
         table["kind"] = thing.kind
     for one in fields_of(type(thing)).values():
         value = getattr(thing, one.name)

@@ -1,4 +1,4 @@
-"""Kinds of joints: one file each, and its name in `JOINTS`."""
+"""Kinds of joints: one file each, and its name in `JOINTS`. What a kind says stands in `joint`."""
 
 from .clemens import Clemens, Profile
 from .constant_velocity import ConstantVelocity
@@ -13,26 +13,41 @@ from .tracta import Tracta
 from .tripod import Tripod
 from .weiss import Weiss
 
-JOINTS: dict[str, type[Joint]] = {
-    kind.kind: kind
-    for kind in (
-        Hooke,
-        OffsetCross,
-        DoubleCardan,
-        ConstantVelocity,
-        Tracta,
-        Rzeppa,
-        Weiss,
-        Tripod,
-        HalfCardan,
-        ElasticHalfCardan,
-        PinCoupling,
-        Clemens,
-    )
-}
+JOINTS: dict[str, type[Joint]] = {}
 """Value of the file key ``kind`` -> class."""
 
+DEFAULT = Hooke.kind
+"""Kind of a joint whose file does not name it."""
+
+
+def register(*kinds: type[Joint]) -> None:
+    """Make kinds of joints known to files, commands and pages by the value of their key ``kind``.
+
+    Parameters
+    ----------
+    *kinds : type of Joint
+        Classes; one of a name that is there takes its place.
+    """
+    JOINTS.update({kind.kind: kind for kind in kinds})
+
+
+register(
+    Hooke,
+    OffsetCross,
+    DoubleCardan,
+    ConstantVelocity,
+    Tracta,
+    Rzeppa,
+    Weiss,
+    Tripod,
+    HalfCardan,
+    ElasticHalfCardan,
+    PinCoupling,
+    Clemens,
+)
+
 __all__ = [
+    "DEFAULT",
     "JOINTS",
     "Clemens",
     "ConstantVelocity",
@@ -48,4 +63,5 @@ __all__ = [
     "Tracta",
     "Tripod",
     "Weiss",
+    "register",
 ]

@@ -7,8 +7,9 @@ from typing import ClassVar
 
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
+from cardan.texts import mark
 
-from .joint import CROSS_ONLY, Joint
+from .joint import Joint
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -16,8 +17,9 @@ class ConstantVelocity(Joint):
     """Ideal constant-velocity joint: the driven shaft turns as evenly as the driving one."""
 
     kind: ClassVar[str] = "constant_velocity"
+    title: ClassVar[str] = mark("constant velocity")
+    types: ClassVar[tuple[str, ...]] = ("block_double_disc",)
     fixed: ClassVar[bool] = True
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
 
     def pair(self, bend: Array) -> mobius.Pair:
         """Return the identity."""

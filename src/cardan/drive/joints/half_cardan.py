@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from cardan.drive.shapes.ring import ring
+from cardan.drive.shapes.yoke import ACROSS, bolt_ring
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import mobius
+from cardan.maths.kernel.meshes import Surface, joined, placed, plate, revolved, toothed
+from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .joint import CROSS_ONLY, Joint
+from .common.drawn import about
+from .common.inner import InnerPair, touching
+from .common.inside import Inside
+from .common.site import Site
+from .common.stance import Stance
+from .joint import REFUSALS, Joint
+from .laws import half_cardan as law
 from .laws import shared_turn
 
 
@@ -19,8 +32,18 @@ class HalfCardan(Joint):
     """Rigid half-cardan, a square bell or a gear: the pair of faces that carries turns as a Hooke joint."""
 
     kind: ClassVar[str] = "half_cardan"
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
+    title: ClassVar[str] = mark("half-cardan")
+    types: ClassVar[tuple[str, ...]] = (
+        "half_bell",
+        "half_gear",
+        "gear_crowned_modern",
+    )
     crossed: ClassVar[bool] = True
+    slides: ClassVar[bool] = True
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "forces": mark("its faces slide, so that its bearings hold its shafts and take forces besides the couple"),
+    }
     steepest: ClassVar[float] = math.radians(5.0)
 
     pairs: int = plain(2, doc="pairs of opposite faces or teeth; between two of them there must be play", low=1)
@@ -29,14 +52,64 @@ class HalfCardan(Joint):
         """Return the map of one pair of faces, that of a Hooke joint."""
         return mobius.hooke(bend)
 
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield the play that it needs."""
+        text = _("play that its pairs of faces need to turn at this bend")
+        yield Inside(key="play", meaning=text, value=float(law.play(bend, self.pairs)))
+
+    def solid(self, site: Site) -> None:
+        """Add its toothed head and the sleeve round it."""
+        one, two = site.sides
+        corners = 2 * self.pairs
+        head = 0.72 * site.size.radius
+        if corners <= 8:
+            step = np.pi / corners
+            turn = np.repeat(np.arange(corners) * (2.0 * np.pi / corners), 2) + np.tile((-0.3, 0.3), corners) * step
+            flat = head * np.stack((np.cos(turn), np.sin(turn)), axis=-1)
+        else:
+            flat = toothed(0.9 * head, head, min(corners, 48))
+        block = placed(plate(flat, -0.42 * head, 0.42 * head, bevel=0.08 * head), ACROSS)
+        stem = 0.55 * head
+        neck = revolved(
+            [(0.0, 0.0), (0.0, stem), (0.75 * one.reach, stem), (one.reach, one.body), (one.reach, 0.0)], 24
+        )
+        site.add_to(one, "driving yoke", site.said(_("head of {joint}")), joined(block, neck))
+        hole = 1.04 * flat
+        outline = 1.34 * head * hole / np.linalg.norm(hole, axis=-1, keepdims=True)
+        bell = placed(plate(outline, -0.5 * head, 0.75 * head, hole), ACROSS)
+        floor = 0.7 * head
+        end = max(two.reach, floor + 0.6 * head)
+        hub = revolved(
+            [(floor, 0.0), (floor, 1.34 * head), (floor + 0.3 * head, 1.3 * head), (floor + 0.5 * head, two.body),
+             (end, two.body), (end, 0.0)], 32,
+        )  # fmt: skip
+        site.add_to(two, "driven yoke", site.said(_("sleeve of {joint}")), joined(bell, hub))
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ElasticHalfCardan(Joint):
     """Elastic half-cardan, of rubber or with a disc: even in the mean of its links, and soft against turning."""
 
     kind: ClassVar[str] = "elastic_half_cardan"
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
+    title: ClassVar[str] = mark("elastic half-cardan")
+    types: ClassVar[tuple[str, ...]] = (
+        "el_disc",
+        "el_link",
+        "el_bush",
+        "el_hexagon",
+        "el_tyre_split",
+        "el_tyre_solid",
+        "el_petal3",
+        "el_petal8",
+        "el_circular_teeth",
+        "el_balls",
+        "disc_pack_modern",
+    )
     steepest: ClassVar[float] = math.radians(10.0)
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "forces": mark("its links give way, so that what it puts on its shafts follows from their stiffness"),
+    }
 
     pairs: int | None = plain(
         None, doc="pairs of opposite links that share the torque; without it the joint counts as even", low=2
@@ -54,3 +127,49 @@ class ElasticHalfCardan(Joint):
             return mobius.course(mobius.turn(0.0 * bend), unit_complex(2.0 * angle))
         tau = mobius.tau(mobius.hooke(bend))
         return shared_turn.course(angle, tau, self.pairs)
+
+    @property
+    def twist_spring(self) -> tuple[float, float] | None:
+        """Its stiffness and damping against turning, where its stiffness is given."""
+        return None if self.stiffness is None else (self.stiffness, self.damping)
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield how its links are strained."""
+        if self.pairs is not None:
+            text = _("angle by which its links are strained against each other")
+            yield Inside(key="strain", meaning=text, value=float(law.play(bend, self.pairs)))
+
+    def inner(self, stance: Stance) -> Iterator[InnerPair]:
+        """Yield a contact: its links give way to all but the torque."""
+        return touching(stance)
+
+    def solid(self, site: Site) -> None:
+        """Add its two arms and the disc between them."""
+        stance = site.stance
+        count = 3 if self.pairs is None else self.pairs
+        far, thick = 0.95 * site.size.radius, 0.34 * site.size.radius
+        low = 0.62 * thick
+        for side in site.sides:
+            end = max(side.reach, low + thick)
+            hub = revolved(
+                [(low, 0.0), (low, 0.4 * far), (low + 0.5 * thick, 0.42 * far), (low + 0.8 * thick, 0.36 * far),
+                 (end, side.body), (end, 0.0)], 24,
+            )  # fmt: skip
+            offset = 0.0 if side.driving else np.pi / count
+            arms = [about(_flange_arm(far, low, 0.42 * thick), offset + j * 2.0 * np.pi / count) for j in range(count)]
+            site.add_to(side, side.yoke, site.said(_("flange of {joint}")), joined(hub, *arms))
+        own = site.along(stance.centre, stance.middle, stance.halving(stance.theta))
+        shape = ring(0.52 * far, 1.22 * far, 1.1 * thick, 40)
+        heads = bolt_ring(2 * count, 0.88 * far, 0.11 * far, -0.66 * thick, 0.66 * thick)
+        text = site.said(_("elastic disc of {joint}"))
+        site.add("disc", text, own, shape, role="ink", metal=False)
+        site.add("disc", text, own, heads, shade=0.3)
+
+
+def _flange_arm(far: float, low: float, thick: float) -> Surface:
+    """Return one arm of a flange along y, its eye at a distance."""
+    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
+    eye = 0.2 * far
+    tip = np.stack((0.88 * far + eye * np.cos(turn), eye * np.sin(turn)), axis=-1)
+    outline = np.concatenate((tip, [(0.0, 0.3 * far), (0.0, -0.3 * far)]))
+    return placed(plate(outline, low, low + thick, bevel=0.12 * thick), ACROSS)

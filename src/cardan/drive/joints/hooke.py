@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
+from cardan.texts import mark
 
 from .joint import Joint
 
@@ -16,8 +18,24 @@ class Hooke(Joint):
     """Universal joint of Hooke: two yokes held at right angles by a cross."""
 
     kind: ClassVar[str] = "hooke"
+    title: ClassVar[str] = mark("Hooke")
+    beside: ClassVar[str] = "double_cardan"
+    types: ClassVar[tuple[str, ...]] = (
+        "light",
+        "medium",
+        "heavy",
+        "super_heavy",
+        "rubber_bush_cross",
+        "hooke_bolt_cross",
+        "instrument_ring_tip",
+        "instrument_ball_disc",
+        "mill_rolling",
+    )
+    foreign: ClassVar[frozenset[str]] = frozenset()
     fixed: ClassVar[bool] = True
     crossed: ClassVar[bool] = True
+    single_cross: ClassVar[bool] = True
+    refusals: ClassVar[Mapping[str, str]] = {}
 
     def pair(self, bend: Array) -> mobius.Pair:
         """Return the joint's Möbius map, see `cardan.maths.kernel.mobius`."""

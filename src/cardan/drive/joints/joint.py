@@ -1,10 +1,38 @@
-"""What every kind of joint has: a place in the drive, and a law of motion."""
+"""What a kind of joint is: the protocol that everything outside of this folder asks, never the type of a joint.
+
+A kind is one file with one class. Its fields and its law must stand there; all else has a default that fits most:
+
+===================  ==============================================================================================
+what                 by default
+===================  ==============================================================================================
+``kind``             none: the value of the file key
+fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
+``pair``             None: its law is no Möbius map
+``deviation``        what follows from ``pair``; a kind without a map gives it
+``title``            ``kind`` with blanks
+``steepest``         45°, the bend above which no real joint of the kind works
+``slides``           no: its shafts cannot slide along each other
+``crossed``          no: its marks lie on one line when it is straight
+``single_cross``     no: what holds for the cross of a Hooke joint alone does not hold for it
+``fixed``            no: it may pass on forces besides a couple
+``twist_spring``     none: it does not give under torque
+``inside``           nothing else moves in it
+``inner``            pins of a cross, a slide or two axes in the bisecting plane, as the marks above say
+``shaft_behind``     the driven shaft turns about its axis and does not wobble
+``solid``            yokes with a cross, else a bell with balls
+``span``             from its cross or its rating
+``types``            no rows of the catalogue
+``refusals``         a sentence for each question that needs more than the kind gives, `REFUSALS`
+``own_problems``     nothing contradicts itself
+===================  ==============================================================================================
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from types import MappingProxyType
 from typing import ClassVar, TypeAlias
 
 import numpy as np
@@ -16,8 +44,13 @@ from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.errors import Problem
 from cardan.maths.arrays import Array, unit_complex
 from cardan.maths.kernel import mobius
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import plain, quantity
+
+from .common import drawn, inner
+from .common.inside import Inside
+from .common.site import Site
+from .common.stance import Stance
 
 Point: TypeAlias = tuple[float, float, float]
 Box: TypeAlias = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
@@ -32,6 +65,22 @@ PLACES = 360
 """Places in a turn at which a law is looked at for its second order."""
 
 
+REFUSALS: Mapping[str, str] = MappingProxyType(
+    {
+        "articulation": mark("while its joint angle changes, only cross joints and exactly even ones are followed"),
+        "forces": mark("it does not hold both shafts at its centre, so that they take forces besides its couple"),
+        "moving forces": mark("while its joint angle changes, only the couple of a cross is known"),
+        "assembly": mark("how it gives way to a misfit is known of the pins of a cross only"),
+        "losses": mark("what rubs in it is not the journals of a cross"),
+        "accuracy": mark("its errors are not those of a cross and its yokes"),
+        "life": mark("it has no needle bearings on a cross"),
+        "sizing": mark("the rows of the catalogue are of cross joints"),
+        "cross": mark("only the law of a cross joint is taken here"),
+    }
+)
+"""Question -> why a joint that is no cross joint does not answer it, marked for translation."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Joint:
     """A joint and its place, in one of three forms: its centre, or its bend and plane, or neither (slopes).
@@ -42,17 +91,38 @@ class Joint:
 
     kind: ClassVar[str]
 
-    foreign: ClassVar[frozenset[str]] = frozenset()
+    title: ClassVar[str] = ""
+    """What the kind is called in words, marked for translation."""
+
+    beside: ClassVar[str] = "hooke"
+    """Kind that is worth comparing with."""
+
+    types: ClassVar[tuple[str, ...]] = ()
+    """Rows of the catalogue's types of joints that turn by its law."""
+
+    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     """Fields of every joint that mean nothing in one of this kind."""
 
     crossed: ClassVar[bool] = False
     """Whether its marks are the arms of one cross, a quarter turn apart; else they lie on one line when straight."""
 
+    single_cross: ClassVar[bool] = False
+    """Whether it is one cross whose arms meet, as Hooke's: all other joints are told by such a one that turns alike."""
+
     fixed: ClassVar[bool] = False
-    """Whether it holds both shafts at its centre and passes on one couple, so that forces follow from statics."""
+    """Whether it holds both shafts at its centre and passes on one couple, so that forces follow from statics.
+
+    The couple follows from the law: it works on no motion that the joint allows.
+    """
+
+    slides: ClassVar[bool] = False
+    """Whether it lets its shafts slide along each other."""
 
     steepest: ClassVar[float] = math.pi / 4
     """Bend [rad] above which no real joint of this kind works."""
+
+    refusals: ClassVar[Mapping[str, str]] = REFUSALS
+    """Question -> why this kind does not answer it, marked for translation."""
 
     name: str = plain("", doc="name of the joint, for tables and pictures")
     type: str = plain("", doc="type of joint in the catalogue, with its limits")
@@ -93,7 +163,7 @@ class Joint:
 
     def pair(self, bend: Array) -> mobius.Pair | None:
         """Return the joint's Möbius map, with real parts, for bends (...) [rad]; None where it has none."""
-        raise NotImplementedError
+        return None
 
     def near_pair(self, bend: Array) -> mobius.Pair:
         """Return the joint's Möbius map, or the one with the second order of its law: for loads, not for motion."""
@@ -123,8 +193,88 @@ class Joint:
             T(θ) - θ, T' and T'', T the angle of the driven mark, less a quarter turn where the joint has a cross.
         """
         pair = self.pair(bend)
-        assert pair is not None, self.kind
+        if pair is None:
+            raise NotImplementedError(self.kind)  # a kind without a map has its own
         return mobius.course(pair, unit_complex(2.0 * angle))
+
+    @property
+    def has_map(self) -> bool:
+        """Whether it turns by tan θ' = κ tan θ, as a Hooke joint of some bend does."""
+        return self.pair(np.asarray(0.1)) is not None
+
+    @property
+    def even(self) -> bool:
+        """Whether it turns its driven shaft as its driving one, at every bend."""
+        pair = self.pair(np.asarray(0.1))
+        return pair is not None and bool(abs(pair[1]) == 0.0)
+
+    @property
+    def twist_spring(self) -> tuple[float, float] | None:
+        """Its stiffness and damping against turning [N·m/rad, N·m·s/rad]; None where it does not give."""
+        return None
+
+    @classmethod
+    def own_fields(cls) -> frozenset[str]:
+        """Return the names of the fields that joints of other kinds do not have."""
+        return frozenset(one.name for one in fields(cls)) - {one.name for one in fields(Joint)}
+
+    def refusal(self, question: str) -> str:
+        """Return in a sentence why it does not answer a question, "" where it does.
+
+        Parameters
+        ----------
+        question : str
+            A key of `REFUSALS`.
+        """
+        if (question == "forces" and self.fixed) or (question == "articulation" and self.even):
+            return ""
+        return _(self.refusals.get(question, ""))
+
+    @classmethod
+    def in_words(cls) -> str:
+        """Return what the kind is called."""
+        return _(cls.title) if cls.title else cls.kind.replace("_", " ")
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield what else moves in it at a bend [rad], as far as its sizes are given."""
+        yield from ()
+
+    def inner(self, stance: Stance) -> Iterator[inner.InnerPair]:
+        """Yield the pairs between its shafts, of its inner mechanism or of what holds and frees as much."""
+        if self.slides:
+            yield from inner.sliding(stance)
+        elif self.crossed:
+            yield from inner.crossed(stance, slides=self.cross.slides if self.cross else False)
+        else:
+            yield from inner.bending(stance)
+
+    def shaft_behind(self, stance: Stance) -> tuple[Array, Array]:
+        """Return a point of the driven shaft [m] and its direction, as it moves: arrays (..., 3)."""
+        return stance.centre, stance.after
+
+    def half_length(self, apart: float) -> float:
+        """Return how far its yokes swing off its centre [m], ``apart`` where it has two crosses that stand so."""
+        return 0.0
+
+    @property
+    def span(self) -> float | None:
+        """Distance of the middles of its opposite bearings [m], None where the file does not say."""
+        if self.cross is not None and self.cross.span is not None:
+            return self.cross.span
+        outer = self.rating.outer if self.rating is not None else None
+        return self.own_span if outer is None else 0.78 * outer
+
+    @property
+    def own_span(self) -> float | None:
+        """The same by the sizes of its kind."""
+        return None
+
+    def solid(self, site: Site) -> None:
+        """Add its bodies."""
+        if self.crossed:
+            drawn.yokes_and_cross(site)
+        else:
+            drawn.bell_and_balls(site)
 
     def own_problems(self) -> Iterator[Problem]:
         """Yield what contradicts itself in the fields of this kind, each path from the joint on."""

@@ -10,12 +10,15 @@ from typing import ClassVar
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
-from .joint import CROSS_ONLY, Joint, both_or_none
+from .common import drawn
+from .common.inside import Inside
+from .common.site import Site
+from .joint import Joint, both_or_none
 from .laws import dividing_lever, shared_turn, tilted_plane
-from .weiss import groove_course
+from .weiss import ball_places, balls_inside, groove_course, groove_inside
 
 LEVER = ("lever_b", "lever_c")
 GROOVES = ("driving_offset", "driven_offset", "groove_radius")
@@ -26,8 +29,14 @@ class Rzeppa(Joint):
     """Rzeppa joint: even where its balls lie in the bisecting plane, nearly even where lever or grooves miss it."""
 
     kind: ClassVar[str] = "rzeppa"
+    title: ClassVar[str] = mark("Rzeppa")
+    types: ClassVar[tuple[str, ...]] = (
+        "rzeppa_lever",
+        "rzeppa_offset",
+        "rzeppa_fixed_modern",
+        "plunging_ball_modern",
+    )
     fixed: ClassVar[bool] = True
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(47.0)
 
     balls: int = plain(6, doc="number of balls, all of which carry", low=3)
@@ -61,3 +70,20 @@ class Rzeppa(Joint):
             tilt = dividing_lever.plane_error(bend, self.lever_b, self.lever_c)
             return shared_turn.course(angle, tilted_plane.tau(bend, tilt), shared_turn.places(self.balls))
         return groove_course(angle, bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield what its balls do beside turning."""
+        if self.lever_b is not None and self.lever_c is not None:
+            tilt = float(dividing_lever.plane_error(bend, self.lever_b, self.lever_c))
+            yield from balls_inside(tilt, tilted_plane.deviation(ball_places(self.balls), bend, tilt))
+        else:
+            yield from groove_inside(bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    @property
+    def own_span(self) -> float | None:
+        """Distance of opposite balls, with their grooves [m]."""
+        return 2.3 * self.groove_radius if self.groove_radius is not None else None
+
+    def solid(self, site: Site) -> None:
+        """Add bell, inner race, cage and balls."""
+        drawn.bell_and_balls(site, count=self.balls, groove=self.groove_radius)

@@ -7,13 +7,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from cardan.drive.shapes.yoke import ACROSS
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
+from cardan.maths.kernel.meshes import ball, circle, placed, plate
+from cardan.texts import _, mark
 from cardan.units import quantity
 
-from .joint import CROSS_ONLY, Joint, both_or_none
-from .laws import tracta
+from .common import drawn
+from .common.inside import Inside, missed
+from .common.site import Site
+from .joint import Joint, both_or_none
+from .laws import tracta as law
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -21,8 +27,9 @@ class Tracta(Joint):
     """Tracta joint: two forks and a grooved tongue between them; even where both forks are alike."""
 
     kind: ClassVar[str] = "tracta"
+    title: ClassVar[str] = mark("Tracta")
+    types: ClassVar[tuple[str, ...]] = ("tracta",)
     fixed: ClassVar[bool] = True
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(50.0)
 
     driving_distance: float | None = quantity(
@@ -40,4 +47,22 @@ class Tracta(Joint):
         """Return the map of the joint, the identity where both distances are equal."""
         if self.driving_distance is None or self.driven_distance is None:
             return mobius.turn(0.0 * bend)
-        return tracta.pair(bend, self.driving_distance, self.driven_distance)
+        return law.pair(bend, self.driving_distance, self.driven_distance)
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield how far its tongue misses the plane that halves the bend."""
+        if self.driving_distance is not None and self.driven_distance is not None:
+            yield missed(float(law.tilt(bend, self.driving_distance, self.driven_distance)))
+
+    def solid(self, site: Site) -> None:
+        """Add its two forks and the slotted halves between them."""
+        size, stance = site.size, site.stance
+        tip = -0.3 * size.radius
+        drawn.yoke(site, site.driving, size, bore=False, tip=tip)
+        drawn.yoke(site, site.driven, size, bore=False, tip=tip, quarter=True)
+        own = site.along(stance.centre, stance.middle, stance.halving(stance.theta))
+        inner = 0.96 * (size.radius - 0.5 * size.ear)
+        halves = (placed(ball(inner, 22, 0.06, 1.0), None), placed(ball(inner, 22, -1.0, -0.06), None))
+        tongue = plate(circle(0.86 * inner, 24), -0.3 * inner, 0.3 * inner)
+        text = site.said(_("tongue of {joint}, in the bisecting plane"))
+        site.add("tongue", text, own, *halves, placed(tongue, ACROSS), shade=0.2)

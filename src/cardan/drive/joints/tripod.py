@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from cardan.drive.shapes.yoke import ACROSS
 from cardan.maths.arrays import Array
-from cardan.maths.kernel import mobius
+from cardan.maths.kernel import frames, mobius
+from cardan.maths.kernel.meshes import Surface, ball, joined, placed, plate, revolved
+from cardan.texts import _, mark
 from cardan.units import quantity
 
-from .joint import CROSS_ONLY, Joint
+from .common.drawn import about
+from .common.inside import Inside
+from .common.site import Side, Site
+from .joint import REFUSALS, Joint
+from .laws import tripod as law
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -18,7 +28,13 @@ class Tripod(Joint):
     """Tripod joint: three rollers in straight tracks; even, while its spider runs round a circle thrice a turn."""
 
     kind: ClassVar[str] = "tripod"
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
+    title: ClassVar[str] = mark("tripod")
+    types: ClassVar[tuple[str, ...]] = ("tripod_plunging",)
+    slides: ClassVar[bool] = True
+    refusals: ClassVar[Mapping[str, str]] = {
+        **REFUSALS,
+        "forces": mark("its spider runs round a circle, so that its shafts take forces besides the couple"),
+    }
     steepest: ClassVar[float] = math.radians(26.0)
 
     track_radius: float | None = quantity(
@@ -28,3 +44,67 @@ class Tripod(Joint):
     def pair(self, bend: Array) -> mobius.Pair:
         """Return the identity, exact while the spider's shaft keeps its direction."""
         return mobius.turn(0.0 * bend)
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield the circle of its spider."""
+        if self.track_radius is not None:
+            text = _("radius of the circle that the spider runs round three times a turn")
+            value = float(law.orbit_radius(bend, self.track_radius))
+            yield Inside(key="orbit", meaning=text, value=value, dimension="length")
+
+    @property
+    def own_span(self) -> float | None:
+        """Distance of opposite tracks, with their rollers [m]."""
+        return 2.4 * self.track_radius if self.track_radius is not None else None
+
+    def solid(self, site: Site) -> None:
+        """Add housing, spider and rollers; its spider runs round three times a turn."""
+        stance, (one, two) = site.stance, site.sides
+        track = self.track_radius or 0.8 * site.size.radius
+        bend, theta, b = stance.bend, stance.theta, stance.after
+        site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, bend))
+        x, y = (np.asarray(part) for part in law.spider_centre(theta, bend, track))
+        centre = stance.centre + x[:, None] * frames.cross(stance.normal, b) + y[:, None] * stance.normal
+        arm = stance.driven
+        own = site.along(centre, b, arm)
+        text = site.said(_("spider of {joint}"))
+        site.stage.add("spider", two.number, site.path, text, own, _spider(track, bend), role=two.role)
+        thin = 0.34 * track
+        stub = revolved([(0.1 * track, 0.0), (0.1 * track, thin), (two.reach, thin), (two.reach, 0.0)], 20)
+        site.add_to(two, "driven yoke", text, stub)
+        roller = placed(ball(0.36 * track, 18, -0.62, 0.62))
+        for j in range(3):
+            angle = j * 2.0 * np.pi / 3.0
+            way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(len(arm), angle))
+            far = np.asarray(law.roller_reach(theta + angle, bend, track))
+            moved = site.along(centre + far[:, None] * way, way, frames.cross(np.broadcast_to(b, way.shape), way))
+            site.add("roller", site.said(_("roller of {joint}")), moved, roller, shade=0.5)
+
+
+def _tulip(track: float, side: Side, bend: float) -> Surface:
+    """Return the housing of a tripod joint: three lobes round the tracks, open toward the spider."""
+    turn = np.arange(60) * (2.0 * np.pi / 60)
+    off = np.abs((turn + np.pi / 3.0) % (2.0 * np.pi / 3.0) - np.pi / 3.0)
+    roller, thick = 0.4 * track, 0.2 * track
+    inside = np.sqrt(np.maximum(roller**2 - (track * np.sin(off)) ** 2, 0.0)) + track * np.cos(off)
+    hole = np.where(track * np.sin(off) < 0.96 * roller, inside, 0.78 * track)
+    outer = np.maximum(hole + thick, 1.12 * track)
+    way = np.stack((np.cos(turn), np.sin(turn)), axis=-1)
+    mouth = -(0.08 * track + track * np.tan(bend))
+    floor = max(0.55 * track + 1.1 * track * np.tan(bend), 0.7 * track)
+    shell = placed(plate(outer[:, None] * way, mouth, floor, hole[:, None] * way, 0.06 * track), ACROSS)
+    lid = placed(plate(outer[:, None] * way, floor - 0.1 * track, floor + 0.3 * track, bevel=0.08 * track), ACROSS)
+    reach, body = max(side.reach, floor + 0.5 * track), side.body
+    low = floor + 0.2 * track
+    hub = revolved([(low, 0.0), (low, 0.8 * track), (low + 0.2 * track, body), (reach, body), (reach, 0.0)], 28)
+    return joined(shell, lid, hub)
+
+
+def _spider(track: float, bend: float) -> Surface:
+    hub = revolved(
+        [(-0.3 * track, 0.0), (-0.3 * track, 0.44 * track), (0.3 * track, 0.44 * track), (0.3 * track, 0.0)], 22
+    )
+    far = (1.0 + 2.0 * (1.0 / np.cos(bend) - 1.0)) * 1.24 * track
+    arm = revolved([(0.0, 0.0), (0.0, 0.22 * track), (far, 0.22 * track), (far, 0.0)], 14)
+    arms = [about(placed(arm, np.roll(np.eye(3), -1, axis=0)), j * 2.0 * np.pi / 3.0) for j in range(3)]
+    return joined(hub, *arms)

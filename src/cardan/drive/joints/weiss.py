@@ -12,9 +12,14 @@ import numpy as np
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
-from cardan.units import plain, quantity
+from cardan.maths.kernel.meshes import ball, placed
+from cardan.texts import _, mark
+from cardan.units import deg, plain, quantity
 
-from .joint import CROSS_ONLY, Joint, both_or_none
+from .common import drawn
+from .common.inside import Inside, missed
+from .common.site import Site
+from .joint import Joint, both_or_none
 from .laws import offset_grooves, smooth_law
 
 
@@ -45,13 +50,46 @@ def groove_course(
     return smooth_law.course(angle, lead)
 
 
+def balls_inside(tilt: float, leads: Array) -> Iterator[Inside]:
+    """Yield by how much the plane of the balls misses the middle, and what they ask for among themselves.
+
+    Parameters
+    ----------
+    tilt : float [rad]
+    leads : array (p, k) [rad]
+        What each of k balls asks for, over a turn.
+    """
+    yield missed(tilt)
+    text = _("play that its balls need, or strain between them")
+    yield Inside(key="ball_spread", meaning=text, value=float(np.max(np.ptp(leads, axis=-1))))
+
+
+def groove_inside(
+    bend: float, first: float | None, second: float | None, radius: float | None, balls: int
+) -> Iterator[Inside]:
+    """Yield what balls in offset grooves do beside turning; nothing where the grooves are not given."""
+    if first is None or second is None or radius is None:
+        return
+    leads = offset_grooves.deviation(ball_places(balls), bend, first, second, radius)
+    yield from balls_inside(float(offset_grooves.plane_tilt(bend, first, second)), leads)
+
+
+def ball_places(balls: int) -> Array:
+    """Return the angles of balls over a turn, array (360, k) [rad]."""
+    return np.arange(360)[:, None] * deg + np.arange(balls) * (2.0 * np.pi / balls)
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Weiss(Joint):
     """Weiss joint: balls where curved grooves cross; even where the grooves of both shafts are offset alike."""
 
     kind: ClassVar[str] = "weiss"
+    title: ClassVar[str] = mark("Weiss")
+    types: ClassVar[tuple[str, ...]] = (
+        "weiss_curved",
+        "weiss_straight",
+    )
     fixed: ClassVar[bool] = True
-    foreign: ClassVar[frozenset[str]] = CROSS_ONLY
     steepest: ClassVar[float] = math.radians(40.0)
 
     balls: int = plain(2, doc="number of balls that carry in one sense of turning", low=1)
@@ -74,3 +112,27 @@ class Weiss(Joint):
     def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
         """Return the mean of what the carrying balls ask for."""
         return groove_course(angle, bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    def inside(self, bend: float) -> Iterator[Inside]:
+        """Yield what its balls do beside turning."""
+        yield from groove_inside(bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+
+    @property
+    def own_span(self) -> float | None:
+        """Distance of opposite balls, with their grooves [m]."""
+        return 2.3 * self.groove_radius if self.groove_radius is not None else None
+
+    def solid(self, site: Site) -> None:
+        """Add its two claws and the balls where their grooves cross."""
+        size, stance = site.size, site.stance
+        tip = -0.5 * size.radius
+        drawn.yoke(site, site.driving, size, bore=False, tip=tip)
+        drawn.yoke(site, site.driven, size, bore=False, tip=tip, quarter=True)
+        groove = self.groove_radius or 0.72 * size.radius
+        theta, said = stance.theta, site.said(_("ball of {joint}"))
+        for j in range(4):
+            own = drawn.across_halving(site, theta + (j + 0.5) * 0.5 * np.pi)
+            shape = placed(ball(0.32 * groove, 18), None, (0.94 * groove, 0.0, 0.0))
+            site.add("ball", said, own, shape, shade=0.55)
+        own = site.along(stance.centre, stance.middle, stance.halving(theta))
+        site.add("ball", said, own, ball(0.28 * groove, 18), shade=0.4)

@@ -15,7 +15,7 @@ from cardan.maths.kernel import mobius
 from cardan.texts import _
 
 from .geometry import geometry, given_angles
-from .laws import NEGLIGIBLE, Laws, alike, kind_problem, left_over, mixed, refuse_kinds
+from .laws import NEGLIGIBLE, Laws, alike, lawless, left_over, mixed, refuse_kinds
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -140,7 +140,7 @@ def nearly_turning_chain(drive: Drive, question: str) -> Chain:
     """
     given = given_chain(drive)
     left = [left_over(joint, bend) for joint, bend in zip(drive.joints, given.bend.tolist(), strict=True)]
-    check(kind_problem(i, drive.joints[i], question) for i, rest in enumerate(left) if rest > NEGLIGIBLE)
+    check(lawless(i, drive.joints[i], question) for i, rest in enumerate(left) if rest > NEGLIGIBLE)
     return turning(given, drive.joints, near=True)
 
 

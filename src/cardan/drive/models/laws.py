@@ -7,13 +7,13 @@ joints with other bends and plane twists, and all that is known of those holds f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cardan.drive.joints import Hooke, Joint
+from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import PLACES
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, namespace, unit_complex
@@ -60,10 +60,11 @@ def mixed(joints: Sequence[Joint]) -> bool:
 
     Examples
     --------
+    >>> from cardan.drive.joints import Hooke
     >>> mixed([Hooke(bend=0.1)])
     False
     """
-    return any(type(joint) is not Hooke for joint in joints)
+    return any(not joint.single_cross for joint in joints)
 
 
 def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
@@ -73,7 +74,7 @@ def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
 
 def has_map(joint: Joint) -> bool:
     """Tell whether a joint turns by tan θ' = κ tan θ, as a Hooke joint of some bend does."""
-    return type(joint) is Hooke or joint.pair(np.asarray(0.1)) is not None
+    return joint.has_map
 
 
 def is_even(joint: Joint) -> bool:
@@ -81,12 +82,11 @@ def is_even(joint: Joint) -> bool:
 
     Examples
     --------
-    >>> from cardan.drive.joints import Tripod
+    >>> from cardan.drive.joints import Hooke, Tripod
     >>> is_even(Tripod()), is_even(Hooke())
     (True, False)
     """
-    pair = None if type(joint) is Hooke else joint.pair(np.asarray(0.1))
-    return pair is not None and bool(abs(pair[1]) == 0.0)
+    return joint.even
 
 
 def left_over(joint: Joint, bend: float) -> float:
@@ -116,41 +116,47 @@ def left_over(joint: Joint, bend: float) -> float:
     return float(np.max(np.abs(lead)))
 
 
-def refuse_kinds(
-    drive: Drive, question: str, *, known: Callable[[Joint], bool] = lambda joint: type(joint) is Hooke
-) -> None:
-    """Refuse a drive with joints of a kind that a question does not know.
+def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:
+    """Refuse a drive with joints that do not answer a question.
 
     Parameters
     ----------
     drive : Drive
     question : str
         What was asked, in words.
-    known : function
-        Whether the question knows the kind of a joint; Hooke joints alone when not given.
+    key : str
+        The same as a key of `cardan.drive.joints.joint.REFUSALS`.
 
     Raises
     ------
     InputError
-        Names every such joint, its kind and the question.
+        Names every such joint, its kind, the question and why.
 
     Examples
     --------
     >>> from cardan.drive.drive import Drive
-    >>> refuse_kinds(Drive.from_angles([0.1]), "losses")
+    >>> refuse_kinds(Drive.from_angles([0.1]), "losses", "losses")
     """
-    check(unknown_kinds(drive.joints, question, known))
+    check(refused_kinds(drive.joints, question, key))
 
 
-def unknown_kinds(joints: Sequence[Joint], question: str, known: Callable[[Joint], bool]) -> Iterator[Problem]:
-    """Yield a problem for every joint of a kind that a question does not know."""
-    yield from (kind_problem(i, joint, question) for i, joint in enumerate(joints) if not known(joint))
+def refused_kinds(joints: Sequence[Joint], question: str, key: str) -> Iterator[Problem]:
+    """Yield a problem for every joint that does not answer a question."""
+    for i, joint in enumerate(joints):
+        why = joint.refusal(key)
+        if why:
+            yield kind_problem(i, joint, question, why)
 
 
-def kind_problem(i: int, joint: Joint, question: str) -> Problem:
-    """Return the problem that a question does not know the kind of a joint, counted from 0."""
-    text = _("{question}: not answered for a joint of kind {kind}")
-    return Problem(f"joints[{i}].kind", text.format(question=question, kind=joint.kind), "unknown_kind")
+def kind_problem(i: int, joint: Joint, question: str, why: str) -> Problem:
+    """Return the problem that a joint, counted from 0, does not answer a question, and why."""
+    text = _("{question}: not answered for a joint of kind {kind}: {why}")
+    return Problem(f"joints[{i}].kind", text.format(question=question, kind=joint.kind, why=why), "unknown_kind")
+
+
+def lawless(i: int, joint: Joint, question: str) -> Problem:
+    """Return the problem that a question needs a law that a joint does not have."""
+    return kind_problem(i, joint, question, _("it turns by a law of its own, far from tan θ' = κ tan θ"))
 
 
 def alike(
@@ -194,7 +200,7 @@ def alike(
         alpha = bend[..., i]
         here = _steepness(joint, alpha, i, near)
         tau = (here - 1.0) / (here + 1.0)
-        if type(joint) is Hooke:
+        if joint.single_cross:
             columns.append((alpha, here, xp.sin(alpha) * here * here, 0.0 * alpha))
             continue
         growth = (_steepness(joint, alpha + STEP, i, near) - _steepness(joint, alpha - STEP, i, near)) / (2.0 * STEP)
@@ -203,7 +209,7 @@ def alike(
     equal, steepness, growths, aheads = (xp.stack(column, axis=-1) for column in zip(*columns, strict=True))
     quarter = xp.asarray([0.0 if joint.crossed else 0.5 * np.pi for joint in joints[:-1]], dtype=xp.float64)
     twist = plane_twist + quarter + aheads[..., :-1] - aheads[..., 1:]
-    own = tuple(type(joint) is not Hooke for joint in joints)
+    own = tuple(not joint.single_cross for joint in joints)
     laws = Laws(bend=bend, steepness=steepness, growth=growths, ahead=aheads, own=own)
     return equal, twist, aheads[..., 0], laws
 

@@ -190,7 +190,7 @@ def tolerance(
     >>> [(one.field, round(one.share, 2)) for one in band.output.contributions]
     [('joints[0].tolerance.alpha2', 0.67), ('joints[0].tolerance.alpha1', 0.33)]
     """
-    refuse_kinds(drive, _("errors and tolerances"))
+    refuse_kinds(drive, _("errors and tolerances"), "accuracy")
     rows = spreads(drive, spread)
     turns, ways = error_arrays(rows)
     if not np.any(turns) and not np.any(ways):

@@ -132,6 +132,9 @@ def rotor(drive: Drive, shaft: int | None = None, *, damping_ratio: float = DAMP
     inside = (found.place >= begin - 1e-9) & (found.place <= end + 1e-9)
     shape = shape / shape[inside][int(np.argmax(np.abs(shape[inside])))]
     mass, push = _summed(drive, found, shape)
+    if mass == 0.0:
+        text = _("missing; the mass of shaft {number} follows from the lengths of its body")
+        raise refuse(f"shafts[{chosen.number - 1}].segments", text.format(number=chosen.number), "missing")
     axis = geometry(drive).axis[chosen.number - 1]
     pull = np.asarray(drive.settings.gravity, dtype=float)
     across = float(np.linalg.norm(pull - np.dot(pull, axis) * axis))

@@ -76,7 +76,7 @@ def forces(
     """
     if isinstance(drive, Drive):
         used = drive.duty if duty is None else duty
-        refuse_kinds(drive, _("forces"), known=lambda joint: joint.fixed)
+        refuse_kinds(drive, _("forces"), "forces")
         whole = train(drive, kinds=True)
         if drive.supports:
             check(mass_problems(drive))
@@ -224,7 +224,7 @@ def _moving(
     drive: Drive, whole: Train, duty: Duty, angle: Array, movement: Movement | Sequence[Movement] | Path
 ) -> Forces:
     """Return the forces while the points move: the input turns evenly meanwhile."""
-    refuse_kinds(drive, _("forces while the points move"))
+    refuse_kinds(drive, _("forces while the points move"), "moving forces")
     if duty.speed is None or duty.speed == 0.0:
         raise refuse(
             "duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"), "missing"

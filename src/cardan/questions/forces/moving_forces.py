@@ -199,7 +199,7 @@ def moving_forces(
     >>> print(f"{found.extreme(found.forces.bending_couple[1]).high:.1f} N·m")
     22.7 N·m
     """
-    refuse_kinds(drive, _("forces while the points move"))
+    refuse_kinds(drive, _("forces while the points move"), "moving forces")
     used = drive.duty if duty is None else duty
     moves = drive.movements if movements is None else tuple(movements)
     if not moves:

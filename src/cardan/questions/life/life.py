@@ -223,7 +223,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     simple 1259.9 h
     book 1015.0 h
     """
-    refuse_kinds(drive, _("bearing life"))
+    refuse_kinds(drive, _("bearing life"), "life")
     used = drive.duty if duty is None else duty
     if method is not None and method not in METHODS:
         names = ", ".join(METHODS)

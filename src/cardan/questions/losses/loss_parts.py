@@ -72,7 +72,7 @@ def counted(
     drive: Drive, duty: Duty, movement: Movement | Sequence[Movement] | None
 ) -> tuple[Parts, tuple[Uncounted, ...]]:
     """Return what can be counted, and what cannot; refuse a drive of which nothing can."""
-    refuse_kinds(drive, _("losses"))
+    refuse_kinds(drive, _("losses"), "losses")
     try:
         machine, short = train(drive), []
     except InputError as error:

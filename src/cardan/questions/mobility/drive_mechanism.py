@@ -9,7 +9,8 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
-from cardan.drive.joints import Joint
+from cardan.drive.joints.common.inner import DRIVEN, DRIVING
+from cardan.drive.joints.common.stance import Stance
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.support import Support
 from cardan.errors import Problem, check
@@ -28,15 +29,6 @@ SUPPORT: dict[tuple[bool, bool, bool], str] = {
     (False, True, True): "E",
 }
 """What a support holds, radial, axial and against tilting -> kind of pair along the shaft."""
-
-SLIDING = ("tripod", "half_cardan")
-"""Kinds of joints that bend and also let their shafts slide along each other."""
-
-TOUCHING = ("elastic_half_cardan", "pin_coupling", "clemens")
-"""Kinds of joints that hold nothing but the torque: shafts that touch at one point beside the axis."""
-
-ARM = 0.1
-"""Distance of that point from the axis over the length of the shaft behind it; only that it is not nought matters."""
 
 FRAME = "frame"
 
@@ -193,46 +185,21 @@ def _pair(name: str, kind: str, links: tuple[str, str], point: Point, axis: Arra
 def _joints(drive: Drive, place: Geometry, driving: Array, driven: Array) -> Iterator[Pair]:
     """Yield the pairs of all joints in the order of the power flow."""
     for i, joint in enumerate(drive.joints):
-        before, after = _end_link(drive, i + 1, last=True), _end_link(drive, i + 2, last=False)
-        point = _row(place.points[i + 1])
-        number = i + 1
-        if joint.crossed and joint.kind not in (*SLIDING, *TOUCHING):
-            yield from _cross(joint, number, (before, after), np.asarray(point), (driving[i], driven[i]))
-        elif joint.kind in TOUCHING:
-            arm = ARM * float(place.length[i + 1])
-            axis = place.axis[i + 1]
-            at = _row(place.points[i + 1] + arm * driven[i])
-            name = _("contact of joint {number}").format(number=number)
-            yield _pair(name, "PT", (before, after), at, frames.cross(axis, driven[i]))
-        else:
-            name = _("joint {number}").format(number=number)
-            across = frames.unit(place.axis[i] + place.axis[i + 1])
-            first = place.normal[i]
-            second = frames.cross(across, first)
-            if joint.kind in SLIDING:
-                part = _("middle of joint {number}").format(number=number)
-                slide = _("slide of joint {number}").format(number=number)
-                yield _pair(slide, "P", (before, part), point, place.axis[i])
-                yield _pair(name, "U", (part, after), point, first, second)
-            else:
-                yield _pair(name, "U", (before, after), point, first, second)
-
-
-def _cross(
-    joint: Joint, number: int, shafts: tuple[str, str], point: Array, arms: tuple[Array, Array]
-) -> Iterator[Pair]:
-    """Yield both pins of a joint with a cross."""
-    link = _("cross {number}").format(number=number)
-    slides = joint.cross.slides if joint.cross else False
-    offset = float(getattr(joint, "offset", 0.0))  # of a cross whose arms do not meet
-    names = (_("driving pin of joint {number}"), _("driven pin of joint {number}"))
-    words = ("driving", "driven")
-    aside = frames.cross(*arms)
-    ends = ((shafts[0], link), (link, shafts[1]))
-    for k in range(2):
-        kind = "C" if slides is True or slides == words[k] else "R"
-        at = point + k * offset * aside
-        yield _pair(names[k].format(number=number), kind, ends[k], _row(at), arms[k])
+        ends = {DRIVING: _end_link(drive, i + 1, last=True), DRIVEN: _end_link(drive, i + 2, last=False)}
+        stance = Stance(
+            centre=place.points[i + 1],
+            before=place.axis[i],
+            after=place.axis[i + 1],
+            normal=place.normal[i],
+            bend=float(place.bend[i]),
+            driving=driving[i],
+            driven=driven[i],
+            length=float(place.length[i + 1]),
+        )
+        for one in joint.inner(stance):
+            first, second = (ends.get(link) or _(link).format(number=i + 1) for link in one.links)
+            name = _(one.name).format(number=i + 1)
+            yield _pair(name, one.type, (first, second), _row(one.point), one.axis, one.second)
 
 
 def _support(drive: Drive, place: Geometry, support: Support, index: int) -> Iterator[Pair]:

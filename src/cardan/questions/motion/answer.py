@@ -91,7 +91,7 @@ def sentence(drive: Drive, each: Evenness) -> Say:
         text = _("{count}; synchronous but for the rounding of the figures that describe the drive, δ = {share}.")
     elif unmapped(drive.joints):
         text = _("{count}; speed fluctuation δ = {share}, as of one cross joint at {angle}.")
-    elif len(drive.joints) == 1 and drive.joints[0].kind == "hooke":
+    elif len(drive.joints) == 1 and drive.joints[0].single_cross:
         text = _("one joint at a joint angle of {angle}, speed fluctuation δ = {share}.")
     if even and drive.movements:
         text = f"{text} {_('This concerns the drive as drawn, standing still.')}"
@@ -339,7 +339,7 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
     if is_rounding(drive, result.fluctuation):
         yield Remark(text=_("The whole drive on one page:"), command=("cardan", "report", FILE), tone="next")
     elif len(drive.joints) == 1:
-        if drive.joints[0].kind == "hooke":
+        if drive.joints[0].single_cross:
             text = _("A single joint always fluctuates; a second one at the same joint angle can cancel it.")
             yield Remark(text=text, tone="next")
     elif alike:

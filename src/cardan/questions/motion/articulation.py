@@ -13,9 +13,8 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.ranges import range_problems
 from cardan.drive.fields.validity import movement_problems
-from cardan.drive.joints import Hooke
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import is_even, refuse_kinds
+from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.movement import Movement
 from cardan.errors import BendLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -198,7 +197,7 @@ def articulation(
     >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
     (20.0, True)
     """
-    refuse_kinds(drive, _("motion while the points move"), known=lambda joint: type(joint) is Hooke or is_even(joint))
+    refuse_kinds(drive, _("motion while the points move"), "articulation")
     path, at, start, chosen, moves = _plan(drive, movement, times, until)
     place = geometry(drive)
     omega = drive.duty.speed if speed is None else speed
@@ -325,7 +324,7 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
         if beyond.size:
             k = beyond[int(foremost_on(column[beyond]))]
             text = _("joint {number} has a joint angle of {angle} at {time}; no real cross joint works above {limit}")
-            if type(joint) is not Hooke:
+            if not joint.single_cross:
                 text = _("joint {number} has a joint angle of {angle} at {time}; no {kind} joint works above {limit}")
             yield say(
                 text,

@@ -15,13 +15,14 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.catalogue.rows import JointType
 from cardan.drive.fields.keys import fields_of
 from cardan.drive.joints import JOINTS
+from cardan.drive.joints.common.inside import Inside
 from cardan.drive.joints.joint import Joint
 from cardan.maths.ties import foremost
 from cardan.texts import _, plural
 from cardan.units import deg
 
 from .figures.joint_law import joint_figures
-from .joint_inside import Inside, joint_inside
+from .joint_inside import joint_inside
 from .joint_law import JointBends, JointTurn, joint_bends, joint_turn, types_of
 from .kinds import quantity_of
 
@@ -399,7 +400,7 @@ def answer_of_kinds() -> Answer:
                     "keys": [
                         {"key": one.spelling, "required": one.required, "doc": _(one.key.doc)}
                         for field, one in fields_of(kind).items()
-                        if field not in fields_of(Joint)
+                        if field in kind.own_fields()
                     ],
                 }
                 for name, kind in kinds
@@ -416,4 +417,4 @@ def sentence_of(kind: type[Joint]) -> str:
 
 def written(kind: type[Joint]) -> list[str]:
     """Return the keys of a kind's own sizes as we write them."""
-    return [one.spelling for name, one in fields_of(kind).items() if name not in fields_of(Joint)]
+    return [one.spelling for name, one in fields_of(kind).items() if name in kind.own_fields()]

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from cardan.drive.drive import Drive
-from cardan.drive.joints import Hooke
 from cardan.drive.models.chain import given_chain
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
@@ -74,5 +73,5 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
         "joint_angle": np.stack(before),
         "bend": np.asarray(whole.bend),
         "followed": True,
-        "crossed": tuple(type(joint) is Hooke for joint in drive.joints),
+        "crossed": tuple(joint.single_cross for joint in drive.joints),
     }

@@ -9,7 +9,7 @@ import numpy as np
 
 from cardan.catalogue import Catalogue, catalogue
 from cardan.catalogue.rows import JointType
-from cardan.drive.joints import Joint
+from cardan.drive.joints import JOINTS, Joint
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
@@ -23,44 +23,6 @@ COARSE = np.arange(120) * (3.0 * deg)
 
 EVEN = 1e-12
 """Leads [rad] and swings of the ratio below this are rounding."""
-
-TYPES = {
-    "hooke": (
-        "light",
-        "medium",
-        "heavy",
-        "super_heavy",
-        "rubber_bush_cross",
-        "hooke_bolt_cross",
-        "instrument_ring_tip",
-        "instrument_ball_disc",
-        "mill_rolling",
-    ),
-    "offset_cross": ("hooke_offset_cross",),
-    "double_cardan": ("double_centred", "double_frame"),
-    "constant_velocity": ("block_double_disc",),
-    "tracta": ("tracta",),
-    "rzeppa": ("rzeppa_lever", "rzeppa_offset", "rzeppa_fixed_modern", "plunging_ball_modern"),
-    "weiss": ("weiss_curved", "weiss_straight"),
-    "tripod": ("tripod_plunging",),
-    "half_cardan": ("half_bell", "half_gear", "gear_crowned_modern"),
-    "elastic_half_cardan": (
-        "el_disc",
-        "el_link",
-        "el_bush",
-        "el_hexagon",
-        "el_tyre_split",
-        "el_tyre_solid",
-        "el_petal3",
-        "el_petal8",
-        "el_circular_teeth",
-        "el_balls",
-        "disc_pack_modern",
-    ),
-    "pin_coupling": ("pin_ball",),
-    "clemens": ("clemens",),
-}
-"""Kind -> rows of the catalogue's joint types that turn by its law."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -236,4 +198,5 @@ def types_of(kind: str, known: Catalogue | None = None) -> tuple[JointType, ...]
     ['weiss_curved', 'weiss_straight']
     """
     rows = (known or catalogue()).rows(JointType)
-    return tuple(rows[name] for name in TYPES.get(kind, ()) if name in rows)
+    names = JOINTS[kind].types if kind in JOINTS else ()
+    return tuple(rows[name] for name in names if name in rows)

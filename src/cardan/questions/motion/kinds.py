@@ -9,10 +9,11 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
+from cardan.drive.joints.common.inside import Inside
 from cardan.drive.models.chain import given_chain
 from cardan.texts import _
 
-from .joint_inside import Inside, joint_inside
+from .joint_inside import joint_inside
 
 
 def kind_name(joint: Joint) -> str:
@@ -24,21 +25,7 @@ def kind_name(joint: Joint) -> str:
     >>> kind_name(Hooke())
     'Hooke'
     """
-    names = {
-        "hooke": _("Hooke"),
-        "offset_cross": _("offset cross"),
-        "double_cardan": _("double cardan"),
-        "constant_velocity": _("constant velocity"),
-        "tracta": _("Tracta"),
-        "rzeppa": _("Rzeppa"),
-        "weiss": _("Weiss"),
-        "tripod": _("tripod"),
-        "half_cardan": _("half-cardan"),
-        "elastic_half_cardan": _("elastic half-cardan"),
-        "pin_coupling": _("pin coupling"),
-        "clemens": _("Clemens"),
-    }
-    return names[joint.kind]
+    return joint.in_words()
 
 
 def steep(joint: Joint, number: int, bend: float) -> Say | None:
@@ -55,7 +42,7 @@ def steep(joint: Joint, number: int, bend: float) -> Say | None:
     if bend <= joint.steepest * (1.0 + 1e-12):
         return None
     text = _("joint {number} has a joint angle of {angle}; above {limit} no real joint of its kind, {kind}, works.")
-    if joint.kind == "hooke":
+    if joint.single_cross:
         text = _("joint {number} has a joint angle of {angle}; above {limit} no real cross joint works.")
     return say(
         text,

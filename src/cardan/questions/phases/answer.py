@@ -345,7 +345,7 @@ def _proof(drive: Drive, found: Phasing) -> Text:
     else:
         text = f"{text} {_('The yoke angles are the corners.')} {_closing(drive, found, closes=seen.closes)}"
         if not seen.closes and not is_rounding(drive, found.irregularity_min):
-            alike = drive.joints[seen.longest - 1].kind != "hooke"
+            alike = not drive.joints[seen.longest - 1].single_cross
             more = _("It could be closed if that joint had a joint angle of {angle}.")
             if alike:
                 more = _("It could be closed if the Hooke joint that turns like that joint had an angle of {angle}.")
@@ -376,7 +376,7 @@ def _closing(drive: Drive, found: Phasing, *, closes: bool) -> str:
 def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
     """Yield why no yoke angles make the drive uniform, and what would."""
     if len(drive.joints) == 1:
-        if drive.joints[0].kind == "hooke":
+        if drive.joints[0].single_cross:
             alone = _("A single joint always fluctuates; a second one at the same joint angle can cancel it.")
             yield Remark(text=alone, tone="next")
         return
@@ -394,7 +394,7 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             angle=Quantity(bend, "angle", decimals=2),
         )
     else:
-        text = excess(found, len(drive.joints), bend, plain=drive.joints[found.limiting_joint - 1].kind == "hooke")
+        text = excess(found, len(drive.joints), bend, plain=drive.joints[found.limiting_joint - 1].single_cross)
     yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
 
 

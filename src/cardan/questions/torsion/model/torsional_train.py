@@ -14,7 +14,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.joints import ElasticHalfCardan, Joint
+from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.drive.models.geometry import geometry
 from cardan.errors import Problem, check, refuse
@@ -172,14 +172,15 @@ def torsional_train(
 
 def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:
     """Return the shaft behind an elastic joint, with a station before the joint's own spring."""
-    if not isinstance(joint, ElasticHalfCardan) or joint.stiffness is None:
+    if joint.twist_spring is None:
         return line
+    stiffness, damping = joint.twist_spring
     return replace(
         line,
         inertia=[0.0, *line.inertia],
         ground_damping=[0.0, *line.ground_damping],
-        stiffness=[joint.stiffness, *line.stiffness],
-        damping=[joint.damping, *line.damping],
+        stiffness=[stiffness, *line.stiffness],
+        damping=[damping, *line.damping],
         backlash=[0.0, *line.backlash],
         loss_factor=[0.0, *line.loss_factor],
         share=[line.share[0], *line.share],

@@ -145,6 +145,9 @@ def transient(
     chosen = drive.duty if duty is None else duty
     first, fastest = _speeds(chosen)
     train = torsional_train(drive, chosen, speed=first or fastest, pieces=pieces)
+    if not train.model.elements:
+        text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")
+        raise refuse("shafts[0].stiffness", text)
     model = in_time(train.model, 2.0 * abs(fastest or 1.0))
     if not model.free and chosen.run_up is not None:
         course = SpeedCourse(times=(0.0, chosen.run_up.duration), speeds=(chosen.run_up.start, chosen.run_up.end))

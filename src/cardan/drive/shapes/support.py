@@ -9,7 +9,7 @@ import numpy as np
 from cardan.maths.arrays import Array
 from cardan.maths.kernel.meshes import Surface, box, circle, joined, placed, plate, revolved, swept
 
-from .shaft import ring, washer
+from .ring import ring, washer
 
 
 @lru_cache(maxsize=64)

@@ -1,0 +1,99 @@
+"""What a joint is inside: its links and pairs, as a mechanism has them.
+
+A kind yields its `InnerPair`s for a `Stance`; whoever builds a mechanism puts them between the shafts of a drive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cardan.maths.arrays import Array
+from cardan.maths.kernel import frames
+from cardan.texts import mark
+
+from .stance import Stance
+
+DRIVING, DRIVEN = "driving", "driven"
+"""Links that every joint has: its shafts."""
+
+ARM = 0.1
+"""Distance of a point of contact from the axis over the length of the shaft behind; any but nought would do."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InnerPair:
+    """A pair inside a joint.
+
+    Attributes
+    ----------
+    name : str
+        What it is called, marked for translation, with the place {number} for the number of its joint.
+    type : str
+        Kind of pair, a name of `cardan.mechanism.pair.PAIRS`.
+    links : (str, str)
+        `DRIVING`, `DRIVEN` or the name of an inner link, like ``name``.
+    point : array (3,) [m]
+    axis : array (3,)
+    second : array (3,) or None
+        Second axis, of kinds that have two.
+    """
+
+    name: str
+    type: str
+    links: tuple[str, str]
+    point: Array
+    axis: Array
+    second: Array | None = None
+
+
+def bending(stance: Stance) -> Iterator[InnerPair]:
+    """Yield a joint that turns about two axes of the plane that halves its bend, and holds the rest."""
+    name = mark("joint {number}")
+    yield _bending(name, (DRIVING, DRIVEN), stance)
+
+
+def sliding(stance: Stance) -> Iterator[InnerPair]:
+    """Yield a joint that bends and also lets its shafts slide along each other."""
+    part = mark("middle of joint {number}")
+    slide = mark("slide of joint {number}")
+    yield InnerPair(name=slide, type="P", links=(DRIVING, part), point=stance.centre, axis=stance.before)
+    yield _bending(mark("joint {number}"), (part, DRIVEN), stance)
+
+
+def _bending(name: str, links: tuple[str, str], stance: Stance) -> InnerPair:
+    second = frames.cross(stance.middle, stance.normal)
+    return InnerPair(name=name, type="U", links=links, point=stance.centre, axis=stance.normal, second=second)
+
+
+def touching(stance: Stance) -> Iterator[InnerPair]:
+    """Yield a joint that holds nothing but the torque: shafts that touch at one point beside the axis."""
+    yield InnerPair(
+        name=mark("contact of joint {number}"),
+        type="PT",
+        links=(DRIVING, DRIVEN),
+        point=stance.centre + ARM * stance.length * stance.driven,
+        axis=frames.cross(stance.after, stance.driven),
+    )
+
+
+def crossed(stance: Stance, *, slides: bool | str = False, offset: float = 0.0) -> Iterator[InnerPair]:
+    """Yield both pins of a cross.
+
+    Parameters
+    ----------
+    stance : Stance
+    slides : bool or str
+        Which of its journals slide in their bearings: all, none, or "driving" or "driven".
+    offset : float [m]
+        Distance of both pins, along their common perpendicular.
+    """
+    link = mark("cross {number}")
+    aside = frames.cross(stance.driving, stance.driven)
+    rows = (
+        (mark("driving pin of joint {number}"), (DRIVING, link), DRIVING, stance.driving),
+        (mark("driven pin of joint {number}"), (link, DRIVEN), DRIVEN, stance.driven),
+    )
+    for k, (name, links, side, axis) in enumerate(rows):
+        kind = "C" if slides is True or slides == side else "R"
+        yield InnerPair(name=name, type=kind, links=links, point=stance.centre + k * offset * aside, axis=axis)

@@ -1,0 +1,34 @@
+"""One measure of what else moves inside a joint: wobble, orbits, strokes, play, planes that are missed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cardan.texts import _
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inside:
+    """One measure of what moves inside a joint.
+
+    Attributes
+    ----------
+    key : str
+        Short name, without unit.
+    meaning : str
+        One sentence.
+    value : float
+        In SI.
+    dimension : str or None
+        A key of `cardan.units.DIMENSIONS`; None for a pure number, or 1/m.
+    """
+
+    key: str
+    meaning: str
+    value: float
+    dimension: str | None = "angle"
+
+
+def missed(tilt: float) -> Inside:
+    """Return how far a plane of contact is from the one that halves the bend [rad]."""
+    return Inside(key="plane_tilt", meaning=_("angle by which the plane of contact misses the middle"), value=tilt)

@@ -1,0 +1,153 @@
+"""Nobody outside of `cardan.drive.joints` asks for the type or the kind of a joint: they ask the joint."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cardan
+from cardan.drive.joints import JOINTS, Joint
+from cardan.drive.joints.common import inner
+from cardan.drive.joints.common.stance import Stance
+from cardan.drive.joints.joint import REFUSALS
+from cardan.mechanism.pair import PAIRS
+from cardan.texts import speaking
+from tests.fixtures.toy_joint import TOYS
+
+SOURCE = Path(cardan.__file__).parent
+
+CLASSES = {kind.__name__ for kind in JOINTS.values()} | {"Joint"}
+
+MODULES = sorted(path for path in SOURCE.rglob("*.py") if SOURCE / "drive" / "joints" not in path.parents)
+
+A_JOINT = re.compile(r"(^|[^a-z])(joints?(\[[^]]*\])?|jointed)$", re.IGNORECASE)
+"""What an expression for a joint ends with."""
+
+
+def named(node: ast.AST) -> set[str]:
+    """Return the names and attributes within an expression."""
+    found = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
+    return found | {one.attr for one in ast.walk(node) if isinstance(one, ast.Attribute)}
+
+
+def words(node: ast.AST) -> set[str]:
+    """Return the kinds of joints written out within an expression."""
+    return {one.value for one in ast.walk(node) if isinstance(one, ast.Constant) and one.value in JOINTS}
+
+
+def of_a_joint(node: ast.AST) -> bool:
+    """Tell whether an expression is the kind of a joint."""
+    return isinstance(node, ast.Attribute) and node.attr == "kind" and bool(A_JOINT.search(ast.unparse(node.value)))
+
+
+def asking(code: str) -> Iterator[tuple[int, str]]:
+    """Yield line and text of what asks for the type or the kind of a joint."""
+    for node in ast.walk(ast.parse(code)):
+        bad = False
+        if isinstance(node, ast.Call):
+            called = getattr(node.func, "id", "") or getattr(node.func, "attr", "")
+            bad = called in ("isinstance", "issubclass") and bool(named(node.args[1]) & CLASSES)
+            bad |= called == "get" and any(of_a_joint(one) for one in node.args)
+        elif isinstance(node, ast.Compare):
+            sides = (node.left, *node.comparators)
+            typed = any(isinstance(one, ast.Call) and getattr(one.func, "id", "") == "type" for one in sides)
+            bad = typed and any(named(one) & CLASSES for one in sides)
+            bad |= any(of_a_joint(one) or words(one) for one in sides)
+        elif isinstance(node, ast.Subscript):
+            bad = of_a_joint(node.slice)
+        elif isinstance(node, ast.Dict):
+            bad = any(key is not None and words(key) for key in node.keys)
+        elif isinstance(node, ast.MatchClass):
+            bad = bool(named(node.cls) & CLASSES)
+        elif isinstance(node, ast.MatchValue):
+            bad = bool(words(node.value))
+        if bad:
+            yield node.lineno if hasattr(node, "lineno") else 0, ast.unparse(node)
+
+
+def test_joints_are_asked_not_their_types():
+    found = {path.relative_to(SOURCE).as_posix(): list(asking(path.read_text("utf-8"))) for path in MODULES}
+    assert len(found) > 100
+    assert {path: places for path, places in found.items() if places} == {}
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "isinstance(joint, Tripod)",
+        "isinstance(drive.joints[i], Rzeppa | Weiss)",
+        "type(joint) is not Hooke",
+        'joint.kind == "something"',
+        "drive.joints[0].kind != other",
+        'kind == "hooke"',
+        'kind in ("tripod", "half_cardan")',
+        'MAKERS = {"tripod": 1}',
+        "names[joint.kind]",
+        "names.get(joint.kind, 0)",
+        "match joint:\n    case Tripod():\n        pass",
+        'match kind:\n    case "weiss":\n        pass',
+    ],
+)
+def test_what_asks_for_a_type_is_seen(code):
+    assert list(asking(code))
+
+
+def one_of_each() -> list[Joint]:
+    """Return a joint of every kind, the toys among them."""
+    sizes = {"offset_cross": {"offset": 0.01, "reach": 0.3}}
+    return [kind(bend=0.04, **sizes.get(name, {})) for name, kind in JOINTS.items()] + [toy(bend=0.04) for toy in TOYS]
+
+
+STANCE = Stance(
+    centre=np.zeros(3),
+    before=np.asarray([1.0, 0.0, 0.0]),
+    after=np.asarray([np.cos(0.3), np.sin(0.3), 0.0]),
+    normal=np.asarray([0.0, 0.0, 1.0]),
+    bend=0.3,
+    driving=np.asarray([0.0, 1.0, 0.0]),
+    driven=np.asarray([-np.sin(0.3), np.cos(0.3), 0.0]),
+    length=1.0,
+)
+
+
+@pytest.mark.parametrize("joint", one_of_each(), ids=lambda joint: joint.kind)
+def test_every_kind_speaks_the_protocol(joint):
+    assert joint.in_words()
+    assert 0.0 < joint.steepest <= np.pi / 2
+    lead, ratio, slope = joint.deviation(np.linspace(0.0, 6.0, 7), np.asarray(0.04))
+    assert all(np.all(np.isfinite(one)) for one in (lead, ratio, slope))
+    a, b = joint.near_pair(np.asarray(0.04))
+    assert float(np.real(a * a - b * b)) == pytest.approx(1.0)
+    assert joint.even == (joint.has_map and not np.any(np.abs(lead) > 0.0))
+    assert set(joint.refusals) <= set(REFUSALS)
+    assert joint.own_fields().isdisjoint(one.name for one in fields(Joint))
+    assert joint.foreign <= {one.name for one in fields(Joint)}
+    with speaking("en"):
+        assert all(joint.refusal(question) == "" for question in REFUSALS if joint.single_cross)
+
+
+@pytest.mark.parametrize("joint", one_of_each(), ids=lambda joint: joint.kind)
+def test_every_inner_mechanism_joins_both_shafts(joint):
+    pairs = list(joint.inner(STANCE))
+    links = {link for pair in pairs for link in pair.links}
+    assert {inner.DRIVING, inner.DRIVEN} <= links
+    assert len(links) == len(pairs) + 1, "a chain from shaft to shaft"
+    assert all(pair.type in PAIRS for pair in pairs)
+    assert all("{number}" in pair.name for pair in pairs)
+
+
+def test_what_a_kind_does_not_say_is_said_for_it():
+    toy = TOYS[0](bend=0.1)
+    assert toy.in_words() == "toy"
+    assert list(toy.inside(0.1)) == []
+    assert toy.twist_spring is None
+    assert toy.types == ()
+    assert toy.refusal("losses").endswith("cross")
+    assert toy.refusal("articulation")
+    assert TOYS[1](bend=0.1).refusal("forces")
