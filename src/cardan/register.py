@@ -172,7 +172,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="check",
-            module="cardan.checks.answer",
+            module="cardan.choices.check_answer",
             title=mark("Checks"),
             group=STRENGTH,
             help=mark("Whether the drive keeps its limits, and which changes help where it does not."),

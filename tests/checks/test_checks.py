@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from cardan import Drive, articulation, example, forces, load, motion
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.catalogue import completed
 from cardan.checks import CHECKS, Verdict, check, design, utilisation
 from cardan.checks.case import Case
@@ -352,7 +354,7 @@ def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
     assert engaged.value == pytest.approx(0.110 - (max(reach) - drawn))
     assert gap.value == pytest.approx(0.060 - (drawn - min(reach)))
     moving = "while the drive moves; in the pose {}".format
-    assert (engaged.note, gap.note) == (moving("empty"), moving("full load"))
+    assert (told(engaged.note, USUAL), told(gap.note, USUAL)) == (moving("empty"), moving("full load"))
     still = check(replace(drive, movements=()), only=["spline_overlap"])
     lengths = [float(geometry(posed).length[1]) for posed in pose_drives(drive)]
     assert [one.value for one in still] == pytest.approx([0.110 - max(lengths) + drawn, 0.060 - drawn + min(lengths)])

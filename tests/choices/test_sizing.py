@@ -140,7 +140,7 @@ def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
     for one in found.tried:
         joints = tuple(replace(j, cross=None, needles=None, size=one.id) for j in base.joints)
         mine = strength(replace(base, joints=joints))
-        own = max(u.utilisation for u in mine.binding if u.part.startswith("joints"))
+        own = max(u.utilisation for u in mine.binding if u.subject.startswith("joints"))
         assert own <= one.utilisation + 1e-9  # the checks of a maker's ratings come on top
         assert not one.passed or own <= 1.0
     assert found.drive == completed(found.drive)

@@ -56,6 +56,9 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("torsion absorber", r"largest_heat_W", "largest_power_loss_W"),
     ("torsion (absorber|calm)", r"play_closed", "backlash_closed"),
     ("torsion calm", r"(\w+)\.push_left", r"\1.excitation_left"),
+    ("strength", r"shafts\.bending_Nm", "shafts.secondary_couple_Nm"),
+    ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
+    ("check", r"cures\.(.*)", r"remedies.\1"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""

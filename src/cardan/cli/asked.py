@@ -139,7 +139,7 @@ def _hinted(problem: Problem) -> str:
     """Return a message with the keys in it as a file has them, and the option that does as well."""
     message = re.sub(r"\b[a-z]+\[\d+\](?:\.[a-z_]+)+", lambda found: key_of(found[0]), problem.message)
     option = {"duty.torque": "--torque-Nm", "duty.speed": "--speed-rpm"}.get(problem.field)
-    if option is None or not problem.message.startswith(_("missing")):
+    if option is None or problem.code != "missing":
         return message
     return _("{message}; or say {option}").format(message=message, option=option)
 

@@ -127,7 +127,10 @@ def _print_table(console: Console, table: Table) -> None:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
     cells = [
-        [_short(cell.text) if k < table.fixed < len(row) else cell.text for k, cell in enumerate(row)]
+        [
+            f"{SIGNS[cell.tone][0]} {_short(cell.text) if k < table.fixed < len(row) else cell.text}".strip()
+            for k, cell in enumerate(row)
+        ]
         for row in table.rows
     ]
     headings = [[column.heading for column in columns], [column.unit for column in columns]]

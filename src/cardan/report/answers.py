@@ -9,8 +9,6 @@ from typing import Any, TypeAlias, cast
 from cardan.answers.question import Question
 from cardan.answers.reader import USUAL
 from cardan.catalogue import Catalogue
-from cardan.checks import check
-from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
@@ -22,14 +20,12 @@ from . import lacking as lacks
 from .balance import refused
 from .block import Page
 from .followed import Followed, asked_by_laws
-from .lacking import Lacking, named, told
+from .lacking import Lacking, told
 from .page import page
 from .run_up import running_up
 from .selection import choosing, of_selection
-from .strength import bearing_up
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
-from .verdicts import judged
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
@@ -153,20 +149,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _limits(on: Subject) -> Page | None:
-    return judged(on).page
-
-
-def _unjudged(on: Subject) -> str:
-    missing = [path for one in check(on.drive, known=on.known) for path in one.missing]
-    return told(named(missing)) if missing else _nothing(on)
-
-
-def _weak(on: Subject) -> str:
-    missing = strength(on.drive, known=on.known).missing
-    return told(named(missing)) if missing else _nothing(on)
-
-
 def _free(on: Subject) -> str:
     if turns_freely(on.drive, on.drive.duty):
         return _("Torques turn its input freely; a run-up at a steady rate forces a speed on it.")
@@ -204,16 +186,6 @@ ANSWERS: dict[str, Answer] = {
         page=_watched(running_up),
         lacking=_of(lacks.of_run_up),
         otherwise=_free,
-        quick=False,
-    ),
-    "strength": Answer(
-        title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
-    ),
-    "limits": Answer(
-        title=lambda: _("Limits"),
-        page=_plain(_limits),
-        lacking=_of(lacks.of_nothing),
-        otherwise=_unjudged,
         quick=False,
     ),
     "selection": Answer(

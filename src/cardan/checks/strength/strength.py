@@ -39,6 +39,7 @@ from . import (
     yoke_strength,
 )
 from .joint_strength import JointStrength, joint_strength
+from .left_out import LeftOut
 from .section import sections
 from .shaft_strength import ShaftStrength, lasting, shaft_strength
 
@@ -94,6 +95,8 @@ class Strength:
         stresses leave it out: the factor for shocks is to hold it.
     extrapolated : tuple of int
         Numbers of shafts that are wider than those whose fatigue was measured.
+    left_out : LeftOut or None
+        What the stresses leave out, where that was asked.
     """
 
     cases: tuple[Case, ...]
@@ -104,6 +107,7 @@ class Strength:
     shock_factor: float
     dynamic_factor: float = 1.0
     extrapolated: tuple[int, ...] = ()
+    left_out: LeftOut | None = None
 
     @property
     def judged(self) -> tuple[Verdict, ...]:

@@ -278,10 +278,11 @@ def duty_parts(duty: Duty) -> tuple[tuple[Block, ...], Duty, Levels | None, Cycl
     history = duty.torque_history
     problems = []
     if not duty.speed:
-        text = _("is zero; at standstill bearings do not wear") if duty.speed == 0.0 else ""
-        problems.append(Problem("duty.speed", text or _("missing; how long a joint lasts depends on it")))
+        zero = Problem("duty.speed", _("is zero; at standstill bearings do not wear"))
+        lacks = Problem("duty.speed", _("missing; how long a joint lasts depends on it"), "missing")
+        problems.append(zero if duty.speed == 0.0 else lacks)
     if history is None and duty.torque is None:
-        problems.append(Problem("duty.torque", _("missing; how long a joint lasts depends on it")))
+        problems.append(Problem("duty.torque", _("missing; how long a joint lasts depends on it"), "missing"))
     if history is not None and len(history.times) < 2:
         problems.append(Problem("duty.torque_history", _("has no rows; it comes from a CSV file"), "empty"))
     check(problems)
