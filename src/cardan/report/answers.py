@@ -23,7 +23,6 @@ from .followed import Followed, asked_by_laws
 from .lacking import Lacking, told
 from .page import page
 from .run_up import running_up
-from .selection import choosing, of_selection
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
 
@@ -187,12 +186,6 @@ ANSWERS: dict[str, Answer] = {
         lacking=_of(lacks.of_run_up),
         otherwise=_free,
         quick=False,
-    ),
-    "selection": Answer(
-        title=lambda: _("Choice of joints"),
-        page=lambda on, _progress, choices: choosing(on, choices.get("joint")),
-        lacking=of_selection,
-        otherwise=_nothing,
     ),
 }
 """Every question by its name, in the order in which one asks them."""

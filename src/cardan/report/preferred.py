@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar, cast
 
+from cardan.answers.quantity import TOUCHING
 from cardan.drive.drive import Drive
 from cardan.figures import Figure
 from cardan.figures.conversion import KEY, Conversion, names_of
@@ -187,7 +188,7 @@ def _cell(cell: Cell, column: Column, ratio: float, how: Conversion) -> Cell:
     if found is not None or (ratio != 1.0 and not column.left and PLAIN.search(cell.text)):
         wide = cell.full if full is None or ratio == 1.0 else repr(full * ratio)
         bare = found is not None or ratio != 1.0
-        if bare and not any(one.isalpha() for one in cell.text):
+        if bare and not any(one.isalpha() or one in TOUCHING for one in cell.text):
             return replace(cell, text=how.number(cell.text, ratio, full if ratio != 1.0 else None), full=wide)
         return replace(cell, text=how.sentence(cell.text), full=wide)
     return replace(cell, text=how.sentence(cell.text))
