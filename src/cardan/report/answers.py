@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
 from cardan.answers.question import Question
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
@@ -123,7 +123,7 @@ def page_of(question: Question, on: Subject, progress: Progress | None, choices:
         return refused(question.name, title, error)
     if result is None:
         return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
-    return page(question.answer(on.drive, result), USUAL)
+    return page(question.answer(on.drive, result), reader())
 
 
 def _plain(made: Callable[[Subject], Page | None]) -> Callable[[Subject, Progress | None, Choices], Page | None]:
