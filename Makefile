@@ -11,12 +11,13 @@ WORKERS ?= 2
 
 FILE ?=
 
-.PHONY: help report app test lint docs bench clean all
+.PHONY: help report app test quick lint docs bench clean all
 
 help:
 	@echo "make report   the report of a shipped example (EXAMPLE=$(EXAMPLE)) as out/$(EXAMPLE).html"
 	@echo "make app      the app in the browser, with a drive of your own by FILE=drive.toml"
 	@echo "make test     all tests, docstring and documentation examples"
+	@echo "make quick    the tests but for the slow ones, in under 3 minutes on two cores; one: make quick FILE=tests/drive/test_line.py"
 	@echo "make lint     format, lint, types, import contracts"
 	@echo "make docs     the documentation as docs/_build/html/index.html"
 	@echo "make bench    benchmarks as JSON lines, each against its yardstick"
@@ -32,6 +33,9 @@ app: $(VENV)/.app
 test: $(VENV)/.test
 	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -q
 
+quick: $(VENV)/.test
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -q -m "not slow" $(FILE)
+
 lint: $(VENV)/.lint
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
@@ -40,7 +44,7 @@ lint: $(VENV)/.lint
 
 docs: $(VENV)/.docs
 	@rm -f docs/_build/.whole
-	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going -j auto -b html docs docs/_build/html
 	@touch docs/_build/.whole
 	@echo "docs/_build/html/index.html"
 

@@ -29,7 +29,7 @@ def figures(quick: bool) -> Iterator[Figure]:
         }
         if EXAMPLE.exists():
             jobs["cardan motion FILE"] = lambda: run("-m", "cardan", "motion", str(EXAMPLE))
-            jobs["cardan phases FILE"] = lambda: run("-m", "cardan", "phases", str(EXAMPLE))
+            jobs["cardan phasing FILE"] = lambda: run("-m", "cardan", "phases", str(EXAMPLE))
         best = fastest(jobs, rounds=3 if quick else 11)
         if EXAMPLE.exists():
             report = fastest({"": lambda: run("-m", "cardan", "report", str(EXAMPLE), "-o", page)}, rounds=3)[""]

@@ -174,6 +174,7 @@ def test_drives_that_are_fit_keep_all_their_limits(name: str) -> None:
     assert {one.state for one in found} == {"passed"}
 
 
+@pytest.mark.slow
 def test_the_axle_joint_of_the_truck_is_too_small_and_the_next_size_is_not() -> None:
     drive = example("truck-duty-cycle")
     found = check(drive)

@@ -14,6 +14,7 @@ def run(code):
     return done.stdout.split()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", cardan.__all__)
 def test_every_public_name_is_there(name):
     assert getattr(cardan, name) is not None
@@ -41,6 +42,7 @@ def test_asking_for_motion_is_light():
     assert not set(HEAVY) & set(loaded)
 
 
+@pytest.mark.slow
 def test_a_question_is_not_hidden_by_the_package_of_its_name():
     code = (
         "import cardan, cardan.calc.motion.kinematics; from cardan import calc; print(type(calc).__name__, calc is {})"

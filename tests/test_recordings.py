@@ -31,6 +31,7 @@ def test_there_is_one_of_every_fault(script: dict[str, Any]) -> None:
     assert all(path.stat().st_size < MOST for path in FOLDER.glob("*.csv"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", ["healthy", "worn_spline", "crack"])
 def test_the_script_makes_what_is_there(script: dict[str, Any], fault: str) -> None:
     made = script["recording"](fault)

@@ -112,6 +112,7 @@ def at_import(tree):
         waiting += ast.iter_child_nodes(node)
 
 
+@pytest.mark.slow
 def test_no_module_freezes_the_language_when_it_is_imported():
     """Those of the command line may: they are imported once the language is chosen, and only for their process."""
     frozen = [

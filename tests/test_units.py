@@ -9,6 +9,7 @@ from cardan.units import DIMENSIONS, KEY, Key, deg, factor, label, mm, nearest, 
 UNITS = [(dimension, unit) for dimension, units in DIMENSIONS.items() for unit in units]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("dimension", "unit"), UNITS)
 @given(value=st.floats(-1e6, 1e6))
 def test_there_and_back_again(dimension, unit, value):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
 from sphinx.application import Sphinx
+from sphinx.util.display import status_iterator
 
 
 def newest(folder: Path) -> float:
@@ -23,7 +25,11 @@ def make_pictures(app: Sphinx) -> None:
     folder, stamp = here / "_build" / "pictures", here / "_build" / "pictures" / ".drawn"
     changed = max(newest(here / "pictures"), newest(Path(cardan.__file__).parent))
     if not stamp.exists() or stamp.stat().st_mtime < changed:
-        pictures.build(folder)
+        count = len(pictures.names())
+        for _name in status_iterator(
+            pictures.drawn(folder, os.cpu_count() or 1), "drawing pictures... ", "brown", count, app.verbosity
+        ):
+            pass
         stamp.touch()
 
 

@@ -1,4 +1,4 @@
-"""Pictures of measures against torsional vibration: torques before and after, and the pushes of joints."""
+"""Pictures of measures against torsional vibration: torques before and after, and the excitations of joints."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ def ringed() -> Figure:
     axes.minorticks_off()
     axes.set_xlim(speed[0], speed[-1])
     axes.set_xlabel("input speed, rpm")
-    axes.set_ylabel("swing of the torque, N m")
+    axes.set_ylabel("alternating torque, ± N m")
     axes.legend(loc="upper right", labelcolor=INK)
     return figure
 
 
 def calmed() -> Figure:
-    """Draw torques as built and with the best yokes, and how the joints push before and after."""
+    """Draw torques as built and with the best yokes, and how the joints excite before and after."""
     found = calm(loads(FEEDER), method=Evolution(size=12, rounds=15, runs=1))
     figure, axes = page(9.0, 6.4)
     axes.set_position([0.1, 0.55, 0.86, 0.42])
@@ -73,7 +73,7 @@ def calmed() -> Figure:
     axes.minorticks_off()
     axes.set_xlim(speed[0], speed[-1])
     axes.set_xlabel("input speed, rpm")
-    axes.set_ylabel("swing of the torque, N m")
+    axes.set_ylabel("alternating torque, ± N m")
     axes.legend(loc="upper right", labelcolor=INK)
     rules = found.rules_before[0], found.rules_after[0]
     reach = float(np.max(np.abs(np.cumsum(rules[0].forced))))
@@ -81,7 +81,7 @@ def calmed() -> Figure:
         side = figure.add_axes((0.1 + 0.45 * k, 0.0, 0.41, 0.36))
         bare(side)
         _pushes(side, rule, reach)
-        side.set_title(f"pushes of the joints, {title}", color=INK, fontsize=11)
+        side.set_title(f"excitations of the joints, {title}", color=INK, fontsize=11)
     return figure
 
 

@@ -167,7 +167,7 @@ def tracta() -> Figure:
 
 
 def rzeppa() -> Figure:
-    """Draw a Rzeppa joint cut along the plane of its shafts: two races with grooves, balls in the halving plane."""
+    """Draw a Rzeppa joint cut along the plane of its shafts: two races with grooves, balls in the bisecting plane."""
 
     def draw(axes: Axes) -> None:
         one, two = shafts(axes, 36 * deg)
@@ -277,7 +277,7 @@ def elastic_half_cardan() -> Figure:
 
 
 def pins() -> Figure:
-    """Draw two slanting pins that touch in the halving plane."""
+    """Draw two slanting pins that touch in the bisecting plane."""
 
     def build(scene: Scene) -> None:
         bend, slant, a = 40 * deg, 42 * deg, 0.62

@@ -65,6 +65,7 @@ def one():
     made.close()
 
 
+@pytest.mark.slow
 def test_an_answer_comes_in_the_language_of_the_question_and_is_that_made_here():
     jobs = Jobs(1)
     try:

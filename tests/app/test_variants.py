@@ -159,6 +159,7 @@ def test_menus_open_and_close_while_the_server_is_busy(page: Any, server: Any) -
         mark(page, "theme").wait_for()
 
 
+@pytest.mark.slow
 def test_answers_are_in_the_units_and_with_the_sign_that_the_user_chose(page: Any) -> None:
     mark(page, "settings").click()
     mark(page, "unit-angle").click()

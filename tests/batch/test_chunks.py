@@ -73,6 +73,7 @@ def test_a_small_sweep_is_not_tried_for_long():
     assert slow.calls == fast.calls == [1]
 
 
+@pytest.mark.slow
 def test_large_rows_make_small_chunks():
     room = 2**20
     rows = rows_for(Costly(10**7, memory=4096), room=room)

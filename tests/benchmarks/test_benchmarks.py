@@ -9,6 +9,7 @@ import pytest
 from benchmarks.__main__ import NAMES, main
 from benchmarks.harness import Figure, fastest
 
+pytestmark = pytest.mark.slow
 APART = {"start_up", "app_frames", "app_latency"}
 """They start whole programs; tests of the command line and of the app do that."""
 

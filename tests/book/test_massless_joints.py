@@ -95,6 +95,7 @@ def test_the_motion_closes_and_keeps_its_volume():
     assert found.half_trace == pytest.approx(float(np.mean(elastic).real), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_joint_before_a_rigid_shaft_is_a_spring_by_the_square_of_its_ratio():
     """Heavy, even input and a stiff driven shaft leave J x'' = c_1 (φ - S(x)) S'(x), tan S = cos α tan x."""
     alpha, a = 25 * deg, 1.3

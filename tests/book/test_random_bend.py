@@ -65,6 +65,7 @@ def test_same_seed_same_path_other_seed_other_path():
     assert np.all(one != other)
 
 
+@pytest.mark.slow
 def test_simulation_has_the_variance_of_the_speed():
     mean, deviation, speed = 12 * deg, 0.8 * deg, 90.0
     density = scaled(deviation)
@@ -80,6 +81,7 @@ def test_simulation_has_the_variance_of_the_speed():
     assert np.mean(draws) == pytest.approx(float(found.mean), abs=0.01 * float(found.deviation))
 
 
+@pytest.mark.slow
 def test_simulation_has_the_sidebands():
     """The random part of the driven angle: power in the band around twice the speed, against the two-sided spectrum."""
     mean, deviation, speed = 12 * deg, 0.8 * deg, 90.0

@@ -125,6 +125,7 @@ def test_the_stack_adds_up_and_equal_shares_keep_the_target():
     assert turns[1] == pytest.approx(0.1 * np.cos(np.radians(30)) / 2, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_largest_stack_of_a_turn_is_found_between_samples():
     found = calc("tolerance_stack", STACK)
     fine = [

@@ -182,6 +182,7 @@ def turning_square() -> float:
     return float((60.0 * np.cos(alpha) / (1.0 - (np.sin(alpha) * np.cos(psi)) ** 2)) ** 2)
 
 
+@pytest.mark.slow
 def test_a_motion_without_bounds_is_an_error_that_says_when() -> None:
     drive = changed(
         "torques.0", {"shaft": 1, "station": 1, "kind": "linear_speed", "M0_Nm": 9.0, "slope_Nms_per_rad": -90.0}

@@ -42,6 +42,7 @@ def test_no_random_yokes_do_better_or_worse_than_the_bounds(table, data):
         assert found["delta_min"] - 1e-9 <= delta <= found["delta_max"] + 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(tables(), TWIST)
 def test_held_yokes_stay_and_the_rest_does_what_it_can(table, held):

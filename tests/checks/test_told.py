@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from cardan import Drive, example
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.checks import check
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import read, with_values
@@ -19,9 +21,9 @@ def test_accelerations_say_at_which_speed_they_are_judged_where_it_is_not_the_du
     drive = example("truck-duty-cycle")
     found = check(drive, only=["acceleration"])
     assert drive.duty.speed == pytest.approx(1500 * rpm)
-    assert {one.note for one in found} == {"at 1\u202f800 rpm"}
+    assert {told(one.note, USUAL) for one in found} == {"at 1\u202f800 rpm"}
     still = replace(drive, duty=Duty(speed=1500 * rpm))
-    assert {one.note for one in check(still, only=["acceleration"])} == {""}
+    assert {told(one.note, USUAL) for one in check(still, only=["acceleration"])} == {""}
 
 
 @pytest.mark.parametrize(("top", "value"), [(3900.0, "half"), (2000.0, "top")])
@@ -57,7 +59,7 @@ def test_an_end_shaft_that_whirls_on_its_supports_is_judged_like_the_others():
     real, computed = check(drive, only=["critical_speed"])
     assert (real.subject, real.state) == ("shafts[0]", "passed")
     assert real.value == pytest.approx(found.margin.ratio)
-    assert "49\u202f529 rpm, computed for the whole line" in computed.note
+    assert "49\u202f529 rpm, computed for the whole line" in told(computed.note, USUAL)
 
 
 @pytest.mark.parametrize("path", ["shafts[0].outer_mm", "shafts[1].outer_mm"])
@@ -75,7 +77,7 @@ def test_end_shafts_of_many_drives_whirl_nearly_as_one_by_one(path):
 @pytest.mark.parametrize(("wear", "said"), [(0.9, "0.9 of the 9\u202f443 rpm"), (1.0, "9\u202f443 rpm, computed")])
 def test_a_critical_speed_says_whether_it_is_the_computed_one(wear, said):
     drive = with_values(example("car-propshaft"), {"shafts[1].wear_factor": wear})
-    assert check(drive, only=["critical_speed"])[0].note.startswith(said)
+    assert told(check(drive, only=["critical_speed"])[0].note, USUAL).startswith(said)
 
 
 @pytest.mark.parametrize("name", ["tube_strength", "tube_fatigue", "twist", "critical_speed", "half_critical"])

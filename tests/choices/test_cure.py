@@ -69,6 +69,7 @@ def solved(make: Callable[[], Drive]) -> tuple[Drive, tuple[Verdict, ...], tuple
     return drive, verdicts, cures(drive, verdicts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [car, plain, running_at_half])
 def test_every_cure_lets_its_check_pass_and_the_file_edited_says_the_same(make):
     drive, verdicts, found = solved(make)
@@ -94,6 +95,7 @@ def test_a_cure_is_the_smallest_round_change(make):
         assert after.state == "failed" or abs(cure.value - cure.now) < 0.03 * abs(cure.now) + 2.0, cure
 
 
+@pytest.mark.slow
 def test_what_a_cure_solves_and_breaks_is_what_happens():
     drive, verdicts, found = solved(car)
     before = {one.title: one.state for one in verdicts if one.run and not one.advice}

@@ -58,6 +58,7 @@ def test_a_tube_that_whirls_first_sits_at_its_critical_speed():
     assert alone * math.hypot(outer, outer - 0.004) == pytest.approx(1.6 * 1800 * rpm, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "hold", "subject"),
     [
@@ -139,7 +140,7 @@ def test_the_smallest_row_of_the_catalogue_passes_and_no_smaller_one_does():
     for one in found.tried:
         joints = tuple(replace(j, cross=None, needles=None, size=one.id) for j in base.joints)
         mine = strength(replace(base, joints=joints))
-        own = max(u.utilisation for u in mine.binding if u.part.startswith("joints"))
+        own = max(u.utilisation for u in mine.binding if u.subject.startswith("joints"))
         assert own <= one.utilisation + 1e-9  # the checks of a maker's ratings come on top
         assert not one.passed or own <= 1.0
     assert found.drive == completed(found.drive)
@@ -166,6 +167,7 @@ def test_a_composite_tube_is_sized_against_buckling():
     )
 
 
+@pytest.mark.slow
 def test_a_duty_cycle_is_sized_by_its_heaviest_part():
     blocks = (Block(torque=400.0, speed=100.0, share=0.5), Block(torque=950.0, speed=100.0, share=0.5))
     both = size(drive(duty=Duty(blocks=blocks)), None, "shaft:2")
@@ -205,6 +207,7 @@ def test_preferred_numbers_are_those_of_the_standard():
     assert round_up(12345.0, step=100.0) == 12400.0
 
 
+@pytest.mark.slow
 def test_the_trade_off_is_what_the_checks_say_one_by_one():
     base = drive(duty=Duty(torque=900.0, speed=2500 * rpm))
     found = trade_off(base, None, 2, outer=np.asarray([50, 70, 90]) * mm, wall=np.asarray([1.5, 3.0, 30.0]) * mm)
@@ -267,6 +270,7 @@ def test_a_stepped_shaft_is_sized_in_proportion():
         size(base, None, "tube:2", hold="wall")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["tube:2", "shaft:2"])
 @pytest.mark.parametrize("hold", ["ratio", "wall", "outer"])
 @pytest.mark.parametrize("body", [{"wall": 3 * mm}, {"inner": 64 * mm}, {}])

@@ -62,6 +62,7 @@ def test_json_is_the_band(cardan):
     np.testing.assert_allclose(said["bounds"]["shift_lower_95_um"], found.shift.lower_95 * 1e6, **ROUND)
 
 
+@pytest.mark.slow
 def test_the_worst_case_is_the_widest(cardan):
     """Sums of sizes exceed roots of squares, and hold every drive that can be drawn."""
     sizes = {

@@ -93,6 +93,7 @@ def test_files_that_cannot_be_read(cardan, tmp_path):
     refused(cardan("motion", "deep.json"), "deep.json")
 
 
+@pytest.mark.slow
 def test_standard_input_that_is_no_drive(process):
     done = process("motion", "-", input=b"\xff\xfe", capture_output=True)
     assert done.returncode == 2
@@ -128,6 +129,7 @@ def test_places_that_cannot_be_written(cardan, tmp_path, command, suffix, place)
     assert (tmp_path / "file").read_text() == "kept"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "command", [("motion", TRUCK, "--plot", "out.svg"), ("report", TRUCK, "-o", "out.html")], ids=lambda c: c[0]
 )

@@ -44,6 +44,7 @@ def of(title, titles):
     return next(k for k, one in enumerate(titles) if title in one)
 
 
+@pytest.mark.slow
 def test_the_answer_is_that_of_the_library(cardan):
     done = cardan("diagnose", RUN, DRIVE, "--json")
     found = diagnose(signal(RUN), load(DRIVE))
@@ -86,6 +87,7 @@ def test_csv_lists_every_cause(cardan):
     assert sum(float(one["belief_percent"]) for one in rows) == pytest.approx(100.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".html", ".pdf", ".xlsx"])
 def test_report_and_figure_are_written(cardan, tmp_path, suffix):
     done = cardan("diagnose", RUN, DRIVE, "--report", f"d{suffix}", "--plot", "d.svg", "--json")

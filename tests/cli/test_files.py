@@ -113,6 +113,7 @@ def test_the_schema_accepts_the_examples(cardan, tmp_path):
     assert json.loads((tmp_path / "schema.json").read_text()) == schema
 
 
+@pytest.mark.slow
 def test_every_formula_is_listed(cardan):
     out = cardan("calc", "--list").out
     assert all(name in out for name in CALCULATIONS)

@@ -44,7 +44,7 @@ def test_json_is_the_law(cardan):
     (one,) = said["joints"]
     found = joint_turn(DoubleCardan(centring_ratio=0.5), 30 * deg)
     np.testing.assert_allclose(one["turn"]["ratio"], found.ratio, rtol=1e-14)
-    assert one["error_deg"] == pytest.approx(found.error / deg)
+    assert one["angle_error_deg"] == pytest.approx(found.error / deg)
     assert one["acceleration_rad_s2"] == pytest.approx(found.acceleration * (20 * np.pi) ** 2)
     assert one["inside"]["driving_bend_deg"] + one["inside"]["driven_bend_deg"] == pytest.approx(30)
     assert one["types"] == ["double_centred", "double_frame"]
@@ -54,7 +54,7 @@ def test_json_is_the_law(cardan):
 def test_csv_holds_the_curves_of_all(cardan):
     rows = list(csv.DictReader(io.StringIO(cardan("joint", *SEVERAL, "--csv").out)))
     assert len(rows) == 721
-    assert {"angle_deg", "hooke_ratio", "double_cardan_lead_deg", "tracta_slope"} <= set(rows[0])
+    assert {"angle_deg", "hooke_ratio", "double_cardan_angle_error_deg", "tracta_slope"} <= set(rows[0])
     assert max(float(row["hooke_ratio"]) for row in rows) == pytest.approx(1 / np.cos(25 * deg))
 
 
@@ -64,7 +64,7 @@ def test_tables_within_keys_are_read(cardan):
     said = cardan("joint", "clemens", *words, "--bend-deg", 30, "--json").content
     arms = [Profile(axial=h * mm, radial=r * mm, radius=rho * mm) for h, r, rho in ((60, 10, 75), (62, 11, 74))]
     found = joint_turn(Clemens(driving=arms[0], driven=arms[1]), 30 * deg)
-    assert said["joints"][0]["error_deg"] == pytest.approx(found.error / deg)
+    assert said["joints"][0]["angle_error_deg"] == pytest.approx(found.error / deg)
 
 
 def test_joints_of_one_kind_are_told_apart(cardan):
@@ -75,9 +75,9 @@ def test_joints_of_one_kind_are_told_apart(cardan):
 def test_bends_and_speeds_beyond_what_is_built_are_told(cardan):
     out = plain(cardan("joint", "tripod", "track_radius_mm=20", "--bend-deg", 40).out)
     assert "real joints of this kind work to 26.0° only" in out
-    assert "✖ bends too much" in out
+    assert "✖ joint angle too large" in out
     out = plain(cardan("joint", "weiss", "--bend-deg", 30, "--speed-rpm", 1500).out)
-    assert "✖ too fast at this bend" in out
+    assert "✖ too fast at this joint angle" in out
 
 
 @pytest.mark.parametrize(

@@ -73,6 +73,7 @@ def test_behind_two_dashes_it_is_a_word(cardan):
     assert "there is no language" not in done.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [(), ("check",), ("torsion",), ("torsion", "modes"), ("calc",)], ids=" ".join)
 def test_help_speaks_the_language_and_fits(spoken, command):
     done = spoken(*command, "--help", CARDAN_LANG="ru")
@@ -95,6 +96,7 @@ KEPT = {
 """Names of commands, of files and of types stay."""
 
 
+@pytest.mark.slow
 def test_a_group_and_nothing_else_show_their_help(spoken):
     assert spoken("--lang", "ru").stdout == spoken("--help", "--lang", "ru").stdout
     assert "Использование: cardan torsion" in spoken("torsion", "--lang", "ru").stdout

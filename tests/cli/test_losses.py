@@ -50,6 +50,7 @@ def test_csv_and_json_agree(cardan):
     assert {key: [float(row[key]) for row in table] for key in said} == said
 
 
+@pytest.mark.slow
 def test_the_map_is_that_of_the_library(cardan):
     table = list(csv.DictReader(io.StringIO(cardan("losses", TRUCK, "--map", "--csv").out)))
     found = loss_map(files.load(TRUCK))

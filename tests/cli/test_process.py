@@ -22,16 +22,17 @@ def modules_after(*arguments):
     return set(done.stderr.split())
 
 
-@pytest.mark.parametrize("arguments", [("--help",), (), ("--version",), ("motion", "--help")], ids=" ".join)
+@pytest.mark.parametrize("arguments", [("--help",), (), ("--version",)], ids=" ".join)
 def test_help_imports_nothing_heavy(arguments):
     found = modules_after(*arguments)
     assert not found & set(HEAVY)
     assert {name for name in found if name.startswith("cardan.")} <= {
-        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.lazy", "cardan.cli.options", "cardan.cli.motion",
+        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.lazy", "cardan.cli.options",
         "cardan.texts", "cardan.errors",
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_motion_imports_no_plotting_and_no_compiler():
     found = modules_after("motion", str(TRUCK))
     assert not found & {"scipy", "matplotlib", "plotly", "numba", "jinja2", "tomlkit"}
@@ -44,13 +45,13 @@ def test_version_and_help(process):
     helped = process("--help", capture_output=True, text=True)
     assert bare.returncode == helped.returncode == 0
     assert bare.stdout == helped.stdout
-    for command in ("motion", "phases", "articulation", "report", "init", "example", "convert", "schema", "calc"):
+    for command in ("motion", "phasing", "articulation", "report", "init", "example", "convert", "schema", "calc"):
         assert command in helped.stdout
     assert max(map(len, helped.stdout.splitlines())) <= 80
 
 
 @pytest.mark.parametrize(
-    "command", ["motion", "phases", "articulation", "report", "init", "example", "convert", "schema", "calc"]
+    "command", ["motion", "phasing", "articulation", "report", "init", "example", "convert", "schema", "calc"]
 )
 def test_every_command_has_help_with_examples(cardan, command):
     done = cardan(command, "--help")
@@ -64,6 +65,7 @@ def defaults():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_long_work_in_one_line(process):
     """The pipe is full and nobody reads on, so the command is still at work when the signal comes."""
     child = process(
@@ -100,6 +102,7 @@ def test_ctrl_c_while_a_file_is_written_leaves_no_file(cardan, tmp_path, monkeyp
         assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [("motion", TRUCK, "--angle-step", 0.01, "--csv"), ("motion", TRUCK)])
 def test_a_reader_that_leaves_is_no_error(process, arguments):
     child = process(*arguments, start=subprocess.Popen, **PIPES)
@@ -110,6 +113,7 @@ def test_a_reader_that_leaves_is_no_error(process, arguments):
     assert child.wait(timeout=60) == 0
 
 
+@pytest.mark.slow
 def test_a_reader_that_was_never_there_is_no_error(process):
     reading, writing = os.pipe()
     os.close(reading)
@@ -127,6 +131,7 @@ def test_a_full_output_is_told(process):
     assert done.stderr == "error: standard output: no space left on device\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "name"), [(1, "out"), (2, "err")])
 def test_streams_that_the_caller_closed_do_no_harm(process, number, name):
     def closed(*arguments):
@@ -165,6 +170,7 @@ def on_terminal(process, *arguments, **environment):
     return done.returncode, b"".join(parts).decode()
 
 
+@pytest.mark.slow
 def test_colours_only_on_terminals_that_want_them(process):
     even = EXAMPLES / "z-arrangement.toml"
     code, coloured = on_terminal(process, "phases", even, NO_COLOR="")
@@ -177,6 +183,7 @@ def test_colours_only_on_terminals_that_want_them(process):
     assert "\033[" not in on_terminal(process, "phases", "missing", NO_COLOR="1")[1]
 
 
+@pytest.mark.slow
 def test_completion_knows_commands_options_and_names(process):
     def completed(line):
         environment = {
@@ -188,6 +195,6 @@ def test_completion_knows_commands_options_and_names(process):
         return process(capture_output=True, text=True, environment=environment).stdout.split()
 
     assert completed("cardan mo") == ["motion", "mobility"]
-    assert "--fix" in completed("cardan phases --f")
+    assert "--fix" in completed("cardan phasing --f")
     assert completed("cardan calc single_joint_e") == ["single_joint_extremes"]
     assert completed("cardan example single") == ["single-20deg"]

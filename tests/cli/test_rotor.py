@@ -28,6 +28,7 @@ def lines(done):
     return "\n".join(one for one in done.out.splitlines() if not one.startswith("    cardan"))
 
 
+@pytest.mark.slow
 def test_the_answer_is_that_of_the_library(cardan, cracked):
     said = cardan("rotor", cracked, "--speeds", "1000:4000:7", "--json").content
     found = rotor_response(load(cracked), speed=[k * 3.141592653589793 / 30 for k in range(1000, 4001, 500)])
@@ -39,6 +40,7 @@ def test_the_answer_is_that_of_the_library(cardan, cracked):
     assert [float(one["order_minus_1_um"]) for one in rows] == said["response"]["order_minus_1_um"]
 
 
+@pytest.mark.slow
 def test_it_stands_within_80_columns_and_draws(cardan, cracked, tmp_path):
     done = cardan("rotor", cracked, "--plot", "r.svg")
     assert (done.code, done.err) == (0, "")
@@ -47,12 +49,14 @@ def test_it_stands_within_80_columns_and_draws(cardan, cracked, tmp_path):
     assert "order 1 backward" in (tmp_path / "r.svg").read_text()
 
 
+@pytest.mark.slow
 def test_whirling_that_grows_at_speeds_in_use_is_a_failure(cardan, deep):
     done = cardan("rotor", deep, "--damping", 0.002, "--json")
     assert done.code == done.content["exit_code"] == 1
     assert done.content["unstable_rpm"]
 
 
+@pytest.mark.slow
 def test_a_run_up_needs_one_in_the_duty(cardan, cracked, tmp_path):
     done = cardan("rotor", cracked, "--run-up")
     assert (done.code, "duty.run_up" in done.err) == (2, True)
@@ -69,6 +73,7 @@ def test_a_run_up_needs_one_in_the_duty(cardan, cracked, tmp_path):
     assert (tmp_path / "run.svg").stat().st_size > 1000
 
 
+@pytest.mark.slow
 def test_two_shafts_beside_a_joint(cardan, tmp_path):
     done = cardan("rotor", EXAMPLES / "truck-supports.toml", "--joint", 2, "--turns", 6, "--json", "--plot", "j.svg")
     said = done.content

@@ -40,6 +40,7 @@ def test_it_stands_within_80_columns(cardan):
         assert widest("\n".join(lines)) <= 80
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".csv", ".wav", ".uff", ".tdms"])
 def test_the_recording_is_that_of_the_library(cardan, tmp_path, suffix):
     said = cardan("simulate-fault", DRIVE, "crack", "-o", f"run{suffix}", "--seed", 3, *SHORT, "--json").content

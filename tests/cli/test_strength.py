@@ -59,6 +59,7 @@ def winch(drive_file):
     return drive_file(DRIVE, "winch.toml")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "command",
     [

@@ -92,6 +92,7 @@ def test_the_tolerance_field_that_is_shipped(cardan):
     assert said["fields"][int(np.argmax(told["total"]))] == "joints[2].bend_deg"
 
 
+@pytest.mark.slow
 def test_the_choice_of_suppliers_that_is_shipped(cardan, tmp_path):
     done = cardan("sweep", SWEEPS / "supplier-choice.toml", "--into", tmp_path / "offers")
     assert done.code == 0
@@ -105,6 +106,7 @@ def test_the_choice_of_suppliers_that_is_shipped(cardan, tmp_path):
     assert all(one <= 1.0 for one in said["rows"]["strength_used"])
 
 
+@pytest.mark.slow
 def test_the_boundary_of_stability_that_is_shipped(cardan, tmp_path):
     """Coarser than shipped: its tip lies at the speed of the zone, and the stand as it is lies within."""
     text = (SWEEPS / "stability-boundary.toml").read_text(encoding="utf-8")

@@ -82,6 +82,7 @@ def test_csv_holds_all_that_was_told(cardan, folder):
     assert sorted(some.out.splitlines()[1:]) == ["Alpha,70", "Beta,140"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".csv", ".xlsx", ".parquet"])
 def test_exports(cardan, folder, tmp_path, suffix):
     done = show(cardan, folder, "--export", tmp_path / f"all{suffix}", "--where", "status = 0")
@@ -90,6 +91,7 @@ def test_exports(cardan, folder, tmp_path, suffix):
     assert show(cardan, folder, *GOALS, "--export", tmp_path / f"some{suffix}", "--json").content["exported"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "titles"),
     [

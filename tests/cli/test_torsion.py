@@ -196,6 +196,7 @@ def test_help_lists_the_questions(cardan):
         assert max(map(len, done.out.splitlines())) <= 80
 
 
+@pytest.mark.slow
 def test_ctrl_c_keeps_what_is_done(cardan, rig, monkeypatch):
     """The signal comes while the motion is followed; what was found by then is told, and the code says so."""
 
@@ -223,6 +224,7 @@ def test_a_second_ctrl_c_ends_it_at_once():
         twice()
 
 
+@pytest.mark.slow
 def test_a_drive_that_finds_no_steady_motion_says_so(cardan, drive_file, tmp_path, recwarn):
     steep = drive_file(
         'format = 1\nname = "steep"\njoints = [{ bend_deg = 89 }]\nshafts = [\n'
@@ -242,6 +244,7 @@ def test_a_drive_that_finds_no_steady_motion_says_so(cardan, drive_file, tmp_pat
     assert not [one for one in recwarn if one.category is RuntimeWarning]
 
 
+@pytest.mark.slow
 def test_a_map_marks_the_drive_and_names_its_zones(cardan, drive_file):
     path = drive_file(RIG.replace("0.02", "0.002").replace("speed_rpm = 1500", "speed_rpm = 2728"))
     done = cardan("torsion", "stability", path, "--speeds", "2600:2900:13", "--bends", "6:20:8")

@@ -9,6 +9,7 @@ import pytest
 from .console import ROOT, agree, follow, pages, shown
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", pages(), ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_commands_print_what_the_page_shows(page: Path, tmp_path: Path) -> None:
     wrong = [

@@ -26,6 +26,7 @@ def conventions(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
         del sys.modules[name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 1.0, 4.0])
 def test_yokes_are_drawn_as_the_file_says(conventions: ModuleType, angle: float) -> None:
     yokes = [0.5, -1.2]
@@ -53,6 +54,7 @@ def test_clockwise_on_paper_is_positive_about_an_axis_that_leaves_the_reader(con
     assert angle_about(np.array([1.0, 0.0, 0.0]), down, left) == pytest.approx(np.pi / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("module", ["conventions", "theory", "movements", "gallery"])
 def test_every_picture_is_drawn(module: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(DOCS))

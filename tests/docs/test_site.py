@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urldefrag
@@ -56,38 +58,31 @@ def built() -> bool:
     return stamp.exists() and stamp.stat().st_mtime > changed
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="session")
+def site(
+    tmp_path_factory: pytest.TempPathFactory, one_at_a_time: Callable[[str], AbstractContextManager[Path]]
+) -> Path:
+    """Return the pages: those of ``make docs``, or one build for all workers."""
     if built():
         return ROOT / "docs" / "_build" / "html"
     pytest.importorskip("sphinx")
     pytest.importorskip("furo")
-    out = tmp_path_factory.mktemp("site")
-    made = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "sphinx",
-            "-q",
-            "-W",
-            "--keep-going",
-            "-b",
-            "html",
-            "-d",
-            str(out / "tree"),
-            str(ROOT / "docs"),
-            str(out / "html"),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert made.returncode == 0, made.stderr
+    with one_at_a_time("site") as out:
+        if not (out / "done").exists():
+            where = ["-b", "html", "-d", str(out / "tree"), str(ROOT / "docs"), str(out / "html")]
+            made = subprocess.run(
+                [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", *where],
+                capture_output=True,
+                text=True,
+                timeout=900,
+                check=False,
+            )
+            assert made.returncode == 0, made.stderr
+            (out / "done").touch()
     return out / "html"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def read(site: Path) -> dict[Path, Page]:
     return {file: Page(file.read_text("utf-8")) for file in site.rglob("*.html")}
 

@@ -48,6 +48,7 @@ def test_plotly_keeps_the_numbers_for_whoever_points_at_them():
     assert trace["colorscale"][-1][1] == palette.scale(1.0)
 
 
+@pytest.mark.slow
 def test_matplotlib_has_the_colours_of_the_palette():
     stream = io.BytesIO()
     render(FIGURE, stream, "png", words=False)

@@ -52,6 +52,7 @@ def every(drive: Drive) -> list[figures.Figure]:
     return [for_reader(figure, USUAL) for result in asked for figure in figures.for_result(result)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRIVES)
 def test_both_renderers_draw_every_figure(name):
     made = every(DRIVES[name])
@@ -68,12 +69,14 @@ def test_both_renderers_draw_every_figure(name):
         assert len(spec["data"]) or spec["layout"]["annotations"]
 
 
+@pytest.mark.slow
 def test_plotly_accepts_what_is_described():
     graphs = pytest.importorskip("plotly.graph_objects")
     for figure in every(DRIVES["pto-hitch"]) + every(SIX):
         graphs.Figure(described(figure))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF"), (".html", b"<!doc")]
 )
@@ -83,6 +86,7 @@ def test_save_writes_whole_files(tmp_path, suffix, start):
     assert [path.name for path in tmp_path.iterdir()] == [f"six{suffix}"]
 
 
+@pytest.mark.slow
 def test_pdf_has_a_page_for_each_figure(tmp_path):
     text = figures.save(figures.for_result(SIX), tmp_path / "six.pdf").read_bytes()
     assert len(re.findall(rb"/Type /Page\b", text)) == 3
@@ -220,6 +224,7 @@ def test_ticks_are_few_round_and_told_apart(span):
     assert len(set(written(ticks))) == len(ticks)
 
 
+@pytest.mark.slow
 def test_several_figures_of_a_png_stand_below_each_other():
     one, all_of_them = io.BytesIO(), io.BytesIO()
     made = figures.for_result(SIX)

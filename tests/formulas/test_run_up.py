@@ -16,6 +16,7 @@ from cardan.maths.periodic.oscillator import chirp
 from cardan.units import deg
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("omega", "zeta", "rate", "end"),
     [

@@ -6,7 +6,10 @@ none: ``life_h`` is found as ``life_s``. ``python -m tests.golden.check --sugges
 
 from __future__ import annotations
 
-COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
+COMMAND_LINES: tuple[tuple[str, str], ...] = (
+    (r"^tolerance ", "accuracy "),
+    (r"^torsion calm ", "torsion optimise "),
+)
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
 PATHS: tuple[tuple[str, str, str], ...] = (
@@ -14,6 +17,10 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
     ("losses", r"efficiency_small_bends", "efficiency_small_joint_angles"),
     ("losses", r"(.*[._])?heat_W", r"\1power_loss_W"),
+    ("mobility", r"(joints\.)?misfit(.*)", r"\1misalignment\2"),
+    ("mobility", r"repairs(.*)", r"remedies\1"),
+    ("mobility", r"turn\.comes_round", "turn.turns_through"),
+    ("assembly", r"(.*\.)?let_go", r"\1release"),
     ("forces", r"(.*[._])heat(_mean)?_W", r"\1power_loss\2_W"),
     ("forces", r"(shafts\.|.*\.shaft_\d+_)bending(.*)", r"\1secondary_couple\2"),
     ("forces", r"joints\.bend_(.*)", r"joints.joint_angle_\1"),
@@ -25,12 +32,33 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("motion", r"orders\.lead_deg", "orders.angle_error_deg"),
     ("motion", r"shafts\.irregularity_percent", "shafts.speed_fluctuation_percent"),
     ("motion", r"shafts\.max_lead_deg", "shafts.angle_error_deg"),
+    ("articulation", r"history\.(joint_\d+)_bend_deg", r"history.\1_joint_angle_deg"),
+    ("articulation", r"history\.(moving|shaft_\d+)_irregularity", r"history.\1_speed_fluctuation_percent"),
+    ("articulation", r"joints\.bend_(min|max)_deg", r"joints.joint_angle_\1_deg"),
+    ("joint", r"(joints|kinds)\.steepest_deg", r"\1.max_joint_angle_deg"),
+    ("joint", r"bend_deg", "joint_angle_deg"),
+    ("joint", r"joints\.bends\.bend_deg", "joints.over_joint_angle.joint_angle_deg"),
+    ("joint", r"joints\.bends\.error_deg", "joints.over_joint_angle.angle_error_deg"),
+    ("joint", r"joints\.bends\.irregularity", "joints.over_joint_angle.speed_fluctuation_percent"),
+    ("joint", r"joints\.error_deg", "joints.angle_error_deg"),
+    ("joint", r"joints\.irregularity", "joints.speed_fluctuation_percent"),
+    ("joint", r"joints\.turn\.lead_deg", "joints.turn.angle_error_deg"),
     ("phases", r"equivalent_bend_(max|min)_deg", r"equivalent_joint_angle_\1_deg"),
     ("phases", r"irregularity_as_built", "speed_fluctuation_as_specified_percent"),
     ("phases", r"irregularity(_max|_min|)", r"speed_fluctuation\1_percent"),
     ("phases", r"settings\.joint_phase_angle_deg", "settings.initial_yoke_position_deg"),
     ("phases", r"settings\.(shaft_|pose_|)irregularity", r"settings.\1speed_fluctuation_percent"),
     ("phases", r"(joints\.|)bend(_before|)_deg", r"\1joint_angle\2_deg"),
+    ("torsion (absorber|calm)", r"(\w+)\.swing_Nm", r"\1.alternating_torque_Nm"),
+    ("torsion (absorber|calm)", r"curves\.(\w+)_swing_(\d+)_Nm", r"curves.\1_alternating_torque_\2_Nm"),
+    ("torsion absorber", r"curves\.absorber_swing_deg", "curves.absorber_twist_deg"),
+    ("torsion absorber", r"curves\.absorber_heat_W", "curves.absorber_power_loss_W"),
+    ("torsion absorber", r"largest_heat_W", "largest_power_loss_W"),
+    ("torsion (absorber|calm)", r"play_closed", "backlash_closed"),
+    ("torsion calm", r"(\w+)\.push_left", r"\1.excitation_left"),
+    ("strength", r"shafts\.bending_Nm", "shafts.secondary_couple_Nm"),
+    ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
+    ("check", r"cures\.(.*)", r"remedies.\1"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""

@@ -240,6 +240,7 @@ tables = st.recursive(
 )
 
 
+@pytest.mark.slow
 @given(tables)
 @settings(max_examples=200, deadline=None)
 def test_any_tree_loads_or_is_refused(tree: dict[str, object]) -> None:

@@ -123,6 +123,7 @@ def spectra() -> st.SearchStrategy[Spectrum]:
     return rising.map(lambda f: Spectrum(frequency=tuple(f), density=tuple(1.0 + k for k in range(len(f)))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [cls for cls in MOVEMENTS.values() if cls is not Table])
 @given(data=st.data())
 @settings(max_examples=30, deadline=None)
@@ -186,6 +187,7 @@ def shafts(draw: st.DrawFn) -> Shaft:
     return replace(shaft, **body, material=made_of)
 
 
+@pytest.mark.slow
 @given(duties, shafts(), things(Limits), things(Settings), words, notes)
 @settings(max_examples=100, deadline=None)
 def test_all_other_tables(
@@ -216,6 +218,7 @@ hookes = things(
 places = things(Support, shaft=st.just(2), position=st.just(0.5), bore=st.just(0.06), radial=st.just(True))
 
 
+@pytest.mark.slow
 @given(hookes, st.lists(places, max_size=3))
 @settings(max_examples=100, deadline=None)
 def test_joints_and_supports(joint: Hooke, supports: list[Support]) -> None:
@@ -238,6 +241,7 @@ rising = st.lists(st.floats(-1e4, 1e4, allow_subnormal=False), min_size=2, max_s
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [cls for cls in LAWS.values() if cls is not TorqueHistory])
 @given(data=st.data())
 @settings(max_examples=30, deadline=None)
@@ -264,6 +268,7 @@ elements = st.none() | things(ToNext)
 hung = st.tuples(st.none() | WAYS[Absorber](Absorber), st.none()) | st.tuples(st.none(), st.none() | things(Pendulum))
 
 
+@pytest.mark.slow
 @given(st.data(), elements, hung)
 @settings(max_examples=50, deadline=None)
 def test_stations(data: st.DataObject, element: ToNext | None, parts: tuple[Absorber | None, Pendulum | None]) -> None:

@@ -20,6 +20,7 @@ def tree(**changes: Any) -> dict[str, Any]:
     return {"format": 1, "joints": [{"bend_deg": 10}, {"bend_deg": 12}], **changes}
 
 
+@pytest.mark.slow
 def test_is_a_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(schema())
     assert json.loads(json.dumps(schema())) == schema()

@@ -22,6 +22,7 @@ def catalogue(code):
     return stored(code)
 
 
+@pytest.mark.slow
 def test_the_catalogue_has_the_sentences_of_the_sources_and_no_others(catalogue):
     known = {message.id for message in catalogue if message.id}
     wanted = {message.id for message in extracted() if message.id}

@@ -12,11 +12,13 @@ FOLDER = Path(__file__).parent
 CASES = [case for path in sorted(FOLDER.glob("*.json")) for case in json.loads(path.read_text("utf8"))["cases"]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=[case["id"] for case in CASES])
 def test_a_reference_case_passes(case):
     assert faults(case, result_of(case)) == []
 
 
+@pytest.mark.slow
 def test_every_capability_of_the_cases_is_known():
     assert {case["id"] for case in CASES if result_of(case) is None} == set()
 
@@ -28,6 +30,7 @@ def test_an_unknown_capability_gives_no_result(tmp_path):
     assert json.loads((tmp_path / "out.json").read_text("utf8")) == {"results": []}
 
 
+@pytest.mark.slow
 def test_the_runner_runs_as_a_module(tmp_path):
     out = tmp_path / "out.json"
     command = [sys.executable, "-m", "tests.reference", str(FOLDER / "kinematics.json"), str(out)]

@@ -4,12 +4,12 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from cardan.report.bending import whirling
 
 from cardan import example
 from cardan.drive.duty import Duty
 from cardan.figures.wording import significant
 from cardan.questions.bending.bending import bending_speeds
-from cardan.report.bending import whirling
 from cardan.report.block import Picture, Table
 from cardan.units import rpm
 
@@ -48,6 +48,7 @@ def test_the_key_figure_has_its_limit():
     assert [cell.text for cell in row[3:]] == ["–", "–", ""]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("duty", "tones"),
     [

@@ -59,13 +59,14 @@ def test_only_what_differs_is_told(page):
     assert found.rows[0][2].text == "2000, 0, 400 mm"
 
 
+@pytest.mark.slow
 def test_limits_stand_beside_each_other_with_their_signs():
     text = example_text("car-propshaft")
     low = amend(text, {"joints[1].centre_mm": [1150, 0, -120]})
     page = compared([Variant(name=name, drive=loads(one)) for name, one in (("now", text), ("low", low))])
     assert page.answer.startswith("now: all limits are kept. Limits not kept: low")
     found = table(page, "Limits")
-    bend = next(one for one in found.rows if one[0].text == "bend of joint 2")
+    bend = next(one for one in found.rows if one[0].text == "joint angle of joint 2")
     assert [cell.sign for cell in bend[1:3]] == ["✓", "✖"]
     assert bend[-1].text == "now"
     assert row(table(page, "Key figures"), "limits not kept")[2:] == ["0", str(number_failed(found, 2)), "now"]

@@ -30,6 +30,7 @@ def table(page, title):
     return next(block for block in page.blocks if getattr(block, "title", "").startswith(title))
 
 
+@pytest.mark.slow
 def test_the_ranking_is_that_of_the_library(found):
     page = diagnosed(found)
     rows = table(page, "Causes").rows
@@ -90,6 +91,7 @@ def test_the_words_for_speed_and_torque():
     assert [by_torque(share) for share in shares] == ["changes with its sense", "grows", "falls"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".html", ".pdf", ".xlsx"])
 def test_every_form_of_report_holds_it(found, suffix):
     made = RENDERERS[suffix].excerpt(Excerpt(title=found.drive.name, page=diagnosed(found)))

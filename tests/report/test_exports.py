@@ -40,6 +40,7 @@ def figure(name: str):
     return next(one for one in FIGURES if one.name == name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("thing", [PAGE, TABLES[0], figure("orders"), figure("space")])
 def test_every_kind_is_what_it_is_called(thing: object) -> None:
     for kind in kinds(thing):

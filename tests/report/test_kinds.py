@@ -96,6 +96,7 @@ def test_a_report_names_what_it_leaves_out() -> None:
     assert "Not judged for joints of these kinds" in text
 
 
+@pytest.mark.slow
 def test_a_report_tells_which_joint_could_be_even() -> None:
     text = page(loads(file_of("pin_coupling")))
     assert "Joint 1 is uniform where the parts of both its shafts are alike. What the other joints add" in text
@@ -119,7 +120,7 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
         (["losses"], "losses"),
         (["tolerance"], "errors and tolerances"),
         (["life"], "bearing life"),
-        (["assembly"], "forces from misfit"),
+        (["assembly"], "forces from misalignment"),
         (["forces"], "forces"),
         (["phasing"], "yoke angles"),
         (["torsion", "modes"], "torsional vibration"),

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
@@ -22,10 +23,8 @@ from cardan.questions.forces.forces import forces
 from cardan.questions.forces.moving_forces import moving_forces
 from cardan.questions.losses.figure import power
 from cardan.questions.losses.losses import losses
-from cardan.report.assembly import straining
-from cardan.report.mobility import binding
+from cardan.report.answers import answered, subject
 from cardan.report.report import page
-from cardan.report.subject import Subject
 from cardan.units import arcmin
 
 from .test_report import of_example, parsed
@@ -64,6 +63,7 @@ def words(drive):
     return "".join(parsed(paged(drive)).words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_each_part_stands_only_where_the_file_asks_for_it(name):
     assert PARTS & set(parsed(of_example(name)).ids) == WITH.get(name, set())
@@ -73,9 +73,9 @@ def test_each_part_stands_only_where_the_file_asks_for_it(name):
 def test_every_check_passes(name):
     text = of_example(name)
     tables = re.findall(r"<h3>Checks</h3>(.*?)</table>", text, flags=re.DOTALL)
-    told = re.findall(r">([^<>]*[Cc]hecked: [^<>]*)<", text)
-    assert len(tables) + len(told) >= len(WITH[name])  # each part has one
-    assert all("to rounding" in one or "10⁻" in one for one in told)
+    said = re.findall(r">([^<>]*[Cc]hecked: [^<>]*)<", text)
+    assert len(tables) + len(said) >= len(WITH[name])  # each part has one
+    assert not any(re.search("to 0|not at all|[Ff]ailed", one) for one in said)
     for table in tables:
         verdicts = re.findall(r'<td class="([^"]*)"[^>]*>(?:(?!<td).)*</tr>', table, flags=re.DOTALL)
         assert len(verdicts) == table.count("<tr>") - 1 > 0  # but for that of the head
@@ -106,6 +106,7 @@ def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
     assert "What the supports carry" not in text
 
 
+@pytest.mark.slow
 def test_a_loose_shaft_is_named():
     drive = example("truck-supports")
     assert "supports" in words(replace(drive, supports=drive.supports[:-1]))
@@ -124,20 +125,17 @@ def test_shared_forces_are_called_so():
     assert "share the forces" not in words(example("truck-supports"))
 
 
-def test_the_structure_says_how_often_too_much_and_what_cures_it():
+def test_the_structure_tells_redundant_constraints_and_a_remedy():
     said = words(example("overconstrained-pump"))
-    assert "hold it 3 times more than it needs" in said
+    assert "Mobility 1, 3 redundant constraints (overconstrained)" in said
     assert "support 4 (pump, far), float along its axis" in said
-    assert "hold it just enough" in words(example("truck-supports"))
+    assert "Mobility 1, no redundant constraints" in words(example("truck-supports"))
 
 
-def test_assembly_says_how_much_and_what_to_let_go():
-    drive = example("overconstrained-pump")
-    found = assembly(drive)
-    text = words(drive)
-    assert f"joint 1 carries up to {significant(found.joint_peak[0].value)} N" in text
-    assert "held by 3 more than statics needs" in text
-    assert "4 (pump, far) lengthwise, 2 (motor, near) sideways" in text
+def test_assembly_says_how_much_and_what_to_release():
+    text = words(example("overconstrained-pump"))
+    assert "Statically indeterminate, degree 3; misalignment loads support 1 (motor, far) with up to 2" in text
+    assert "Statically determinate with supports[1] omitted and supports[3].axial = false." in text
 
 
 def test_parts_that_fit_strain_nothing():
@@ -149,7 +147,7 @@ def test_parts_that_fit_strain_nothing():
     )
     text = words(fits)
     assert "all parts fit" in text
-    assert "What misfit presses" not in text
+    assert "How misalignment loads" not in text
 
 
 def test_stiffness_left_out_is_asked_for_by_name():
@@ -244,7 +242,7 @@ def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
     text = front(pump)
     assert f"{plain(significant(assembly(pump).joint_peak[0].value))} N" in text
     assert "binds" in text
-    assert "Its parts do not fit" in text
+    assert "Misalignment strains the drive without any torque" in text
 
 
 def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
@@ -287,6 +285,7 @@ def test_the_last_digits_of_coordinates_are_no_reason_to_change_a_drive():
 
 
 def test_what_holds_too_often_is_counted_once_on_the_first_page():
-    on = Subject(drive=example("overconstrained-pump"))
-    keys = [row[0].text for made in (straining(on), binding(on)) for row in made.keys]
-    assert sum("too" in text for text in keys) == 1
+    on = subject(example("overconstrained-pump"))
+    pages = [answered(name, on) for name in ("assembly", "mobility")]
+    keys = [told(one.title, USUAL) for made in pages for one in made.keys]
+    assert keys == ["force of misalignment without load, joint 1", "redundant constraints"]

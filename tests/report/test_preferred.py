@@ -52,6 +52,7 @@ def texts(one: object, *, files: bool = False):
                 yield from texts(getattr(one, name), files=files)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_no_unit_is_left_over(name):
     left = "|".join(re.escape(label(unit)) for unit in USUAL)

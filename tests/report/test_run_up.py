@@ -28,6 +28,7 @@ def tables(shown: Page) -> dict[str, Table]:
     return {block.title: block for block in shown.blocks if isinstance(block, Table)}
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_simulation() -> None:
     """Followed here in fixed steps, there with steps held to their error."""
     shown, found = page(RINGED), transient(RINGED, method=Adaptive(rtol=1e-7, atol=1e-8))

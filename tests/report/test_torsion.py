@@ -27,6 +27,7 @@ def test_it_stands_only_where_masses_or_stiffnesses_are_given() -> None:
     assert of(example("truck-supports")) is None
 
 
+@pytest.mark.slow
 def test_the_first_page_tells_the_mode_and_the_swing() -> None:
     drive = example("truck-power-unit")
     found = of(drive)
@@ -55,6 +56,7 @@ def test_a_map_without_anything_on_it_is_a_sentence() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_what_is_met_in_use_is_told() -> None:
     drive = example("truck-power-unit")
     low = replace(drive, duty=replace(drive.duty, speed_range=(35.0, 85.0)))

@@ -105,6 +105,7 @@ def page_of(*blocks) -> Page:
     return Page(name="blocks", title="Blocks", answer="All kinds.", blocks=blocks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_pdf_says_what_the_html_report_says(name):
     said, seen = of_example(name), words_of(name)
@@ -183,6 +184,7 @@ def test_a_table_that_is_too_wide_lies_down_and_one_wider_still_is_parted():
     assert min(shapes[20], shapes[60]) > 0
 
 
+@pytest.mark.slow
 def test_words_of_the_user_are_never_code():
     joints = example("two-piece-rear-drive").joints
     named = tuple(dataclasses.replace(one, name=name) for one, name in zip(joints, NASTY, strict=False))

@@ -113,6 +113,7 @@ def tables(told: Content) -> Iterator[tuple[int, Table]]:
         yield from ((k, block) for block in page.blocks if isinstance(block, Table))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_table_stands_there_with_its_numbers_in_full(name: str) -> None:
     book, seen = opened(file_of(name)), 0
@@ -283,6 +284,7 @@ def test_a_drive_with_such_names_has_a_workbook() -> None:
     assert opened(data).worksheets[0]["A1"].value == named.name
 
 
+@pytest.mark.slow
 def test_sheets_are_named_in_any_language() -> None:
     told = said("car-propshaft")
     title = "Передаточное отношение: неравномерность / фазы [γ]"
@@ -360,6 +362,7 @@ def test_pictures_have_a_size_of_their_own_and_the_shape_they_were_drawn_in() ->
     assert seen > 3
 
 
+@pytest.mark.slow
 def test_a_drive_without_limits_or_curves_has_a_workbook() -> None:
     book = opened(written(content(Drive.from_angles([0.0, 20 * deg]))))
     assert book.sheetnames[0] == "Summary"

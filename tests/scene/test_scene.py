@@ -32,6 +32,7 @@ def turned(q, point):
     return point + 2.0 * w * np.cross(x, point) + 2.0 * np.cross(x, np.cross(x, point))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", example_names())
 def test_every_example_has_a_sound_and_light_scene(name):
     shown = scene(example(name), frames=24).described()

@@ -41,6 +41,8 @@ class Cell:
         The same in Typst's notation of mathematics, where it is an equation; never anything a user wrote.
     before, after : str
         Signs before and behind it: ``≤ ``, brackets.
+    unit : bool
+        Whether a quantity in another unit than that of the column says so.
     """
 
     value: Any
@@ -49,6 +51,7 @@ class Cell:
     formula: str = ""
     before: str = ""
     after: str = ""
+    unit: bool = True
 
 
 Value: TypeAlias = float | int | str | bool | Text | Cell | None
@@ -194,12 +197,16 @@ class KeyFigure:
         Where, when or in which condition it is so.
     limit : Quantity, optional
         What it is allowed.
+    beyond : Quantity, optional
+        The other end of a band that it must leave: no more than the limit, or at least this.
     better : str
         ``"less"`` where the value must not exceed the limit, ``"more"`` where it must not fall below; else empty.
     verdict : str
         How good that is, in a word.
     tone : str
         How good that is.
+    used : float, optional
+        Share of the limit that is used, where it is not the quotient of value and limit.
     """
 
     name: str
@@ -207,9 +214,11 @@ class KeyFigure:
     value: Quantity
     place: Text = ""
     limit: Quantity | None = None
+    beyond: Quantity | None = None
     better: Literal["more", "less", ""] = "less"
     verdict: str = ""
     tone: Tone = "plain"
+    used: float | None = None
 
     @property
     def called(self) -> Text:
@@ -219,8 +228,8 @@ class KeyFigure:
     @property
     def utilisation(self) -> float | None:
         """Share of the limit that is used; None without a limit."""
-        if self.limit is None:
-            return None
+        if self.limit is None or self.used is not None:
+            return self.used
         over, under = (self.limit, self.value) if self.better == "more" else (self.value, self.limit)
         return float(over.value) / float(under.value) if under.value else float("inf") if over.value else 0.0
 

@@ -6,14 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cardan.maths.ties import power_of
 from cardan.texts import _
 
 from .answer import Cell, Column, Depth, Table, Tone
 from .numbers import raised
 from .quantity import Quantity, Text
-
-ROUNDING = 1e-12
-"""A relative residual up to this is rounding: sums of some thousand terms of one size leave less."""
 
 SHORT = -2
 """Powers of ten from this on are written out."""
@@ -88,7 +86,8 @@ def leftover(residual: float) -> str:
     """
     if not math.isfinite(residual):
         return "–"
-    return _("rounding") if residual <= ROUNDING else f"< {_ten(math.ceil(math.log10(residual)))}"
+    power = power_of(residual)
+    return _("rounding") if power is None else f"< {_ten(power)}"
 
 
 def closely(residual: float) -> str:
@@ -101,9 +100,8 @@ def closely(residual: float) -> str:
     """
     if not math.isfinite(residual):
         return _("not at all")
-    if residual <= ROUNDING:
-        return _("to rounding")
-    return _("to {size}").format(size=_ten(math.ceil(math.log10(residual))))
+    power = power_of(residual)
+    return _("to rounding") if power is None else _("to {size}").format(size=_ten(power))
 
 
 def _power(value: float) -> Text:

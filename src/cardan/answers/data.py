@@ -90,6 +90,8 @@ def _number(value: Any, factor: float, reader: Reader) -> Any:
         return value.number(reader)
     if isinstance(value, float | np.floating):
         return float(value) / factor
+    if isinstance(value, list | tuple):
+        return [_number(one, factor, reader) for one in value]
     return words_of(value, reader)
 
 

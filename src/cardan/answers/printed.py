@@ -131,7 +131,8 @@ def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table
 def cell(value: answer.Value, column: answer.Column, reader: Reader) -> Cell:
     """Return one value as it is printed in a column."""
     if isinstance(value, answer.Cell):
-        inner = cell(value.value, column, reader)
+        bare = isinstance(value.value, Quantity) and not value.unit
+        inner = number(value.value, reader, unit=False) if bare else cell(value.value, column, reader)
         return Cell(
             text=value.before + inner.text + value.after,
             tone=value.tone,

@@ -117,6 +117,24 @@ def _over(value: Any, factor: float) -> Any:
 
 
 @dataclass(frozen=True)
+class Unit:
+    """The unit of a dimension as it stands in keys, for programs that are told it beside a number.
+
+    Examples
+    --------
+    >>> Unit("torque").told(Reader(units={"torque": "lbft"})), Unit("time", "h").told(Reader())
+    ('lbft', 'h')
+    """
+
+    dimension: str
+    usual: str = ""
+
+    def told(self, reader: Reader) -> str:
+        """Return the reader's unit; nothing where there is no dimension."""
+        return reader.unit(self.dimension, self.usual)[0] if self.dimension else ""
+
+
+@dataclass(frozen=True)
 class Say:
     """A sentence in the language spoken where it was made, with named places that are filled when it is shown.
 
@@ -171,7 +189,7 @@ class Joined:
         return between.join(every)
 
 
-Text: TypeAlias = str | Say | Joined | Quantity
+Text: TypeAlias = str | Say | Joined | Quantity | Unit
 """Anything that is told: words as they stand, or what is written for a reader when it is shown."""
 
 

@@ -21,6 +21,7 @@ from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost
 from cardan.questions.forces.turn_loads import TurnLoads, at_bend
 from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _
@@ -229,7 +230,7 @@ class Design:
         value = largest(answers)
         if value.ndim or len(answers) == 1:
             return value, ""
-        name = self.loaded[int(np.argmax([float(one) for one in answers]))].name
+        name = self.loaded[int(foremost([float(one) for one in answers]))].name
         return value, _("decided by {case}").format(case=name) if name else ""
 
     @property

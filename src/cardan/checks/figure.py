@@ -1,4 +1,4 @@
-"""How much of every limit a drive uses: bars like traffic lights."""
+"""Utilisation of every limit of a drive: bars like traffic lights."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row
-from cardan.figures.wording import used
-from cardan.texts import _, plural
+from cardan.texts import _
 
 from . import Verdict
+from .verdict_table import MOST
 
-MOST = 40
+BARS = 40
 """Bars in a figure; the least used limits are left out."""
 
 WIDEST = 10.0
@@ -38,7 +39,7 @@ def check_figures(verdicts: Sequence[Verdict], *, name: str = "") -> tuple[Figur
 
 
 def _figure(run: Sequence[Verdict], name: str) -> Figure:
-    shown = run[:MOST]
+    shown = run[:BARS]
     shares = np.asarray([float(one.utilisation) for one in shown])
     top = min(max(1.15, 1.1 * float(np.max(shares))), WIDEST)
     at = np.arange(len(shown), 0, -1, dtype=float)
@@ -46,8 +47,11 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
         at=at,
         size=shares,
         texts=tuple(
-            f"{'▶ ' if share > WIDEST else ''}{SIGNS[one.state]} {used(share)}"
-            for one, share in zip(shown, shares, strict=True)
+            say(
+                f"{'▶ ' if used > WIDEST else ''}{SIGNS[one.state]} {{used}}",
+                used=Quantity(used, decimals=2, most=MOST),
+            )
+            for one, used in zip(shown, shares.tolist(), strict=True)
         ),
         roles=tuple(ROLES[one.state] for one in shown),
         thick=0.62,
@@ -59,26 +63,11 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
     titles = tuple(one.title for one in shown)
     upright = Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=titles, grid=False)
     along = Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks))
-    panel = Panel(series=(bars, limit), x=along, y=upright, title=_("Share of the limit that is used"))
-    failed = sum(one.state == "failed" for one in run)
-    if failed and len(run) == 1:
-        sentence = _("The one limit that could be judged is not kept.")
-    elif failed:
-        text = plural("{count} of {all} limits is not kept.", "{count} of {all} limits are not kept.", failed)
-        sentence = text.format(count=failed, all=len(run))
-    else:
-        text = plural(
-            "The one limit is kept; {title} uses {used} of it.",
-            "All {all} limits are kept; {title} uses most, {used}.",
-            len(run),
-        )
-        sentence = text.format(all=len(run), title=run[0].title, used=used(float(run[0].utilisation)))
-    if len(run) > MOST:
-        sentence += " " + _("The {count} that use most are shown.").format(count=MOST)
+    panel = Panel(series=(bars, limit), x=along, y=upright, title=_("Utilisation"))
     return Figure(
         name="checks",
-        title=_("Limits of {name}").format(name=name) if name else _("Limits"),
-        sentence=sentence,
+        title=_("Checks of {name}").format(name=name) if name else _("Checks"),
+        sentence=_("The {count} with the highest utilisation are shown.").format(count=BARS) if len(run) > BARS else "",
         source=_(
             "Utilisation: value over limit, or limit over value where it must be at least that; green keeps its limit, "
             "amber comes near, red fails"

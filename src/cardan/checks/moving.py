@@ -13,6 +13,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .design import Design
+from .told import joined
 from .verdict import Verdict
 
 WORSE = 1.0 + 1e-9
@@ -86,7 +87,7 @@ def _worse(worst: Verdict, other: Verdict, said: str) -> Verdict:
     if not np.any(worse):
         return worst
     if np.all(worse):
-        return replace(other, note=f"{other.note}; {said}" if other.note else said)
+        return replace(other, note=joined(other.note, said))
     limit: Any = np.where(worse, other.limit, worst.limit)
     if isinstance(other.limit, tuple) and isinstance(worst.limit, tuple):
         limit = tuple(np.where(worse, *ends) for ends in zip(other.limit, worst.limit, strict=True))

@@ -2,47 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.maths.arrays import Array
 from cardan.texts import _
-from cardan.units import rpm, thousands
 
 from .design import Design
 
 
-def turning(speed: float) -> str:
-    """Return a speed [rad/s] in whole turns a minute, as people read it.
+def turning(speed: float) -> Quantity:
+    """Return a speed [rad/s] as people read it, in whole turns a minute.
 
     Examples
     --------
-    >>> turning(1800 * rpm)
-    '1\u202f800'
+    >>> from cardan.answers.reader import USUAL
+    >>> from cardan.units import rpm
+    >>> turning(1800 * rpm).told(USUAL)
+    '1\u202f800 rpm'
     """
-    return thousands(speed / rpm)
+    return Quantity(speed, "angular_speed", decimals=0)
 
 
-def at_top_speed(design: Design) -> str:
+def at_top_speed(design: Design) -> Text:
     """Return at which speed one drive is judged where that is not the speed of its duty; else nothing.
 
     Examples
     --------
+    >>> from cardan.answers.quantity import told
+    >>> from cardan.answers.reader import USUAL
     >>> from cardan.drive.drive import Drive
     >>> from cardan.drive.duty import Duty
+    >>> from cardan.units import rpm
     >>> duty = Duty(speed=1500 * rpm, speed_range=(500 * rpm, 1800 * rpm))
-    >>> at_top_speed(Design(drive=Drive.from_angles([0.1]), duty=duty))
+    >>> told(at_top_speed(Design(drive=Drive.from_angles([0.1]), duty=duty)), USUAL)
     'at 1\u202f800 rpm'
     """
     top, own = design.top_speed, design.duty.speed
     if top is None or np.ndim(top) or (own is not None and float(top) <= abs(own) * (1.0 + 1e-9)):
         return ""
-    return _("at {speed} rpm").format(speed=turning(float(top)))
+    return say(_("at {speed}"), speed=turning(float(top)))
 
 
 def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
-    """Return the bend that a rule allows, no more than joints of such kinds can bend, and a word on it.
+    """Return the joint angle that a rule allows, no more than joints of such kinds can reach, and a word on it.
 
     Parameters
     ----------
@@ -54,12 +57,15 @@ def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
     return np.minimum(allowed, most), note
 
 
-def joined(parts: Iterable[str]) -> str:
+def joined(*parts: Text) -> Text:
     """Return the parts of a note that say something.
 
     Examples
     --------
-    >>> joined(["at 1 rpm", "", "while the drive moves"])
-    'at 1 rpm; while the drive moves'
+    >>> joined("at speed", "", "while the drive moves").parts
+    ['at speed', 'while the drive moves']
+    >>> joined("", "while the drive moves")
+    'while the drive moves'
     """
-    return "; ".join(part for part in parts if part)
+    said = [part for part in parts if part]
+    return Joined(said, between="; ") if len(said) > 1 else said[0] if said else ""

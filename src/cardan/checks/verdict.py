@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from cardan.answers.quantity import Text
 from cardan.maths.arrays import Array
 
 Sense: TypeAlias = Literal["at_most", "at_least", "within", "outside"]
@@ -44,7 +45,7 @@ class Verdict:
         Key of `cardan.units.DIMENSIONS`, empty for a plain number.
     unit : str
         Unit that people read it in.
-    source : str
+    source : Text
         Where limit and formula come from.
     levers : tuple of str
         Paths of the drive file whose change moves the value.
@@ -52,7 +53,7 @@ class Verdict:
         Paths that the check needs and the drive does not give; then there is no value.
     unfit : str
         Why the check does not fit a joint of this kind; then there is no value either.
-    note : str
+    note : Text
         One sentence on what it means or assumes.
     advice : bool
         Whether it is a rule of thumb that does not fail the drive.
@@ -72,11 +73,11 @@ class Verdict:
     sense: Sense = "at_most"
     dimension: str = ""
     unit: str = ""
-    source: str = ""
+    source: Text = ""
     levers: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
     unfit: str = ""
-    note: str = ""
+    note: Text = ""
     advice: bool = False
     kind: str = ""
     power: float = 0.0

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from cardan.checks.strength.figure import AMBER, bars_of
+from cardan.answers.quantity import Quantity, Text, say
+from cardan.checks.strength.figure import bars_of, role
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import DASHES
-from cardan.figures.wording import significant
 from cardan.texts import _
-from cardan.units import mm, rpm
+from cardan.units import rpm
 
 from .sized import Sizing
 from .trade_off import TradeOff
@@ -35,10 +35,12 @@ def trade_off_figure(found: TradeOff) -> Figure:
     shown = np.isfinite(used)
     critical = np.where(shown, found.critical / rpm, np.nan)
     mass = np.where(shown, found.mass, np.nan)
-    below = axis(_("mass of the tube"), "kg", [mass], include=(found.now[2],), count=8)
+    below = axis(_("mass of the tube"), "kg", [mass], dimension="mass", include=(found.now[2],), count=8)
     bare = axis("", "", [mass], include=(found.now[2],), count=8)
 
-    def panel(rows: np.ndarray, label: str, unit: str, now: float, rules: tuple[Rule, ...], *, named: bool) -> Panel:
+    def panel(
+        rows: np.ndarray, label: str, unit: str, dimension: str, now: float, rules: tuple[Rule, ...], *, named: bool
+    ) -> Panel:
         curves = [
             Curve(
                 x=mass[:, j],
@@ -46,7 +48,7 @@ def trade_off_figure(found: TradeOff) -> Figure:
                 role=("ink", "accent")[j // len(DASHES) % 2],
                 dash=DASHES[j % len(DASHES)],
                 width=0.9,
-                label="" if named else _("wall {wall} mm").format(wall=significant(float(wall) / mm, 2)),
+                label="" if named else say(_("wall {wall}"), wall=Quantity(float(wall), "length", 2)),
             )
             for j, wall in enumerate(found.wall)
             if np.any(shown[:, j])
@@ -72,7 +74,7 @@ def trade_off_figure(found: TradeOff) -> Figure:
         return Panel(
             series=(*curves, marks, here, *rules),
             x=below if named else bare,
-            y=axis(label, unit, [rows], include=include, count=5),
+            y=axis(label, unit, [rows], dimension=dimension, include=include, count=5),
         )
 
     limit = Rule(value=100.0, role="failed", dash="solid", text=_("limit"))
@@ -90,29 +92,45 @@ def trade_off_figure(found: TradeOff) -> Figure:
             Row(
                 panels=(
                     panel(
-                        100.0 * used, _("Largest share of a limit"), "%", 100.0 * found.now[3], (limit,), named=False
+                        100.0 * used,
+                        _("Largest utilisation"),
+                        "percent",
+                        "share",
+                        100.0 * found.now[3],
+                        (limit,),
+                        named=False,
                     ),
                 ),
                 height=2.0,
             ),
             Row(
-                panels=(panel(critical, _("Critical speed"), "rpm", found.now[4] / rpm, needed, named=True),),
+                panels=(
+                    panel(
+                        critical,
+                        _("Critical speed"),
+                        "rpm",
+                        "angular_speed",
+                        found.now[4] / rpm,
+                        needed,
+                        named=True,
+                    ),
+                ),
                 height=2.0,
             ),
         ),
     )
 
 
-def _sentence(found: TradeOff) -> str:
+def _sentence(found: TradeOff) -> Text:
     light = found.lightest
     if light is None:
         return _("No tube looked at passes.")
-    text = _("The lightest tube that passes weighs {mass} kg: {outer} mm by {wall} mm; now it is {now} kg.")
-    return text.format(
-        mass=significant(light[2], 3),
-        outer=significant(light[0] / mm, 3),
-        wall=significant(light[1] / mm, 2),
-        now=significant(found.now[2], 3),
+    return say(
+        _("The lightest tube that passes weighs {mass}: {outer} by {wall}; now it is {now}."),
+        mass=Quantity(light[2], "mass", 3),
+        outer=Quantity(light[0], "length", 3),
+        wall=Quantity(light[1], "length", 2),
+        now=Quantity(found.now[2], "mass", 3),
     )
 
 
@@ -132,10 +150,10 @@ def sizing_figure(found: Sizing) -> Figure:
     if found.tried:
         chosen = next((one.id for one in found.tried if one.passed), "")
         text = _("{size} is the smallest that passes.") if chosen else _("No size of the catalogue passes.")
-        sentence, title = text.format(size=chosen), _("What each size of the catalogue uses of its limits")
+        sentence, title = text.format(size=chosen), _("Utilisation of each size of the catalogue")
     else:
         first = found.governing
-        title = _("What the part uses of its limits as it is made")
+        title = _("Utilisation of the part as it is made")
         sentence = _("The size is decided by {title}.").format(title="" if first is None else first.title)
     return Figure(
         name="sizing",
@@ -147,9 +165,6 @@ def sizing_figure(found: Sizing) -> Figure:
 
 
 def _rows(found: Sizing) -> list[tuple[str, float, str]]:
-    def role(used: float) -> str:
-        return "failed" if used > 1.0 else "warning" if used >= AMBER else "good"
-
     if found.tried:
         return [(one.id, one.utilisation, role(one.utilisation)) for one in found.tried if one.worst is not None]
     made = sorted(found.made, key=lambda one: -float(one.utilisation))

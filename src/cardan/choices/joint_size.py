@@ -10,6 +10,7 @@ from cardan.catalogue.rows import JointSize
 from cardan.checks import Verdict, check
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 
 from .sized import CHECKS, Sizing, Tried, used
@@ -35,7 +36,7 @@ def smallest_row(drive: Drive, number: int, rows: Catalogue) -> Sizing:
         whole = completed(whole, rows)
         every = [one for one in check(whole, only=CHECKS["joint"], known=rows) if one.subject in subjects]
         judged = tuple(one for one in every if one.run and not one.advice)
-        worst = max(judged, key=used, default=None)
+        worst = foremost_of(judged, used) if judged else None
         passed = worst is not None and used(worst) <= 1.0
         tried.append(
             Tried(

@@ -14,16 +14,13 @@ from cardan.catalogue.completion import SIZED
 from cardan.catalogue.rows import Grade, JointSize
 from cardan.checks.design import Design
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import place, read
 from cardan.drive.material import Material
 from cardan.drive.models.geometry import geometry
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.units import Key, deg
-
-USUAL = {"life": "h", "hours": "h", "distance": "km", "wheelbase": "m", "wheel_radius": "m"}
-"""Fields that people give in another unit than most of their dimension."""
 
 STEPS = 64
 """Places looked at in each direction, close together near what stands there."""
@@ -180,19 +177,6 @@ def graded(drive: Drive, path: str, known: Catalogue) -> Grade | None:
     except InputError:
         return None
     return row if here == material(here.grade, known=known) else None
-
-
-def key_of(bare: str) -> str:
-    """Return the key of a path as a drawing or a data sheet has it: lives in hours, distances run in kilometres.
-
-    Examples
-    --------
-    >>> key_of("duty.life"), key_of("shafts[1].outer")
-    ('duty.life_h', 'shafts[1].outer_mm')
-    """
-    path = spelled(bare)
-    unit = USUAL.get(bare.rpartition(".")[2])
-    return path if unit is None else f"{bare}_{unit}"
 
 
 def _effort(drive: Drive, bare: str) -> int:

@@ -14,6 +14,7 @@ from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import with_values
 from cardan.errors import InputError, Problem, refuse
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 
 from .preferred import SLACK, round_up
@@ -71,7 +72,7 @@ def solved(
 
     factor = smallest(worst_of, *_range(most))
     if factor is None:
-        worst = max(counted, key=used)
+        worst = foremost_of(counted, used)
         text = _("no size passes; {title} is never within its limit")
         raise refuse(spelled(subject), text.format(title=worst.title), "out_of_range")
 

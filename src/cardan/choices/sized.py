@@ -10,6 +10,7 @@ import numpy as np
 
 from cardan.checks import Verdict
 from cardan.drive.drive import Drive
+from cardan.maths.ties import foremost_of
 
 Hold: TypeAlias = Literal["ratio", "wall", "outer"]
 
@@ -121,7 +122,7 @@ class Sizing:
     @property
     def governing(self) -> Verdict | None:
         """The check that decides the size."""
-        return max(self.limits, key=used, default=None)
+        return foremost_of(self.limits, used) if self.limits else None
 
     @property
     def found(self) -> bool:

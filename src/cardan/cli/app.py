@@ -138,13 +138,13 @@ COMMANDS = {
     "assembly": Entry(
         "assembly",
         QUESTIONS,
-        _("Whether the drive binds: forces of parts that do not fit, and what to let go."),
+        _("What misalignment loads: support forces of parts that do not fit, and what to release."),
         ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
     ),
     "mobility": Entry(
         "mobility",
         QUESTIONS,
-        _("Whether a drive or mechanism turns, where it is held too often, and what to let go."),
+        _("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
         ("cardan mobility pump.toml", "cardan mobility slider.toml --turn --plot slider.svg"),
     ),
     "torsion": Entry(
@@ -186,20 +186,21 @@ COMMANDS = {
             "absorber": Entry(
                 "torsion_absorber",
                 CHOSEN,
-                _("Which absorber, damper or pendulum calms it, where, and how it is to be set."),
+                _("Which absorber, damper or pendulum reduces it, where, and how it is to be set."),
                 (
                     "cardan torsion absorber truck.toml --speeds 300:900",
                     "cardan torsion absorber truck.toml --kind pendulum --radius-mm 120 -o better.toml",
                 ),
             ),
-            "calm": Entry(
-                "torsion_calm",
+            "optimise": Entry(
+                "torsion_optimise",
                 CHOSEN,
-                _("Which yokes, stiffnesses, inertias or joint places let it run calmly."),
+                _("Which yoke angles, stiffnesses, inertias or joint positions make it least."),
                 (
-                    "cardan torsion calm truck.toml --speeds 300:900",
-                    "cardan torsion calm truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
+                    "cardan torsion optimise truck.toml --speeds 300:900",
+                    "cardan torsion optimise truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
                 ),
+                aliases=("calm",),
             ),
         },
     ),

@@ -7,16 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from cardan.drive.drive import Drive
-from cardan.drive.fields.paths import with_values
 from cardan.errors import refuse
-from cardan.io import dumps, edit
 from cardan.questions.phases.answer import every_setting
 from cardan.questions.phases.phases import Phasing
 from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _
 
+from .changed import write_changed
 from .convert import SUFFIXES
-from .output import check_new, check_target, write_text
+from .output import check_new, check_target
 from .source import STDIN
 
 
@@ -49,12 +48,7 @@ def written(
     best = (*found.pose_settings, *found.settings, found.as_built)[0]
     chosen = best if label is None else named(every_setting(found), label)
     values = dict(also) | values_of(chosen, drive)
-    if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
-        form = "json" if out.suffix.lower() == ".json" else "toml"
-        changed = dumps(with_values(drive, values), form=form)
-    else:
-        changed = edit(text, values) if values else text
-    write_text(out, changed, "--out")
+    write_changed(drive, text, values, out)
     return chosen, values
 
 

@@ -15,7 +15,6 @@ from cardan.texts import _
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
     from cardan.errors import Problem
-    from cardan.maths.curves.over_turn import Turn
 
     from .answer import Cell, Table
 
@@ -68,9 +67,6 @@ SUFFIX = {
     "tilt_stiffness": "Nm_per_rad",
 }
 """Field of the drive -> unit that its key in a file is best given in."""
-
-ROUNDING = 1e-9
-"""Values below this share of the largest are nothing but rounding."""
 
 
 def check_options(
@@ -143,7 +139,7 @@ def _hinted(problem: Problem) -> str:
     """Return a message with the keys in it as a file has them, and the option that does as well."""
     message = re.sub(r"\b[a-z]+\[\d+\](?:\.[a-z_]+)+", lambda found: key_of(found[0]), problem.message)
     option = {"duty.torque": "--torque-Nm", "duty.speed": "--speed-rpm"}.get(problem.field)
-    if option is None or not problem.message.startswith(_("missing")):
+    if option is None or problem.code != "missing":
         return message
     return _("{message}; or say {option}").format(message=message, option=option)
 
@@ -183,46 +179,6 @@ def figures(*results: Any) -> Any:
         raise refuse("--plot", _("this answer has no figure yet; --csv gives the curves to draw")) from error
 
 
-def tidy(values: Any) -> Any:
-    """Return values with what is nothing but rounding set to zero.
-
-    Examples
-    --------
-    >>> tidy([1.0, 1e-15]).tolist()
-    [1.0, 0.0]
-    """
-    import numpy as np
-
-    table = np.asarray(values, dtype=float)
-    largest = np.max(np.abs(table), initial=0.0, where=np.isfinite(table))
-    return np.where(np.abs(table) <= ROUNDING * largest, 0.0, table)
-
-
-def size(vectors: Any) -> Any:
-    """Return the sizes of vectors (..., 3)."""
-    import numpy as np
-
-    return np.linalg.norm(np.asarray(vectors, dtype=float), axis=-1)
-
-
-def turn(angle: Any, values: Any) -> Turn:
-    """Return least and largest of quantities (..., p) over a turn, rounding left out."""
-    from cardan.maths.curves.over_turn import over_turn
-
-    return over_turn(angle, tidy(values))
-
-
-def called(number: int, name: str) -> str:
-    """Return a number with its name, as a sentence has it.
-
-    Examples
-    --------
-    >>> called(4, "pinion, front"), called(2, "")
-    ('4 (pinion, front)', '2')
-    """
-    return f"{number} ({name})" if name else str(number)
-
-
 def listed(indices: Sequence[int]) -> str:
     """Return the numbers of what is counted from 0.
 
@@ -239,10 +195,3 @@ def listed(indices: Sequence[int]) -> str:
 def columns_of(table: Table) -> dict[str, list[Cell]]:
     """Return the columns of a table by their keys, for a program."""
     return {column.key: [row[k] for row in table.rows] for k, column in enumerate(table.columns)}
-
-
-def degrees(angle: Any) -> float:
-    """Return an angle of the turn in degrees, 360 as 0."""
-    from math import degrees as in_degrees
-
-    return round(in_degrees(float(angle)), 9) % 360.0

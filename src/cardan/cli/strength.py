@@ -7,12 +7,29 @@ from typing import Annotated, Literal, TypeAlias
 
 import typer
 
+from cardan.checks.strength.answer import answer
+from cardan.checks.strength.strength import strength as ask
+from cardan.choices import sizing_answer
+from cardan.choices.sized import Sizing
+from cardan.choices.sizing import size
+from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import with_values
+from cardan.errors import InputError, refuse
+from cardan.io import dumps, edit
+from cardan.io.drive_file import known_to
 from cardan.texts import _
 
-from .asked import TorqueNm
+from .apply import check_copy
+from .asked import TorqueNm, check_options, keys_of, on_duty
 from .options import AsCsv, AsJson, DriveFile, Force, MoreRows, Plot, SpeedRpm
+from .output import write_text
+from .progress import watching
+from .source import STDIN, read_with_text
+from .tell import tell
 
 Hold: TypeAlias = Literal["ratio", "wall", "outer"]
+
+OPTIONS = {"part": "--size", "hold": "--hold", "series": "--series"}
 
 
 def strength(
@@ -61,55 +78,39 @@ def strength(
     csv: AsCsv = False,
     plot: Plot = None,
 ) -> int:
-    """Tell what every part uses of its limits, the torque rating of the whole drive, or how large a part must be."""
-    from .asked import check_options, keys_of, on_duty
-    from .show import show
-
+    """Tell the utilisation of every part, the torque rating of the whole drive, or how large a part must be."""
     check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
-    _check(part, out)
+    if out is not None and part is None:
+        raise refuse("--out", _("there is nothing to write; say --size PART"))
     if out is not None:
-        from .apply import check_copy
-
         check_copy(out, file, force=force)
-
-    from cardan.checks.strength.strength import strength as question
-    from cardan.io.drive_file import known_to
-
-    from .source import STDIN, read_with_text
-
-    given, text = read_with_text(file, tuple(more or ()))
+    files = tuple(more or ())
+    given, text = read_with_text(file, files)
     drive = on_duty(given, speed_rpm, torque)
-    folder, files = Path(".") if file == STDIN else file.parent, tuple(more or ())
+    folder = Path(".") if file == STDIN else file.parent
     known = known_to(drive, folder, files)
     if part is None:
-        from .strength_answer import answer
-
         with keys_of(file):
-            found = question(drive, known=known)
-        return show(answer(drive, file, found), json=json, csv=csv, plot=plot)
-
-    from cardan.choices.sizing import size
-    from cardan.errors import InputError
-
-    from .progress import watching
-    from .sizing_answer import answer as sized
-    from .sizing_answer import written
-
+            said = answer(drive, ask(drive, known=known))
+        return tell(said, file, drive, json=json, csv=csv, plot=plot)
     with keys_of(file), watching(_("searching sizes")):
         try:
             made = size(drive, None, part, hold=hold, series=series, known=known)
         except InputError as error:
-            options = {"part": "--size", "hold": "--hold", "series": "--series"}
-            raise error.renamed(lambda field: options.get(field, field)) from error
-    said = sized(drive, file, made, known)
-    if out is not None:
-        said = written(said, made, given, text, out, folder=folder, catalogues=files)
-    return show(said, json=json, csv=csv, plot=plot)
+            raise error.renamed(lambda field: OPTIONS.get(field, field)) from error
+    with watching(_("comparing tubes")) as progress:
+        said = sizing_answer.answer(drive, made, known=known, progress=progress)
+        if out is not None:
+            write_text(out, _written(made, given, text, out, folder, files), "--out")
+            said = sizing_answer.written(said, made, str(out))
+        return tell(said, file, drive, json=json, csv=csv, plot=plot)
 
 
-def _check(part: str | None, out: Path | None) -> None:
-    """Refuse to write what is not sized."""
-    from cardan.errors import refuse
-
-    if out is not None and part is None:
-        raise refuse("--out", _("there is nothing to write; say --size PART"))
+def _written(found: Sizing, drive: Drive, text: str, out: Path, folder: Path, catalogues: tuple[Path, ...]) -> str:
+    """Return a drive file with the new size in it, its comments kept where it is TOML."""
+    if not found.found:
+        raise refuse("--out", _("no size passes; nothing is written"))
+    values = dict(found.values)
+    if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
+        return dumps(with_values(drive, values), form="json" if out.suffix.lower() == ".json" else "toml")
+    return edit(text, values, folder=folder, catalogues=catalogues)

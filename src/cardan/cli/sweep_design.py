@@ -104,16 +104,18 @@ def _optimum(found: Optimum, title: str) -> Answer:
     for column in found.answers:
         if column.name in found.values:
             rows.append([*_head(column), found.values[column.name]])
-    table = Table(
-        columns=(
-            Column(key="name", heading=_("at the best point"), left=True),
-            Column(key="unit", heading=_("unit"), left=True),
-            Column(key="value", heading=_("value"), form="6"),
-        ),
-        rows=rows,
+    columns = (
+        Column(key="name", heading=_("at the best point"), left=True),
+        Column(key="unit", heading=_("unit"), left=True),
+        Column(key="value", heading=_("value"), form="6"),
     )
+    table = Table(columns=columns, rows=rows)
+    nought = abs(found.value) <= found.uncertainty
+    told = [[*row[:2], "≈ 0"] if nought and row[:2] == [*_head(goal)] else row for row in rows]
     if found.feasible and found.values:
         text = _("{name}: {goal} comes to {value} with {count} points asked.")
+        if nought:
+            text = _("{name}: {goal} comes to nought, as closely as {count} points asked can tell.")
         said = text.format(
             name=title, goal=str(found.goal), value=_value(goal, found.value), count=thousands(found.evaluations)
         )
@@ -124,7 +126,7 @@ def _optimum(found: Optimum, title: str) -> Answer:
     return Answer(
         sentence=said,
         tone="plain" if found.status == "converged" else "warning",
-        tables=lambda: [table] if found.values else [],
+        tables=lambda: [Table(columns=columns, rows=told)] if found.values else [],
         remarks=tuple(_told_optimum(found)),
         content=lambda: {
             "question": "search",

@@ -198,7 +198,7 @@ def _sentence(asked: Asked) -> str:
             name=name,
             count=thousands(all_points),
             answer=_called(asked, answer.name),
-            low=significant(span["least"]),
+            low=significant(_told(span["least"], asked.results.units[answer.name])),
             high=_with_unit(asked, answer.name, span["most"]),
         )
     if not asked.length:
@@ -232,7 +232,14 @@ def _with_unit(asked: Asked, name: str, value: float) -> str:
 
     unit = asked.results.units[name]
     printed = label(unit) if unit else ""
-    return f"{significant(value)}{'' if printed in ('', '°', '′') else ' '}{printed}"
+    return f"{significant(_told(value, unit))}{'' if printed in ('', '°', '′') else ' '}{printed}"
+
+
+def _told(value: Any, unit: str) -> Any:
+    """Return a value as the terminal tells it: a number without a unit that is nothing but rounding is 0."""
+    from cardan.maths.ties import tidied
+
+    return tidied(value) if isinstance(value, float) and not unit else value
 
 
 def _tables(asked: Asked) -> Iterator[Table]:
@@ -249,11 +256,14 @@ def _tables(asked: Asked) -> Iterator[Table]:
         Column(key="most", heading=_("greatest"), form="5"),
         Column(key="unknown", heading=_("none"), form=".0f"),
     )
-    from cardan.units import label
-
     units = asked.results.units
     rows: list[list[Cell]] = [
-        [name, label(units[name]) if units[name] else "", span["least"], span["mean"], span["most"], span["unknown"]]
+        [
+            name,
+            _printed(units[name]),
+            *(_told(span[key], units[name]) for key in ("least", "mean", "most")),
+            span["unknown"],
+        ]
         for name, span in asked.spans.items()
     ]
     yield Table(columns=columns, rows=rows)
@@ -275,7 +285,7 @@ def _rows(asked: Asked) -> Table:
         )
         for name in names
     )
-    lists = [asked.rows[name][:SHOWN].tolist() for name in names]
+    lists = [[_told(one, units.get(name, "")) for one in asked.rows[name][:SHOWN].tolist()] for name in names]
     return Table(columns=columns, rows=[list(row) for row in zip(*lists, strict=True)], fixed=0)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.text import Text
 
-from cardan.answers.answer import FILE, Answer, Remark
+from cardan.answers.answer import FILE, Answer, Remark, Tone
 from cardan.answers.data import as_csv, as_json, data
 from cardan.answers.printed import SHOWN, Column, Table, printed
 from cardan.answers.quantity import told
@@ -24,6 +24,7 @@ from .show import GAP, NARROWEST, SIGNS, WIDEST, _blocks, _filled, print_lines, 
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
+    from cardan.mechanism.mechanism import Mechanism
 
 LONGEST = 28
 """Letters of a name at the head of a row."""
@@ -32,7 +33,7 @@ LONGEST = 28
 def tell(
     answer: Answer,
     file: Path | None = None,
-    drive: Drive | None = None,
+    drive: Drive | Mechanism | None = None,
     *,
     json: bool = False,
     csv: bool = False,
@@ -46,7 +47,7 @@ def tell(
         What to say.
     file : path, optional
         The file that was asked about.
-    drive : Drive, optional
+    drive : Drive or Mechanism, optional
         What it describes.
     json, csv : bool
         ``--json`` and ``--csv``.
@@ -72,7 +73,7 @@ def tell(
     return answer.code
 
 
-def _name(drive: Drive | None, file: Path | None) -> str:
+def _name(drive: Drive | Mechanism | None, file: Path | None) -> str:
     """Return what to call a drive in a sentence: its name, else that of its file."""
     if drive is not None and drive.name:
         return drive.name
@@ -126,7 +127,10 @@ def _print_table(console: Console, table: Table) -> None:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
     cells = [
-        [_short(cell.text) if k < table.fixed < len(row) else cell.text for k, cell in enumerate(row)]
+        [
+            _signed(cell.tone, _short(cell.text) if k < table.fixed < len(row) else cell.text)
+            for k, cell in enumerate(row)
+        ]
         for row in table.rows
     ]
     headings = [[column.heading for column in columns], [column.unit for column in columns]]
@@ -147,6 +151,11 @@ def _print_table(console: Console, table: Table) -> None:
                 console.print(text, soft_wrap=True)
     if table.note:
         console.print(Text(_filled(table.note, min(console.width, WIDEST)), style="dim"), soft_wrap=True)
+
+
+def _signed(tone: Tone, text: str) -> str:
+    """Return the words of a cell behind the sign of its tone."""
+    return f"{SIGNS[tone][0]} {text}".strip()
 
 
 def _short(name: str) -> str:

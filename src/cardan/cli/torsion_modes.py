@@ -226,6 +226,8 @@ def _crossing_table(found: TorsionModes) -> Table:
 def _remarks(drive: Drive, file: Path, found: TorsionModes) -> Iterator[Remark]:
     import numpy as np
 
+    from cardan.maths.ties import foremost_on
+
     from .answer import Remark, significant
     from .torsion_parts import assumptions
 
@@ -244,7 +246,7 @@ def _remarks(drive: Drive, file: Path, found: TorsionModes) -> Iterator[Remark]:
             where = {"place": significant(1e3 * node.position, 3), "share": significant(100.0 * node.share, 2)}
             yield Remark(text=text.format(mode=k, one=one, two=two, **where))
     if found.joint_weight.shape[-1]:
-        nearest = int(np.argmin(np.abs(found.joint_weight[0]))) + 1
+        nearest = int(foremost_on(np.abs(found.joint_weight[0]), least=True)) + 1
         text = _(
             "A joint in the node of a mode excites no parametric vibration of it: joint {number} is nearest to that of "
             "mode 1. A mode grows where joints pull more than damping takes: pulled above damped."

@@ -78,6 +78,7 @@ def _answer(drive: Drive, file: Path, found: TorsionResponse) -> Answer:
 def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]:
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.questions.torsion.steady.run_stability import Verdict
     from cardan.questions.torsion.steady.torsion_response import level
     from cardan.units import rpm
@@ -88,7 +89,7 @@ def _sentence(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, s
     at = {"name": title(drive, file), "speed": significant(abs(float(found.speed)) / rpm)}
     if not bool(found.steady.found):
         return "failed", _("{name}: no steady motion was found at {speed} rpm.").format(**at)
-    e = int(np.argmax(found.swing))
+    e = int(foremost(found.swing))
     swing = float(found.swing[e])
     mean = level(float(found.steady.torque.mean[e]), swing)
     text = _("{name}: at {speed} rpm {element} carries {mean} ± {swing} N·m").format(
@@ -116,6 +117,7 @@ def _tables(found: TorsionResponse) -> list[Table]:
 def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]:
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.questions.torsion.steady.run_stability import Verdict
     from cardan.units import rpm
 
@@ -124,7 +126,7 @@ def _swept(drive: Drive, file: Path, found: TorsionResponse) -> tuple[Tone, str]
 
     name = title(drive, file)
     swing = np.where(np.isfinite(found.swing), found.swing, -1.0)
-    k, e = (int(one) for one in np.unravel_index(int(np.argmax(swing)), swing.shape))
+    k, e = (int(one) for one in np.unravel_index(int(foremost(swing.ravel())), swing.shape))
     if swing[k, e] < 0.0:
         return "failed", _("{name}: no steady motion was found.").format(name=name)
     text = _("{name}: the torque swings most at {speed} rpm, ± {swing} N·m in {element}")
@@ -164,6 +166,8 @@ def intervals(speed: Any, mask: Any) -> str:
 def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remark]:
     import numpy as np
 
+    from cardan.answers.checks import closely
+
     from .answer import Remark, significant
     from .torsion_parts import assumptions
 
@@ -192,10 +196,8 @@ def _remarks(drive: Drive, file: Path, found: TorsionResponse) -> Iterator[Remar
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the speed."))
     yield from assumptions(found.train)
     if np.any(steady.found):
-        text = _(
-            "Equations of motion checked between the points of the solution: {rest:.0e} of the torque is left over."
-        )
-        yield Remark(text=text.format(rest=float(np.nanmax(steady.residual))))
+        text = _("Equations of motion checked between the points of the solution: the torques balance {closely}.")
+        yield Remark(text=text.format(closely=closely(float(np.nanmax(steady.residual)))))
     if _from_yokes(drive, found):
         text = _("Most of it is order 2 of the joints; other yoke angles may take that away:")
         yield Remark(text=text, command=("cardan", "phases", str(file)), tone="next")
@@ -233,12 +235,13 @@ def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
     """Tell whether most of the swing is order 2 of joints that are not set to cancel each other."""
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.questions.motion.equivalence import equivalent_joint
 
     if len(drive.joints) < 2 or not np.any(found.steady.found):
         return False
     swing = np.nan_to_num(found.swing)
-    at = np.unravel_index(int(np.argmax(swing)), swing.shape)
+    at = np.unravel_index(int(foremost(swing.ravel())), swing.shape)
     second = found.steady.torque.amplitude[at][np.flatnonzero(found.steady.order == 2.0)[0]]
     uneven = float(equivalent_joint(drive).irregularity)
     return bool(second > 0.5 * swing[at]) and uneven > EVEN

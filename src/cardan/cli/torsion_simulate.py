@@ -112,6 +112,7 @@ def _answer(drive: Drive, file: Path, found: Transient) -> Answer:
 def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, int]:
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.questions.torsion.transient.simulation import Status
 
     from .answer import significant
@@ -119,7 +120,7 @@ def _sentence(drive: Drive, file: Path, found: Transient) -> tuple[Tone, str, in
 
     ends = found.motion.extremes
     size = np.maximum(np.abs(ends.torque_low), np.abs(ends.torque_high))
-    e = int(np.argmax(np.nan_to_num(size)))
+    e = int(foremost(np.nan_to_num(size)))
     high = abs(float(ends.torque_high[e])) >= abs(float(ends.torque_low[e]))
     text = _("{name}: in {span} s the torque reaches {peak} N·m after {time} s, in {element}")
     text = text.format(
@@ -195,6 +196,7 @@ def _station_table(found: Transient) -> Table:
 def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     import numpy as np
 
+    from cardan.answers.checks import closely
     from cardan.questions.torsion.transient.simulation import Status
     from cardan.units import rpm
 
@@ -225,10 +227,10 @@ def _remarks(file: Path, found: Transient) -> Iterator[Remark]:
     if np.any(found.train.model.loss_factor):
         yield Remark(text=_("Structural damping counts as viscous, equal at order 2 of the highest speed."))
     yield from assumptions(found.train)
-    text = _("Account of energy checked: {rest:.0e} of it is left over ({steps} steps, {method}).")
+    text = _("Account of energy checked: it closes {closely} ({steps} steps, {method}).")
     known = {"explicit": _("explicit"), "implicit": _("implicit"), "fixed steps": _("of one length")}
     how = known.get(found.motion.method, found.motion.method)
-    yield Remark(text=text.format(rest=float(found.motion.imbalance), steps=found.motion.steps, method=how))
+    yield Remark(text=text.format(closely=closely(float(found.motion.imbalance)), steps=found.motion.steps, method=how))
     yield Remark(
         text=_("Whether such vibration dies out:"), command=("cardan", "torsion", "stability", str(file)), tone="next"
     )

@@ -22,6 +22,7 @@ def element_table(found: TorsionResponse) -> Table:
     """Return mean, extremes and orders of the torque of every element."""
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.questions.torsion.steady.torsion_response import level
 
     from .answer import Column, Table, significant
@@ -33,7 +34,7 @@ def element_table(found: TorsionResponse) -> Table:
     for e, name in enumerate(found.train.element_names):
         amplitude = np.where(torque.amplitude[e] > 1e-12 * largest, torque.amplitude[e], 0.0)
         others = np.where((order == 2.0) | (order == 4.0), 0.0, amplitude)
-        k = int(np.argmax(others))
+        k = int(foremost(others))
         there = others[k] > 1e-9 * largest
         rows.append(
             [
@@ -62,6 +63,8 @@ def station_table(found: TorsionResponse) -> Table:
     """Return how speed and angle of every station swing."""
     import numpy as np
 
+    from cardan.maths.ties import foremost
+
     from .answer import Column, Table
     from .torsion_parts import short
 
@@ -72,7 +75,7 @@ def station_table(found: TorsionResponse) -> Table:
         amplitude = speed.amplitude[k]
         angle = np.degrees(found.steady.angle_amplitude[k])
         second = int(np.flatnonzero(order == 2.0)[0])
-        top = int(np.argmax(amplitude))
+        top = int(foremost(amplitude))
         there = bool(amplitude[top] > 1e-12 * mean)
         rows.append(
             [
@@ -95,15 +98,16 @@ def sweep_table(found: TorsionResponse) -> Table:
     """Return the worst torque at some speeds."""
     import numpy as np
 
+    from cardan.maths.ties import foremost
     from cardan.units import rpm
 
     from .answer import Column, Table
     from .torsion_parts import short
 
     count = len(found.speed)
-    worst = np.nanargmax(np.where(np.isfinite(found.swing), found.swing, -1.0), axis=-1)
+    worst = foremost(np.where(np.isfinite(found.swing), found.swing, -1.0))
     chosen = np.unique(np.linspace(0, count - 1, min(count, SHOWN)).round().astype(int))
-    peak = int(np.argmax(np.nan_to_num(found.swing[np.arange(count), worst])))
+    peak = int(foremost(np.nan_to_num(found.swing[np.arange(count), worst])))
     names = found.train.element_names
     second = int(np.flatnonzero(found.steady.order == 2.0)[0])
     rows: list[list[Cell]] = []

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+from cardan.answers.checks import closely as closely
+from cardan.answers.checks import leftover as leftover
 from cardan.answers.numbers import THIN as THIN
 from cardan.answers.numbers import fixed as fixed
 from cardan.answers.numbers import half_turn as half_turn
 from cardan.answers.numbers import raised
 from cardan.answers.numbers import significant as significant
-from cardan.maths.ties import power_of
 from cardan.texts import _
 
 
@@ -72,39 +73,6 @@ def together(words: Iterable[str]) -> str:
     """
     *before, last = words
     return _(" and ").join((", ".join(before), last)) if before else last
-
-
-def closely(residual: float) -> str:
-    """Return how closely a check holds: its digits beyond the power of ten are the processor's.
-
-    Parameters
-    ----------
-    residual : float
-        What is left over, relative.
-
-    Examples
-    --------
-    >>> closely(7e-16), closely(3.2e-10), closely(0.02), closely(float("nan"))
-    ('to rounding', 'to 10⁻⁹', 'to 0.1', 'not at all')
-    """
-    if not math.isfinite(residual):
-        return _("not at all")
-    power = power_of(residual)
-    return _("to rounding") if power is None else _("to {size}").format(size=powers_of_ten((10.0**power,))[0])
-
-
-def leftover(residual: float) -> str:
-    """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding.
-
-    Examples
-    --------
-    >>> leftover(7e-16), leftover(3.2e-10), leftover(float("nan"))
-    ('rounding', '< 10⁻⁹', '–')
-    """
-    if not math.isfinite(residual):
-        return "–"
-    power = power_of(residual)
-    return _("rounding") if power is None else f"< {powers_of_ten((10.0**power,))[0]}"
 
 
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ centre_mm = [0, 0, 0]
 [[joints]]
 name = "axle"
 centre_mm = [1200, 0, -160]
-# move_within_mm = [[1150, 1250], [0, 0], [-180, -120]]   # box in which `cardan phases --layout` may put this centre
+# move_within_mm = [[1150, 1250], [0, 0], [-180, -120]]   # box in which `cardan phasing --layout` may put this centre
 
 # --- Yokes and splines ---------------------------------------------------------------------------------------------
 [[shafts]]

@@ -9,31 +9,23 @@ from typing import Any, TypeAlias, cast
 from cardan.answers.question import Question
 from cardan.answers.reader import USUAL
 from cardan.catalogue import Catalogue
-from cardan.checks import check
-from cardan.checks.strength.strength import strength
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
-from cardan.questions.mobility.mobility import mobility
 from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from . import lacking as lacks
-from .assembly import straining
 from .balance import refused
 from .block import Page
 from .followed import Followed, asked_by_laws
-from .lacking import Lacking, named, told
-from .mobility import binding
-from .moving import moving
+from .lacking import Lacking, told
 from .page import page
 from .run_up import running_up
 from .selection import choosing, of_selection
-from .strength import bearing_up
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
-from .verdicts import judged
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
@@ -157,39 +149,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _moving(on: Subject) -> Page:
-    own = on if _by_laws(on) is None else Subject(drive=on.drive)
-    if own.unmoved is not None:
-        return refused("movement", _("While moving"), own.unmoved)
-    return moving(own)
-
-
-def _limits(on: Subject) -> Page | None:
-    return judged(on).page
-
-
-def _unjudged(on: Subject) -> str:
-    missing = [path for one in check(on.drive, known=on.known) for path in one.missing]
-    return told(named(missing)) if missing else _nothing(on)
-
-
-def _unheld(on: Subject) -> Lacking:
-    try:
-        mobility(on.drive)
-    except InputError as error:
-        return named([one.field for one in error.problems])
-    return ()
-
-
-def _loose(_on: Subject) -> str:
-    return _("The drive file leaves bearings out: shafts that nothing holds say nothing of binding. Add supports.")
-
-
-def _weak(on: Subject) -> str:
-    missing = strength(on.drive, known=on.known).missing
-    return told(named(missing)) if missing else _nothing(on)
-
-
 def _free(on: Subject) -> str:
     if turns_freely(on.drive, on.drive.duty):
         return _("Torques turn its input freely; a run-up at a steady rate forces a speed on it.")
@@ -200,18 +159,7 @@ def _straight(_on: Subject) -> str:
     return _("The joints bend next to nothing: they do not make torsional vibration grow.")
 
 
-def _fits(_on: Subject) -> str:
-    return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
-
-
 ANSWERS: dict[str, Answer] = {
-    "movement": Answer(
-        title=lambda: _("While moving"),
-        page=_plain(_moving),
-        lacking=_of(lacks.of_movement),
-        otherwise=_nothing,
-        quick=False,
-    ),
     "torsion": Answer(
         title=lambda: _("Modes and running"),
         page=_plain(swinging),
@@ -240,20 +188,6 @@ ANSWERS: dict[str, Answer] = {
         otherwise=_free,
         quick=False,
     ),
-    "strength": Answer(
-        title=lambda: _("Strength"), page=_plain(bearing_up), lacking=_of(lacks.of_strength), otherwise=_weak
-    ),
-    "limits": Answer(
-        title=lambda: _("Limits"),
-        page=_plain(_limits),
-        lacking=_of(lacks.of_nothing),
-        otherwise=_unjudged,
-        quick=False,
-    ),
-    "mobility": Answer(title=lambda: _("How it is held"), page=_plain(binding), lacking=_unheld, otherwise=_loose),
-    "assembly": Answer(
-        title=lambda: _("Assembly"), page=_plain(straining), lacking=_of(lacks.of_assembly), otherwise=_fits
-    ),
     "selection": Answer(
         title=lambda: _("Choice of joints"),
         page=lambda on, _progress, choices: choosing(on, choices.get("joint")),
@@ -264,7 +198,7 @@ ANSWERS: dict[str, Answer] = {
 """Every question by its name, in the order in which one asks them."""
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
-    (lambda: _("Motion"), ("motion", "movement", "classical")),
+    (lambda: _("Motion"), ("motion", "articulation", "classical")),
     (lambda: _("Phasing"), ("phasing",)),
     (lambda: _("Forces"), ("forces",)),
     (lambda: _("Losses"), ("losses",)),

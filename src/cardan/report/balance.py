@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from cardan.answers.checks import leftover
 from cardan.errors import InputError
 from cardan.figures.wording import significant
 from cardan.texts import _
@@ -40,7 +41,7 @@ def _row(what: str, how: str, left: float, allowed: float) -> list[Cell]:
     return [
         words(what),
         words(how),
-        number(_small(left), left),
+        number(leftover(left) if allowed else _small(left), left),
         number(_small(allowed), allowed),
         words(_("passed") if passed else _("failed"), "good" if passed else "failed"),
     ]

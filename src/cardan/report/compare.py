@@ -17,6 +17,7 @@ from cardan.answers.quantity import Joined, Quantity
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.checks import Verdict, check
+from cardan.checks.verdict_table import TONES
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.io.differences import differences
@@ -29,7 +30,6 @@ from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, shown
 from .followed import Followed, figures_by_laws
 from .key_figures import key_figures
 from .subject import Progress, Subject
-from .verdicts import TONES
 
 Sense: TypeAlias = Literal["less", "more", ""]
 """Whether a smaller or a greater figure is better; empty where neither is."""

@@ -20,6 +20,8 @@ from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
 from cardan.questions.motion import answer as motion
+from cardan.questions.motion import articulation_answer as articulation
+from cardan.questions.motion.articulation import Articulation
 from cardan.questions.phases import answer as yokes
 from cardan.questions.phases.phases import Phasing
 from cardan.texts import _
@@ -39,7 +41,6 @@ from .followed import (
 from .key_figures import key_figures, key_table
 from .loaded import loaded
 from .method import method
-from .moving import moving
 from .page import page
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
@@ -153,9 +154,9 @@ def content(
     on = replace(asked(drive, duty, progress), known=known)
     pages: list[Page] = [description(on), *moved(on.drive), phased(on.drive, on.phasing)]
     if on.moving is not None:
-        pages.append(moving(on))
+        pages.append(_articulated(on.drive, on.moving))
     if on.unmoved is not None:
-        pages.append(refused("moving", _("While moving"), on.unmoved))
+        pages.append(refused("articulation", _("Articulation"), on.unmoved))
     pages += loaded(on)
     limits = judged(on) if on.complete else Judged()
     if limits.page is not None:
@@ -235,6 +236,13 @@ def moved(drive: Drive) -> list[Page]:
 def phased(drive: Drive, found: Phasing) -> Page:
     """Return the page of the yokes."""
     return page(yokes.answer(drive, found), USUAL)
+
+
+def _articulated(drive: Drive, found: Articulation) -> Page:
+    """Return the page of the movement; what it warns of stands on the first page."""
+    said = articulation.answer(drive, found)
+    calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
+    return page(replace(said, remarks=calm), USUAL)
 
 
 def _phased_by_laws(drive: Drive) -> Page:

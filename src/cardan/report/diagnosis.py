@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 
 from cardan.figures.wording import percent, significant
+from cardan.maths.ties import foremost_of
 from cardan.questions.diagnosis.examination import Examination
 from cardan.questions.diagnosis.expected import Expected
 from cardan.questions.diagnosis.figures.examination import LIKELY, causes_figure, examined_map, verdict
@@ -183,7 +184,7 @@ def should_appear(expected: Expected, found: Examination) -> Table:
         per = {"acceleration": 0, "velocity": 1, "displacement": 2}.get(found.channel.quantity, 0)
         level /= (order * top) ** per * size
         seen = found.spectrum.at(order) / size
-        strongest = max(own, key=lambda one: one.size)
+        strongest = foremost_of(own, lambda one: one.size)
         rows.append(
             [
                 number(f"{order:g}", order),

@@ -16,6 +16,7 @@ from cardan.checks.moving import WORSE, posed
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .block import Page, Table, verdict_columns
@@ -74,7 +75,7 @@ def _worst_pose(on: Subject) -> Iterator[KeyFigure]:
     """Yield the speed fluctuation in the worst pose, where it is worse than as drawn."""
     share = on.phasing.as_built.pose_irregularity
     if share.size and float(np.max(share)) > float(on.whole.irregularity) + UTMOST:
-        worst, name = float(np.max(share)), on.phasing.poses[int(np.argmax(share))]
+        worst, name = float(np.max(share)), on.phasing.poses[int(foremost(share))]
         place = say(_("in the pose {name}"), name=name)
         title = _("speed fluctuation δ of the output")
         yield KeyFigure(name="pose_speed_fluctuation", title=title, place=place, value=Quantity(worst, "share"))

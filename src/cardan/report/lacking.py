@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
-from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import key_of
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
@@ -37,17 +37,6 @@ def told(lacking: Lacking) -> str:
 def of_forces(drive: Drive) -> Lacking:
     """Return what the forces lack."""
     return _absent((drive.duty.torque is not None, "duty.torque"), (bool(drive.supports), "supports"))
-
-
-def of_strength(drive: Drive) -> Lacking:
-    """Return what the strength lacks."""
-    return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
-
-
-def of_assembly(drive: Drive) -> Lacking:
-    """Return what the forces of assembly lack."""
-    some = any(any(one.offset) or one.stiffness or one.axial_stiffness for one in drive.supports)
-    return _absent((some, "supports[0].offset", "supports[0].stiffness", "supports[0].axial_stiffness"))
 
 
 def of_torsion(drive: Drive) -> Lacking:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from cardan.answers.answer import Answer, Depth, KeyFigure
 from cardan.answers.printed import SHOWN, Cell, framed, number, printed
-from cardan.answers.quantity import Quantity, told
+from cardan.answers.quantity import Quantity, say, told
 from cardan.answers.reader import Reader
 from cardan.texts import _
 
@@ -67,6 +67,8 @@ def row(key: KeyFigure, reader: Reader) -> list[Cell]:
         bound = number(key.limit, reader, unit=False)
         sign = "≥ " if key.better == "more" else "≤ "
         limit = Cell(text=sign + bound.text, full=bound.full, amount=bound.amount, form=framed(bound.form, sign))
+        if key.beyond is not None:
+            limit = Cell(text=told(say(_("≤ {low:bare} or ≥ {high:bare}"), low=key.limit, high=key.beyond), reader))
         used = number(Quantity(key.utilisation, decimals=2, most=MOST), reader, unit=False)
     unit = reader.label(key.value.dimension, key.value.unit)
     verdict = Cell(text=key.verdict, tone=key.tone if key.verdict else "plain")

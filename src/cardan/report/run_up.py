@@ -11,6 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.machine import RunUp
 from cardan.errors import InputError
 from cardan.figures.wording import significant
+from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.questions.torsion.transient.figure import transient_figure
@@ -103,7 +104,7 @@ def _largest(found: Transient) -> tuple[int, float, float]:
     """Return the element that carries most, its torque with its sign [N·m], and when [s]."""
     ends = found.motion.extremes
     low, high = np.nan_to_num(ends.torque_low), np.nan_to_num(ends.torque_high)
-    e = int(np.argmax(np.maximum(np.abs(low), np.abs(high))))
+    e = int(foremost(np.maximum(np.abs(low), np.abs(high))))
     if abs(high[e]) >= abs(low[e]):
         return e, float(high[e]), float(ends.torque_high_time[e])
     return e, float(low[e]), float(ends.torque_low_time[e])

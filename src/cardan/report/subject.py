@@ -11,6 +11,7 @@ import numpy as np
 from cardan.book.comparison import BookComparison, book_comparison
 from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
+from cardan.checks.strength.left_out import steady_torsion
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -26,7 +27,7 @@ from cardan.questions.motion.motion import Motion, motion, phase_angles
 from cardan.questions.motion.rounding import is_rounding
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
-from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
+from cardan.questions.torsion.steady.torsion_response import TorsionResponse
 
 Progress = Callable[[float], object]
 
@@ -136,7 +137,7 @@ class Subject:
     @cached_property
     def swings(self) -> TorsionResponse | None:
         """How it vibrates in torsion at the speed of its duty; None where that has none. Refused as the analysis is."""
-        return None if self.drive.duty.speed is None else torsion_response(self.drive)
+        return steady_torsion(self.drive)
 
     @cached_property
     def moved(self) -> Articulation | InputError | None:

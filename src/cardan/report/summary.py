@@ -10,6 +10,7 @@ from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import WARN_BEND
 from cardan.questions.motion.kinds import too_steep
 from cardan.questions.phases.answer import excess
@@ -143,7 +144,7 @@ def _while_moving(on: Subject) -> float:
 def _in_poses(on: Subject) -> tuple[float, str]:
     """Return the speed fluctuation in the pose where it is largest, and the name of that; 0 without poses."""
     share = on.phasing.as_built.pose_irregularity
-    return (float(np.max(share)), on.phasing.poses[int(np.argmax(share))]) if share.size else (0.0, "")
+    return (float(np.max(share)), on.phasing.poses[int(foremost(share))]) if share.size else (0.0, "")
 
 
 def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
@@ -171,7 +172,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
     if on.moving is not None:
-        failed = {flag.message for one in on.moving.splines for flag in one.flags}
+        failed = [flag.message for one in on.moving.splines for flag in one.flags]
         yield from (Words(text=text, tone="failed" if text in failed else "warning") for text in on.moving.warnings)
     if not on.complete:
         yield Words(text=_("Stopped by the reader: what was not calculated by then is left out."), tone="warning")

@@ -11,6 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, significant
+from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.figure import campbell_figure, shapes_figure
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.questions.torsion.stability.figure import map_figure
@@ -210,7 +211,7 @@ def _answer(modes: TorsionModes, runs: TorsionResponse | None) -> str:
     )
     if runs is None or not bool(runs.steady.found):
         return text + "."
-    e = int(np.argmax(runs.swing))
+    e = int(foremost(runs.swing))
     said = _("; at {speed} rpm the torque in {name} swings by ± {swing} N·m, and small disturbances {fate}.")
     fate = {Verdict.STABLE: _("die out"), Verdict.NEUTRAL: _("stay"), Verdict.UNSTABLE: _("grow")}
     return text + said.format(

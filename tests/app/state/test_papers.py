@@ -55,6 +55,7 @@ def test_every_form_opens(session: Session, form: papers.Form, begin: bytes) -> 
     assert made.name.startswith("Z-arrangement")
 
 
+@pytest.mark.slow
 def test_a_workbook_holds_numbers_with_points(session: Session) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     pytest.importorskip("xlsxwriter")

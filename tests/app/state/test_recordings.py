@@ -50,6 +50,7 @@ def judged(session: Session) -> Recorded:
     return found
 
 
+@pytest.mark.slow
 def test_a_recording_sent_is_judged_in_the_users_language_and_more_can_be_said_of_it(
     session: Session, content: bytes
 ) -> None:

@@ -78,6 +78,7 @@ def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
         assert np.array_equal(np.isnan(found[column.name]), ~answered)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "names"), [("pair", NAMES), ("mixed", ["irregularity"])])
 def test_jax_tells_what_numpy_tells(case, names):
     pytest.importorskip("jax")
@@ -88,6 +89,7 @@ def test_jax_tells_what_numpy_tells(case, names):
         assert np.allclose(there[name], values, rtol=1e-9, atol=1e-8, equal_nan=True)
 
 
+@pytest.mark.slow
 def test_the_kernel_tells_what_plain_arrays_tell():
     drive, paths, points = drawn("points", 200)
     plain, compiled = (ask_of(drive, paths, NAMES, size=size)(points) for size in (0, 10**6))

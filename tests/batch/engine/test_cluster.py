@@ -30,6 +30,7 @@ CHUNK = 50
 
 # Dask leaves sockets behind of schedulers that die; they are collected here, not in the tests of others.
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
     pytest.mark.filterwarnings("ignore::ResourceWarning"),
 ]

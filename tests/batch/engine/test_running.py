@@ -12,6 +12,7 @@ import sys
 import time
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -59,11 +60,13 @@ def test_rows_that_nobody_keeps_are_not_held(engine, tmp_path):
     assert rows_for(Numbers(0)) == 1
 
 
+@pytest.mark.slow
 def test_processes_give_the_same(tmp_path):
     undisturbed(run(WORK, engine=Processes(workers=2), chunk=CHUNK, into=tmp_path), WORK, CHUNK)
     undisturbed(run(WORK, engine=Processes(workers=1), chunk=CHUNK), WORK, CHUNK)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_loses_and_doubles_nothing(tmp_path):
     (tmp_path / "marks").mkdir()
     work = replace(WORK, trouble=Trouble("kill", row=555, marks=str(tmp_path / "marks"), times=2))
@@ -156,6 +159,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "how"),
     [("Processes", signal.SIGINT), ("Processes", signal.SIGKILL), ("Cluster", signal.SIGINT)],
@@ -170,8 +174,9 @@ def test_an_interrupted_program_leaves_nobody_and_can_go_on(engine, how, tmp_pat
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=os.environ | {"PYTHONPATH": os.getcwd()},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join((os.getcwd(), os.environ.get("PYTHONPATH", "")))},
         start_new_session=True,
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # what runs in the background ignores it
     )
     while 0.0 <= float(program.stdout.readline()) < 0.1:
         pass
@@ -244,6 +249,7 @@ def full(sweep, folder):
     assert read_sweep(folder).missing
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root can mount")
 @pytest.mark.parametrize("engine", [InProcess(), Processes(workers=2)], ids=["in process", "processes"])
 def test_a_disk_that_is_really_full(engine, tmp_path):
@@ -266,6 +272,7 @@ def test_a_table_that_is_too_large_to_be_held_is_refused(monkeypatch):
     assert run(WORK, rows="none", chunk=CHUNK).status == "done"
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_size():
     import tracemalloc
 

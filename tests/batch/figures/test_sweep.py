@@ -152,6 +152,7 @@ def test_searches():
     assert drawn(figures.for_result(nothing)[0]).sentence == "No point keeps the limits."
 
 
+@pytest.mark.slow
 def test_pictures_are_files(tmp_path):
     figure = parallel_figure(COLUMNS[:5], ROWS, goal=EVEN)
     for suffix in (".png", ".pdf"):

@@ -104,6 +104,7 @@ def test_the_zones_of_mathieus_equation(accuracy):
     assert found.evaluations < found.grid / 2
 
 
+@pytest.mark.slow
 def test_a_drive_that_swings_itself_up():
     """The places asked and those of the map of stability agree; the line lies between them."""
     drive = example("unstable-drive")

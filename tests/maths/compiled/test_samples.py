@@ -21,6 +21,7 @@ def drive_of(joints, **options):
     return Drive(joints=rows, shafts=base.shafts, input=base.input)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("joints", BENDS)
 def test_the_kernel_gives_what_every_chain_gives_alone(joints):
     """Sums, sizes and kept values against the array expressions, each sample a chain of its own."""

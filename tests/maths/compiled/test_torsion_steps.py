@@ -62,6 +62,7 @@ def stepped(drives: TorsionalModel, block: object, steps: int = 60, h: float = 1
     return walk.state()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("forced", [False, True])
 @pytest.mark.parametrize(("backlash", "steep"), [(0.0, 0.0), (0.004, 0.0), (0.0, 0.8)])
 def test_the_kernel_does_what_the_plain_form_does(forced: bool, backlash: float, steep: float) -> None:

@@ -41,6 +41,7 @@ def test_random_loops_close(branch):
     assert left.max() < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("branch", [-1.0, 1.0])
 def test_a_newton_solution_of_the_matrix_equation_agrees(branch):
     alpha, phi, length, slide = random_loops(60, seed=2)
@@ -58,6 +59,7 @@ def test_a_newton_solution_of_the_matrix_equation_agrees(branch):
     assert checked > 10
 
 
+@pytest.mark.slow
 def test_the_newton_solution_is_one_of_both_branches_from_any_start():
     alpha, phi, length, slide = random_loops(40, seed=5)
     both = loops.rccc(
@@ -94,6 +96,7 @@ def test_the_closed_table_is_that_of_the_perfect_loop(bend, angle, branch):
     assert table == pytest.approx(loop.coefficient, abs=2e-13)
 
 
+@pytest.mark.slow
 @given(st.floats(1.0, 60.0), st.floats(-200.0, 200.0), st.sampled_from([-1.0, 1.0]))
 @settings(max_examples=50)
 def test_the_table_is_the_derivative_of_the_angles(bend, angle, branch):

@@ -99,6 +99,7 @@ def test_a_slender_timoshenko_beam_is_euler_and_bernoullis():
     assert off[2] / off[0] == pytest.approx(1e-4, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("spinning", [True, False])
 def test_elements_find_what_transfer_matrices_find(seed, spinning):
@@ -208,7 +209,8 @@ def test_what_can_move_without_bending_has_speed_zero():
     found = speeds(free, 4)
     assert found[:2].tolist() == [0.0, 0.0]
     want = (np.asarray([4.730040744862704, 7.853204624095838]) / 1.5) ** 2 * np.sqrt(THIN.bending / THIN.mass)
-    np.testing.assert_allclose(found[2:], want, rtol=1e-11)
+    # As for the beams that are held. At the first of these roots the stiffnesses on the diagonal pass through zero.
+    np.testing.assert_allclose(found[2:], want, rtol=1e-12)
     # Pinned, hinged amid, pinned: the hinge drops; each half then is a beam with one end pinned and one on nothing.
     swing = of(THIN, [0.7, 0.9], held=(0, 2), hinged=(1,))
     assert rigid_motions(swing).shape[-1] == 1

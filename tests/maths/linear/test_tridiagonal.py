@@ -40,6 +40,7 @@ def chain(n, seed):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("n", [1, 2, 3, 8, 21])
 def test_the_response_is_that_of_the_full_matrix(n, method):

@@ -80,6 +80,7 @@ def test_on_mathieus_boundaries_half_the_trace_is_one(q: float) -> None:
     np.testing.assert_allclose(0.5 * trace, [1.0, -1.0, -1.0, 1.0, 1.0], atol=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3, 4])
 def test_hills_matrix_agrees_with_integration(seed: int) -> None:
     coefficients = swinging(seed=seed)

@@ -17,6 +17,7 @@ def integrated(force, omega, zeta, times):
     return solve_ivp(rate, (0, times[-1]), [0, 0], method="DOP853", rtol=1e-12, atol=1e-13, t_eval=times).y
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("omega", "zeta", "rate"),
     [(20, 0.02, 8.0), (20, 0.0, 30.0), (20, 0.7072, 8.0), (20, 0.95, 40.0), (20, 3.0, 50.0), (5, 0.1, 300.0)],

@@ -33,6 +33,7 @@ def test_the_splitting_is_of_sixth_order_and_keeps_areas():
     assert np.all(errors[1] / errors[2] > 50.0)
 
 
+@pytest.mark.slow
 def test_the_kernel_does_what_the_same_lines_do_on_arrays():
     rng = np.random.default_rng(1)
     a, q = rng.uniform(-2.0, 8.0, 64), rng.uniform(-3.0, 3.0, 64)

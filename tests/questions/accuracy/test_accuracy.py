@@ -22,6 +22,7 @@ def random_errors(rng, n, size):
     return rng.uniform(-size, size, (n, 5))
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(plans(most=4), st.integers(0, 10**6), st.floats(-3.0, 3.0))
 def test_a_chain_of_loops_solved_by_newton_agrees(plan, seed, phi):

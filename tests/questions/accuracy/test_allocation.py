@@ -24,6 +24,7 @@ def values(found):
     return np.asarray([row.tolerance for row in found.rows])
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(
     plans(most=4, bend=35 * deg, straight=False),
@@ -94,6 +95,7 @@ def test_the_band_of_what_was_found_is_the_target(method):
     assert np.allclose(band.output.upper, found.error, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_samples_of_what_was_found_keep_the_target():
     found = allocate(DOUBLE, 0.1 * deg)
     band = tolerance(DOUBLE, found.spread, method=MonteCarlo(samples=32768))

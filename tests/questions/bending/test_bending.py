@@ -114,6 +114,7 @@ def test_end_shafts_with_bearings_belong_to_the_line():
     assert found.place[0] == pytest.approx(-0.35)
 
 
+@pytest.mark.slow
 def test_without_a_length_an_end_shaft_reaches_its_last_bearing():
     ends = (Support(shaft=3, position=0.1), Support(shaft=3, position=0.28))
     drive = replace(line_of(0.9), shafts=(Shaft(number=2, **TUBE), Shaft(number=3, **TUBE)), supports=ends)
@@ -146,6 +147,7 @@ def test_a_support_that_holds_the_slope_is_a_fixed_end():
     assert 0.1 < half.support_share[0, 0] < 0.5
 
 
+@pytest.mark.slow
 def test_a_given_mass_is_spread_along_the_body():
     one = bending_speeds(single())
     own = np.pi / 4 * (0.076**2 - 0.072**2) * 1.5 * 7850
@@ -170,6 +172,7 @@ def test_half_of_each_cross_turns_with_each_shaft():
     assert abs(found.speed[2] / bare.speed[2] - 1) > 1e-3
 
 
+@pytest.mark.slow
 def test_a_spline_wears():
     spline = single(spline=Spline(teeth=16))
     drive = replace(spline, duty=DUTY)
@@ -189,6 +192,7 @@ def test_each_mode_wears_as_the_shaft_that_bends():
     assert bending_speeds(splined).wear.tolist() == [0.9, 0.9, 1.0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("duty", "status", "crossed", "half"),
     [
@@ -220,6 +224,7 @@ def test_the_rules_are_about_the_first_mode_that_bows():
     assert found.status == Running.CLEAR
 
 
+@pytest.mark.slow
 def test_many_modes_are_all_found():
     found = bending_speeds(two_piece(), modes=12)
     assert found.missed == 0

@@ -51,6 +51,7 @@ def test_unbalances_count_by_where_they_sit_and_look():
     assert "shafts[1].unbalance" not in found.assumed
 
 
+@pytest.mark.slow
 def test_a_lump_amid_the_shaft_adds_its_whole_mass():
     lump = Lump(position=0.5 * LENGTH, mass=3.0)
     bare, laden = rotor(beam()), rotor(beam(masses=(lump,)))
@@ -58,6 +59,7 @@ def test_a_lump_amid_the_shaft_adds_its_whole_mass():
     assert laden.stiffness == pytest.approx(bare.stiffness, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_the_response_is_that_of_the_cracked_rotor():
     crack = ShaftCrack(losses=(0.2, 0.05), breathing=2, angle=30 * deg)
     drive = beam(crack=crack, unbalance=(Unbalance(position=0.5 * LENGTH, amount=5e-5, angle=70 * deg),))
@@ -89,6 +91,7 @@ def test_the_depth_of_a_solid_shaft_is_that_of_its_section():
     assert rotor(beam(crack=ShaftCrack(depth_ratio=0.45))).crack.losses == pytest.approx((0.4459, 0.1004), abs=5e-5)
 
 
+@pytest.mark.slow
 def test_a_deep_crack_makes_whirling_unstable_with_half_orders():
     found = rotor_response(beam(crack=ShaftCrack(losses=(0.446, 0.1))), damping_ratio=0.002, speed=None)
     critical = found.rotor.critical
@@ -115,6 +118,7 @@ def test_behind_a_joint_the_unbalance_has_odd_orders():
     assert behind.size[list(behind.order).index(3)] == pytest.approx(4.5 * tau, rel=0.05)  # first order in τ
 
 
+@pytest.mark.slow
 def test_a_run_up_follows_the_duty():
     drive = beam(crack=ShaftCrack(losses=(0.1, 0.02)))
     critical = rotor(drive).critical
@@ -128,6 +132,7 @@ def test_a_run_up_follows_the_duty():
         rotor_run(drive)
 
 
+@pytest.mark.slow
 def test_two_shafts_joined_shake_each_with_its_own_orders():
     drive = example("truck-supports")
     cracked = replace(drive.shafts[1], crack=ShaftCrack(losses=(0.2, 0.05)))

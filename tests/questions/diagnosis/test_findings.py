@@ -29,6 +29,7 @@ def looked():
     return found
 
 
+@pytest.mark.slow
 def test_the_true_cause_comes_first_for_most(looked):
     rank = [[one.cause for one in findings].index(cause) for cause, findings in looked]
     # With a true rate of 85 % fewer than 31 of 42 come in 2 % of such looks; with 97 % fewer than 38 in 1 %.
@@ -144,6 +145,7 @@ def short():
     return simulate_fault(example("truck-supports"), "unbalance", seed=4, runs=Runs(run_up=4.0, hold=1.5, rate=1024.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("snr", [10.0, 25.0, 60.0, 200.0])
 def test_a_clean_recording_is_judged_as_surely_as_a_noisy_one(snr):
     # Levels of orders that noise hides must not tell how much noise there is.

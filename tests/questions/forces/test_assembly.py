@@ -178,6 +178,7 @@ def test_every_shaft_is_in_balance(one):
     assert assembly(one).residual < 1e-11  # forces of kilonewtons cancel: thousands of roundings
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("one", CASES.values(), ids=CASES)
 def test_torque_is_the_slope_of_the_energy(one):
     step = 1e-4
@@ -210,6 +211,7 @@ def test_forces_are_reciprocal(name):
     assert np.min(np.linalg.eigvalsh(table)) > -1e-10 * np.max(np.abs(table))
 
 
+@pytest.mark.slow
 @given(OFFSETS, OFFSETS)
 def test_forces_superpose_and_the_slope_of_the_energy_is_the_force(one, other):
     first, second = (assembly(moved(FLEXIBLE, given), angle=[0.7]) for given in (one, other))
@@ -306,6 +308,7 @@ def test_a_joint_alone_is_closed_form():
         np.testing.assert_allclose(found.joint_force[0, p], wanted, rtol=1e-10, atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["one elastic joint blocked", "journals that slide", "fixed ends, crosses that slide"])
 def test_peaks_are_those_of_dense_samples(name):
     found = assembly(CASES[name])

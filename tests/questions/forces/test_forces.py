@@ -463,6 +463,7 @@ def test_steep_and_straight_joints_balance_too(bends: tuple[float, ...], at: str
     assert max(found.power_left.max(), force / size, moment / size) < 1e-10
 
 
+@pytest.mark.slow
 def test_ten_thousand_drives_are_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
     """As many steps of Python as for three drives, and each drive's extremes those of the drive by itself."""
     calls, plain = [0], frames.cross

@@ -76,6 +76,7 @@ def test_a_locked_drive_and_a_straight_one_are_drawn():
     drawn(loss_figure(straight))
 
 
+@pytest.mark.slow
 def test_a_map_shows_a_curve_for_every_speed_by_rising_torque():
     found = loss_map(TRUCK, [100 * rpm, 3000 * rpm], [500.0, 100.0, 1000.0])
     (figure,) = figures.for_result(found)

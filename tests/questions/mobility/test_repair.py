@@ -21,6 +21,7 @@ def keeps_its_word(mechanism, repair):
     assert after.mobility == before.mobility
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", mechanism_names())
 def test_repairs_of_the_examples_keep_their_word(name):
     mechanism = example_mechanism(name)

@@ -1,6 +1,8 @@
 import numpy as np
 import pytest
 
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.drive.duty import Limits
 from cardan.drive.shaft import Spline
 from cardan.errors import InputError
@@ -49,8 +51,8 @@ def test_engaged_length_below_the_stated_overlap_is_flagged_with_time_and_span()
     ((start, end),) = flag.spans
     # 0.08 - 0.03 sin t < 0.065 from 30 to 150 degrees; the quintic is good to about 1e-9.
     assert (start, end) == pytest.approx((np.pi / 6.0, 5.0 * np.pi / 6.0), abs=1e-7)
-    assert "50 mm" in flag.message
-    assert "65 mm" in flag.message
+    assert "50.0 mm" in told(flag.message, USUAL)
+    assert "65 mm" in told(flag.message, USUAL)
 
 
 def test_spline_that_comes_apart_and_bottoms():

@@ -56,6 +56,7 @@ def exactly(batch, angle, speed, acceleration):
     return Traces(angle=angle, output_angle=found[0], ratio=found[1], acceleration=found[2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("joints", [1, 2, 4, 8])
 def test_forty_digits(method, joints):
@@ -211,6 +212,7 @@ def test_two_python_threads_at_once():
             assert np.array_equal(found.ratio, wanted.ratio)
 
 
+@pytest.mark.slow
 def test_processes_may_fork_after_a_kernel():
     """No OpenMP is loaded, so a child can run kernels too; not tested in this process, which may have threads."""
     program = (

@@ -92,6 +92,7 @@ def test_boxes_and_lengths_are_kept():
     np.testing.assert_allclose(found.bend, bends(found.points), atol=1e-7)
 
 
+@pytest.mark.slow
 def test_held_yokes_stay_and_the_layout_suits_them():
     drive = boxed(POINTS, {2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)}, held=(2,))
     found = layout(drive)
@@ -101,6 +102,7 @@ def test_held_yokes_stay_and_the_layout_suits_them():
     assert found.bend.max() >= layout(boxed(POINTS, {2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)})).bend.max() - 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gamma", [0.0, 0.4, 0.5 * np.pi])
 def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gamma):
     free = boxed([(-1, 0, 0), (0, 0, 0), (1, 0.1, 0.1), (2, 0, 0.4)], {2: (0.5, 0.3, 0.3)}, held=(2,))

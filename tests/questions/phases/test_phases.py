@@ -94,6 +94,7 @@ def test_what_is_returned_is_what_was_proved(plan):
     assert found.feasible == (2 * exact.min() >= exact.sum() - 1e-14)
 
 
+@pytest.mark.slow
 @given(plans(least=3, most=6, bend=35 * deg), st.data())
 def test_with_yokes_held_no_other_choice_is_better(plan, data):
     held = data.draw(st.sets(st.integers(2, len(plan.bends)), min_size=1))
@@ -169,6 +170,7 @@ def test_weights_choose_which_shaft_is_calm():
     np.testing.assert_allclose(by_file, third, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_nearest_member_is_nearer_than_any_other():
     random = np.random.default_rng(7)
     bends, twists, yokes = random.uniform(8, 18, 4) * deg, random.uniform(-3, 3, 3), random.uniform(-1, 1, 3)
@@ -185,6 +187,7 @@ def test_the_nearest_member_is_nearer_than_any_other():
     assert found.settings[0].irregularity < 1e-14
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 def test_a_family_with_held_yokes_minimises_its_goal(seed):
     random = np.random.default_rng(seed)
@@ -220,6 +223,7 @@ def test_one_degree_off_is_told_for_the_worst_pose():
     assert max(posed) > 5 * posed[0]
 
 
+@pytest.mark.slow
 @given(plans(least=2, most=5, bend=35 * deg, straight=False))
 def test_sensitivity_is_the_slope_of_the_irregularity(plan):
     found = phases(plan.drive)

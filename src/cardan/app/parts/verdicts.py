@@ -1,4 +1,4 @@
-"""The verdicts beside the view: traffic lights with their values, why they are so, and what cures the failed ones."""
+"""The verdicts beside the view: traffic lights with their values, why they are so, remedies of the failed ones."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, synchronous
 from cardan.report.block import SIGNS, Words
-from cardan.report.lights import Light, sentence
+from cardan.report.lights import MOST, Light, sentence
 from cardan.report.preferred import in_choice
 from cardan.texts import _
 
@@ -230,11 +230,13 @@ def _light(one: Light, opened: bool, spoken: Callable[[str], str]) -> str:
 
 def _more(one: Light, spoken: Callable[[str], str]) -> str:
     share = min(one.used, 1.0) if one.used == one.used else 1.0
-    said = _("{share} % of the limit").format(share=f"{100.0 * one.used:.0f}" if one.used < 1e4 else "∞")
+    said = _("{share} % of the limit").format(
+        share=f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
+    )
     bar = f'<div class="used" role="img" aria-label="{escape(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
     rows = [
         (_("limit"), spoken(one.limit)),
-        (_("used"), said),
+        (_("utilisation"), said),
         (_("by"), one.source),
         (_("why"), one.why),
         (_("depends on"), ", ".join(one.levers[:6])),
@@ -247,7 +249,7 @@ def _cures(one: Light) -> list[str]:
     if not one.cures:
         return []
     word = escape(_("apply"))
-    made = [f"<h3>{escape(_('Cures'))}</h3>"]
+    made = [f"<h3>{escape(_('Remedies'))}</h3>"]
     for k, cure in enumerate(one.cures):
         name = escape(f"cure {k} {one.name}")
         made.append(

@@ -260,7 +260,8 @@ def optimum_figure(found: Optimum) -> Figure:
             f"{name_of(one)} = {significant(float(value), 4)}"
             for one, value in zip(found.fields, found.point, strict=True)
         )
-        said = text.format(value=amount(column, found.value, 4), point=point)
+        value = "≈ 0" if abs(found.value) <= found.uncertainty else amount(column, found.value, 4)
+        said = text.format(value=value, point=point)
     return Figure(
         name="search",
         title=_("How the search went"),

@@ -11,6 +11,7 @@ from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Bars, Cells, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _, plural
 
 from .words import amount, axis_of, counted, levels, name_of, title_of, unit_of
@@ -77,7 +78,9 @@ def heat_figure(
 def _extremes_sentence(across: Column, up: Column, value: Column, x: Array, y: Array, values: Array) -> str:
     if not np.any(np.isfinite(values)):
         return _("No point has an answer.")
-    least, most = (np.unravel_index(int(one(values)), values.shape) for one in (np.nanargmin, np.nanargmax))
+    least, most = (
+        np.unravel_index(int(foremost(values.ravel(), least=least)), values.shape) for least in (True, False)
+    )
     text = _("Least is {low} at {low_x} and {low_y}, greatest {high} at {high_x} and {high_y}.")
 
     def at(column: Column, where: Array, k: int) -> str:

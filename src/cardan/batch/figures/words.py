@@ -11,6 +11,7 @@ from cardan.figures.axes import axis, written
 from cardan.figures.figure import Axis
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import NOTHING, tidied
 from cardan.texts import _
 from cardan.units import label, thousands
 
@@ -74,7 +75,8 @@ def amount(column: Column, value: Any, digits: int = 3) -> str:
     if isinstance(value, str) or value is None:
         return value or "–"
     unit = unit_of(column)
-    return f"{significant(float(value), digits)}{'' if unit in ('', '°', '′') else ' '}{unit}"
+    told = float(value) if unit else tidied(float(value))
+    return f"{significant(told, digits)}{'' if unit in ('', '°', '′') else ' '}{unit}"
 
 
 def levels(values: Array) -> tuple[Array, tuple[str, ...]]:
@@ -113,6 +115,8 @@ def ends(values: Array) -> tuple[str, str]:
     if not known.size:
         return "–", "–"
     low, high = float(np.min(known)), float(np.max(known))
+    if abs(low) < NOTHING * high:
+        low = 0.0
     told = written((low, high)) if high > low else (significant(low, 4),) * 2
     if max(map(len, told)) > 7:
         told = significant(low, 3), significant(high, 3)

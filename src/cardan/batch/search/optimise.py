@@ -100,6 +100,8 @@ class Optimum:
         Points asked.
     history : array (k, 2)
         Points asked and best value, whenever it became better.
+    accuracy : float
+        Share of the box to which the place was to be found.
     status : str
         "converged"; "not converged": better ones may be near; "nothing found": no point keeps the limits;
         "cancelled".
@@ -115,11 +117,21 @@ class Optimum:
     evaluations: int
     history: Array
     status: Ending
+    accuracy: float = 0.0
 
     @property
     def value(self) -> float:
         """The goal there, in the unit of its column."""
         return self.values.get(self.goal.name, math.nan)
+
+    @property
+    def uncertainty(self) -> float:
+        """By how much the goal may differ where the place does by its accuracy, in its unit.
+
+        From the best of what was asked first to the best of all the goal changes over a good part of the box; where
+        it ends in a tip, as the irregularity does at nought, it changes evenly down to the last.
+        """
+        return float(self.accuracy * np.ptp(self.history[:, 1])) if len(self.history) else 0.0
 
     @property
     def feasible(self) -> bool:
@@ -266,6 +278,7 @@ def optimise(
         evaluations=search.count,
         history=np.asarray(search.history, dtype=float).reshape(-1, 2),
         status=ended,
+        accuracy=finish.accuracy,
     )
 
 

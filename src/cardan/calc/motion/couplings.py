@@ -266,7 +266,7 @@ CALCULATIONS = (
     Calculation(
         name="pin_stroke",
         doc=mark("how far the contact of a pin coupling with pins alike runs along them"),
-        source="closed form of the contact in the halving plane",
+        source="closed form of the contact in the bisecting plane",
         takes=(
             BEND,
             positive("a_m", mark("distance from the crossing of the axes at which the pins start"), "length"),

@@ -43,7 +43,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             source=norm.source,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             levers=(*yokes, *design.bend_levers, *design.speed_levers),
-            note=joined((at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else "")),
+            note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else ""),
         )
 
 

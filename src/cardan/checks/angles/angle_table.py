@@ -45,7 +45,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit=most,
         source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
         levers=(*design.bend_levers, *design.speed_levers),
-        note=joined((at_top_speed(design), said, note)),
+        note=joined(at_top_speed(design), said, note),
     )
 
 

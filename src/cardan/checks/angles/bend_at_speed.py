@@ -35,7 +35,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit=limit,
         source=rows[0].source,
         levers=(*design.bend_levers, *design.speed_levers),
-        note=joined((said, note)),
+        note=joined(said, note),
     )
 
 

@@ -11,7 +11,7 @@ from cardan.checks.verdict import BELOW, Verdict
 from cardan.formulas.upkeep import SEVERE
 from cardan.texts import _, mark
 
-COUNTERS = {"hours": ("time", "h"), "distance": ("length", "km"), "years": ("", "")}
+COUNTERS = {"hours": ("duration", "h"), "distance": ("length", "km"), "years": ("", "")}
 
 
 def _judge(design: Design) -> Iterator[Verdict]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.told import turning
@@ -54,26 +55,26 @@ def _judge(design: Design) -> Iterator[Verdict]:
         )
 
 
-def _note(one: Whirl) -> str:
+def _note(one: Whirl) -> Text:
     """Return which critical speed of one shaft counts, as computed and as the real shaft has it."""
     if one.speed is None or np.ndim(one.speed) or np.ndim(one.wear) or float(one.wear) == 1.0:
         return _computed(one)
-    text = _("{factor:g} of the {speed} rpm computed for the whole line")
+    text = _("{factor} of the {speed} computed for the whole line")
     if not one.exact:
-        text = _("{factor:g} of the {speed} rpm computed for the tube between its joints")
-    return text.format(factor=float(one.wear), speed=turning(float(one.speed)))
+        text = _("{factor} of the {speed} computed for the tube between its joints")
+    return say(text, factor=Quantity(float(one.wear), digits=3, trim=True), speed=turning(float(one.speed)))
 
 
-def _computed(one: Whirl) -> str:
+def _computed(one: Whirl) -> Text:
     """Return the critical speed of one shaft as computed."""
     if one.speed is not None and np.ndim(one.speed) and one.exact:
         return _("scaled from the speed of the drive as it is, computed for the whole line")
     if one.speed is None or np.ndim(one.speed):
         return ""
-    text = _("{speed} rpm, computed for the whole line")
+    text = _("{speed}, computed for the whole line")
     if not one.exact:
-        text = _("{speed} rpm, computed for the tube between its joints")
-    return text.format(speed=turning(float(one.speed)))
+        text = _("{speed}, computed for the tube between its joints")
+    return say(text, speed=turning(float(one.speed)))
 
 
 CHECK = Check(

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
@@ -41,11 +42,13 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     if design.varied:
         plain = Design(drive=design.drive, duty=design.duty, known=design.known)
         value = found[i] * _relative(plain, i) / np.maximum(_relative(design, i), 1e-300)
-    source = _("ISO 281 over the oscillation of the journals, reliability {share:g} %")
     yield Verdict(
         value=value,
         limit=design.value("duty.life"),
-        source=source.format(share=100.0 * design.duty.reliability),
+        source=say(
+            _("ISO 281 over the oscillation of the journals, reliability {share}"),
+            share=Quantity(design.duty.reliability, "share", 6, trim=True),
+        ),
         levers=(
             *((given,) if rated else sizes),
             span,
@@ -89,7 +92,7 @@ CHECK = Check(
     doc=mark("life of the needle bearings of every joint by ISO 281 against the life asked for"),
     joint=_judge,
     title=mark("life of the bearings of joint {number}"),
-    dimension="time",
+    dimension="duration",
     unit="h",
     sense="at_least",
     power=POWER,

@@ -1,26 +1,22 @@
-"""What every part of a drive uses of its limits, and where its shafts stand under the line of fatigue."""
+"""Utilisation of every limit of the parts of a drive, and where its shafts stand under the line of fatigue."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from cardan.checks.verdict import Verdict
+from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.checks.verdict import AMBER, Verdict
+from cardan.checks.verdict_table import MOST, share
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule
 from cardan.figures.palette import shaft
-from cardan.figures.wording import percent, significant
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 
 from .strength import Strength
 
 SHOWN = 16
 """Limits with a bar of their own, those used most."""
-
-SAME = 1e-9
-"""Share by which two uses may differ that are the same."""
-
-AMBER = 0.9
-"""Share of a limit from which it is close."""
 
 
 def strength_figures(found: Strength) -> tuple[Figure, ...]:
@@ -29,38 +25,43 @@ def strength_figures(found: Strength) -> tuple[Figure, ...]:
     return (uses_figure(found), fatigue_figure(found)) if tired else (uses_figure(found),)
 
 
-def tone(one: Verdict) -> str:
-    """Return the colour of a use: how near it is to its limit."""
-    if one.advice:
-        return "muted"
-    return "failed" if one.utilisation > 1.0 else "warning" if one.utilisation >= AMBER else "good"
+def role_of(one: Verdict) -> str:
+    """Return the colour of a verdict: how near it is to its limit."""
+    return "muted" if one.advice else role(float(one.utilisation))
+
+
+def role(used: float) -> str:
+    """Return the colour of a utilisation.
+
+    Examples
+    --------
+    >>> role(0.5), role(0.95), role(1.2)
+    ('good', 'warning', 'failed')
+    """
+    return "failed" if used > 1.0 else "warning" if used >= AMBER else "good"
 
 
 def uses_figure(found: Strength) -> Figure:
-    """Return what every part uses of its limits, the most used first.
+    """Return the utilisation of every limit, the largest first.
 
     Parameters
     ----------
     found : Strength
     """
     order = sorted(found.judged, key=lambda one: -float(one.utilisation))[:SHOWN]
-    source = _("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")
+    source: list[Text] = [_("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")]
     if len(order) < len(found.judged):
-        text = _("; the {shown} nearest of {all} limits")
-        source += text.format(shown=len(order), all=len(found.judged))
+        text = _("the {shown} most utilised of {all} checks")
+        source.append(say(text, shown=len(order), all=len(found.judged)))
     if any(one.advice for one in order):
-        source += _("; grey: rules of thumb, which fail no drive")
+        source.append(_("grey: rules of thumb, which fail no drive"))
+    rows = [(one.title, float(one.utilisation), role_of(one)) for one in order]
     return Figure(
         name="strength",
-        title=_("What every part uses of its limit"),
-        sentence=_sentence(found),
-        source=source,
-        rows=(
-            Row(
-                panels=(bars_of([(one.title, float(one.utilisation), tone(one)) for one in order]),),
-                height=0.24 * max(len(order), 1) + 0.4,
-            ),
-        ),
+        title=_("Utilisation of every limit"),
+        sentence="",
+        source=Joined(source, between="; "),
+        rows=(Row(panels=(bars_of(rows),), height=0.24 * max(len(order), 1) + 0.4),),
     )
 
 
@@ -72,14 +73,14 @@ def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
     rows : list of (str, float, str)
         Name, utilisation and role, from the top.
     """
-    size = np.asarray([100.0 * min(used, 1e3) for _name, used, _role in rows])
+    size = np.asarray([100.0 * min(used, MOST) for _name, used, _role in rows])
     at = np.arange(len(rows), 0, -1, dtype=float)
     top = max(float(np.max(size, initial=0.0)), 100.0)
     ticks = steps(0.0, top, 5)
     bars = Bars(
         at=at,
         size=size,
-        texts=tuple(percent(used) for _name, used, _role in rows),
+        texts=tuple(share(used) for _name, used, _role in rows),
         roles=tuple(role for _name, _used, role in rows) or ("muted",),
         thick=0.62,
         lying=True,
@@ -89,24 +90,10 @@ def bars_of(rows: list[tuple[str, float, str]]) -> Panel:
         series=(bars, Rule(value=100.0, upright=True, role="failed", dash="solid")),
         x=Axis(low=0.0, high=1.14 * top, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=max(len(rows), 1) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Share of the limit [%]"),
+        title=_("Utilisation"),
+        dimension="share",
+        unit="percent",
     )
-
-
-def _sentence(found: Strength) -> str:
-    first = found.governing
-    if first is None:
-        return _("Nothing could be judged.")
-    text = _("The drive carries {rated} N·m of the {torque} N·m asked for; then {title} ends it.")
-    if found.enough:
-        text = _("The drive carries {torque} N·m, and up to {rated} N·m until {title} ends it.")
-    said = text.format(rated=significant(found.rated_torque), torque=significant(found.torque), title=first.title)
-    if found.enough and first.utilisation < found.utilisation * (1.0 - SAME):
-        said += " " + _(
-            "Another limit is used more now, but {title} comes first as the torque grows: a life falls with the power "
-            "10/3 of the torque, a contact pressure grows with its root."
-        ).format(title=first.title)
-    return said
 
 
 def fatigue_figure(found: Strength) -> Figure:
@@ -132,7 +119,7 @@ def fatigue_figure(found: Strength) -> Figure:
             y=(1.0 - line) / asked,
             role="muted",
             dash="dashed",
-            label=_("safety {safety}").format(safety=significant(asked, 2)),
+            label=say(_("safety {safety}"), safety=Quantity(asked, digits=2)),
         ),
     ]
     for number, mean, swing, _safety in places:
@@ -147,12 +134,15 @@ def fatigue_figure(found: Strength) -> Figure:
                 label=_("shaft {number}").format(number=number),
             )
         )
-    worst = min(places, key=lambda one: one[3])
+    worst = foremost_of(places, lambda one: one[3], least=True)
     return Figure(
         name="fatigue",
         title=_("Where the shafts stand under the line of fatigue"),
-        sentence=_("Shaft {number} has a safety of {safety} against fatigue; {asked} is asked for.").format(
-            number=worst[0], safety=significant(worst[3], 3), asked=significant(asked, 2)
+        sentence=say(
+            _("Shaft {number} has a safety of {safety} against fatigue; {asked} is asked for."),
+            number=worst[0],
+            safety=Quantity(worst[3], digits=3),
+            asked=Quantity(asked, digits=2),
         ),
         source=_("Goodman's line with Marin's factors, Shigley chapter 6"),
         rows=(
@@ -161,7 +151,9 @@ def fatigue_figure(found: Strength) -> Figure:
                     Panel(
                         series=tuple(series),
                         x=axis(_("mean stress over tensile strength"), "", [np.asarray([0.0, most])], include=(0.0,)),
-                        y=axis(_("Swinging stress over fatigue limit"), "", [np.asarray([0.0, most])], include=(0.0,)),
+                        y=axis(
+                            _("Alternating stress over fatigue limit"), "", [np.asarray([0.0, most])], include=(0.0,)
+                        ),
                     ),
                 ),
                 height=2.6,

@@ -11,6 +11,7 @@ from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
 from cardan.formulas.needle_bearing import book_load, needle_rating
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _, mark
 
 from .journal_load import journal_load
@@ -52,7 +53,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     count, diameter, length = (design.value(path) for path in sizes)
     allowed = [book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi)) for case in turning]
     used = [case.couple[..., i] / limit for case, limit in zip(turning, allowed, strict=True)]
-    worst = int(np.argmax([float(np.max(one)) for one in used]))
+    worst = int(foremost([float(np.max(one)) for one in used]))
     yield Verdict(
         title=_("load of the needles of joint {number}, the book's rule"),
         value=turning[worst].couple[..., i] * design.shock / design.value(span),

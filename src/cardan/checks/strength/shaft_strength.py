@@ -13,6 +13,7 @@ from cardan.checks.design import Design
 from cardan.formulas.fatigue import Fatigue
 from cardan.formulas.shaft_strength import ShaftStress, shaft_stress, torsion_modulus
 from cardan.formulas.spline_strength import SplineStress
+from cardan.maths.ties import foremost_of
 from cardan.questions.life.rainflow import rainflow, time_at_level
 
 from .section import Section, modulus, sections
@@ -80,14 +81,15 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
     )
     if not found or shaft.layup is not None:
         return plain
-    worst = max(range(len(found)), key=lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
-    case = max(design.loaded, key=lambda one: float(one.mises_moment[k]))
+    worst = foremost_of(range(len(found)), lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
+    case = foremost_of(design.loaded, lambda one: float(one.mises_moment[k]))
     moments = shock * float(case.shaft_torque[k]), shock * float(case.end_bending[k])
     stress = shaft_stress(*moments, found[worst].outer, found[worst].inner)
     plain = replace(plain, stress=stress, stretch=worst + 1)
     if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):
         return plain
-    tired = min((fatigue(design, k, one, c) for one in found for c in design.loaded), key=lambda one: float(one.safety))
+    every = (fatigue(design, k, one, c) for one in found for c in design.loaded)
+    tired = foremost_of(every, lambda one: float(one.safety), least=True)
     moving = any(one.speed for one in lasting(design)) or design.duty.torque_history is not None
     return replace(plain, fatigue=tired, fatigue_life=_life(design, k, found) if moving else math.nan)
 

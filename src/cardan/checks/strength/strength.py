@@ -18,6 +18,7 @@ from cardan.drive.models.train import train
 from cardan.errors import InputError, Problem, check
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.life.bearing_loads import bearing_loads
 from cardan.questions.life.life import duty_parts, life
 from cardan.texts import _
@@ -38,6 +39,7 @@ from . import (
     yoke_strength,
 )
 from .joint_strength import JointStrength, joint_strength
+from .left_out import LeftOut
 from .section import sections
 from .shaft_strength import ShaftStrength, lasting, shaft_strength
 
@@ -93,6 +95,8 @@ class Strength:
         stresses leave it out: the factor for shocks is to hold it.
     extrapolated : tuple of int
         Numbers of shafts that are wider than those whose fatigue was measured.
+    left_out : LeftOut or None
+        What the stresses leave out, where that was asked.
     """
 
     cases: tuple[Case, ...]
@@ -103,6 +107,7 @@ class Strength:
     shock_factor: float
     dynamic_factor: float = 1.0
     extrapolated: tuple[int, ...] = ()
+    left_out: LeftOut | None = None
 
     @property
     def judged(self) -> tuple[Verdict, ...]:
@@ -122,7 +127,7 @@ class Strength:
     @property
     def governing(self) -> Verdict | None:
         """The limit that is reached first when all torques grow; None where nothing is judged."""
-        return min(self.binding, key=lambda one: float(one.torque_factor), default=None)
+        return foremost_of(self.binding, lambda one: float(one.torque_factor), least=True) if self.binding else None
 
     @property
     def torque_factor(self) -> float:
@@ -239,7 +244,7 @@ def _longer(subject: Design) -> Array:
         return np.full(subject.joints, math.nan)
     with np.errstate(divide="ignore"):
         factors = (found / duty.life) ** (1.0 / POWER)
-    first = int(np.nanargmin(factors)) if not np.all(np.isnan(factors)) else -1
+    first = int(foremost(factors, least=True)) if not np.all(np.isnan(factors)) else -1
     for _round in range(ROUNDS if first >= 0 and math.isfinite(factors[first]) else 0):
         now = life(drive, scaled(duty, factors[first]), method="iso").of("iso")[first]
         step = float((now / duty.life) ** (1.0 / POWER))

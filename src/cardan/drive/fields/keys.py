@@ -139,6 +139,23 @@ def spelled(path: str, root: Any = Drive) -> str:
     return ".".join(steps)
 
 
+USUAL = {"life": "h", "hours": "h", "distance": "km", "wheelbase": "m", "wheel_radius": "m"}
+"""Fields that people give in another unit than most of their dimension."""
+
+
+def key_of(bare: str) -> str:
+    """Return the key of a path as a drawing or a data sheet has it: lives in hours, distances run in kilometres.
+
+    Examples
+    --------
+    >>> key_of("duty.life"), key_of("shafts[1].outer")
+    ('duty.life_h', 'shafts[1].outer_mm')
+    """
+    path = spelled(bare)
+    unit = USUAL.get(bare.rpartition(".")[2])
+    return path if unit is None else f"{bare}_{unit}"
+
+
 def in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
     """Return the path of a key in the first joint that can have it; none where no joint of the drive can.
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
 
 AROUND = 3
@@ -29,7 +30,7 @@ class Turn:
     low, high : arrays (...)
         Least and largest value.
     low_angle, high_angle : arrays (...) [rad]
-        Input angle where they occur, the first time.
+        Input angle where they occur, the first time; what rounding alone makes higher later does not count.
     mean, rms : arrays (...)
         Mean, and root of the mean square.
     """
@@ -148,7 +149,7 @@ def _one_turn(angle: Array, values: Array) -> tuple[Array, Array]:
 
 def _highest(table: Array, step: float) -> tuple[Array, Array]:
     """Return the largest value of periodic curves and how far it lies from the first sample."""
-    best = np.argmax(table, axis=-1)
+    best = foremost_on(table)
     around = np.arange(-AROUND, AROUND + 1)
     index = (best[..., None] + around) % table.shape[-1]
     near = np.take_along_axis(table, index, axis=-1)

@@ -18,6 +18,7 @@ from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint
 from cardan.maths.arrays import Array
+from cardan.maths.ties import largest
 from cardan.texts import _
 from cardan.units import arcmin, deg, mm
 
@@ -45,9 +46,6 @@ FIRST_ORDER = 5.0 * deg
 
 NONE = 1e-9
 """Values below this share of the largest are nothing but rounding."""
-
-SAME = 1e-6
-"""Shares of the variance that differ by less are told together."""
 
 DIGITS = 3
 """Digits of the tolerances that are written into a file, rounded down so that the target holds."""
@@ -215,7 +213,7 @@ def _sentence(drive: Drive, result: Accuracy) -> Say:
         return say(text, size=side.quantity(_largest(curve)), change=side.quantity(float(np.ptp(curve))))
     side, band = _open(drive, result.band)[0]
     first = band.contributions[0]
-    alike = [one for one in band.contributions if one.share >= first.share * (1.0 - SAME)]
+    alike = [band.contributions[k] for k in largest([one.share for one in band.contributions])]
     parts = Joined([tolerance_name(one.joint, one.key) for one in alike], last=_(" and "))
     bounds = say(_("±{size} ({how})"), size=side.quantity(band.largest), how=_way(result.band.method))
     if not isinstance(result.band.method, WorstCase):
@@ -362,8 +360,8 @@ def _keys(result: Accuracy) -> Iterator[KeyFigure]:
     ways = {"angle_error": result.band, "angle_error_worst": result.worst}
     for name, found in ways.items():
         if found.output.largest > 0.0 and not (name != "angle_error" and found is result.band):
-            title = say(_("angle error of the output, {way}"), way=_way(found.method))
-            yield KeyFigure(name=name, title=title, value=ANGLE.quantity(found.output.largest))
+            title, way = _("angle error of the output"), _way(found.method)
+            yield KeyFigure(name=name, title=title, place=way, value=ANGLE.quantity(found.output.largest))
 
 
 def _checks(drive: Drive, result: Accuracy) -> Iterator[Checked]:

@@ -11,6 +11,7 @@ from cardan.answers.quantity import Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 
 from .balance import SLOW
@@ -56,7 +57,7 @@ def _sentence(result: Balance) -> Text:
     limits = [one for one in result.shafts if not math.isnan(one.limit)]
     if not limits:
         return _("no limit could be told; masses are missing.")
-    least = min(limits, key=lambda one: one.limit)
+    least = foremost_of(limits, lambda one: one.limit, least=True)
     text = _("at {speed} shaft {number} may have {limit} at most.")
     return say(text, speed=speed, number=least.number, limit=Quantity(least.limit, "unbalance", 3))
 

@@ -13,6 +13,7 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.maths.ties import foremost_of
 from cardan.texts import _
 
 from .answer import lacking as lacking_of_bending
@@ -162,7 +163,7 @@ def _sentence(result: RotorResponse) -> Text:
     known = {order: one for order, one in sizes.items() if math.isfinite(one[1])}
     if not known:
         return say(_("shaft {number} has no steady motion at these speeds."), number=result.rotor.shaft)
-    order = max(known, key=lambda one: known[one][1])
+    order = foremost_of(known, lambda one: known[one][1])
     speed, size = known[order]
     return say(
         _("shaft {number} whirls most in {order}: amplitude {size} at {speed}, {share} of its critical speed."),
@@ -285,7 +286,7 @@ def _checked(residual: float, what: str) -> Remark:
 def _keys(result: RotorResponse) -> Iterator[KeyFigure]:
     peaks = [one for one in map(result.peak, ORDERS) if math.isfinite(one[1])]
     if peaks:
-        speed, size = max(peaks, key=lambda one: one[1])
+        speed, size = foremost_of(peaks, lambda one: one[1])
         place = say(
             _("shaft {number}, at {speed}"), number=result.rotor.shaft, speed=Quantity(speed, "angular_speed", 3)
         )

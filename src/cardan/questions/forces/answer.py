@@ -9,17 +9,16 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, KeyFigure, Remark, Table
+from cardan.answers.checks import closely
 from cardan.answers.quantity import Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.drive.models.chain import given_chain
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
-from cardan.figures.wording import closely
 from cardan.maths.curves.over_turn import harmonics
 from cardan.maths.ties import foremost, largest
-from cardan.questions.motion.kinds import too_steep
+from cardan.questions.motion.kinds import steep_joints
 from cardan.texts import _, plural
 
 from .figures.forces import forces_figures
@@ -185,7 +184,7 @@ def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
     for k, problem in enumerate(result.unheld):
         text = _("Warning: forces on the supports are not calculated. {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
-    yield from _steep(drive)
+    yield from steep_joints(drive)
     surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
         text = _(
@@ -206,14 +205,6 @@ def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
 
 def _parts(problem: Problem) -> dict[str, str]:
     return {"field": spelled(problem.field), "message": problem.message}
-
-
-def _steep(drive: Drive) -> Iterator[Remark]:
-    """Yield a warning for every joint at a greater joint angle than one of its kind reaches."""
-    for number, (joint, angle) in enumerate(zip(drive.joints, given_chain(drive).bend, strict=True), 1):
-        text = too_steep(joint, number, float(angle))
-        if text:
-            yield Remark(text=say(_("Warning: {what}"), what=text[:1].lower() + text[1:]), tone="warning")
 
 
 def _thrust(found: Forces) -> Iterator[Remark]:

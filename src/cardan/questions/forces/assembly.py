@@ -261,7 +261,7 @@ def _keys(holds: tuple[tuple[int, Hold], ...]) -> tuple[str, ...]:
 
 
 def _question(drive: Drive, errors: Sequence[Error | None] | None) -> _Question:
-    refuse_kinds(drive, _("forces from misfit"), "assembly")
+    refuse_kinds(drive, _("forces from misalignment"), "assembly")
     if not drive.supports:
         raise refuse("supports", _("missing; assembly forces come from how the shafts are held"))
     given = [joint.error for joint in drive.joints] if errors is None else list(errors)

@@ -83,7 +83,7 @@ def forces(
     else:
         used, whole = Duty() if duty is None else duty, drive
     if used.torque is None:
-        raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"))
+        raise refuse("duty.torque", _("missing; forces follow from the torque that the drive carries"), "missing")
     if used.speed == 0.0 and whole.drag is not None:
         raise refuse("duty.speed", _("at standstill the sense of friction is open; give the speed of running, or none"))
     xp = namespace(whole.points, angle)
@@ -226,7 +226,9 @@ def _moving(
     """Return the forces while the points move: the input turns evenly meanwhile."""
     refuse_kinds(drive, _("forces while the points move"), "moving forces")
     if duty.speed is None or duty.speed == 0.0:
-        raise refuse("duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"))
+        raise refuse(
+            "duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"), "missing"
+        )
     if duty.acceleration:
         raise refuse("duty.acceleration", _("while the points move the input turns evenly; leave this out"))
     if duty.harmonics:

@@ -205,7 +205,9 @@ def moving_forces(
     if not moves:
         raise refuse("movements", _("missing; nothing moves"))
     if not used.speed:
-        raise refuse("duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"))
+        raise refuse(
+            "duty.speed", _("missing; how fast the axes move counts only beside how fast the shafts turn"), "missing"
+        )
     span = default_times(moves)
     start, length = start_time(moves), float(span[-1] - start_time(moves))
     turns = length * abs(used.speed) / (2.0 * math.pi)

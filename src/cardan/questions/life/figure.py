@@ -12,6 +12,7 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .life import Life
@@ -144,7 +145,7 @@ def parts_figure(found: Life) -> Figure:
     )
     top = float(max(np.max(time[shown]), np.max(damage[shown])))
     ticks = steps(0.0, top, 5)
-    most = int(np.argmax(damage))
+    most = int(foremost(damage))
     panel = Panel(
         series=bars,
         x=Axis(low=0.0, high=1.16 * top, ticks=ticks, texts=written(ticks)),

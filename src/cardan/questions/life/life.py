@@ -14,6 +14,7 @@ from cardan.drive.models.train import train
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import foremost
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
@@ -124,7 +125,7 @@ class Life:
     @property
     def governing(self) -> int:
         """Number of the joint that fails first."""
-        return int(np.nanargmin(self.joints)) + 1
+        return int(foremost(self.joints, least=True)) + 1
 
     @property
     def damage(self) -> Array:
@@ -277,10 +278,11 @@ def duty_parts(duty: Duty) -> tuple[tuple[Block, ...], Duty, Levels | None, Cycl
     history = duty.torque_history
     problems = []
     if not duty.speed:
-        text = _("is zero; at standstill bearings do not wear") if duty.speed == 0.0 else ""
-        problems.append(Problem("duty.speed", text or _("missing; how long a joint lasts depends on it")))
+        zero = Problem("duty.speed", _("is zero; at standstill bearings do not wear"))
+        lacks = Problem("duty.speed", _("missing; how long a joint lasts depends on it"), "missing")
+        problems.append(zero if duty.speed == 0.0 else lacks)
     if history is None and duty.torque is None:
-        problems.append(Problem("duty.torque", _("missing; how long a joint lasts depends on it")))
+        problems.append(Problem("duty.torque", _("missing; how long a joint lasts depends on it"), "missing"))
     if history is not None and len(history.times) < 2:
         problems.append(Problem("duty.torque_history", _("has no rows; it comes from a CSV file"), "empty"))
     check(problems)

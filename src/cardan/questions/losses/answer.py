@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Value
+from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
-from cardan.figures.wording import closely
 from cardan.maths.arrays import Array
 from cardan.maths.ties import largest
 from cardan.texts import _, plural

@@ -89,13 +89,13 @@ def counted(
     uncounted = (*joints, *supports, *splines)
     problems = []
     if duty.speed is None:
-        problems.append(Problem("duty.speed", _("missing; a loss of power needs the input speed")))
+        problems.append(Problem("duty.speed", _("missing; a loss of power needs the input speed"), "missing"))
     elif duty.speed == 0.0:
         problems.append(
             Problem("duty.speed", _("at standstill the sense of friction is open; give the speed of running"))
         )
     if duty.torque is None:
-        problems.append(Problem("duty.torque", _("missing; friction grows with the torque")))
+        problems.append(Problem("duty.torque", _("missing; friction grows with the torque"), "missing"))
     if len(joints) == len(drive.joints) and not np.any(rub) and not np.any(grip * slide):
         problems += [Problem(one.field, one.message) for one in uncounted]
     check(problems)

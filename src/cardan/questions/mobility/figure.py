@@ -8,9 +8,9 @@ from itertools import count
 
 import numpy as np
 
+from cardan.answers.quantity import Say, say
 from cardan.figures.axes import angle_axis, axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series
-from cardan.figures.wording import angular, significant
 from cardan.maths.arrays import Array
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import PAIRS
@@ -74,9 +74,12 @@ def graph_figure(found: Mobility) -> Figure:
     height = min(max(7.2 * (top - bottom) / (high - low), 1.6), 6.0)
     return Figure(
         name="mechanism",
-        title=_("Links and joints, and what they hold too often"),
+        title=_("Links and joints, and their redundant constraints"),
         sentence=_sentence(found),
-        source=_("Left null space of the wrenches that the joints hold; Book p. 11-16, exact by screws")
+        source=_(
+            "Left null space of the wrenches that the joints hold; Kozhevnikov and Perfil'ev (1978), p. 11-16, "
+            "exact by screws"
+        )
         + _codes(found),
         rows=(
             Row(
@@ -103,15 +106,10 @@ def _codes(found: Mobility) -> str:
 
 
 def _sentence(found: Mobility) -> str:
-    moves = plural("{n} motion", "{n} motions", found.mobility).format(n=found.mobility)
+    """Return what to see, which the answer does not say."""
     if not found.redundant:
-        return _("Held just enough, with {moves}: nothing that is off can strain it.").format(moves=moves)
-    text = plural(
-        "{moves}, held {n} time too often: errors of the parts load the joints drawn in colour along their arrows.",
-        "{moves}, held {n} times too often: errors of the parts load the joints drawn in colour along their arrows.",
-        found.redundant,
-    )
-    return text.format(moves=moves, n=found.redundant)
+        return ""
+    return _("Part errors load the joints drawn in colour along their arrows.")
 
 
 def _line(mechanism: Mechanism) -> list[str]:
@@ -281,11 +279,11 @@ def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
     top = int(max(np.max(found.redundant), np.max(found.mobility), 1))
     ticks = steps(0.0, float(top), min(top, 6))
     upright = Axis(
-        label=_("Motions and redundant constraints"), low=-0.2, high=top + 0.4, ticks=ticks, texts=written(ticks)
+        label=_("Mobility and redundant constraints"), low=-0.2, high=top + 0.4, ticks=ticks, texts=written(ticks)
     )
     series: list[Series] = [
         Curve(x=angle, y=found.redundant.astype(float), role="warning", marker=4.0, label=_("redundant constraints")),
-        Curve(x=angle, y=found.mobility.astype(float), role="accent", marker=4.0, dash="dashed", label=_("motions")),
+        Curve(x=angle, y=found.mobility.astype(float), role="accent", marker=4.0, dash="dashed", label=_("mobility")),
     ]
     series += [
         Rule(value=float(one) / deg, upright=True, text=_("special position"), role="failed") for one in found.special
@@ -301,46 +299,36 @@ def turn_figures(found: MobilityTurn) -> tuple[Figure, ...]:
     )
 
 
-def _turn_sentence(found: MobilityTurn) -> str:
+def _turn_sentence(found: MobilityTurn) -> Say | str:
     if not found.turns:
-        return _("It does not come round: its loops stop closing on the way.")
-    if len(found.special):
-        text = _("{n} constraints are redundant at every angle, more of them in or next to {count} special positions.")
-        return text.format(n=found.structural, count=len(found.special))
-    return _("{n} constraints are redundant at every angle; no position is special.").format(n=found.structural)
+        return ""
+    text = plural(
+        "{n} constraint is redundant at every angle.", "{n} constraints are redundant at every angle.", found.structural
+    )
+    return say(text, n=found.structural) if found.structural else ""
 
 
 def closure_figures(found: FiniteMobility) -> tuple[Figure, ...]:
     """Return the figure of what keeps the loops from closing."""
     angle = np.asarray(found.angle) / deg
     gap, turn = np.asarray(found.gap) / mm, np.asarray(found.turn) / deg
-    worst = found.worst
-    if found.closes:
-        sentence = _("The loops close at every angle; what is left is rounding.")
-    else:
-        sentence = _(
-            "At {angle}° the loops miss each other by {gap} mm and {turn}°: so much play or give it must find."
-        )
-        sentence = sentence.format(
-            angle=f"{angle[worst]:.0f}", gap=significant(float(gap[worst]), 3), turn=angular(float(turn[worst]), 3)
-        )
-    across = axis(_("input angle"), "°", [angle], count=8, margin=0.0)
+    across = axis(_("input angle"), "deg", [angle], dimension="angle", count=8, margin=0.0)
     panels = [
         Panel(
             series=(Curve(x=angle, y=values, role=role, width=1.6),),
             x=across,
-            y=axis(label, unit, [values], include=(0.0,), least=1e-6, count=4),
+            y=axis(label, unit, [values], dimension=dimension, include=(0.0,), least=1e-6, count=4),
         )
-        for values, label, unit, role in (
-            (gap, _("Gap at the joints that close the loops"), "mm", "warning"),
-            (turn, _("Turn between their halves"), "°", "accent"),
+        for values, label, dimension, unit, role in (
+            (gap, _("Gap at the joints that close the loops"), "length", "mm", "warning"),
+            (turn, _("Turn between their halves"), "angle", "deg", "accent"),
         )
     ]
     return (
         Figure(
             name="closure",
             title=_("What keeps the loops from closing"),
-            sentence=sentence,
+            sentence=_("The loops close at every angle to rounding.") if found.closes else "",
             source=_("Products of exponentials, loops closed by least squares over all other joints"),
             rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels),
         ),

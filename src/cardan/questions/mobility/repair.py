@@ -193,9 +193,9 @@ def advice(change: Change, mechanism: Mechanism) -> str:
             "align": _("make {where} self-aligning"),
             "align_slide": _("make {where} self-aligning and axially free"),
             "turn": _("let {where} turn about its axis too"),
-            "drop": _("leave out {where} one too many"),
+            "drop": _("omit {joint}"),
         }[change.gain]
-        return text.format(where=where)
+        return text.format(where=where, joint=change.joint)
     text = {
         "slide": _("let {joint}, between {one} and {other}, slide along its axis"),
         "align": _("make {joint}, between {one} and {other}, a ball joint"),

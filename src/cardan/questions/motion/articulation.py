@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.drive import Drive
-from cardan.drive.fields.ranges import range_problems, shown
+from cardan.drive.fields.ranges import range_problems
 from cardan.drive.fields.validity import movement_problems
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.laws import refuse_kinds
@@ -17,10 +19,11 @@ from cardan.drive.movement import Movement
 from cardan.errors import BendLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.paths import Path
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
-from cardan.units import Key, deg
 
 from .instants import Instants, Position, Question
+from .kinds import kind_name
 from .length import LengthCompensation, length_compensation
 from .moving_points import default_times, moving_path, shortest_period, start_time
 
@@ -92,7 +95,7 @@ class Articulation:
         One for each intermediate shaft that slides or has a spline.
     worst : tuple of Worst
         The worst instants; between the instants when the drive chose them itself.
-    warnings : tuple of str
+    warnings : tuple of Text
         What the user should know.
     assumed : tuple of str
         Paths of what the drive does not say and this answer assumes.
@@ -119,7 +122,7 @@ class Articulation:
     status: Array
     splines: tuple[LengthCompensation, ...]
     worst: tuple[Worst, ...]
-    warnings: tuple[str, ...]
+    warnings: tuple[Text, ...]
     assumed: tuple[str, ...] = ()
 
     @property
@@ -187,6 +190,7 @@ def articulation(
     A hitch half way between the joints keeps the drive synchronous at any angle.
 
     >>> from cardan.drive.movement import Hitch
+    >>> from cardan.units import deg
     >>> drive = Drive.from_points([[-1, 0, 0], [-0.4, 0, 0], [0.4, 0, 0], [1, 0, 0]])
     >>> turn = Hitch(moves=("joints[1]", "output"), pivot=(0, 0, 0), yaw=40 * deg, frequency=1.0)
     >>> found = articulation(drive, turn)
@@ -289,44 +293,51 @@ def _splines(drive: Drive, place: Geometry, found: Instants) -> tuple[LengthComp
     return tuple(splines)
 
 
-def _sparse(moves: Sequence[Movement], times: Array) -> Iterator[str]:
+def _sparse(moves: Sequence[Movement], times: Array) -> Iterator[Text]:
     """Warn of instants that lie too far apart to see what the movement does between them."""
     period, step = shortest_period(moves), float(np.max(np.diff(times), initial=0.0))
     if step > SPARSE * period:
-        yield _(
-            "the instants lie up to {step:.4g} s apart, the shortest period is {period:.4g} s: extremes between them "
-            "are missed, and the splines' travel is not to be trusted"
-        ).format(step=step, period=period)
+        yield say(
+            _(
+                "the instants lie up to {step} apart, the shortest period is {period}: extremes between them are "
+                "missed, and the splines' travel is not to be trusted"
+            ),
+            step=Quantity(step, "time", trim=True),
+            period=Quantity(period, "time", trim=True),
+        )
 
 
-def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[LengthCompensation]) -> Iterator[str]:
+def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[LengthCompensation]) -> Iterator[Text]:
     impossible = int(np.sum(found.status == Position.IMPOSSIBLE))
     if impossible:
         first = float(found.times[int(np.argmax(found.status == Position.IMPOSSIBLE))])
-        yield _("at {count} of {all} instants, first at {time:.4g} s, a joint bends 90° or more: nothing turns").format(
-            count=impossible, all=found.times.size, time=first
+        yield say(
+            _("at {count} of {all} instants, first at {time}, a joint angle is 90° or more: nothing turns"),
+            count=impossible,
+            all=found.times.size,
+            time=Quantity(first, "time", trim=True),
         )
     for i in range(found.bend.shape[1]):
         column = found.bend[:, i]
         joint = drive.joints[i]
-        steep = np.nonzero(column > joint.steepest)[0]
-        if steep.size:
-            k = steep[int(np.argmax(column[steep]))]
-            text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no real cross joint works above {limit:.0f}°")
+        beyond = np.nonzero(column > joint.steepest)[0]
+        if beyond.size:
+            k = beyond[int(foremost_on(column[beyond]))]
+            text = _("joint {number} has a joint angle of {angle} at {time}; no real cross joint works above {limit}")
             if not joint.single_cross:
-                text = _("joint {number} bends {bend:.4g}° at {time:.4g} s; no {kind} joint works above {limit:.0f}°")
-            yield text.format(
+                text = _("joint {number} has a joint angle of {angle} at {time}; no {kind} joint works above {limit}")
+            yield say(
+                text,
                 number=i + 1,
-                bend=float(column[k]) / deg,
-                time=float(found.times[k]),
-                limit=joint.steepest / deg,
-                kind=joint.kind,
+                angle=Quantity(float(column[k]), "angle"),
+                time=Quantity(float(found.times[k]), "time", trim=True),
+                limit=Quantity(joint.steepest, "angle", 2, trim=True),
+                kind=kind_name(joint),
             )
     for one in splines:
         if one.slides and drive.shafts[one.shaft - 1].spline is None:
-            yield _("shaft {number} changes its length by {stroke} but has no spline").format(
-                number=one.shaft, stroke=shown(one.stroke, Key("", "length"))
-            )
+            text = _("shaft {number} changes its length by {stroke} but has no spline")
+            yield say(text, number=one.shaft, stroke=Quantity(one.stroke, "length", decimals=1))
         yield from (flag.message for flag in one.flags)
     if place.assumed:
         yield _("lengths that the drive does not say are assumed: {paths}").format(paths=", ".join(place.assumed))
@@ -348,7 +359,7 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
             continue
         time, most, span = found_worst
         while refine and span[1] - span[0] > SHARP * (found.times[-1] - found.times[0]):
-            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value)
+            finer = _largest(ask.answer(np.linspace(*span, 17), yokes=False), value, among=np.nanargmax)
             if finer is None or finer[1] < most:
                 break
             time, most, span = finer
@@ -359,12 +370,14 @@ def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation]
             yield Worst(what="length_max", number=one.shaft, time=one.time_max, value=one.length_max)
 
 
-def _largest(found: Instants, value: Callable[[Instants], Array]) -> tuple[float, float, tuple[float, float]] | None:
+def _largest(
+    found: Instants, value: Callable[[Instants], Array], *, among: Callable[[Array], Any] = foremost_on
+) -> tuple[float, float, tuple[float, float]] | None:
     """Return time and value of the largest, and the instants on both sides of it; None when there is no value."""
     table, times = value(found), found.times
     if np.all(np.isnan(table)):
         return None
-    k = int(np.nanargmax(table))
+    k = int(among(table))
     return float(times[k]), float(table[k]), (float(times[max(k - 1, 0)]), float(times[min(k + 1, times.size - 1)]))
 
 

@@ -13,7 +13,7 @@ from cardan.drive.joints.common.inside import Inside
 from cardan.drive.models.chain import given_chain
 from cardan.texts import _
 
-from .joint_inside import joint_inside, quantity
+from .joint_inside import joint_inside
 
 
 def kind_name(joint: Joint) -> str:
@@ -83,8 +83,13 @@ def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:
             yield number, one
 
 
+def quantity_of(one: Inside, digits: int = 4) -> Quantity:
+    """Return a measure of the inside of a joint as a quantity."""
+    return Quantity(one.value, one.dimension or "", digits)
+
+
 def beside_turning(drive: Drive) -> Iterator[Say]:
     """Yield in a sentence each what else moves inside the joints of a drive."""
     for number, one in inside(drive):
         text = _("Joint {number}: {title}, {value}.")
-        yield say(text, number=number, title=one.meaning, value=quantity(one, 3))
+        yield say(text, number=number, title=one.meaning, value=quantity_of(one, 3))

@@ -7,19 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.duty import Limits
-from cardan.drive.fields.ranges import shown
 from cardan.drive.shaft import Spline
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.series import Series, crossings, turning_points, values_at
+from cardan.maths.ties import foremost_on
 from cardan.texts import _
-from cardan.units import Key
 
 STIFF = 1e-6
 """A shaft whose length changes by less than this share of it does not slide: rounded coordinates do as much."""
-
-_LENGTH = Key("", "length")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -30,7 +28,7 @@ class Flag:
     ----------
     field : str
         Path of what is short, ``shafts[1].spline.engaged``.
-    message : str
+    message : Text
         What happens, in one sentence.
     time : float [s]
         Instant of the worst value.
@@ -43,7 +41,7 @@ class Flag:
     """
 
     field: str
-    message: str
+    message: Text
     time: float
     value: float
     limit: float
@@ -156,7 +154,7 @@ def length_compensation(
     series = _series(times, length, rate, acceleration)
     base = float(series[1][0]) if drawn is None else drawn
     at, values = turning_points(series)
-    low, high = int(np.argmin(values)), int(np.argmax(values))
+    low, high = int(foremost_on(values, least=True)), int(foremost_on(values))
     engaged = spline.engaged if spline else None
     gap = spline.gap if spline else None
     flags = (*_short(series, base, engaged, limits, shaft, at, values), *_bottoms(series, base, gap, shaft, at, values))
@@ -209,14 +207,12 @@ def _short(
     spans = _spans(series, base + engaged - limit, longer=True, touching=stated is None)
     if not spans:
         return ()
-    worst = int(np.argmax(values))
+    worst = int(foremost_on(values))
     least = engaged - (float(values[worst]) - base)
     if least <= 0.0:
-        text = _("the spline of shaft {shaft} comes apart: its engaged length falls to {value} at {time:.4g} s")
+        text = _("the spline of shaft {shaft} comes apart: its engaged length falls to {value} at {time}")
     else:
-        text = _(
-            "the engaged length of the spline of shaft {shaft} falls to {value} at {time:.4g} s; allowed is {limit}"
-        )
+        text = _("the engaged length of the spline of shaft {shaft} falls to {value} at {time}; allowed is {limit}")
     return (_flag(f"shafts[{shaft - 1}].spline.engaged", text, shaft, float(at[worst]), least, limit, spans),)
 
 
@@ -227,16 +223,22 @@ def _bottoms(series: Series, base: float, gap: float | None, shaft: int, at: Arr
     spans = _spans(series, base - gap, longer=False, touching=True)
     if not spans:
         return ()
-    worst = int(np.argmin(values))
+    worst = int(foremost_on(values, least=True))
     least = gap + (float(values[worst]) - base)
-    text = _("the spline of shaft {shaft} bottoms: the way left falls to {value} at {time:.4g} s")
+    text = _("the spline of shaft {shaft} bottoms: the way left falls to {value} at {time}")
     return (_flag(f"shafts[{shaft - 1}].spline.gap", text, shaft, float(at[worst]), least, 0.0, spans),)
 
 
 def _flag(
     field: str, text: str, shaft: int, time: float, value: float, limit: float, spans: tuple[tuple[float, float], ...]
 ) -> Flag:
-    message = text.format(shaft=shaft, value=shown(value, _LENGTH), time=time, limit=shown(limit, _LENGTH))
+    message = say(
+        text,
+        shaft=shaft,
+        value=Quantity(value, "length", decimals=1),
+        time=Quantity(time, "time", trim=True),
+        limit=Quantity(limit, "length", decimals=1, trim=True),
+    )
     return Flag(field=field, message=message, time=time, value=value, limit=limit, spans=spans)
 
 

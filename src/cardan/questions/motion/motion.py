@@ -128,7 +128,7 @@ class Motion:
 
     def _each(self, value: ArrayLike | None) -> Array:
         if value is None:
-            raise refuse("duty.speed", _("missing; speeds and accelerations need the input speed"))
+            raise refuse("duty.speed", _("missing; speeds and accelerations need the input speed"), "missing")
         xp = namespace(self.angle)
         given = real(value, xp)
         return given[..., None, None] if given.ndim else given

@@ -19,6 +19,7 @@ from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.questions.motion.closure import closure
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.questions.motion.kinds import steep_joints
@@ -519,7 +520,7 @@ def _keys(found: Phasing) -> Iterator[KeyFigure]:
     yield KeyFigure(name="least_speed_fluctuation", title=title, value=Quantity(float(least), "share"))
     share = found.as_built.pose_irregularity
     if share.size:
-        worst = int(np.argmax(share))
+        worst = int(foremost(share))
         yield KeyFigure(
             name="pose_speed_fluctuation",
             title=_("speed fluctuation δ of the output"),

@@ -14,6 +14,7 @@ from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import polygon
+from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.motion.equivalence import SYNCHRONOUS as EVEN
 from cardan.texts import _
 
@@ -152,7 +153,7 @@ def phases(
     pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
     names, chains, share = _poses(drive, poses)
     posed, complete = _posed(chains, share, start, free, rows, progress)
-    limiting = () if feasible else figure.joints[int(np.argmax(figure.lengths))]
+    limiting = () if feasible else figure.joints[int(foremost(figure.lengths))]
 
     def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
         return settings(whole, yokes, labels, as_built, chains) if len(labels) else ()
@@ -170,7 +171,7 @@ def phases(
         spline_settings=evaluated(pitched, _spline_labels(teeth, len(pitched))),
         spline_steps={k + 2: steps(z) for k, z in teeth.items()},
         spline_refusal=refusal,
-        limiting_joint=max(limiting, key=lambda i: whole.bend[i]) + 1 if limiting else None,
+        limiting_joint=foremost_of(limiting, lambda i: float(whole.bend[i])) + 1 if limiting else None,
         limiting_joints=tuple(i + 1 for i in limiting),
         poses=names,
         pose_settings=evaluated(posed, [_("least in the worst pose"), _("least mean of the poses")][: len(posed)]),

@@ -5,8 +5,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from cardan.answers.reader import USUAL
 from cardan.drive.joints import DoubleCardan, Hooke, Tripod
 from cardan.figures.figure import Curve
+from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.motion.figures.joint_law import joint_figure
@@ -18,7 +20,8 @@ JOINTS = (Hooke(), DoubleCardan(centring_ratio=0.5), Tripod())
 
 @pytest.mark.parametrize("joints", [JOINTS[:1], JOINTS[2:], JOINTS[1:], (JOINTS[2], JOINTS[2])], ids=len)
 def test_both_renderers_draw_them(joints):
-    figure = joint_figure([joint_turn(one, 30 * deg) for one in joints], [joint_bends(one) for one in joints])
+    turns, bends = [joint_turn(one, 30 * deg) for one in joints], [joint_bends(one) for one in joints]
+    figure = for_reader(joint_figure(turns, bends), USUAL)
     assert figure.sentence.endswith(".")
     assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
     assert described(figure)["layout"]
@@ -27,7 +30,7 @@ def test_both_renderers_draw_them(joints):
 
 def test_the_curves_are_those_of_the_law():
     turns, bends = [joint_turn(one, 30 * deg) for one in JOINTS], [joint_bends(one) for one in JOINTS]
-    figure = joint_figure(turns, bends, ("one", "two", "three"))
+    figure = for_reader(joint_figure(turns, bends, ("one", "two", "three")), USUAL)
     for panel, wanted in zip(
         figure.panels,
         ([one.lead / deg for one in turns], [one.ratio for one in turns], [one.error / deg for one in bends]),
@@ -37,5 +40,5 @@ def test_the_curves_are_those_of_the_law():
         for curve, values in zip(curves, wanted, strict=True):
             np.testing.assert_array_equal(curve.y, values)
         assert all(panel.y.low <= np.min(one) <= np.max(one) <= panel.y.high for one in wanted)
-    assert "one runs ahead and back most, by 4.12°" in figure.sentence
+    assert "one has the largest angle error, ±4.12°" in figure.sentence
     assert [entry.label for entry in figure.entries] == ["one", "two", "three"]

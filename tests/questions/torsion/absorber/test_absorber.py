@@ -39,6 +39,7 @@ LINE = replace(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "peak"), [("h_infinity", 4.58916557), ("den_hartog", 4.59022017), ("viscous", 21.0)])
 def test_the_closed_form_is_the_optimum_of_the_system_it_is_made_for(kind: str, peak: float) -> None:
     """One inertia on a spring under a torque of its own: the peaks of the theory, found on the drive's equations."""
@@ -52,6 +53,7 @@ def test_the_closed_form_is_the_optimum_of_the_system_it_is_made_for(kind: str, 
     assert found.best.peak == pytest.approx(best, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_no_setting_of_a_table_is_better_against_a_joint() -> None:
     """A joint moves the shaft instead of pushing the mass: another optimum, by plain complex numbers."""
     bend = 1 * deg  # so small that only order 2 is there
@@ -81,6 +83,7 @@ def test_no_setting_of_a_table_is_better_against_a_joint() -> None:
     assert found.best.peak < 0.98 * found.closed_form.peak
 
 
+@pytest.mark.slow
 def test_what_is_found_is_what_the_drive_does() -> None:
     """The better drive answers through the public question as the search said."""
     found = absorber(LINE, station="load", inertia_ratio=0.08)
@@ -117,6 +120,7 @@ def test_a_viscous_damper_has_no_spring() -> None:
     np.testing.assert_allclose(found.torque, np.abs(damper * moved), rtol=5e-5)
 
 
+@pytest.mark.slow
 def test_what_is_judged_is_told() -> None:
     """The torque of one element alone may be made small; the others swing as they will."""
     found = absorber(LINE, kind="viscous", inertia_ratio=0.08, elements=[1])
@@ -236,6 +240,7 @@ def test_without_a_range_the_band_lies_about_the_resonance() -> None:
     assert found.inertia_ratio == pytest.approx(0.1)
 
 
+@pytest.mark.slow
 def test_the_example_says_what_is_found() -> None:
     """The comment of pto-flywheel-absorber.toml, and its numbers."""
     plain, ringed = example("pto-flywheel"), example("pto-flywheel-absorber")

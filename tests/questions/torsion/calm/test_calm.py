@@ -44,6 +44,7 @@ def evolved() -> Calm:
     return calm(DRIVE, free=FREE, method=Evolution(size=10, rounds=10, runs=1))
 
 
+@pytest.mark.slow
 def test_no_combination_of_a_table_is_calmer() -> None:
     found = evolved()
     table = {
@@ -62,6 +63,7 @@ def test_no_combination_of_a_table_is_calmer() -> None:
     assert found.rules_after[0].push < 0.1 * found.rules_before[0].push
 
 
+@pytest.mark.slow
 def test_a_table_and_a_search_find_the_same() -> None:
     """Every combination, refined, and evolution: two ways, one answer."""
     table = calm(DRIVE, free=FREE, method=Grid(points=7))
@@ -179,6 +181,7 @@ def test_a_stop_keeps_the_best_so_far() -> None:
     assert all(0.0 <= share <= 1.0 for share in told)
 
 
+@pytest.mark.slow
 def test_independent_searches_agree_once_their_last_steps_are_done() -> None:
     """A search everywhere ends roughly; that its runs ended apart says nothing of where both lead."""
     found = calm(DRIVE, free={YOKE: (-60.0, 20.0)}, method=Evolution(size=4, rounds=2, runs=2))

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 from cardan import Drive
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.book.mathieu_reduction import mathieu_reduction
 from cardan.drive.duty import Duty
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Station
+from cardan.questions.torsion.calm.answer import rule_reasons
 from cardan.questions.torsion.calm.node_rule import NodeRule, node_rules
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.steady.run_stability import floquet
@@ -85,7 +88,7 @@ def test_a_joint_in_the_node_excites_no_parametric_vibration() -> None:
         rule, model = slowest(drive)
         assert rule.kappa[0] == pytest.approx((1.0 - share) - 0.5 / 1.4, abs=1e-9)
         grown.append(float(floquet(periodic_response(model, speed=rule.omega)).growth_rate))
-        node = any("stands in the node" in one for one in rule.sentences)
+        node = any("stands in the node" in told(one, USUAL) for one in rule_reasons(rule))
         assert node == (abs(rule.kappa[0]) < 1e-6)
     assert grown[1] < 0.0 < min(grown[0], grown[2])
 
@@ -100,5 +103,5 @@ def test_two_masses_give_the_reduction_of_mathieu() -> None:
 
 def test_straight_joints_do_nothing() -> None:
     rule, _model = slowest(replace(FREE, joints=tuple(replace(one, bend=0.0) for one in FREE.joints)))
-    assert rule.sentences[1:] == ("All joints are straight: nothing excites it twice a turn.",)
+    assert rule_reasons(rule)[1:] == ("All joints are straight: nothing excites it twice a turn.",)
     assert (rule.modulation, rule.push, rule.left, rule.resonance_torque) == (0.0, 0.0, 0.0, 0.0)

@@ -159,6 +159,7 @@ def test_a_vanishing_inertia_leads_to_none() -> None:
     np.testing.assert_allclose(little.torque.amplitude[:, 0], none.torque.amplitude[:, 0], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_sweep_equals_its_speeds_one_by_one() -> None:
     speeds = np.asarray([20.0, 37.0, 55.0, 90.0])
     loads = np.asarray([50.0, 80.0])
@@ -208,6 +209,7 @@ def test_without_a_speed_nothing_runs(speed: float | None) -> None:
         periodic_response(drive(free=True), speed=speed)
 
 
+@pytest.mark.slow
 def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     """A load far beyond what the joints carry, at bends that no sum of harmonics follows."""
     model = drive(bend=1.4, damping=0.0, load=1e5)

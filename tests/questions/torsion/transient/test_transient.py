@@ -97,6 +97,7 @@ def test_a_forced_input_and_the_torque_it_takes() -> None:
     np.testing.assert_allclose(found.speed[-1], speed, rtol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [Adaptive(), FixedStep(step=2e-5, compute=Compiled())], ids=["events", "fixed"])
 def test_contacts_in_the_play_of_an_element(method: Method) -> None:
     """The other formulation walks over the contacts in steps of a 200th of their period."""
@@ -182,6 +183,7 @@ class TestWithoutInertia:
             input_speed=40.0,
         )
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("damping", [1.0, 4.0])
     def test_is_the_limit_of_small_inertia(self, damping: float) -> None:
         """Explicit steps with a little inertia: the difference shrinks with it, once its own swings are damped away."""
@@ -255,6 +257,7 @@ class TestStiffDrives:
             [[1.0, 1e-6], [0.4]], stiffness=[[1e5], []], damping=[[damping], []], bend=[0.3], input_speed=50.0
         )
 
+    @pytest.mark.slow
     def test_what_dies_out_fast_is_integrated_implicitly(self) -> None:
         stiff = torsional_line([[1.0, 1e-6, 0.4]], stiffness=[[1e5, 2e3]], damping=[[4.0, 0.0]], input_speed=50.0)
         found = followed(stiff, 0.005, times=2, angle=[0.0, 0.0, 0.01])
@@ -271,6 +274,7 @@ class TestStiffDrives:
 
 
 class TestHowItEnds:
+    @pytest.mark.slow
     def test_a_motor_that_pushes_ever_harder_diverges_and_says_when(self) -> None:
         push = Torque(station=0, law=Falling(standstill=10.0, slope=-60.0))
         line = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], bend=[0.43], torques=[push])
@@ -283,6 +287,7 @@ class TestHowItEnds:
             assert np.all(np.isnan(found.angle[~before]))
             assert np.isfinite(found.imbalance)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("method", [ROUGH, FixedStep(step=5e-3, compute=Plain())])
     def test_stopping_keeps_what_is_done(self, method: Method) -> None:
         told: list[float] = []
@@ -320,6 +325,7 @@ def chain_model() -> TorsionalModel:
 class TestManyDrives:
     bends = np.linspace(0.2, 0.6, 11)[:, None] * np.asarray([1.0, 0.8])
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("compute", [Plain(), Compiled(threads=1)])
     def test_in_fixed_steps_are_each_alone(self, compute: Plain | Compiled) -> None:
         table = SpeedTable(speeds=np.asarray([0.0, 50.0, 70.0]), torques=np.asarray([5.0, -5.0, -30.0]))

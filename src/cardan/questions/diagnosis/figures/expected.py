@@ -11,6 +11,7 @@ from cardan.figures.figure import Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import DASHES, shaft
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_of
 from cardan.questions.diagnosis.expected import Expected
 from cardan.questions.diagnosis.fault_orders import ExpectedOrder
 from cardan.texts import _
@@ -40,7 +41,7 @@ def expected_figure(found: Expected) -> Figure:
         lines = [one for one in found.orders if one.direction == direction]
         if not lines:
             continue
-        place = max(lines, key=lambda one: one.size).place
+        place = foremost_of(lines, lambda one: one.size).place
         loudest = loudest or place
         curves = _curves(found, [one for one in lines if one.place == place], speed, factor)
         marks: list[Series] = []
@@ -59,8 +60,9 @@ def expected_figure(found: Expected) -> Figure:
         rows.append(Row(panels=(panel,), height=1.5))
     text = _("At {speed} rpm order {order} is the largest at {place}: about {size} m/s².")
     radial = [one for one in found.orders if one.direction == "radial" and one.place == loudest]
-    levels = {order: _level(found, radial, order, np.asarray(found.speed[1:])) for order in {o.order for o in radial}}
-    most = max(levels, key=lambda order: float(levels[order][0]), default=1.0)
+    orders = sorted({one.order for one in radial})
+    levels = {order: _level(found, radial, order, np.asarray(found.speed[1:])) for order in orders}
+    most = foremost_of(levels, lambda order: float(levels[order][0])) if levels else 1.0
     return Figure(
         name="expected-orders",
         title=_("What the fault should show"),

@@ -10,6 +10,7 @@ from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row
 from cardan.figures.palette import shaft
 from cardan.figures.wording import angular, significant
+from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.diagnosis.signals.orbit import Orbit
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
 from cardan.questions.diagnosis.signals.turning import Rotation
@@ -136,7 +137,7 @@ def _orbit_sentence(found: Orbit, unit: str, size: float) -> str:
         return _("The {quantity} at {speed} rpm.").format(
             quantity=quantity_word(found.quantity), speed=significant(found.speed / rpm, 3)
         )
-    first = max(found.ellipses, key=lambda one: one.major)
+    first = foremost_of(found.ellipses, lambda one: one.major)
     way = _("with the shaft") if first.minor >= 0.0 else _("against the shaft")
     text = _("At {speed} rpm order {order} is the largest: {major} by {minor} {unit}, run through {way}.")
     return text.format(
@@ -173,7 +174,7 @@ def torsional_figure(found: TorsionalVibration) -> Figure:
         y=axis(_("Peak amplitude of the twist"), "°", [lines], include=(0.0,)),
     )
     inner = np.flatnonzero(near & (found.order > 0.2))
-    best = int(inner[np.argmax(found.twist_amplitude[inner])]) if inner.size else 0
+    best = int(inner[foremost(found.twist_amplitude[inner])]) if inner.size else 0
     text = _("The shaft swings by ±{twist}° in order {order}, at a mean speed of {speed} rpm.")
     sentence = text.format(
         twist=angular(float(found.twist_amplitude[best]) / deg, 3),

@@ -10,7 +10,6 @@ from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import shaft
 from cardan.figures.turning import across, support_dashes, support_name
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.assembly import AssemblyForces
@@ -24,13 +23,13 @@ LEAST = 1e-6
 """Smallest range of an axis of forces [N]."""
 
 
-def assembly_figures(found: AssemblyForces, names: Sequence[str] = ()) -> tuple[Figure, ...]:
+def misalignment_figures(found: AssemblyForces, names: Sequence[str] = ()) -> tuple[Figure, ...]:
     """Return the figures of the forces of assembly; names of the supports for the legend, where they are given."""
-    return (misfit_figure(found, names),)
+    return (misalignment_figure(found, names),)
 
 
-def misfit_figure(found: AssemblyForces, names: Sequence[str] = ()) -> Figure:
-    """Return what misfit presses into supports and joints over the input angle.
+def misalignment_figure(found: AssemblyForces, names: Sequence[str] = ()) -> Figure:
+    """Return how misalignment loads supports and joints over the input angle.
 
     Parameters
     ----------
@@ -61,12 +60,12 @@ def misfit_figure(found: AssemblyForces, names: Sequence[str] = ()) -> Figure:
         rows.append(_row(angle, axial[holding], [nameless[k] for k in holding], label, height=1.15))
     rows.append(_row(angle, joint, joints, _("Force in the joints, without load"), named=True, height=1.15))
     return Figure(
-        name="misfit",
-        title=_("What misfit presses into supports and joints"),
-        sentence=_sentence(found, top),
+        name="misalignment",
+        title=_("How misalignment loads supports and joints"),
+        sentence="",
         source=_(
             "Least complementary energy of bearings and shafts at the gaps that the errors leave, spatial frame after "
-            "Book p. 190; crosses rigid"
+            "Kozhevnikov and Perfil'ev (1978), p. 190; crosses rigid"
         ),
         rows=tuple(rows),
     )
@@ -85,20 +84,6 @@ def _row(
         Curve(x=angle, y=row, label=name, role=role, dash=dash, width=1.6, marker=4.0 if len(angle) == 1 else 0.0)
         for row, (name, role, dash) in zip(values, names, strict=True)
     ]
-    upright: Axis = axis(label, "N", [values], include=(0.0,), least=LEAST, count=4)
+    upright: Axis = axis(label, "N", [values], dimension="force", include=(0.0,), least=LEAST, count=4)
     rule = Rule(value=0.0, dash="solid", role="faint")
     return Row(panels=(Panel(series=(rule, *curves), x=across(angle, named=named), y=upright),), height=height)
-
-
-def _sentence(found: AssemblyForces, top: float) -> str:
-    if not found.degree:
-        return _("Statics alone tells all forces: the parts give way to each other, and no misfit strains them.")
-    if top == 0.0:
-        return _("The drive is held by {degree} more than it needs, but all parts fit: nothing strains it.").format(
-            degree=found.degree
-        )
-    worst = max(range(len(found.radial_peak)), key=lambda k: found.radial_peak[k].value)
-    peak = found.radial_peak[worst]
-    return _("Without load, misfit presses support {number} with up to {most} N, at {angle}°.").format(
-        number=worst + 1, most=significant(peak.value), angle=f"{round(peak.angle / deg, 1) + 0.0:g}"
-    )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Band, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import dash_of, shaft
-from cardan.figures.wording import fixed, percent, significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost_of
 from cardan.questions.motion.articulation import Articulation
-from cardan.questions.motion.equivalence import SYNCHRONOUS, WARN_BEND
+from cardan.questions.motion.equivalence import WARN_BEND
 from cardan.texts import _
 from cardan.units import deg, mm
 
@@ -48,7 +49,9 @@ def bends_figure(found: Articulation) -> Figure:
         curves.append(
             Rule(
                 value=WARN_BEND,
-                text=_("no real cross joint works above {limit:g}°").format(limit=WARN_BEND),
+                text=say(
+                    _("no real cross joint works above {limit}"), limit=Quantity(WARN_BEND * deg, "angle", trim=True)
+                ),
                 role="warning",
             )
         )
@@ -63,30 +66,26 @@ def bends_figure(found: Articulation) -> Figure:
                 role="first order",
                 width=1.3,
                 dash="dashed",
-                label=_("the same, the movement counted"),
+                label=_("the same, articulation rate included"),
             )
         )
-    widest = max((one for one in found.worst if one.what == "bend"), key=lambda one: one.value)
-    uneasy = next(one for one in found.worst if one.what == "irregularity")
-    if uneasy.value < SYNCHRONOUS:
-        sentence = _("Joint {joint} bends most, up to {bend}°; the output stays even throughout.")
-    else:
-        sentence = _("Joint {joint} bends most, up to {bend}°; the output is most uneven at {time} s: {share}.")
+    widest = foremost_of((one for one in found.worst if one.what == "bend"), lambda one: one.value)
     return Figure(
         name="bends",
-        title=_("Bends and irregularity while the drive moves"),
-        sentence=sentence.format(
+        title=_("Joint angles and speed fluctuation while the drive moves"),
+        sentence=say(
+            _("Joint {joint} has the largest joint angle, up to {angle}."),
             joint=widest.number,
-            bend=fixed(widest.value / deg, 2),
-            time=significant(uneasy.time, 3),
-            share=percent(uneasy.value),
+            angle=Quantity(widest.value, "angle", decimals=2),
         ),
         source=_("Axes and spins follow from the moving joint centres at every instant, exactly; no small angles"),
         rows=(
             Row(
                 panels=(
                     Panel(
-                        series=tuple(curves), x=_time(times), y=axis(_("Bend"), "°", [bend], include=(0.0,), least=0.1)
+                        series=tuple(curves),
+                        x=_time(times),
+                        y=axis(_("Joint angle"), "deg", [bend], dimension="angle", include=(0.0,), least=0.1),
                     ),
                 ),
                 height=1.6,
@@ -97,9 +96,10 @@ def bends_figure(found: Articulation) -> Figure:
                         series=tuple(uneven),
                         x=_time(times, named=True),
                         y=axis(
-                            _("Irregularity of the output"),
-                            "%",
+                            _("Speed fluctuation of the output"),
+                            "percent",
                             [share, moving] if known else [share],
+                            dimension="share",
                             include=(0.0,),
                             least=0.01,
                             count=4,
@@ -143,12 +143,15 @@ def sliding_figure(found: Articulation) -> Figure:
         for flag in one.flags
         for start, end in flag.spans
     ]
-    longest = max(ones, key=lambda one: one.stroke)
+    longest = foremost_of(ones, lambda one: one.stroke)
     return Figure(
         name="sliding",
         title=_("Length compensation"),
-        sentence=_("Shaft {number} slides over a stroke of {stroke} mm, at up to {rate} mm/s.").format(
-            number=longest.shaft, stroke=significant(longest.stroke / mm, 3), rate=significant(longest.max_rate / mm, 3)
+        sentence=say(
+            _("Shaft {number} slides over a stroke of {stroke}, at up to {rate}."),
+            number=longest.shaft,
+            stroke=Quantity(longest.stroke, "length", 3),
+            rate=Quantity(longest.max_rate, "speed", 3, unit="mm_s"),
         ),
         source=_("L = |B(i) − B(i−1)| and its exact derivatives along the movement"),
         rows=(
@@ -157,7 +160,9 @@ def sliding_figure(found: Articulation) -> Figure:
                     Panel(
                         series=(*bands, *curves),
                         x=_time(times, named=True),
-                        y=axis(_("Length over the drawn one"), "mm", ways, include=(0.0,), least=0.1),
+                        y=axis(
+                            _("Length over the drawn one"), "mm", ways, dimension="length", include=(0.0,), least=0.1
+                        ),
                     ),
                 ),
                 height=1.5,
@@ -167,5 +172,12 @@ def sliding_figure(found: Articulation) -> Figure:
 
 
 def _time(times: Array, *, named: bool = False) -> Axis:
-    made = axis(_("time") if named else "", "s" if named else "", [times], margin=0.0, count=8)
+    made = axis(
+        _("time") if named else "",
+        "s" if named else "",
+        [times],
+        dimension="time" if named else "",
+        margin=0.0,
+        count=8,
+    )
     return made

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Say, say
 from cardan.figures.axes import angle_axis, axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
-from cardan.figures.wording import angular, significant
 from cardan.maths.arrays import Array
 from cardan.questions.motion.joint_law import JointBends, JointTurn
 from cardan.texts import _
@@ -52,18 +52,28 @@ def joint_figure(turns: Sequence[JointTurn], bends: Sequence[JointBends], labels
     ]
     return Figure(
         name="joint",
-        title=_("How joints turn at {bend}° and over their bends").format(bend=significant(turns[0].bend / deg, 3)),
+        title=say(
+            _("How joints turn at {angle} and over their joint angles"), angle=Quantity(turns[0].bend, "angle", 3)
+        ),
         sentence=_sentence(turns, names),
         source=_("exact law of each kind; error: half of what lies between the greatest lead and the greatest lag"),
         rows=(
-            Row(panels=(_panel(angle, leads, bare, _("Output ahead of input"), "°", 0.0, 0.02, names),), height=1.5),
+            Row(panels=(_panel(angle, leads, bare, _("Output ahead of input"), "deg", 0.0, 0.02, names),), height=1.5),
             Row(panels=(_panel(angle, ratios, whole, _("Speed ratio"), "–", 1.0, 0.002),), height=1.5),
             Row(
                 panels=(
                     Panel(
-                        series=(*curves, Rule(value=turns[0].bend / deg, upright=True, text=_("bend of the turn"))),
-                        x=axis(_("Bend"), "°", include=(0.0, widest), count=8, margin=0.0),
-                        y=axis(_("Error of the output"), "°", errors, include=(0.0,), least=0.02, count=4),
+                        series=(*curves, Rule(value=turns[0].bend / deg, upright=True, text=_("angle of the turn"))),
+                        x=axis(_("Joint angle"), "deg", dimension="angle", include=(0.0, widest), count=8, margin=0.0),
+                        y=axis(
+                            _("Angle error of the output"),
+                            "deg",
+                            errors,
+                            dimension="angle",
+                            include=(0.0,),
+                            least=0.02,
+                            count=4,
+                        ),
                     ),
                 ),
                 height=1.5,
@@ -97,26 +107,28 @@ def _panel(
         )
         for k, row in enumerate(rows, start=1)
     )
-    upright = axis(label, unit, list(rows), include=(middle,), least=least, count=4)
+    upright = axis(
+        label, unit, list(rows), dimension="angle" if unit == "deg" else "", include=(middle,), least=least, count=4
+    )
     return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=along, y=upright)
 
 
-def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> str:
+def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> Say:
+    """Return which joint has the least angle error, where several do not turn alike; what it is of one alone."""
     order = sorted(range(len(turns)), key=lambda k: turns[k].error)
-    best, worst = order[0], order[-1]
-    at = significant(turns[0].bend / deg, 3)
+    best, worst, at = order[0], order[-1], Quantity(turns[0].bend, "angle", 3)
     if len(turns) == 1:
-        if not turns[0].error:
-            return _("At {bend}° the {name} joint turns exactly evenly.").format(bend=at, name=names[0])
-        text = _("At {bend}° the output of the {name} joint runs ahead and back by {error}°.")
-        return text.format(bend=at, name=names[0], error=angular(turns[0].error / deg, 3))
+        text = _("At {angle} the {name} joint turns exactly uniformly.")
+        if turns[0].error:
+            text = _("At {angle} the output of the {name} joint has an angle error of ±{error}.")
+        return say(text, angle=at, name=names[0], error=Quantity(turns[0].error, "angle", 3))
     if not turns[worst].error:
-        return _("At {bend}° all of them turn exactly evenly.").format(bend=at)
-    text = _("At {bend}° {worst} runs ahead and back most, by {most}°, and {best} least, by {least}°.")
-    return text.format(
-        bend=at,
+        return say(_("At {angle} all of them turn exactly uniformly."), angle=at)
+    return say(
+        _("At {angle} {worst} has the largest angle error, ±{most}, and {best} the least, ±{least}."),
+        angle=at,
         worst=names[worst],
         best=names[best],
-        most=angular(turns[worst].error / deg, 3),
-        least=angular(turns[best].error / deg, 3),
+        most=Quantity(turns[worst].error, "angle", 3),
+        least=Quantity(turns[best].error, "angle", 3),
     )

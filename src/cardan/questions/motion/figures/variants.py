@@ -14,6 +14,7 @@ from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.figures.turning import across
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.questions.motion.motion import Motion
 from cardan.texts import _
 from cardan.units import deg
@@ -110,7 +111,7 @@ def _sentence(leads: Sequence[Array], names: Sequence[str]) -> Say:
     told = [Quantity(one * deg if one > NOISE else 0.0, "angle", 3) for one in errors]
     if len(told) == 1:
         return say(_("{name}: output angle error ±{error}."), name=names[0], error=told[0])
-    best, worst = int(np.argmin(errors)), int(np.argmax(errors))
+    best, worst = int(foremost(errors, least=True)), int(foremost(errors))
     if told[best].told(USUAL) == told[worst].told(USUAL):
         return say(_("All outputs have an angle error of ±{error}."), error=told[best])
     return say(

@@ -13,6 +13,7 @@ from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, 
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
+from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
 from cardan.questions.phases.phases import Phasing, YokeSetting
 from cardan.texts import _
@@ -239,7 +240,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
     )
     kept = tuple(t for t in upright.ticks if t >= 0.0)
     upright = replace(upright, low=0.0, high=1.1 * upright.high, ticks=kept, texts=written(kept))
-    worst = int(np.argmax(cost))
+    worst = int(foremost(cost))
     return Figure(
         name="sensitivity",
         title=_("How exactly the yokes must stand"),

@@ -1,4 +1,4 @@
-"""How is a drive to be designed so that it runs calmly? Yokes, stiffness, inertia, joint places, against one band."""
+"""With which yokes, stiffnesses, inertias and joint positions does a drive vibrate least in torsion over a band?"""
 
 from __future__ import annotations
 
@@ -22,9 +22,6 @@ from .calm_designs import Designs, Free, free_quantities
 from .calm_search import Curves, Method, Peak, all_refined, everywhere, method_problems
 from .calm_search import Grid as Grid
 from .node_rule import NodeRule, node_rules
-
-SAME = 0.01
-"""What differs by no more than this share is the same."""
 
 SHARES = (0.8, 0.92)
 """Shares of the work when the search everywhere ends, and when the last steps do."""
@@ -121,17 +118,6 @@ class Calm:
                 found.append(one.path)
         return tuple(found)
 
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """Why it runs calmer, in words: what the joints do to each mode now, beside what they did as built."""
-        found: list[str] = []
-        for rule in self.rules_after:
-            found += rule.sentences
-            old = next((one for one in self.rules_before if one.mode == rule.mode), None)
-            if old is not None and old.push > 0.0:
-                found += _as_built(old, rule)
-        return tuple(found)
-
 
 def calm(
     drive: Drive,
@@ -196,7 +182,7 @@ def calm(
     asked = drive if duty is None else replace(drive, duty=duty)
     band = wanted_band(asked.duty, speeds)
     if band is None:
-        raise refuse("duty.speed_range", _("missing; the band of speeds in which the drive is to run calmly"))
+        raise refuse("duty.speed_range", _("missing; the band of speeds in which torsional vibration is to be least"))
     how = method or Evolution()
     quantities = free_quantities(asked, free)
     check([*method_problems(how, quantities), *element_problems(lines([asked], 0.5 * (band[0] + band[1])), elements)])
@@ -244,18 +230,6 @@ def calm(
         play=designs.built.play,
         assumed=designs.built.trains[0].assumed,
     )
-
-
-def _as_built(old: NodeRule, new: NodeRule) -> list[str]:
-    """Return what a mode was as built, where that was something else."""
-    values = {"hertz": old.omega / (2.0 * np.pi), "share": 100.0 * old.modulation}
-    times = old.push / new.push if new.push > 0.0 else np.inf
-    if abs(times - 1.0) > SAME:
-        text = _("As built: {hertz:.3g} Hz, {times:.3g} times this push, stiffness modulated by {share:.2g} %.")
-        return [text.format(times=times, **values)]
-    if abs(old.omega / new.omega - 1.0) > SAME or abs(old.modulation - new.modulation) > SAME * old.modulation:
-        return [_("As built: {hertz:.3g} Hz, stiffness modulated by {share:.2g} %.").format(**values)]
-    return []
 
 
 def _rules(line: Lines, band: tuple[float, float]) -> tuple[NodeRule, ...]:

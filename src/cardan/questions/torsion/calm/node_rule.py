@@ -12,17 +12,6 @@ from cardan.questions.torsion.model.torsional_batch import Turning
 from cardan.questions.torsion.model.torsional_modes import straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.questions.torsion.steady.steady_start import at_rest
-from cardan.texts import _
-from cardan.units import rpm, thousands
-
-LITTLE = 0.05
-"""κ, over the largest that a joint of the mode has, below which a joint stands in the node for what it does."""
-
-CANCELS = 0.2
-"""Share of the sum of sizes below which excitations that add with their phases cancel for what they do."""
-
-BENT = 1e-9
-"""tan²(α/2) from which a joint excites anything."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -92,11 +81,6 @@ class NodeRule:
             return 0.0
         return self.torque_of_mode * self.push / (2.0 * self.damping_ratio) if self.damping_ratio > 0.0 else np.inf
 
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """The same in words."""
-        return tuple(_sentences(self))
-
 
 def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, ...]:
     """Return what the joints of a drive do to each of its modes, the slowest first.
@@ -135,8 +119,8 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     >>> drive = replace(Drive.from_angles([0.2]), stations=ends, duty=Duty(input="free", speed=50.0),
     ...     shafts=(Shaft(number=1, stiffness=900.0), Shaft(number=2, stiffness=900.0)))
     >>> (rule,) = node_rules(torsional_train(drive))
-    >>> abs(rule.kappa.round(12)), rule.sentences[1]
-    (array([0.]), 'Joint 1 stands in the node: it excites no parametric vibration.')
+    >>> abs(rule.kappa.round(12))
+    array([0.])
     """
     model = train.model
     modes = straight_modes(model, speed=speed)
@@ -200,60 +184,3 @@ def _nodes(train: TorsionalTrain, shape: Array) -> Iterator[float]:
             yield float(place[b])
         elif one * two < 0.0 and abs(one) > 1e-9 * largest:
             yield float(place[a] + one / (one - two) * (place[b] - place[a]))
-
-
-def _sentences(rule: NodeRule) -> Iterator[str]:
-    text = _(
-        "Mode {mode} at {hertz:.3g} Hz: order 2 meets it at {speed:.4g} rpm, its principal zone of parametric "
-        "resonance is at {zone:.4g} rpm."
-    )
-    yield text.format(
-        mode=rule.mode,
-        hertz=rule.omega / (2.0 * np.pi),
-        speed=0.5 * rule.omega / rpm,
-        zone=rule.omega / rpm,
-    )
-    bent = np.flatnonzero(rule.bend_share > BENT)
-    if not bent.size:
-        yield _("All joints are straight: nothing excites it twice a turn.")
-        return
-    size = np.abs(rule.parametric)
-    whole = float(np.sum(size))
-    largest = float(np.max(np.abs(rule.kappa[bent])))
-    for k in bent:
-        if abs(rule.kappa[k]) <= max(LITTLE * largest, 1e-6):
-            text = _("Joint {joint} stands in the node: it excites no parametric vibration.")
-            yield text.format(joint=k + 1)
-            continue
-        text = _("Joint {joint} stands {where} (κ = {kappa:.3g}): {share:.0f} % of what drives parametric vibration.")
-        yield text.format(
-            joint=k + 1, where=_where(rule, int(k)), kappa=rule.kappa[k], share=100.0 * size[k] / (whole or 1.0)
-        )
-    if whole > 0.0:
-        text = (
-            _("Its stiffness is modulated by {share:.2g} %, more than the {limit:.2g} % from which it grows.")
-            if rule.grows
-            else _("Its stiffness is modulated by {share:.2g} %, less than the {limit:.2g} % from which it grows.")
-        )
-        yield text.format(share=100.0 * rule.modulation, limit=200.0 * rule.damping_ratio)
-    if bent.size == 1:
-        yield _("Its push of order 2 stands alone: no other joint can take it away.")
-    elif rule.left < CANCELS:
-        text = _("The pushes of order 2 cancel: {left:.2g} % of what they would be in phase is left.")
-        yield text.format(left=100.0 * rule.left)
-    else:
-        text = _("The pushes of order 2 add up to {left:.0f} % of what they would be in phase.")
-        yield text.format(left=100.0 * rule.left)
-    if np.isfinite(rule.resonance_torque):
-        text = _("By this mode alone the torque swings by {torque} N·m where order 2 meets it.")
-        torque = rule.resonance_torque
-        yield text.format(torque=f"{torque:.3g}" if torque < 1000.0 else thousands(torque))
-
-
-def _where(rule: NodeRule, joint: int) -> str:
-    """Return where a joint stands beside the nearest node."""
-    if not rule.nodes:
-        return _("away from the node")
-    nearest = min(rule.nodes, key=lambda at: abs(at - rule.position[joint]))
-    way = rule.position[joint] - nearest
-    return _("behind the node") if way > 0.0 else _("before the node")

@@ -113,7 +113,7 @@ def engine_torque(engine: Engine, speed: ArrayLike | None = None) -> EngineTorqu
             speed_ratio=engine.speed_ratio,
         )
     if engine.piston_mass and speed is None:
-        raise refuse("duty.speed", _("missing; the oscillating masses of the engine need it"))
+        raise refuse("duty.speed", _("missing; the oscillating masses of the engine need it"), "missing")
     order, gas, inertia = _crank_harmonics(engine)
     one = gas
     if engine.piston_mass:

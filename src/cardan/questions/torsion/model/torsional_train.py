@@ -160,7 +160,7 @@ def torsional_train(
     check(problems)
     free = turns_freely(drive, asked)
     if not free and turning is None and loaded:
-        raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+        raise refuse("duty.speed", _("missing; torsional vibration needs it"), "missing")
     model = replace(base.model, input_speed=None if free else np.asarray(0.0 if turning is None else turning))
     if loaded:
         named = {drive.stations[k].name: at for line, start in _starts(lines) for k, at in line.stations(start)}
@@ -270,7 +270,9 @@ def _with_branches(
             name = _("absorber on {name}")
         elif station.pendulum is not None:
             if speed is None:
-                problems.append(Problem("duty.speed", _("missing; the stiffness of a pendulum comes from it")))
+                problems.append(
+                    Problem("duty.speed", _("missing; the stiffness of a pendulum comes from it"), "missing")
+                )
             hung = station.pendulum
             mass = hung.count * hung.mass * (hung.radius + hung.length) ** 2
             spring, damper = mass * turning**2 * hung.radius / hung.length, 0.0

@@ -238,7 +238,7 @@ class _Variants:
         self.speeding: int | None
         self.speeding, factor = next(((k, spot.factor) for k, spot in speeds), (None, 1.0))
         if drive.duty.speed is None and self.speeding is None:
-            raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+            raise refuse("duty.speed", _("missing; torsional vibration needs it"), "missing")
         self.speeds = np.asarray([drive.duty.speed or 0.0])
         if self.speeding is not None:
             path, values = axes[self.speeding]

@@ -13,6 +13,7 @@ from cardan.figures.palette import DASHES, shaft
 from cardan.figures.turning import across
 from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
 from cardan.texts import _
 from cardan.units import deg, rpm
@@ -238,7 +239,7 @@ def runs(mask: Array) -> Iterator[tuple[int, int]]:
 
 def _sweep_sentence(found: TorsionResponse, speed: Array, e: int, name: str) -> str:
     swing = found.swing[:, e]
-    k = int(np.nanargmax(np.where(np.isfinite(swing), swing, -1.0)))
+    k = int(foremost(np.where(np.isfinite(swing), swing, -1.0)))
     text = _("The torque in {name} swings most at {speed} rpm, by ± {swing} N·m.")
     said = text.format(name=name, speed=significant(float(speed[k]), 3), swing=significant(float(swing[k]), 3))
     if np.any(found.floquet.verdict == Verdict.UNSTABLE):
@@ -284,7 +285,7 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
         ),
         y=axis(_("input speed"), "rpm", [speed], include=(max(float(np.max(one.y)) for one in curves),), count=8),
     )
-    tallest = np.unravel_index(int(np.argmax(amplitude)), amplitude.shape)
+    tallest = np.unravel_index(int(foremost(amplitude.ravel())), amplitude.shape)
     text = _("The tallest peak is order {order} at {speed} rpm, ± {torque} N·m.")
     return Figure(
         name="torsion-waterfall",

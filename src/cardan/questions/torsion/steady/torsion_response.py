@@ -179,7 +179,7 @@ def torsion_response(
 
 def _speeds(duty: Duty, speed: ArrayLike | None) -> ArrayLike:
     if speed is None and duty.speed is None:
-        raise refuse("duty.speed", _("missing; torsional vibration needs it"))
+        raise refuse("duty.speed", _("missing; torsional vibration needs it"), "missing")
     return float(duty.speed or 0.0) if speed is None else speed
 
 

@@ -8,6 +8,7 @@ from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row
 from cardan.figures.palette import DASHES
 from cardan.figures.wording import significant
+from cardan.maths.ties import foremost
 from cardan.questions.torsion.steady.figure import looks, worst_elements
 from cardan.texts import _
 from cardan.units import rpm
@@ -34,7 +35,7 @@ def transient_figure(found: Transient) -> Figure:
     swing = np.nan_to_num(ends.torque_high - ends.torque_low)
     worst = worst_elements(swing)
     line = list(found.train.line)
-    liveliest = int(np.argmax(np.nan_to_num(ends.speed_high - ends.speed_low)))
+    liveliest = int(foremost(np.nan_to_num(ends.speed_high - ends.speed_low)))
     stations = list(dict.fromkeys([line[0], line[-1], liveliest]))
     torques = Panel(
         series=tuple(

@@ -205,7 +205,7 @@ def _unsettled(duty: Duty, model: TorsionalModel) -> Iterator[Problem]:
     if duty.run_up is not None:
         yield Problem("duty.run_up", _("its speed changes; a settled start needs a steady speed"))
     if duty.speed is None:
-        yield Problem("duty.speed", _("missing; a settled start needs it"))
+        yield Problem("duty.speed", _("missing; a settled start needs it"), "missing")
     if any(torque.law.order is None for torque in model.torques):
         yield Problem("duty", _("a torque runs in time; a settled start needs torques that follow angle or speed"))
     elif parted(model)[1]:

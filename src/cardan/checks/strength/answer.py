@@ -1,0 +1,343 @@
+"""What there is to say of the strength of a drive: utilisation of every limit, what governs, what is left out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.question import Lacking, absent
+from cardan.catalogue import Catalogue
+from cardan.checks.verdict import AMBER, Verdict
+from cardan.checks.verdict_table import missing_table, share, verdict_records, verdict_table
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import key_of
+from cardan.texts import _, plural
+
+from .figure import strength_figures
+from .left_out import LITTLE, LeftOut, left_out
+from .strength import Strength, strength
+
+__all__ = ["answer", "ask", "lacking", "otherwise"]
+
+HEAVY = 0.2
+"""Share of the secondary couple from which a shaft's own weight is told."""
+
+SAME = 1e-9
+"""Share by which two utilisations may differ that are the same."""
+
+SIZED = {
+    "tube_strength": "tube",
+    "tube_fatigue": "tube",
+    "tube_buckling": "tube",
+    "journal_strength": "journal",
+    "needle_static": "needles",
+    "bearing_life": "needles",
+    "joint_torque": "joint",
+    "rated_torque": "joint",
+    "yoke_strength": "joint",
+}
+"""Check -> what ``--size`` calls the part that it judges."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for its strength."""
+    duty = drive.duty
+    given = duty.torque is not None or bool(duty.blocks) or duty.torque_history is not None
+    return absent((given, "duty.torque", "duty.blocks", "duty.torque_history"))
+
+
+def ask(drive: Drive, *, known: Catalogue | None = None) -> Strength | None:
+    """Return the strength of a drive with what its stresses leave out; None where nothing is judged."""
+    found = strength(drive, known=known)
+    if not found.binding or not found.torque > 0.0:
+        return None
+    return replace(found, left_out=left_out(drive, found))
+
+
+def otherwise(drive: Drive) -> str:
+    """Return why nothing can be told."""
+    keys = ", ".join(key_of(path) for path in strength(drive).missing)
+    if not keys:
+        return _("There is nothing to be told of this drive.")
+    return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
+
+
+def answer(drive: Drive, result: Strength) -> Answer:
+    """Return what there is to say of the strength of a drive."""
+    close = any(float(one.utilisation) >= AMBER for one in result.binding)
+    enough = result.enough
+    tone: Tone = "plain" if enough is None else "failed" if not enough else "warning" if close else "good"
+    return Answer(
+        name="strength",
+        title=_("Strength"),
+        sentence=_sentence(result),
+        tone=tone,
+        figures=lambda: strength_figures(result),
+        tables=tuple(_tables(drive, result)),
+        remarks=tuple(_remarks(result)),
+        keys=tuple(_keys(result)),
+        facts=_facts(result),
+        full=lambda: verdict_records(result.verdicts, "", torque=result.torque, flat=True),
+        code=1 if enough is False else 0,
+    )
+
+
+def _torque(value: float) -> Quantity:
+    return Quantity(value, "torque")
+
+
+def _sentence(result: Strength) -> Say | str:
+    first = result.governing
+    if first is None:
+        return _("nothing could be judged; the drive file lacks what the checks need.")
+    text = _("too weak for {torque}; torque rating {rated}, governed by {title}.")
+    if result.enough:
+        text = _("carries {torque}; torque rating {rated}, governed by {title}.")
+    return say(text, torque=_torque(result.torque), rated=_torque(result.rated_torque), title=first.title)
+
+
+def _tables(drive: Drive, result: Strength) -> Iterator[Table]:
+    if result.judged:
+        order = sorted(result.judged, key=lambda one: (one.advice, float(one.torque_factor)))
+        yield verdict_table(order, _("Limits of the parts"), torque=result.torque)
+    yield _shafts(drive, result)
+    yield _joints(drive, result)
+    missing = [one for one in result.verdicts if not one.run]
+    if missing:
+        yield missing_table(missing, "full" if result.judged else "brief")
+    yield verdict_records(result.verdicts, "limits", torque=result.torque)
+
+
+def _shafts(drive: Drive, result: Strength) -> Table:
+    shafts = result.shafts
+    torsion, bending = (
+        [None if one.stress is None else float(getattr(one.stress, name)) for one in shafts]
+        for name in ("torsion", "bending")
+    )
+    return Table(
+        name="shafts",
+        title=_("Shafts"),
+        records=True,
+        columns=(
+            *heads(_("shaft"), [shaft.name for shaft in drive.shafts]),
+            Column(key="torque", heading=_("torque"), values=[one.torque for one in shafts], dimension="torque"),
+            Column(
+                key="secondary_couple",
+                heading=_("secondary couple"),
+                values=[one.bending for one in shafts],
+                dimension="torque",
+            ),
+            Column(key="torsion", heading=_("torsion"), values=torsion, dimension="stress"),
+            Column(key="bending", heading=_("bending"), values=bending, dimension="stress"),
+            Column(
+                key="twist", heading=_("twist"), values=[one.twist for one in shafts], dimension="angle", decimals=2
+            ),
+            Column(
+                key="safety",
+                heading=_("safety, fatigue"),
+                values=[None if one.fatigue is None else float(one.fatigue.safety) for one in shafts],
+                decimals=2,
+            ),
+            Column(
+                key="life", heading=_("fatigue life"), values=[one.fatigue_life for one in shafts], dimension="duration"
+            ),
+        ),
+        note=_counted(result),
+    )
+
+
+def _counted(result: Strength) -> Text:
+    """Return what the tables count."""
+    text = _("Largest over the turn; the couple is that of the larger end.")
+    if result.shock_factor == 1.0:
+        return text
+    more = _("Torques and stresses are with the service factor {shock}; twist and fatigue are without.")
+    return Joined([text, say(more, shock=Quantity(result.shock_factor, digits=3, trim=True))], between=" ")
+
+
+def _joints(drive: Drive, result: Strength) -> Table:
+    joints = result.joints
+    mises = {
+        name: [None if getattr(one, name) is None else float(getattr(one, name).mises) for one in joints]
+        for name in ("journal", "yoke")
+    }
+    return Table(
+        name="joints",
+        title=_("Joints"),
+        records=True,
+        columns=(
+            *heads(_("joint"), [joint.name for joint in drive.joints]),
+            Column(key="torque", heading=_("torque"), values=[one.torque for one in joints], dimension="torque"),
+            Column(
+                key="journal",
+                heading=_("journal load"),
+                values=[one.journal_force for one in joints],
+                dimension="force",
+            ),
+            Column(key="journal", heading=_("journal root"), values=mises["journal"], dimension="stress"),
+            Column(key="yoke", heading=_("yoke"), values=mises["yoke"], dimension="stress"),
+            Column(
+                key="contact",
+                heading=_("needles"),
+                values=[None if one.contact is None else float(one.contact.pressure) for one in joints],
+                dimension="stress",
+            ),
+            Column(key="static", heading="C0", values=[one.static_capacity for one in joints], dimension="force"),
+        ),
+    )
+
+
+def _remarks(result: Strength) -> Iterator[Remark]:
+    yield from _failed(result)
+    out = result.left_out
+    if out is not None:
+        yield from _left_out(result, out)
+    left = sum(not one.run for one in result.verdicts)
+    if left and result.judged:
+        text = plural(
+            "One limit could not be judged; the drive may carry less.",
+            "{count} limits could not be judged; the drive may carry less.",
+            left,
+        )
+        yield Remark(text=text.format(count=left), tone="warning")
+        yield Remark(text=_("Which keys it lacks:"), command=("cardan", "check", FILE, "--missing"), tone="next")
+    if result.dynamic_factor > LITTLE and (out is None or out.journal is None):
+        text = _("Masses and friction raise the largest couple of a cross by {more}, which the stresses leave out.")
+        covered = result.shock_factor >= result.dynamic_factor
+        if covered:
+            text = _("Masses and friction raise the largest couple of a cross by {more}; the service factor covers it.")
+        more = Quantity(result.dynamic_factor - 1.0, "share", decimals=1)
+        yield Remark(text=say(text, more=more), tone="plain" if covered else "warning")
+    if result.extrapolated:
+        text = _("Shafts over {width} are beyond the tests behind the fatigue formula; here shafts {which}.")
+        which = ", ".join(map(str, result.extrapolated))
+        yield Remark(text=say(text, width=Quantity(0.254, "length", 3), which=which), tone="warning")
+    for one in result.shafts:
+        if one.bending > 0.0 and one.weight_bending > HEAVY * one.bending:
+            text = _("The weight of shaft {number} bends it by {moment}, which the stresses leave out.")
+            moment = Quantity(one.weight_bending, "torque", 3)
+            yield Remark(text=say(text, number=one.number, moment=moment), tone="warning")
+    if result.enough:
+        text = _("Every limit on its own, with where it comes from:")
+        yield Remark(text=text, command=("cardan", "strength", FILE, "--csv"), tone="next")
+
+
+def _failed(result: Strength) -> Iterator[Remark]:
+    """Yield what fails, and what to do; or what is used most where another limit governs."""
+    first = result.governing
+    if first is None:
+        return
+    if result.enough is False:
+        failed = [one for one in result.binding if float(one.utilisation) > 1.0]
+        worst = max(failed, key=lambda one: float(one.utilisation))
+        text = _("Failed: {title}, at {used} of its limit.")
+        if len(failed) > 1:
+            text = _("{count} limits failed; worst: {title}, at {used} of its limit.")
+        said = say(text, title=worst.title, used=share(float(worst.utilisation)), count=len(failed))
+        yield Remark(text=said, tone="failed", alarm=True)
+        if first.check in SIZED:
+            command = ("cardan", "strength", FILE, "--size", f"{SIZED[first.check]}:{first.number}")
+            yield Remark(text=_("What it would take:"), command=command, tone="next")
+    elif float(first.utilisation) < result.utilisation * (1.0 - SAME):
+        text = _(
+            "Another limit has a higher utilisation now, but {title} is reached first as the torque grows: a life "
+            "falls with the power 10/3 of the torque, a contact pressure grows with its root."
+        )
+        yield Remark(text=say(text, title=first.title))
+
+
+def _left_out(result: Strength, out: LeftOut) -> Iterator[Remark]:
+    """Yield what the stresses leave out."""
+    if out.vibration is not None:
+        yield _vibrating(result, out)
+    yield Remark(
+        text=_(
+            "Stresses count what the torque of the duty makes without friction and masses; axial forces of splines, "
+            "weights and torsional vibration are not in them."
+        ),
+        tone="warning",
+    )
+    if out.supported:
+        text = _(
+            "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
+        )
+        yield Remark(text=text, tone="warning")
+    if out.journal is not None:
+        text = _(
+            "With friction, masses, weights and axial forces a journal of joint {number} carries {load}, {more} more "
+            "than counted here before the service factor."
+        )
+        load, more = Quantity(out.journal.load, "force"), Quantity(out.journal.more, "share", decimals=1)
+        yield Remark(text=say(text, number=out.journal.joint, load=load, more=more), tone="warning")
+
+
+def _vibrating(result: Strength, out: LeftOut) -> Remark:
+    """Return what torsional vibration adds at the speed of the duty."""
+    found = out.vibration
+    assert found is not None
+    speed = Quantity(found.speed, "angular_speed", 3)
+    if not found.stable:
+        text = _(
+            "The strength leaves torsional vibration out: at {speed} it is unstable, so what torque the shafts reach "
+            "cannot be told."
+        )
+        return Remark(text=say(text, speed=speed), tone="failed", alarm=True)
+    text = _(
+        "The strength leaves torsional vibration out: at {speed} it takes the torque in {name} to {most}, {more} times "
+        "what is counted."
+    )
+    beyond = result.torque_factor < found.factor
+    parts: list[Text] = [
+        say(
+            text,
+            speed=speed,
+            name=found.name,
+            most=Quantity(found.torque, "torque", 3),
+            more=Quantity(found.factor, digits=3),
+        )
+    ]
+    if beyond:
+        parts.append(_("That is more than the torque rating of the drive."))
+    if out.runs_up:
+        parts.append(_("While running up it may be more: see Run-up."))
+    return Remark(text=Joined(parts, between=" "), tone="failed" if beyond else "warning", alarm=True)
+
+
+def _keys(result: Strength) -> Iterator[KeyFigure]:
+    first = result.governing
+    if first is None or not math.isfinite(result.rated_torque):
+        return
+    used = result.torque / result.rated_torque
+    tone: Tone = "failed" if used > 1.0 else "warning" if used >= AMBER else "good"
+    yield KeyFigure(
+        name="rated_torque",
+        title=_("torque rating of the whole drive"),
+        place=say(_("governed by {title}"), title=first.title),
+        value=_torque(result.rated_torque),
+        limit=_torque(result.torque),
+        better="more",
+        verdict={"failed": _("too weak"), "warning": _("near the limit"), "good": _("passed")}[tone],
+        tone=tone,
+    )
+
+
+def _facts(result: Strength) -> dict[str, Any]:
+    return {
+        "torque": _torque(result.torque),
+        "rated_torque": _torque(result.rated_torque),
+        "torque_factor": result.torque_factor,
+        "enough": result.enough,
+        "utilisation": result.utilisation,
+        "governing": _named(result.governing),
+        "shock_factor": result.shock_factor,
+        "dynamic_factor": result.dynamic_factor,
+        "extrapolated_shafts": result.extrapolated,
+    }
+
+
+def _named(one: Verdict | None) -> dict[str, Any] | None:
+    return None if one is None else {"check": one.check, "subject": one.subject, "title": one.title}

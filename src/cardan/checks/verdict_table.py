@@ -1,0 +1,251 @@
+"""Verdicts side by side, once for terminal, report, files and app: in words, as records, as key figures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from cardan.answers.answer import Cell, Column, KeyFigure, Table, Tone
+from cardan.answers.quantity import Joined, Quantity, Text, Unit, say
+from cardan.drive.fields.keys import key_of
+from cardan.texts import _
+from cardan.units import factor
+
+from .alike import alike, deciding_limits, title_of
+from .verdict import State, Verdict
+
+TONES: dict[State, Tone] = {"passed": "good", "close": "warning", "failed": "failed", "not_run": "plain"}
+
+CONDITIONS = frozenset(("acceleration", "irregularity", "bend", "spline_overlap"))
+"""Checks whose note says at which speed, in which pose or when the value is reached: it belongs to what is judged."""
+
+MOST = 1000.0
+"""A limit that is exceeded more often is told as exceeded beyond that."""
+
+NOTHING = 1e-9
+"""A value below this, in its unit, is told as nothing."""
+
+
+def tone_of(one: Verdict) -> Tone:
+    """Return how good a verdict is; red is kept for limits that must be kept."""
+    return "warning" if one.advice and one.state == "failed" else TONES[one.state]
+
+
+def word_of(one: Verdict) -> str:
+    """Return a verdict in a word."""
+    if one.advice and one.state == "failed":
+        return _("beyond")
+    return {"passed": _("passed"), "close": _("close"), "failed": _("failed"), "not_run": _("not run")}[one.state]
+
+
+def amount(one: Verdict, value: Any, *, given: bool = False) -> Quantity:
+    """Return a figure of a verdict; a limit as it was given, without zeros at its end."""
+    least = NOTHING * (factor(one.dimension, one.unit) if one.dimension else 1.0)
+    return Quantity(0.0 if abs(float(value)) < least else float(value), one.dimension, unit=one.unit, trim=given)
+
+
+def share(used: float) -> Quantity:
+    """Return a utilisation for a sentence, in percent.
+
+    Examples
+    --------
+    >>> from cardan.answers.reader import USUAL
+    >>> share(1.357).told(USUAL), share(0.2838).told(USUAL), share(float("inf")).told(USUAL)
+    ('136 %', '28.4 %', '> 100\u202f000 %')
+    """
+    return Quantity(used, "share", 3, most=MOST)
+
+
+def limit(one: Verdict) -> Cell | Text:
+    """Return the limit of a verdict with its sense; of a band the nearer end, or both where it must be left."""
+    ends = deciding_limits(one)
+    if len(ends) == 2:
+        (_at_most, low), (_at_least, high) = ends
+        return say(_("≤ {low:bare} or ≥ {high}"), low=amount(one, low, given=True), high=amount(one, high, given=True))
+    sense, end = ends[0]
+    return Cell(value=amount(one, end, given=True), before=f"{sense} ")
+
+
+def said_of(group: Sequence[Verdict], *, sources: bool = False) -> Text:
+    """Return what a group of verdicts is about, with its note where that matters, or with all that stands behind it."""
+    one = group[0]
+    if sources:
+        return Joined([title_of(group), one.note, one.source], between="; ")
+    if one.check in CONDITIONS:
+        return Joined([title_of(group), one.note])
+    return Joined([title_of(group), one.note if one.state != "passed" else ""], between="; ")
+
+
+def verdict_table(
+    verdicts: Sequence[Verdict], title: str = "", *, sources: bool = False, torque: float | None = None
+) -> Table:
+    """Return verdicts as people read them, those that say the same of several parts in one row.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        Single ones that were reached.
+    title : str
+        Heading.
+    sources : bool
+        Say in a brief table, too, where each comes from; a full one has a column for it.
+    torque : float, optional
+        Torque of the duty [N·m]: with it, at which torque each limit is reached.
+    """
+    groups = alike(verdicts)
+    first = [group[0] for group in groups]
+    ends = () if torque is None else (_limit_torque(first, torque),)
+    return Table(
+        title=title,
+        columns=(
+            Column(
+                key="",
+                heading=_("verdict"),
+                values=[Cell(value=word_of(one), tone=tone_of(one)) for one in first],
+                left=True,
+            ),
+            Column(
+                key="",
+                heading=_("utilisation"),
+                values=[float(one.utilisation) for one in first],
+                decimals=2,
+                most=MOST,
+            ),
+            Column(
+                key="", heading=_("value"), values=[Cell(value=amount(one, one.value), unit=False) for one in first]
+            ),
+            Column(key="", heading=_("limit"), values=[limit(one) for one in first], left=True),
+            *ends,
+            Column(
+                key="",
+                heading=_("what"),
+                values=[said_of(group, sources=sources) for group in groups],
+                wrap=True,
+                left=True,
+            ),
+            Column(
+                key="",
+                heading=_("by"),
+                values=[Joined([one.source, _unsaid(one)], between="; ") for one in first],
+                left=True,
+                depth="data" if sources else "full",
+            ),
+        ),
+    )
+
+
+def verdict_key(group: Sequence[Verdict]) -> KeyFigure:
+    """Return verdicts that say the same of several parts as a figure with its limit."""
+    one, ends = group[0], deciding_limits(group[0])
+    sense, end = ends[0]
+    return KeyFigure(
+        name=f"{one.check} {one.subject}",
+        title=title_of(group),
+        place=one.note if one.check in CONDITIONS else "",
+        value=amount(one, one.value),
+        limit=amount(one, end, given=True),
+        beyond=amount(one, ends[1][1], given=True) if len(ends) == 2 else None,
+        better="less" if sense == "≤" else "more",
+        verdict=word_of(one),
+        tone=tone_of(one),
+        used=float(one.utilisation),
+    )
+
+
+def verdict_records(
+    verdicts: Sequence[Verdict], name: str, *, torque: float | None = None, flat: bool = False
+) -> Table:
+    """Return verdicts for programs, one a row: value and limit in the unit that stands beside them.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        Single ones.
+    name : str
+        Of the table in JSON.
+    torque : float, optional
+        Torque of the duty [N·m]: with it, at which torque each limit is reached.
+    flat : bool
+        Rows of CSV: both ends of a band in columns of their own, lists of keys with blanks between them.
+    """
+    ends = [_ends(one) for one in verdicts]
+    keys = [[key_of(path) for path in one.missing] for one in verdicts]
+    levers = [[key_of(path) for path in one.levers] for one in verdicts]
+    told: dict[str, Any] = {
+        "check": [one.check for one in verdicts],
+        "subject": [one.subject for one in verdicts],
+        "title": [one.title for one in verdicts],
+        "state": [one.state for one in verdicts],
+        "advice": [one.advice for one in verdicts],
+        "value": [_number(one, one.value) for one in verdicts],
+        "sense": [one.sense for one in verdicts],
+    }
+    if flat:
+        told |= {"limit": [low for low, _high in ends], "limit_high": [high for _low, high in ends]}
+    else:
+        told["limit"] = [low if high is None else [low, high] for low, high in ends]
+    told |= {
+        "unit": [Unit(one.dimension, one.unit) if one.dimension else "" for one in verdicts],
+        "utilisation": [float(one.utilisation) if one.run else None for one in verdicts],
+    }
+    columns = [Column(key=key, values=values, depth="data") for key, values in told.items()]
+    if torque is not None:
+        columns.append(replace(_limit_torque(verdicts, torque), key="limit_torque", depth="data"))
+    last: dict[str, Any] = {"source": [one.source for one in verdicts]}
+    last |= {"missing": [" ".join(one) for one in keys]} if flat else {"levers": levers, "missing": keys}
+    last |= {"unfit": [one.unfit for one in verdicts], "note": [one.note for one in verdicts]}
+    columns += [Column(key=key, values=values, depth="data") for key, values in last.items()]
+    return Table(name=name, columns=columns, records=True, depth="data")
+
+
+def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
+    """Return what could not be judged for want of which keys, joints and shafts alike in one row."""
+    groups: dict[tuple[str, ...], list[Verdict]] = {}
+    for one in verdicts:
+        if one.missing:
+            own = (path.replace(one.subject, "", 1) if one.subject else path for path in one.missing)
+            groups.setdefault((one.check, one.kind, *own), []).append(one)
+    counted = any("[" in path for one in verdicts for path in one.missing)
+    note = _("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")
+    return Table(
+        title=_("Checks not run, and the keys they need"),
+        columns=(
+            Column(
+                key="",
+                heading=_("key to add"),
+                values=[", ".join(key_of(path) for path in group[0].missing) for group in groups.values()],
+                left=True,
+            ),
+            Column(
+                key="",
+                heading=_("what it tells"),
+                values=[title_of(group) for group in groups.values()],
+                left=True,
+                wrap=True,
+            ),
+        ),
+        note=note if counted else "",
+        depth=depth,
+    )
+
+
+def _unsaid(one: Verdict) -> Text:
+    """Return the note of a verdict where it does not stand with what is judged."""
+    return one.note if one.state == "passed" and one.check not in CONDITIONS else ""
+
+
+def _limit_torque(verdicts: Sequence[Verdict], torque: float) -> Column:
+    """Return at which torque each limit is reached."""
+    values = [torque * float(one.torque_factor) if one.run else None for one in verdicts]
+    return Column(key="", heading=_("limit torque"), values=values, dimension="torque", most=1e7 * torque)
+
+
+def _number(one: Verdict, value: Any) -> Quantity | None:
+    return Quantity(float(value), one.dimension, unit=one.unit) if one.run else None
+
+
+def _ends(one: Verdict) -> tuple[Quantity | None, Quantity | None]:
+    if isinstance(one.limit, tuple):
+        return _number(one, one.limit[0]), _number(one, one.limit[1])
+    return _number(one, one.limit), None

@@ -1,0 +1,321 @@
+"""What there is to say of the checks of a drive: verdicts, corrective changes, what could not be judged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
+from cardan.answers.quantity import Say, say
+from cardan.answers.question import Lacking
+from cardan.catalogue import Catalogue
+from cardan.checks.alike import alike, title_of
+from cardan.checks.checks import CHECKS, check
+from cardan.checks.figure import check_figures
+from cardan.checks.verdict import Verdict
+from cardan.checks.verdict_table import missing_table, share, verdict_key, verdict_records, verdict_table
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import key_of
+from cardan.drive.fields.paths import bare_path
+from cardan.drive.fields.words import in_words
+from cardan.texts import _, plural
+
+from .change import Cure, typed
+from .cure import cures, most_helpful
+
+REMEDIES = 3
+"""Remedies shown of each failed verdict; programs get all."""
+
+NEAR = 1.1
+"""A change this much larger is as good as the smaller one where it makes more verdicts pass."""
+
+URGENT = 10
+"""Rows of verdicts on the first page; more only where more than these fail or are close."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Checked:
+    """The verdicts on a drive and their remedies.
+
+    Attributes
+    ----------
+    verdicts : tuple of Verdict
+    remedies : tuple of Cure
+        The smallest changes of single keys that make failed verdicts pass.
+    """
+
+    verdicts: tuple[Verdict, ...]
+    remedies: tuple[Cure, ...] = ()
+
+    @property
+    def binding(self) -> list[Verdict]:
+        """Verdicts that were reached and that the drive must keep, the worst first."""
+        return sorted((one for one in self.verdicts if one.run and not one.advice), key=_worst)
+
+    @property
+    def advice(self) -> list[Verdict]:
+        """Rules of thumb that were reached, the worst first."""
+        return sorted((one for one in self.verdicts if one.run and one.advice), key=_worst)
+
+    @property
+    def failed(self) -> list[Verdict]:
+        """Verdicts that the drive must keep and does not."""
+        return [one for one in self.binding if one.state == "failed"]
+
+
+def _worst(one: Verdict) -> float:
+    return -float(one.utilisation)
+
+
+def lacking(_drive: Drive) -> Lacking:
+    """Return what the drive file lacks to be checked: nothing; each check says what it needs."""
+    return ()
+
+
+def checked(
+    drive: Drive,
+    *,
+    only: Sequence[str] = (),
+    known: Catalogue | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Checked:
+    """Return the verdicts on a drive and their remedies.
+
+    Parameters
+    ----------
+    drive : Drive
+    only : sequence of str
+        Names of checks; all when empty.
+    known : Catalogue, optional
+        The shipped one when not given.
+    progress : function, optional
+        Called with the share done; answering "stop" ends the search for remedies.
+    """
+    verdicts = check(drive, only=only, known=known)
+    return Checked(verdicts=verdicts, remedies=cures(drive, verdicts, known=known, progress=progress))
+
+
+def ask(drive: Drive, *, known: Catalogue | None = None) -> Checked | None:
+    """Return the verdicts on a drive and their remedies; None where no limit that must be kept could be judged."""
+    found = checked(drive, known=known)
+    return found if found.binding else None
+
+
+def otherwise(drive: Drive) -> str:
+    """Return why nothing can be told."""
+    paths = dict.fromkeys(path for one in check(drive) for path in one.missing)
+    if not paths:
+        return _("There is nothing to be told of this drive.")
+    return _("This answer needs more in the drive file: {keys}.").format(keys=", ".join(map(key_of, paths)))
+
+
+def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: bool = False) -> Answer:
+    """Return what there is to say of the checks of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+    result : Checked
+    sources : bool
+        Say in brief, too, where every verdict comes from.
+    missing : bool
+        Say in brief, too, which keys the checks need that were not run.
+    """
+    close = any(one.state == "close" for one in result.binding)
+    return Answer(
+        name="check",
+        title=_("Checks"),
+        sentence=sentence(result.verdicts),
+        tone="failed" if result.failed else "warning" if close else "good" if result.binding else "plain",
+        figures=lambda: check_figures(result.verdicts, name=drive.name),
+        tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
+        remarks=tuple(_remarks(result, sources=sources, missing=missing)),
+        facts={
+            "passed": not result.failed,
+            "remedies": [asdict(one) for one in result.remedies],
+            "most_helpful": [asdict(one) for one in most_helpful(result.remedies)],
+        },
+        full=lambda: verdict_records(result.verdicts, "", flat=True),
+        code=1 if result.failed else 0,
+    )
+
+
+def sentence(verdicts: Sequence[Verdict]) -> Say | str:
+    """Return in a sentence how verdicts came out.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        All of a drive.
+    """
+    result = Checked(verdicts=tuple(verdicts))
+    binding, failed = result.binding, result.failed
+    if not binding:
+        if result.advice:
+            return _("no limit that must be kept could be judged, only rules of thumb.")
+        return _("nothing could be judged: the drive file gives neither limits nor what they need.")
+    worst, count = binding[0], len(binding)
+    if failed:
+        text = _("the only check failed: {title}, at {used} of its limit.")
+        if count > 1:
+            text = _("{failed} of {count} checks failed: {title}, at {used} of its limit.")
+        if len(failed) > 1:
+            text = _("{failed} of {count} checks failed; worst: {title}, at {used} of its limit.")
+    else:
+        text = _("the only check passed: {title}, at {used} of its limit.")
+        if count > 1:
+            text = _("all {count} checks passed; closest: {title} ({used}).")
+    used = share(float(worst.utilisation))
+    return say(text, failed=len(failed), count=count, title=worst.title, used=used)
+
+
+def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> Iterator[Table]:
+    if result.binding:
+        yield verdict_table(result.binding, sources=sources)
+    if result.remedies:
+        yield remedy_table(drive, result)
+    told = [one for one in result.advice if sources or one.state != "passed"]
+    if told:
+        yield verdict_table(told, _("Advice: rules of thumb, they fail no drive"), sources=sources)
+    lacks = [one for one in result.verdicts if one.missing]
+    if lacks:
+        yield missing_table(lacks, "brief" if missing or not result.binding else "full")
+    yield verdict_records(result.verdicts, "verdicts")
+
+
+def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Table:
+    """Return the smallest changes of single keys that make failed verdicts pass, those that help most first.
+
+    Parameters
+    ----------
+    drive : Drive
+    result : Checked
+    helpful : bool
+        Only those that help most, with a word on what has no remedy.
+    """
+    found = result.remedies
+    best = list(most_helpful(found))
+    shown = best if helpful else [*best, *_others(found, best)]
+    counted = any("[" in one.path for one in shown)
+    notes = [_("Keys count from 0: joints[0] is joint 1, shafts[0] is shaft 1.")] if counted else []
+    if 0 < len(best) < len(shown):
+        text = plural("The first change helps most.", "The first {count} changes together help most.", len(best))
+        notes.insert(0, text.format(count=len(best)))
+    if helpful:
+        notes.extend(_unremedied(result))
+    return Table(
+        title=_("Changes that help most") if helpful else _("Corrective changes (one parameter each)"),
+        columns=(
+            Column(key="", heading=_("key to change"), values=[one.path for one in shown], left=True),
+            Column(
+                key="",
+                heading=_("what"),
+                values=[in_words(bare_path(drive, one.path)) for one in shown],
+                left=True,
+                depth="full",
+            ),
+            Column(key="", heading=_("now"), values=[typed(one.now) for one in shown]),
+            Column(key="", heading=_("to"), values=[typed(one.value) for one in shown]),
+            Column(key="", heading=_("then passes"), values=[_effect(one) for one in shown], left=True, wrap=True),
+        ),
+        note=" ".join(notes),
+    )
+
+
+def _others(found: Sequence[Cure], best: Sequence[Cure]) -> Iterator[Cure]:
+    """Yield the remedies beside the best: each change once, so many of each verdict, none outdone by another."""
+    told: dict[str, int] = {}
+    seen = {(one.path, one.value) for one in best}
+    for one in found:
+        if (one.path, one.value) in seen or any(_outdone(one, other) for other in found):
+            continue
+        seen.add((one.path, one.value))
+        told[one.title] = told.get(one.title, 0) + 1
+        if told[one.title] <= REMEDIES:
+            yield one
+
+
+def _outdone(one: Cure, other: Cure) -> bool:
+    """Tell whether hardly more of the same change makes more verdicts pass."""
+    if one.path != other.path or other.change > NEAR * one.change or len(other.breaks) > len(one.breaks):
+        return False
+    return {one.title, *one.solves} < {other.title, *other.solves}
+
+
+def _effect(one: Cure) -> Cell:
+    """Return what passes with a change, and what fails then."""
+    others = [title for title in one.solves if title != one.title]
+    text = one.title
+    if others:
+        more = plural("{title} and {count} other", "{title} and {count} others", len(others))
+        text = more.format(title=one.title, count=len(others))
+    if one.note:
+        text += f" ({one.note})"
+    if one.breaks:
+        text += _("; then fails: {titles}").format(titles=", ".join(one.breaks))
+    return Cell(value=text, tone="warning" if one.breaks else "plain")
+
+
+def urgent(result: Checked) -> tuple[list[KeyFigure], int]:
+    """Return the verdicts of the first page: what fails or is close, then the nearest; and how many are left out."""
+    groups = alike(result.binding)
+    first = [group for group in groups if group[0].state != "passed"]
+    passed = [group for group in groups if group[0].state == "passed"]
+    shown = [*first, *passed][: max(URGENT, len(first))]
+    return [verdict_key(group) for group in shown], len(result.binding) - sum(map(len, shown))
+
+
+def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remark]:
+    yield from (Remark(text=text, tone="failed") for text in _unremedied(result))
+    if result.failed:
+        yield Remark(text=sentence(result.verdicts), tone="failed", alarm=True, depth="data")
+    for why in dict.fromkeys(one.unfit for one in result.verdicts if one.unfit):
+        titles = "; ".join(map(title_of, _alike_unfit([one for one in result.verdicts if one.unfit == why])))
+        yield Remark(text=_("Not run ({why}): {titles}.").format(why=why, titles=titles))
+    kept = sum(one.state == "passed" for one in result.advice)
+    if kept and not sources:
+        text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)
+        yield Remark(text=text.format(count=kept))
+    lacks = sum(bool(one.missing) for one in result.verdicts)
+    if lacks and result.binding and not missing:
+        text = plural("One check not run; which key it needs:", "{count} checks not run; which keys they need:", lacks)
+        command = ("cardan", "check", FILE, "--missing")
+        yield Remark(text=text.format(count=lacks), command=command, tone="next")
+    if result.binding and not sources:
+        command = ("cardan", "check", FILE, "--sources")
+        yield Remark(text=_("All of them, with where the limits come from:"), command=command, tone="next")
+
+
+def _unremedied(result: Checked) -> Iterator[str]:
+    """Yield what fails and has no remedy."""
+    remedied = {one.title for one in result.remedies}
+    text = _("Failed, and no single parameter remedies it: {title}.")
+    yield from (text.format(title=one.title) for one in result.failed if one.title not in remedied)
+
+
+def _alike_unfit(verdicts: Sequence[Verdict]) -> list[list[Verdict]]:
+    """Return verdicts in groups that differ in the number of a joint or shaft alone."""
+    groups: dict[tuple[str, str], list[Verdict]] = {}
+    for one in verdicts:
+        groups.setdefault((one.check, one.kind), []).append(one)
+    return list(groups.values())
+
+
+def answer_of_list() -> Answer:
+    """Return all checks there are."""
+    names, judges = list(CHECKS), [_(one.doc) for one in CHECKS.values()]
+    return Answer(
+        name="checks",
+        title=_("Checks"),
+        sentence=_("{count} checks; each runs where the drive file says enough.").format(count=len(CHECKS)),
+        tables=[
+            Table(
+                name="checks",
+                records=True,
+                columns=(
+                    Column(key="name", heading=_("check"), values=names, left=True),
+                    Column(key="judges", heading=_("judges"), values=judges, left=True, wrap=True),
+                ),
+            )
+        ],
+    )

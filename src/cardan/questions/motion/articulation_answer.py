@@ -1,0 +1,351 @@
+"""What there is to say of a drive that moves: its worst instants, joint angles, sliding shafts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.figures.palette import colour
+from cardan.figures.palette import shaft as shaft_role
+from cardan.texts import _
+from cardan.units import deg, mm
+
+from .articulation import Articulation, Worst
+from .articulation import articulation as ask
+from .equivalence import SPECK, SYNCHRONOUS
+from .figures.articulation import articulation_figures
+from .instants import Position
+from .length import LengthCompensation
+
+__all__ = ["answer", "ask", "lacking"]
+
+KEYS = {
+    "bend": "joint_angle",
+    "irregularity": "speed_fluctuation",
+    "moving_irregularity": "moving_speed_fluctuation",
+}
+"""What a worst instant is called for programs, where that is not its name in Python."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for its movement."""
+    return absent((bool(drive.movements), "movements"))
+
+
+def answer(drive: Drive, result: Articulation) -> Answer:
+    """Return what there is to say of a drive that moves."""
+    failed = any(one.flags for one in result.splines) or not _turns(result)
+    return Answer(
+        name="articulation",
+        title=_("Articulation"),
+        sentence=_sentence(result),
+        tone="failed" if failed else "plain",
+        figures=lambda: articulation_figures(result),
+        tables=(
+            _joints(drive, result),
+            *((_shafts(drive, result),) if result.splines else ()),
+            _worst_instants(result),
+        ),
+        remarks=tuple(_remarks(drive, result)),
+        keys=tuple(_keys(drive, result)),
+        facts=_facts(drive, result),
+        full=lambda: _history(result),
+        code=1 if failed else 0,
+    )
+
+
+def _turns(found: Articulation) -> bool:
+    return bool((found.status < Position.IMPOSSIBLE).all())
+
+
+def _worst(found: Articulation, what: str) -> Worst | None:
+    return next((one for one in found.worst if one.what == what), None)
+
+
+def _time(value: float) -> Quantity:
+    return Quantity(float(value), "time", 3)
+
+
+def _sentence(found: Articulation) -> Say:
+    span = _time(found.times[-1] - found.times[0])
+    worst = _worst(found, "irregularity")
+    if worst is None:
+        return say(_("at no instant of {span} the drive can turn."), span=span)
+    if worst.value < SYNCHRONOUS:
+        return say(_("uniform in every position that it passes in {span}."), span=span)
+    return say(
+        _("over {span} the speed fluctuation is at most δ = {share}, at {time}."),
+        span=span,
+        share=Quantity(worst.value, "share"),
+        time=_time(worst.time),
+    )
+
+
+def _joints(drive: Drive, found: Articulation) -> Table:
+    low, high = found.envelope["bend"]
+    when = {one.number: one.time for one in found.worst if one.what == "bend"}
+    return Table(
+        name="joints",
+        records=True,
+        columns=(
+            *heads(_("joint"), [joint.name for joint in drive.joints]),
+            Column(key="joint_angle_min", heading=_("least joint angle"), values=low, dimension="angle", decimals=2),
+            Column(
+                key="joint_angle_max", heading=_("greatest joint angle"), values=high, dimension="angle", decimals=2
+            ),
+            Column(
+                key="time",
+                heading=_("at"),
+                values=[when.get(k) for k in range(1, len(drive.joints) + 1)],
+                dimension="time",
+                decimals=3,
+            ),
+        ),
+    )
+
+
+def _shafts(drive: Drive, found: Articulation) -> Table:
+    ones = found.splines
+    names = [drive.shafts[one.shaft - 1].name for one in ones]
+    short = {
+        name: [any(flag.field.endswith(name) for flag in one.flags) for one in ones] for name in ("engaged", "gap")
+    }
+
+    def limited(values: list[float | None], name: str) -> list[Cell]:
+        return [
+            Cell(value=one, tone="failed" if bad else "plain") for one, bad in zip(values, short[name], strict=True)
+        ]
+
+    def length(key: str, heading: str, values: Any) -> Column:
+        return Column(key=key, heading=heading, values=values, dimension="length", decimals=1)
+
+    note = _("Over the {span} looked at; engaged length and gap are the least.")
+    if drive.poses:
+        note = f"{note} {_('The movement starts from the drive as drawn; its poses are judged with the limits.')}"
+    return Table(
+        title=_("Sliding shafts"),
+        columns=(
+            Column(
+                key="shaft",
+                heading=_("shaft"),
+                values=[
+                    Cell(value=f"{one.shaft} {name}".strip(), chip=colour(shaft_role(one.shaft)))
+                    for one, name in zip(ones, names, strict=True)
+                ],
+                left=True,
+            ),
+            length("length_min", _("shortest"), [one.length_min for one in ones]),
+            length("length_max", _("longest"), [one.length_max for one in ones]),
+            length("stroke", _("stroke"), [one.stroke for one in ones]),
+            Column(
+                key="max_sliding_speed",
+                heading=_("sliding"),
+                values=[one.max_rate for one in ones],
+                dimension="speed",
+                unit="mm_s",
+            ),
+            Column(
+                key="max_acceleration",
+                heading=_("acceleration"),
+                values=[one.max_acceleration for one in ones],
+                dimension="acceleration",
+                digits=3,
+                depth="full",
+            ),
+            Column(
+                key="slip_path",
+                heading=_("slip path, back and forth"),
+                values=[one.slip_path for one in ones],
+                dimension="length",
+                decimals=1,
+                depth="full",
+            ),
+            length("engaged_min", _("engaged"), limited([one.engaged_min for one in ones], "engaged")),
+            length("gap_min", _("gap"), limited([one.gap_min for one in ones], "gap")),
+            Column(key="limits", heading=_("limits"), values=[_state(drive, one) for one in ones], left=True),
+        ),
+        note=say(note, span=_time(np.ptp(found.times))),
+    )
+
+
+def _state(drive: Drive, one: LengthCompensation) -> Cell:
+    if one.flags:
+        return Cell(value=_("failed"), tone="failed")
+    if drive.shafts[one.shaft - 1].spline:
+        return Cell(value=_("passed"), tone="good")
+    return Cell(value=_("no spline"))
+
+
+def _worst_instants(found: Articulation) -> Table:
+    names = {
+        "bend": _("angle of joint {number}"),
+        "irregularity": _("speed fluctuation of the output if it stopped there"),
+        "moving_irregularity": _("speed fluctuation of the output while moving, peak to peak"),
+        "speed_error": _("speed error of the output"),
+        "acceleration": _("acceleration of the output"),
+        "length_max": _("longest shaft {number}"),
+        "length_min": _("shortest shaft {number}"),
+    }
+    return Table(
+        title=_("Worst instants"),
+        depth="full",
+        columns=(
+            Column(
+                key="what",
+                heading=_("what"),
+                values=[names.get(one.what, one.what).format(number=one.number) for one in found.worst],
+                left=True,
+            ),
+            Column(key="value", heading=_("value"), values=[_value(one) for one in found.worst]),
+            Column(key="time", heading=_("at"), values=[one.time for one in found.worst], dimension="time", digits=3),
+        ),
+    )
+
+
+def _value(one: Worst) -> Quantity:
+    if one.what == "bend":
+        return Quantity(one.value, "angle", decimals=2)
+    if one.what.startswith("length"):
+        return Quantity(one.value, "length", decimals=1)
+    if one.what == "acceleration":
+        return Quantity(one.value, "angular_acceleration")
+    return Quantity(one.value, "share", 3)
+
+
+def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
+    failed = [flag.message for one in found.splines for flag in one.flags]
+    for what in found.warnings:
+        bad = what in failed or not _turns(found)
+        tone: Tone = "failed" if bad else "warning"
+        yield Remark(text=say(_("Failed: {what}.") if bad else _("Warning: {what}."), what=what), tone=tone)
+    moving, frozen = _worst(found, "moving_irregularity"), _worst(found, "irregularity")
+    if moving is not None and frozen is not None:
+        text = _("Including the articulation rate: δ = {share} peak to peak, at {time}.")
+        if moving.value < SYNCHRONOUS:
+            text = _("Including the articulation rate, the output stays uniform.")
+        yield Remark(text=say(text, share=Quantity(moving.value, "share"), time=_time(moving.time)))
+    elif found.speed is None:
+        yield Remark(text=_("δ is that of the drive standing still at each instant."))
+        yield Remark(text=_("--speed-rpm includes the articulation rate, too."), tone="next")
+    if len(drive.joints) > 1 and frozen is not None and frozen.value > SPECK:
+        text = _("Put the worst positions into the file as [[poses]], then find yoke angles for all of them:")
+        if drive.poses:
+            text = _("Find the yoke angles that suit all poses:")
+        yield Remark(text=text, command=("cardan", "phasing", FILE), tone="next")
+
+
+def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
+    places = {
+        "irregularity": _("if it stopped there, at {time}"),
+        "moving_irregularity": _("while moving, at {time}"),
+    }
+    for one in found.worst:
+        if one.what in places:
+            yield KeyFigure(
+                name=KEYS[one.what],
+                title=_("largest speed fluctuation δ over the movement"),
+                place=say(places[one.what], time=_time(one.time)),
+                value=Quantity(one.value, "share"),
+            )
+    overlap = drive.limits.spline_overlap
+    for spline in found.splines:
+        short = {flag.field.rpartition(".")[2] for flag in spline.flags}
+        for field, title, left, limit in (
+            ("engaged", _("shortest engaged length of the spline of shaft {k}"), spline.engaged_min, overlap),
+            ("gap", _("least way left to bottoming of shaft {k}"), spline.gap_min, None),
+        ):
+            if left is not None:
+                bad = field in short
+                yield KeyFigure(
+                    name=f"{field}_{spline.shaft}",
+                    title=say(title, k=spline.shaft),
+                    value=Quantity(left, "length", decimals=1),
+                    limit=None if limit is None else Quantity(limit, "length", trim=True),
+                    better="more",
+                    verdict=_("too little") if bad else _("passed"),
+                    tone="failed" if bad else "good",
+                )
+
+
+def _history(found: Articulation) -> Table:
+    n = found.bend.shape[1]
+
+    def column(key: str, values: Any, dimension: str = "", unit: str = "") -> Column:
+        return Column(key=key, values=values, dimension=dimension, unit=unit)
+
+    columns = [column("time", found.times, "time"), column("status", found.status)]
+    columns += [column(f"joint_{k + 1}_joint_angle", found.bend[:, k], "angle") for k in range(n)]
+    columns += [column(f"joint_{k + 2}_plane_twist", found.plane_twist[:, k], "angle") for k in range(n - 1)]
+    for k in range(1, n):
+        name = f"shaft_{k + 1}"
+        columns += [
+            column(f"{name}_length", found.length[:, k], "length"),
+            column(f"{name}_sliding", found.length_rate[:, k], "speed", "mm_s"),
+            column(f"{name}_sliding_acceleration", found.length_acceleration[:, k], "acceleration", "mm_s2"),
+        ]
+    columns += [column(f"shaft_{k + 2}_speed_fluctuation", found.shaft_irregularity[:, k], "share") for k in range(n)]
+    if found.speed_low is not None and found.speed_high is not None:
+        columns += [column("moving_speed_fluctuation", found.moving_irregularity, "share")]
+        for k in range(1, n + 1):
+            columns += [
+                column(f"shaft_{k + 1}_speed_min", found.speed_low[:, k], "angular_speed"),
+                column(f"shaft_{k + 1}_speed_max", found.speed_high[:, k], "angular_speed"),
+            ]
+    return Table(name="history", columns=columns)
+
+
+def _facts(drive: Drive, found: Articulation) -> dict[str, Any]:
+    scales = {"bend": ("deg", deg), "length_min": ("mm", mm), "length_max": ("mm", mm)}
+    units = [scales.get(one.what, ("", 1.0)) for one in found.worst]
+    return {
+        "speed": Quantity(found.speed, "angular_speed"),
+        "passed": not any(one.flags for one in found.splines) and _turns(found),
+        "worst": [
+            {
+                "what": KEYS.get(one.what, one.what),
+                "number": one.number,
+                "time": Quantity(one.time, "time"),
+                "value": one.value / scale,
+                "unit": unit,
+            }
+            for one, (unit, scale) in zip(found.worst, units, strict=True)
+        ],
+        "splines": [_spline(drive, one) for one in found.splines],
+        "warnings": list(found.warnings),
+        "assumed": list(found.assumed),
+    }
+
+
+def _spline(drive: Drive, one: LengthCompensation) -> dict[str, Any]:
+    def length(value: float | None) -> Quantity:
+        return Quantity(value, "length")
+
+    return {
+        "number": one.shaft,
+        "name": drive.shafts[one.shaft - 1].name,
+        "length_min": length(one.length_min),
+        "length_max": length(one.length_max),
+        "stroke": length(one.stroke),
+        "max_sliding_speed": Quantity(one.max_rate, "speed", unit="mm_s"),
+        "engaged_min": length(one.engaged_min),
+        "gap_min": length(one.gap_min),
+        "slip_path": length(one.slip_path),
+        "passed": not one.flags,
+        "flags": [
+            {
+                "field": flag.field,
+                "message": flag.message,
+                "time": Quantity(flag.time, "time"),
+                "value": length(flag.value),
+                "limit": length(flag.limit),
+                "spans": [Quantity(list(span), "time") for span in flag.spans],
+            }
+            for flag in one.flags
+        ],
+    }

@@ -1,0 +1,123 @@
+"""What is said of the strength of a drive: the numbers of the analysis, for any reader, and what they leave out."""
+
+from dataclasses import replace
+
+import pytest
+
+from cardan.answers.data import data
+from cardan.answers.numbers import significant
+from cardan.answers.printed import printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.checks.strength.answer import answer, ask, lacking, otherwise
+from cardan.checks.strength.strength import strength
+from cardan.drive.duty import Duty
+from cardan.io import example
+from cardan.questions.forces.forces import forces
+from cardan.questions.torsion.steady.run_stability import Verdict
+from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.report.page import page
+from cardan.texts import speaking
+
+POUNDS = Reader(units={"torque": "lbft", "stress": "psi"}, decimal=",")
+LBFT = 1.3558179483314004
+"""1 lbf·ft [N·m]."""
+
+
+def of(drive):
+    return answer(drive, ask(drive))
+
+
+def alarms(drive):
+    return [one for one in of(drive).remarks if one.alarm]
+
+
+def test_the_torque_rating_and_what_governs_it_stand_first():
+    drive = example("car-propshaft")
+    said, found = of(drive), strength(drive)
+    title = found.governing.title
+    rated = significant(found.rated_torque)
+    assert told(said.sentence, USUAL) == f"carries 560.0 N·m; torque rating {rated} N·m, governed by {title}."
+    (key,) = said.keys
+    assert (key.value.value, key.limit.value, key.better) == (found.rated_torque, found.torque, "more")
+    assert key.utilisation == pytest.approx(1.0 / found.torque_factor)
+    assert [block.name for block in [page(said, USUAL)]] == ["strength"]
+
+
+def test_every_limit_is_told_in_the_units_of_the_reader():
+    drive = example("car-propshaft")
+    said, found = data(of(drive), POUNDS), strength(drive)
+    assert said["rated_torque_lbft"] == pytest.approx(found.rated_torque / LBFT)
+    rows = {row["title"]: row for row in said["limits"]}
+    core = next(one for one in found.judged if "core" in one.title)
+    assert rows[core.title]["unit"] == "psi"
+    assert rows[core.title]["value"] == pytest.approx(float(core.value) / 6894.757293168361)
+    assert rows[core.title]["limit_torque_lbft"] == pytest.approx(found.torque * core.torque_factor / LBFT)
+    shown = printed(of(drive).tables[0], POUNDS)
+    assert [column.unit for column in shown.columns if column.heading == "limit torque"] == ["lbf·ft"]
+    assert any(cell.text == "≤ 23\u202f689 psi" for row in shown.rows for cell in row)
+
+
+def test_the_verdicts_speak_the_language_of_the_reader():
+    with speaking("ru"):
+        titles = [one.title for one in strength(example("car-propshaft")).judged]
+    assert any("вала 2" in title for title in titles)
+
+
+def test_a_weak_drive_is_an_alarm_and_says_what_to_size():
+    drive = example("car-propshaft")
+    weak = replace(drive, duty=Duty(torque=50 * drive.duty.torque, speed=100.0))
+    said = of(weak)
+    assert told(said.sentence, USUAL).startswith("too weak for ")
+    assert said.code == 1
+    assert [one.tone for one in said.remarks if one.alarm] == ["failed"]
+
+
+def test_torsional_vibration_is_named_beside_the_torques_without_it():
+    drive = example("cured-drive")
+    runs, (said,) = torsion_response(drive), alarms(drive)
+    assert runs.floquet.verdict == Verdict.STABLE
+    assert f"{significant(float(runs.torque_highest.max()), 3)} N·m" in told(said.text, USUAL)
+    assert said.tone == "warning"  # 243 N·m, and the weakest part holds 818
+    weak = replace(drive, limits=replace(drive.limits, twist=0.02))
+    assert [one.tone for one in alarms(weak)] == ["failed"]
+    assert alarms(example("car-propshaft")) == []
+
+
+def test_no_torque_is_told_of_torsional_vibration_that_is_unstable():
+    drive = example("unstable-drive")
+    (said,) = alarms(drive)
+    assert torsion_response(drive).floquet.verdict == Verdict.UNSTABLE
+    assert "unstable" in told(said.text, USUAL)
+    assert "N·m" not in told(said.text, USUAL)
+    assert said.tone == "failed"
+
+
+@pytest.mark.parametrize("name", ["truck-supports", "propshaft-with-rzeppa"])
+def test_a_drive_that_carries_no_torque_is_not_rated(name):
+    drive = example(name)
+    assert of(drive).keys
+    assert ask(replace(drive, duty=replace(drive.duty, torque=0.0))) is None
+
+
+def test_loads_that_the_stresses_leave_out_are_told():
+    drive = example("truck-supports")
+    said = [told(one.text, USUAL) for one in of(drive).remarks]
+    journal = max(float(one.journals.size.max()) for one in (forces(drive), forces(drive).reverse))
+    assert any(f"{significant(journal)} N, 5.3 % more" in one for one in said)
+
+
+def test_what_the_drive_file_lacks_is_told():
+    drive = example("single-20deg")
+    assert lacking(replace(drive, duty=replace(drive.duty, torque=None, blocks=())))
+    bare = replace(drive, duty=replace(drive.duty, torque=10.0))
+    assert ask(bare) is None
+    assert "joints[0].cross.span_mm" in otherwise(bare)
+
+
+def test_a_limit_that_governs_without_the_highest_utilisation_is_explained():
+    drive = example("pto-drive")
+    found = strength(drive)
+    assert found.governing.utilisation < found.utilisation
+    assert any("a life falls with the power 10/3" in told(one.text, USUAL) for one in of(drive).remarks)
+    assert not any("a life falls" in told(one.text, USUAL) for one in of(example("car-propshaft")).remarks)

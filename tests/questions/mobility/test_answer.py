@@ -1,0 +1,101 @@
+"""What is said of mobility: the numbers of the analysis, in the trade's words, for drives and mechanisms."""
+
+from dataclasses import replace
+
+import pytest
+
+from cardan import example_mechanism
+from cardan.answers.data import data
+from cardan.answers.printed import printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.drive.drive import Drive
+from cardan.io import example
+from cardan.questions.mobility.answer import answer, ask, lacking, otherwise, turned
+from cardan.questions.mobility.mobility import mobility
+from cardan.texts import speaking
+
+INCHES = Reader(units={"length": "in", "force": "lbf"}, decimal=",")
+PUMP = example("overconstrained-pump")
+
+
+def texts(said):
+    return [told(one.text, USUAL) for one in said.remarks]
+
+
+@pytest.mark.parametrize(
+    ("thing", "sentence", "tone"),
+    [
+        (PUMP, "mobility 1, 3 redundant constraints (overconstrained): part errors cause internal loads.", "warning"),
+        (
+            example("truck-supports"),
+            "mobility 1, no redundant constraints: part errors cause no internal loads.",
+            "good",
+        ),
+        (example("truck-duty-cycle"), "mobility 11, underconstrained; no redundant constraints.", "warning"),
+        (
+            example_mechanism("maize-drive"),
+            "mobility 1, 1 redundant constraint (overconstrained): part errors cause internal loads.",
+            "warning",
+        ),
+    ],
+    ids=["pump", "truck", "loose", "maize"],
+)
+def test_the_sentence_tells_mobility_and_redundant_constraints(thing, sentence, tone):
+    said = answer(thing, mobility(thing))
+    assert (told(said.sentence, USUAL), said.tone) == (sentence, tone)
+
+
+def test_the_methods_are_named_by_their_names():
+    said = answer(PUMP, mobility(PUMP))
+    rows = [[cell.text for cell in row] for row in printed(said.tables[-1], USUAL).rows]
+    assert rows == [
+        ["Grübler count", "−2", "–"],
+        ["graph of the joints", "1", "3"],
+        ["rank of the constraints", "1", "3"],
+    ]
+    assert [(one.name, one.value.value) for one in said.keys] == [("redundant_constraints", 3.0)]
+
+
+def test_remedies_name_the_keys_of_the_file():
+    said = texts(answer(PUMP, mobility(PUMP)))
+    (first,) = [text for text in said if text.startswith("Remedy: ")]
+    assert first.startswith("Remedy: omit support 3 (pump, near); let the bearing of shaft 2, support 4 (pump, far),")
+    assert first.endswith("(supports[2] omitted and supports[3].axial = false).")
+
+
+def test_readers_are_told_in_their_units_and_language():
+    found = mobility(PUMP)
+    said = data(answer(PUMP, found), INCHES)
+    assert said["misalignment_in"] == pytest.approx(found.misfit / 0.0254)
+    assert said["remedies"][0]["redundant_after"] == 0
+    warning = next(one["text"] for one in said["remarks"] if "do not fit" in one["text"])
+    assert "0,00175 in have to be forced into place" in warning
+    with speaking("ru"):
+        assert printed(answer(PUMP, found).tables[0], USUAL).columns[0].heading == "шарнир"
+
+
+def test_a_turn_that_locks_fails_and_says_by_how_much():
+    thing = example_mechanism("maize-drive-offset")
+    said = answer(thing, mobility(thing), turned(thing))
+    assert said.tone == "failed"
+    assert [one.name for one in said.figures()] == ["mechanism", "mobility-turn", "closure"]
+    (failed,) = [text for text in texts(said) if text.startswith("Failed: ")]
+    assert "at 180° its loops miss each other by 8.41 mm and 0.225°" in failed
+
+
+def test_a_turn_that_closes_has_constant_mobility():
+    thing = example_mechanism("maize-drive-cured")
+    said = answer(thing, mobility(thing), turned(thing))
+    assert "It turns through 360° with constant mobility." in texts(said)
+    assert data(said, USUAL)["turn"]["turns_through"] is True
+
+
+def test_a_file_that_leaves_bearings_out_says_nothing():
+    bare = example("truck-duty-cycle")
+    assert ask(bare) is None
+    assert "leaves bearings out" in otherwise(bare)
+    assert ask(PUMP).redundant == 3
+    assert lacking(PUMP) == ()
+    assert lacking(Drive.from_angles([0.3])) == (("supports",),)
+    assert lacking(replace(PUMP, supports=())) == (("supports",),)
