@@ -74,7 +74,7 @@ class Clemens(Joint):
         return touching(stance)
 
     def solid(self, site: Site) -> None:
-        """Add its hubs and its hinged arms, which meet in the plane that halves the bend."""
+        """Add its hubs and its hinged arms, which meet in the bisecting plane."""
         stance, radius = site.stance, site.size.radius
         tan = np.tan(0.5 * stance.bend)
         marks, axes = (stance.driving, stance.driven), (stance.before, stance.after)

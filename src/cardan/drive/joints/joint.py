@@ -17,7 +17,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``fixed``            no: it may pass on forces besides a couple
 ``twist_spring``     none: it does not give under torque
 ``inside``           nothing else moves in it
-``inner``            pins of a cross, a slide or two axes in the plane that halves the bend, as the marks above say
+``inner``            pins of a cross, a slide or two axes in the bisecting plane, as the marks above say
 ``shaft_behind``     the driven shaft turns about its axis and does not wobble
 ``solid``            yokes with a cross, else a bell with balls
 ``span``             from its cross or its rating

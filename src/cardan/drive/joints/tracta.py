@@ -64,5 +64,5 @@ class Tracta(Joint):
         inner = 0.96 * (size.radius - 0.5 * size.ear)
         halves = (placed(ball(inner, 22, 0.06, 1.0), None), placed(ball(inner, 22, -1.0, -0.06), None))
         tongue = plate(circle(0.86 * inner, 24), -0.3 * inner, 0.3 * inner)
-        text = site.said(_("tongue of {joint}, in the plane that halves the bend"))
+        text = site.said(_("tongue of {joint}, in the bisecting plane"))
         site.add("tongue", text, own, *halves, placed(tongue, ACROSS), shade=0.2)

@@ -82,7 +82,7 @@ def yokes_and_cross(site: Site, *, offset: float = 0.0, text: str = "") -> None:
 
 
 def bell_and_balls(site: Site, *, count: int = BALLS, groove: float | None = None) -> None:
-    """Add bell, inner race, cage and balls, which run in the plane that halves the bend.
+    """Add bell, inner race, cage and balls, which run in the bisecting plane.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def bell_and_balls(site: Site, *, count: int = BALLS, groove: float | None = Non
     stance = site.stance
     theta, middle = stance.theta, stance.middle
     cage = site.along(stance.centre, middle, stance.halving(theta))
-    site.add("cage", site.said(_("cage of {joint}, in the plane that halves the bend")), cage, _cage(groove), shade=0.1)
+    site.add("cage", site.said(_("cage of {joint}, in the bisecting plane")), cage, _cage(groove), shade=0.1)
     for j in range(count):
         own = across_halving(site, theta + j * 2.0 * np.pi / count)
         shape = placed(ball(bead, 14), None, (groove, 0.0, 0.0))
@@ -108,7 +108,7 @@ def bell_and_balls(site: Site, *, count: int = BALLS, groove: float | None = Non
 
 
 def across_halving(site: Site, turn: Array) -> int:
-    """Add a track in the plane that halves the bend: its x out to the meridian at an angle (p,) [rad]."""
+    """Add a track in the bisecting plane: its x out to the meridian at an angle (p,) [rad]."""
     way = site.stance.halving(turn)
     return site.along(site.stance.centre, way, frames.cross(np.broadcast_to(site.stance.middle, way.shape), way))
 
