@@ -24,8 +24,16 @@ QUESTIONS: dict[str, Question] = {
             help=mark("How every shaft turns: angle, speed ratio, acceleration."),
         ),
         Question(
+            name="classical",
+            module="cardan.book.answer",
+            title=mark("Classical approximations"),
+            group=MOTION,
+            help=mark("How near the series of the handbooks and the rule of practice come to the exact motion."),
+            command="calc book_comparison",
+        ),
+        Question(
             name="articulation",
-            module="cardan.questions.articulation.answer",
+            module="cardan.questions.motion.articulation_answer",
             title=mark("Articulation"),
             group=MOTION,
             help=mark("What happens while the drive moves: worst positions, spline travel."),
@@ -43,7 +51,9 @@ QUESTIONS: dict[str, Question] = {
             module="cardan.questions.accuracy.answer",
             title=mark("Accuracy"),
             group=MOTION,
-            help=mark("What machining tolerances do to the output, and the cheapest ones for a target."),
+            help=mark(
+                "What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."
+            ),
         ),
         Question(
             name="forces",

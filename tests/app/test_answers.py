@@ -99,7 +99,7 @@ def test_curves_drawn_at_once_stand_where_their_values_are(page):
 
 
 def test_a_setting_is_applied_with_one_touch(page):
-    page.click(mark("tab-phases"))
+    page.click(mark("tab-phasing"))
     sheet = page.locator(SHEET)
     sheet.locator("button[data-do='A']").wait_for()
     assert "can make the drive exactly synchronous" in said(page).inner_text()

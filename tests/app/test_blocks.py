@@ -100,10 +100,11 @@ def test_the_unit_stands_in_the_heading_and_words_to_the_left():
 
 
 def test_buttons_stand_in_the_first_table_that_has_them_alone():
-    page = answered("phases", subject(example("truck-power-unit")))
+    page = answered("phasing", subject(example("truck-power-unit")))
     given = _placed(page.blocks, {"A": "apply"})
-    assert [block.title for block, some in zip(page.blocks, given, strict=True) if some] == ["Settings to choose from"]
-    buttons = [a for tag, a in Checked(table_html(page.blocks[2], {"A": "apply"})).tags if tag == "button"]
+    (table,) = [block for block, some in zip(page.blocks, given, strict=True) if some]
+    assert table.title == "Yoke angles γ, and the speed fluctuation δ that they leave"
+    buttons = [a for tag, a in Checked(table_html(table, {"A": "apply"})).tags if tag == "button"]
     assert [one["data-do"] for one in buttons] == ["A"]
 
 

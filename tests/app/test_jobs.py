@@ -85,7 +85,7 @@ def test_an_answer_comes_in_the_language_of_the_question_and_is_that_made_here()
 
 def test_questions_are_the_same_when_all_that_matters_is():
     assert about("motion").key == about("motion", Drive.from_angles([0.3, 0.3])).key
-    others = [about("phases"), about("motion", language="ru"), about("motion", joint=2)]
+    others = [about("phasing"), about("motion", language="ru"), about("motion", joint=2)]
     others.append(about("motion", Drive.from_angles([0.3, 0.31])))
     assert len({one.key for one in (about("motion"), *others)}) == 5
 

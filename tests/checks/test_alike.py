@@ -8,7 +8,9 @@ from cardan.checks.verdict import Verdict
 
 def verdict(number: int, value: float) -> Verdict:
     subject = f"shafts[{number - 1}]"
-    return Verdict(check="length", title=f"length of shaft {number}", subject=subject, value=value, limit=1500.0)
+    kind = "length of shaft {number}"
+    title = kind.format(number=number)
+    return Verdict(check="length", kind=kind, title=title, subject=subject, value=value, limit=1500.0)
 
 
 def test_the_one_that_uses_most_stands_for_the_others():

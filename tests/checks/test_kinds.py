@@ -119,7 +119,7 @@ def test_strength_counts_what_other_kinds_put_on_shafts():
     found = strength(DRIVE)
     loads = turn_loads(turning(given_chain(DRIVE), DRIVE.joints), 500.0)
     assert found.shafts[1].bending == pytest.approx(max(loads.driven[0], loads.driving[1]))
-    assert not any("joints[1].cross" in path for use in found.uses for path in use.missing)
+    assert not any("joints[1].cross" in path for use in found.verdicts for path in use.missing)
 
 
 def test_a_straight_joint_of_any_kind_bends_nothing():

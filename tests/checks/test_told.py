@@ -42,7 +42,7 @@ def test_no_rule_allows_more_than_a_joint_can_bend(name):
     drive = Drive.from_angles([0.02, 0.02], yoke_angles=[0.0])
     slow, quick = (check(drive, Duty(speed=speed * rpm), only=[name])[0] for speed in (10.0, 3000.0))
     assert float(slow.limit) == pytest.approx(45 * deg)
-    assert "bend no further" in slow.note
+    assert "reach no larger angle" in slow.note
     assert float(quick.limit) < 30 * deg
     assert not quick.note
 

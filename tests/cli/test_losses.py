@@ -1,4 +1,4 @@
-"""cardan losses: what turns to heat, what was left out, and the map over speed and torque."""
+"""cardan losses: where power is lost, what was left out, and the map over speed and torque."""
 
 import csv
 import io
@@ -29,18 +29,18 @@ def test_json_is_the_losses(cardan):
     said = cardan("losses", TRUCK, "--json").content
     found = losses(files.load(TRUCK))
     assert said["efficiency"] == found.efficiency
-    assert [row["heat_W"] for row in said["joints"]] == found.joints.tolist()
-    assert [row["heat_W"] for row in said["supports"]] == found.supports.tolist()
-    np.testing.assert_allclose(said["losses"]["joint_2_heat_W"], found.joint_power[1], rtol=1e-12)
+    assert [row["power_loss_W"] for row in said["joints"]] == found.joints.tolist()
+    assert [row["power_loss_W"] for row in said["supports"]] == found.supports.tolist()
+    np.testing.assert_allclose(said["losses"]["joint_2_power_loss_W"], found.joint_power[1], rtol=1e-12)
     assert said["not_counted"][0]["field"] == "movements"
 
 
-def test_the_parts_are_all_of_the_heat(cardan):
-    """What enters and does not leave is the heat of the parts: the balance of a drive at steady running."""
+def test_the_parts_are_all_of_the_loss(cardan):
+    """What enters and does not leave is the loss of the parts: the balance of a drive at steady running."""
     said = cardan("losses", TRUCK, "--json").content
-    parts = [row["heat_W"] for key in ("joints", "supports") for row in said[key]]
-    assert sum(parts) == pytest.approx(said["heat_W"], rel=1e-12)
-    assert said["input_power_W"] - said["output_power_W"] == pytest.approx(said["heat_W"], rel=1e-9)
+    parts = [row["power_loss_W"] for key in ("joints", "supports") for row in said[key]]
+    assert sum(parts) == pytest.approx(said["power_loss_W"], rel=1e-12)
+    assert said["input_power_W"] - said["output_power_W"] == pytest.approx(said["power_loss_W"], rel=1e-9)
     assert said["efficiency"] == pytest.approx(said["output_power_W"] / said["input_power_W"], rel=1e-12)
 
 
@@ -54,7 +54,7 @@ def test_the_map_is_that_of_the_library(cardan):
     table = list(csv.DictReader(io.StringIO(cardan("losses", TRUCK, "--map", "--csv").out)))
     found = loss_map(files.load(TRUCK))
     assert len(table) == found.heat.size
-    np.testing.assert_allclose([float(row["heat_W"]) for row in table], found.heat.ravel(), rtol=1e-12)
+    np.testing.assert_allclose([float(row["power_loss_W"]) for row in table], found.heat.ravel(), rtol=1e-12)
     assert float(table[-1]["speed_rpm"]) == pytest.approx(2700.0)
     assert float(table[-1]["torque_Nm"]) == pytest.approx(2400.0)
     said = cardan("losses", TRUCK, "--map", "--json").content["map"]
@@ -62,10 +62,10 @@ def test_the_map_is_that_of_the_library(cardan):
 
 
 def test_speed_and_torque_of_the_command_line_count(cardan):
-    """Twice the speed is twice the heat where nothing has inertia; coasting rubs as much."""
+    """Twice the speed is twice the loss where nothing has inertia; coasting rubs as much."""
     slow = cardan("losses", PTO, "--json").content
     fast = cardan("losses", PTO, "--speed-rpm", 1080, "--json").content
-    assert fast["heat_W"] == pytest.approx(2 * slow["heat_W"], rel=1e-9)
+    assert fast["power_loss_W"] == pytest.approx(2 * slow["power_loss_W"], rel=1e-9)
     back = cardan("losses", PTO, "--torque-Nm", -400, "--json").content
     assert back["torque_Nm"] == -400
     assert 0.9 < back["efficiency"] < 1.0
@@ -74,8 +74,8 @@ def test_speed_and_torque_of_the_command_line_count(cardan):
 
 def test_what_is_not_counted_is_told_in_one_line(cardan):
     out = plain(cardan("losses", PTO).out)
-    assert "some heat is not counted; the file lacks friction of supports 1 to 4." in out
-    assert "heat of splines is not counted: they slide while the drive moves, and [[movements]] tell how" in out
+    assert "some power loss is not counted; the file lacks friction of supports 1 to 4." in out
+    assert "the power loss of splines is not counted: they slide while the drive moves, as [[movements]] say" in out
 
 
 def test_a_joint_that_locks_fails(cardan, drive_file):
@@ -111,5 +111,5 @@ def test_a_map_around_no_torque_is_refused(cardan):
 
 @pytest.mark.parametrize("options", [(), ("--map",)], ids=["parts", "map"])
 def test_a_figure_is_drawn(cardan, tmp_path, options):
-    assert cardan("losses", TRUCK, *options, "--plot", "heat.svg").code == 0
-    assert (tmp_path / "heat.svg").stat().st_size > 1000
+    assert cardan("losses", TRUCK, *options, "--plot", "losses.svg").code == 0
+    assert (tmp_path / "losses.svg").stat().st_size > 1000

@@ -64,7 +64,7 @@ def test_json_csv_and_the_analysis_agree(cardan, tractor):
 
 def test_a_bend_that_no_joint_stands_is_warned_of(cardan, drive_file):
     path = drive_file(PTO + HITCH.replace("yaw_deg = 20", "yaw_deg = 100"))
-    assert "Warning: a joint bends" in plain(cardan("forces", path, "--movement", "all").out)
+    assert "Warning: a joint angle reaches" in plain(cardan("forces", path, "--movement", "all").out)
 
 
 @pytest.mark.parametrize(

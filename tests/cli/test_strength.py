@@ -91,7 +91,7 @@ def test_json_is_the_strength(cardan, winch):
     found = strength(files.load(winch))
     assert said["rated_torque_Nm"] == found.rated_torque
     assert said["utilisation"] == found.utilisation
-    assert [row["utilisation"] for row in said["limits"]] == [u.utilisation if u.judged else None for u in found.uses]
+    assert [row["utilisation"] for row in said["limits"]] == [u.utilisation if u.run else None for u in found.verdicts]
 
 
 def test_a_drive_that_is_too_weak_fails_and_says_what_to_size(cardan, winch):

@@ -12,12 +12,14 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
 from cardan import figures
+from cardan.answers.reader import USUAL
 from cardan.book.comparison import book_comparison
 from cardan.book.figures.comparison import book_figure
 from cardan.drive.drive import Drive
 from cardan.figures import palette
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Bars, Curve
+from cardan.figures.for_reader import for_reader
 from cardan.figures.page import laid_out
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
@@ -47,7 +49,7 @@ def every(drive: Drive) -> list[figures.Figure]:
     asked = [drive, motion(drive), equivalent_joint(drive), book_comparison(drive), phases(drive)]
     if drive.movements:
         asked.append(articulation(drive))
-    return [figure for result in asked for figure in figures.for_result(result)]
+    return [for_reader(figure, USUAL) for result in asked for figure in figures.for_result(result)]
 
 
 @pytest.mark.parametrize("name", DRIVES)
@@ -122,7 +124,7 @@ def test_ids_of_two_pictures_on_a_page_differ():
 
 def test_words_of_a_picture_keep_all_their_digits():
     value = 0.0123456
-    figure = figures.for_result(equivalent_joint(Drive.from_angles([value])))[-1]
+    figure = for_reader(figures.for_result(equivalent_joint(Drive.from_angles([value])))[-1], USUAL)
     shown = [text for panel in figure.panels for item in panel.series if isinstance(item, Bars) for text in item.texts]
     assert all(escape(text) in inline_svg(figure) for text in shown)
 
@@ -202,6 +204,7 @@ def test_a_layout_shows_bends_before_and_after():
     np.testing.assert_allclose(bars[0].size, np.degrees(found.bend_before))
     np.testing.assert_allclose(bars[1].size, np.degrees(found.bend))
     for figure in figures.for_result(found):
+        figure = for_reader(figure, USUAL)
         ElementTree.fromstring(inline_svg(figure))
 
 
@@ -254,10 +257,10 @@ def test_the_caption_stays_within_the_page_in_any_script(said: str) -> None:
 
 def test_orders_below_the_rounding_say_so_instead_of_vanishing():
     drive = Drive.from_angles([1 * deg, 1 * deg], yoke_angles=[90 * deg])
-    figure = orders_figure(equivalent_joint(drive))
+    figure = for_reader(orders_figure(equivalent_joint(drive)), USUAL)
     (drawn,) = (one for one in figure.panels[0].series if isinstance(one, Bars))
     assert drawn.at.tolist() == [2.0, 4.0, 6.0, 8.0]
-    assert [text == "< 10⁻⁹\u202f°" for text in drawn.texts] == [False, False, True, True]
+    assert [text == "< 1·10⁻⁹\u202f°" for text in drawn.texts] == [False, False, True, True]
     assert not any(re.search("[⁰¹²³⁴-⁹]°", text) for text in drawn.texts)
     assert np.all(drawn.ends >= figure.panels[0].y.low)
     assert np.all(drawn.size[2:] < figure.panels[0].y.low)

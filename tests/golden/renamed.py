@@ -6,12 +6,31 @@ none: ``life_h`` is found as ``life_s``. ``python -m tests.golden.check --sugges
 
 from __future__ import annotations
 
-COMMAND_LINES: tuple[tuple[str, str], ...] = ()
+COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 
 PATHS: tuple[tuple[str, str, str], ...] = (
     ("rotor", r"peak_rpm", "peak_at_rpm"),
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
+    ("losses", r"efficiency_small_bends", "efficiency_small_joint_angles"),
+    ("losses", r"(.*[._])?heat_W", r"\1power_loss_W"),
+    ("forces", r"(.*[._])heat(_mean)?_W", r"\1power_loss\2_W"),
+    ("forces", r"(shafts\.|.*\.shaft_\d+_)bending(.*)", r"\1secondary_couple\2"),
+    ("forces", r"joints\.bend_(.*)", r"joints.joint_angle_\1"),
+    ("motion", r"equivalent_bend_deg", "equivalent_joint_angle_deg"),
+    ("motion", r"irregularity", "speed_fluctuation_percent"),
+    ("motion", r"joints\.bend_deg", "joints.joint_angle_deg"),
+    ("motion", r"joints\.phase_angle_deg", "joints.initial_yoke_position_deg"),
+    ("motion", r"max_lead_deg", "angle_error_deg"),
+    ("motion", r"orders\.lead_deg", "orders.angle_error_deg"),
+    ("motion", r"shafts\.irregularity_percent", "shafts.speed_fluctuation_percent"),
+    ("motion", r"shafts\.max_lead_deg", "shafts.angle_error_deg"),
+    ("phases", r"equivalent_bend_(max|min)_deg", r"equivalent_joint_angle_\1_deg"),
+    ("phases", r"irregularity_as_built", "speed_fluctuation_as_specified_percent"),
+    ("phases", r"irregularity(_max|_min|)", r"speed_fluctuation\1_percent"),
+    ("phases", r"settings\.joint_phase_angle_deg", "settings.initial_yoke_position_deg"),
+    ("phases", r"settings\.(shaft_|pose_|)irregularity", r"settings.\1speed_fluctuation_percent"),
+    ("phases", r"(joints\.|)bend(_before|)_deg", r"\1joint_angle\2_deg"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):
 ``("life", r"joints\\.iso_h", "joints.rating_life_h")``. The first that fits counts."""

@@ -121,7 +121,7 @@ def test_the_command_line_tells_of_mixed_chains(kind: str, tmp_path, capsys) -> 
         (["life"], "bearing life"),
         (["assembly"], "forces from misfit"),
         (["forces"], "forces"),
-        (["phases"], "yoke angles"),
+        (["phasing"], "yoke angles"),
         (["torsion", "modes"], "torsional vibration"),
     ],
 )

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from cardan.answers.reader import USUAL
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
@@ -19,7 +20,7 @@ from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance
 from cardan.questions.forces.assembly import assembly
 from cardan.questions.forces.forces import forces
 from cardan.questions.forces.moving_forces import moving_forces
-from cardan.questions.losses.figure import watts
+from cardan.questions.losses.figure import power
 from cardan.questions.losses.losses import losses
 from cardan.report.assembly import straining
 from cardan.report.mobility import binding
@@ -70,8 +71,11 @@ def test_each_part_stands_only_where_the_file_asks_for_it(name):
 
 @pytest.mark.parametrize("name", WITH)
 def test_every_check_passes(name):
-    tables = re.findall(r"<h3>Checks</h3>(.*?)</table>", of_example(name), flags=re.DOTALL)
-    assert len(tables) == len(WITH[name])  # each part has one
+    text = of_example(name)
+    tables = re.findall(r"<h3>Checks</h3>(.*?)</table>", text, flags=re.DOTALL)
+    told = re.findall(r">([^<>]*[Cc]hecked: [^<>]*)<", text)
+    assert len(tables) + len(told) >= len(WITH[name])  # each part has one
+    assert all("to rounding" in one or "10⁻" in one for one in told)
     for table in tables:
         verdicts = re.findall(r'<td class="([^"]*)"[^>]*>(?:(?!<td).)*</tr>', table, flags=re.DOTALL)
         assert len(verdicts) == table.count("<tr>") - 1 > 0  # but for that of the head
@@ -83,13 +87,13 @@ def test_stopped_by_the_reader_no_part_is_added():
     assert not PARTS & set(parsed(text).ids)
 
 
-def test_forces_says_what_the_worst_support_takes():
+def test_forces_says_what_the_worst_support_carries():
     drive = example("truck-supports")
     found = forces(drive)
     top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
     text = words(drive)
-    assert f"support 4 (pinion, front) takes most, {significant(top)} N." in text
-    assert significant(top) in text.split("greatest force in all")[1]  # in the table too, radial and axial together
+    assert f"support 4 (pinion, front) carries most, up to {significant(top)} N." in text
+    assert significant(top) in text.split("in all")[1]  # in the table too, radial and axial together
     assert significant(max(float(np.max(one.journals.size[1])) for one in (found, found.reverse))) in text
 
 
@@ -99,7 +103,7 @@ def test_a_drive_held_too_much_still_tells_torques_and_says_why_no_reactions():
     text = words(replace(drive, supports=rigid))
     assert "more than statics can tell" in text
     assert "Torque and secondary couple of every shaft" in text
-    assert "What the supports take" not in text
+    assert "What the supports carry" not in text
 
 
 def test_a_loose_shaft_is_named():
@@ -154,33 +158,33 @@ def test_stiffness_left_out_is_asked_for_by_name():
     assert "supports[0].stiffness: missing" in words(replace(drive, supports=rigid))
 
 
-def test_losses_tell_heat_efficiency_and_what_is_left_out():
+def test_losses_tell_power_efficiency_and_what_is_left_out():
     drive = example("truck-supports")
     found = losses(drive)
     text = words(drive)
-    assert f"{watts(found.heat, 3)} of {watts(found.input_power, 4)} turn to heat" in text
-    assert f"efficiency {percent(found.efficiency, 4)}" in text
-    assert "the splines slide only while the drive moves" in text
+    assert f"of {power(found.input_power).told(USUAL)}, {power(found.heat).told(USUAL)} are lost" in text
+    assert f"Efficiency {percent(found.efficiency, 4)}" in text
+    assert "they slide while the drive moves" in text
 
 
 def test_a_drive_that_locks_is_called_so():
     drive = example("truck-supports")
     joint = replace(drive.joints[2], friction=40.0)
     text = words(replace(drive, joints=(*drive.joints[:2], joint)))
-    assert "Friction holds joint 3" in text
+    assert "Friction locks joint 3." in text
 
 
 def test_without_speed_nothing_is_said_of_losses():
     drive = example("truck-supports")
-    assert "turn to heat" not in words(replace(drive, duty=replace(drive.duty, speed=None)))
+    assert "are lost" not in words(replace(drive, duty=replace(drive.duty, speed=None)))
 
 
 def test_accuracy_tells_both_bounds_and_what_matters():
     drive = example("instrument-joint")
     most, worst = (tolerance(drive, method=way).output.largest / arcmin for way in (Linear(), WorstCase()))
     text = words(drive)
-    assert f"within {significant(most, 3)}′, at worst {significant(worst, 3)}′" in text
-    assert "yoke phase of joint 1 matters most" in text
+    assert f"±{significant(most, 3)}′ (root of squares), ±{significant(worst, 3)}′ in the worst case" in text
+    assert "yoke phase of joint 1 makes 75 % of the variance" in text
     assert "Shift of the output shaft" in text
 
 
@@ -189,19 +193,19 @@ def test_a_held_output_does_not_shift():
     held = tuple(replace(one, axial=True) if k == 3 else one for k, one in enumerate(drive.supports))
     text = words(replace(drive, supports=held))
     assert "Shift of the output shaft" not in text
-    assert "output shift" not in text
+    assert "variance of the shift" not in text
 
 
 @pytest.mark.parametrize(
     ("error", "says"),
-    [(Error(alpha2=0.5 * arcmin), "known errors put the output"), (Error(a2=1e-5), "Shift of the output shaft")],
+    [(Error(alpha2=0.5 * arcmin), "known errors make an angle error"), (Error(a2=1e-5), "Shift of the output shaft")],
 )
 def test_known_errors_alone_have_a_part(error, says):
     single = Drive.from_angles([0.4])
     drive = replace(single, joints=(replace(single.joints[0], error=error),))
     seen = parsed(page(drive))
     assert "accuracy" in seen.ids
-    assert says in "".join(seen.words)
+    assert says in "".join(seen.words).replace("Known", "known")
 
 
 def test_errors_that_cannot_be_assembled_are_called_so():
@@ -228,14 +232,14 @@ def test_the_first_page_has_the_key_figures_of_forces_and_losses():
     top = max(float(np.max(frames.norm(one.reaction))) for one in (found, found.reverse))
     assert f"largest force on a support, 4 (pinion, front) {plain(significant(top))} N" in text
     assert f"efficiency {percent(losses(drive).efficiency, 4)}" in text
-    assert "some heat not counted" in text
+    assert "some power loss not counted" in text
     assert "largest load of a journal, joint 2" in text
 
 
 def test_the_first_page_has_the_key_figures_of_accuracy_and_assembly():
     instrument = example("instrument-joint")
     most = tolerance(instrument).output.largest / arcmin
-    assert f"error of the output angle, root of squares {significant(most, 3)} ′" in front(instrument)
+    assert f"angle error of the output, root of squares {significant(most, 3)} ′" in front(instrument)
     pump = example("overconstrained-pump")
     text = front(pump)
     assert f"{plain(significant(assembly(pump).joint_peak[0].value))} N" in text
@@ -249,7 +253,7 @@ def test_what_does_not_turn_is_no_good_drive_on_the_first_page():
     locked = replace(drive, joints=joints, duty=replace(drive.duty, torque=100.0, speed=100.0))
     whole = paged(locked)
     assert 'class="judgement failed"' in whole
-    assert "Friction holds joint 1, 2" in front(locked)
+    assert "friction in the journals of joints 1, 2 reaches the torque that turns them" in front(locked)
     slow = replace(drive, duty=replace(drive.duty, speed=10.0))  # its shafts swing too hard at full speed
     assert 'class="judgement good"' in page(slow)
 
@@ -270,7 +274,7 @@ def test_a_moving_drive_tells_its_forces_over_the_movement():
     moved = replace(drive, movements=(swing,))
     found = moving_forces(moved)
     text = words(moved)
-    assert "What the supports take while the drive moves" in text
+    assert "What the supports carry while the drive moves" in text
     assert f"{significant(float(np.max(found.reaction_size)))} N at" in text
     assert "while moving, 3 (implement, near)" in text
 

@@ -8,10 +8,7 @@ from cardan.checks import check
 from cardan.checks.design import design
 from cardan.drive.fields.keys import meant
 from cardan.io import example
-from cardan.report.block import Points
-from cardan.report.losses import rubbing
 from cardan.report.named import in_words
-from cardan.report.subject import asked
 
 
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "two-piece-rubber-bearing", "w-arrangement"])
@@ -30,10 +27,3 @@ def test_every_lever_has_words_with_numbers_from_one(name):
 def test_a_torque_of_the_duty_is_told_without_the_end_where_it_acts():
     told = in_words("duty.torque"), in_words("duty.blocks[0].torque"), in_words("joints[0].rating.max_torque")
     assert told == ("torque", "part 1 of the duty cycle: torque", "joint 1, rating: largest torque")
-
-
-def test_heat_that_is_not_counted_is_told_in_words():
-    page = rubbing(asked(example("overconstrained-pump"), None, None))
-    assert page is not None
-    items = [item for block in page.blocks if isinstance(block, Points) for item in block.items]
-    assert any(item.startswith("support 1: coefficient of friction (supports[0].friction): ") for item in items)

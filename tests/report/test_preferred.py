@@ -19,12 +19,12 @@ AMERICAN = {"length": "in", "angle": "rad", "angular_speed": "rad_s", "torque": 
 
 USUAL = tuple(next(iter(DIMENSIONS[one])) for one in AMERICAN)
 
-QUICK = tuple(name for name, one in ANSWERS.items() if one.quick and name not in ("selection", "phases"))
+QUICK = tuple(name for name, one in ANSWERS.items() if one.quick and name not in ("selection", "phasing"))
 
 LONG = {
     "unstable-drive": ("torsion", "orders", "stability"),
     "pto-drive": ("limits", "bending"),
-    "pto-hitch": ("movement",),
+    "pto-hitch": ("articulation",),
 }
 
 SI = {label(unit): factor for units in DIMENSIONS.values() for unit, factor in units.items() if label(unit)}

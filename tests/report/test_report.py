@@ -13,6 +13,8 @@ from cardan.errors import InputError
 from cardan.figures.wording import percent
 from cardan.io import example, example_names, example_text
 from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.report.block import Page, Words
+from cardan.report.content import moved, phased
 from cardan.report.report import page, report
 from cardan.units import deg
 
@@ -58,6 +60,11 @@ def parsed(text: str) -> Nesting:
     seen.close()
     assert seen.open == []
     return seen
+
+
+def proof(yokes: Page) -> str:
+    """Return what the page of the yokes says of the sides of the polygon."""
+    return next(one.text for one in yokes.blocks if isinstance(one, Words))
 
 
 @cache
@@ -117,22 +124,15 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
 def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     """Its two bends of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
     from cardan.report.key_figures import key_figures, key_table
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
     from cardan.report.summary import uniformity
-    from cardan.report.turning import turning
 
     on = asked(example("pto-spline-thrust"), None, None)
     assert on.rounded
     assert not on.phasing.feasible
-    proof = phasing(on)
-    said = [
-        uniformity(on).text,
-        proof.answer,
-        proof.blocks[0].text,
-        proof.blocks[1].figure.sentence,
-        turning(on).answer,
-    ]
+    yokes = phased(on.drive, on.phasing)
+    drawn = yokes.blocks[0].figure.sentence
+    said = [uniformity(on).text, yokes.answer, proof(yokes), drawn, moved(on.drive)[0].answer]
     assert all("but for the rounding" in text.lower() for text in said)
     rows = {row[0].text: row for row in key_table(key_figures(on)).rows}
     assert rows["angle error of the output, ±"][1].text == "9.283·10⁻⁶"
@@ -140,23 +140,22 @@ def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
 
 
 def test_joints_that_turn_evenly_by_themselves_are_said_to():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
-    from cardan.report.turning import turning
 
     for name in ("front-halfshaft", "pto-hitch"):
         on = asked(example(name), None, None)
-        told = (phasing(on).blocks[0].text, phasing(on).answer, turning(on).answer)
-        assert all("joint turns evenly by itself" in text for text in told)
+        yokes = phased(on.drive, on.phasing)
+        told = (proof(yokes), yokes.answer, moved(on.drive)[0].answer)
+        assert all("joint turns uniformly by itself" in text for text in told)
         assert ["as drawn" in text.lower() for text in told] == 3 * [bool(on.drive.movements)]
 
 
 def test_the_bend_that_would_close_is_told_of_the_hooke_joint_that_turns_alike():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
 
-    text = phasing(asked(example("double-cardan-propshaft"), None, None)).blocks[0].text
-    assert "if the Hooke joint that turns like that joint bent 1.00°. α is the bend of the Hooke joint" in text
+    on = asked(example("double-cardan-propshaft"), None, None)
+    text = proof(phased(on.drive, on.phasing))
+    assert "if the Hooke joint that turns like that joint had an angle of 1.00°. α is the angle of the Hooke" in text
 
 
 def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
@@ -199,11 +198,10 @@ def test_lengths_of_end_shafts_that_the_file_gives_are_shown():
 
 
 def test_a_degree_off_costs_something_where_the_slope_is_zero():
-    from cardan.report.phasing import phasing
     from cardan.report.subject import asked
 
     on = asked(example("three-joints-unequal"), None, None)
-    blocks = phasing(on).blocks
+    blocks = phased(on.drive, on.phasing).blocks
     costs = next(block for block in blocks if getattr(block, "title", "").startswith("Growth of δ"))
     assert abs(on.best.sensitivity).max() < 1e-8
     assert all(0.0 < float(row[2].full) < float(row[1].full) for row in costs.rows)

@@ -62,8 +62,8 @@ class Column:
     ----------
     key : str
         Name in JSON and CSV, without unit: ``joint_angle``; a column without a name is for people alone.
-    heading : str
-        What stands above it, in the language spoken where it was made.
+    heading : Text
+        What stands above it, in the language spoken where it was made; a quantity where it is the place on an axis.
     values : sequence of Value, or array
         From the top; numbers in SI.
     dimension, unit : str
@@ -79,7 +79,7 @@ class Column:
     """
 
     key: str
-    heading: str = ""
+    heading: Text = ""
     values: Any
     dimension: str = ""
     unit: str = ""

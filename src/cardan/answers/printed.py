@@ -117,7 +117,10 @@ def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table
     if table.tones:
         rows = [[_toned(row[0], tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
     return Table(
-        columns=[Column(heading=one.heading, unit=one.label(reader), left=one.words, wrap=one.wrap) for one in columns],
+        columns=[
+            Column(heading=told(one.heading, reader), unit=one.label(reader), left=one.words, wrap=one.wrap)
+            for one in columns
+        ],
         rows=rows,
         title=table.title,
         note=told(table.note, reader),

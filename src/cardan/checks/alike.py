@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -24,9 +23,8 @@ def alike(verdicts: Iterable[Verdict]) -> list[tuple[Verdict, ...]]:
     """
     groups: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts:
-        kind = re.sub(r"\d+", "#", one.title, count=1) if one.subject else one.title
         used = f"{float(np.max(one.utilisation)):.2f}"
-        groups.setdefault((one.check, kind, used, one.state), []).append(one)
+        groups.setdefault((one.check, one.kind or one.title, used, one.state), []).append(one)
     return [_worst_first(sorted(group, key=lambda one: one.subject)) for group in groups.values()]
 
 
@@ -49,7 +47,7 @@ def title_of(group: Sequence[Verdict]) -> str:
     >>> title_of([one, two])
     'bend of joint 1 (and 2)'
     """
-    numbers = [int(found[1]) + 1 for one in group[1:] if (found := re.search(r"\[(\d+)\]", one.subject))]
+    numbers = [one.number for one in group[1:] if one.number]
     if not numbers:
         return group[0].title
     return _("{title} (and {numbers})").format(title=group[0].title, numbers=", ".join(map(str, numbers)))

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from cardan.drive.joints import Hooke, Joint
 from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design
-from .verdict import Verdict
+from .verdict import Sense, Verdict
 
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
     """A check.
+
+    What all its verdicts share stands here; a verdict says the rest, and where it differs.
 
     Attributes
     ----------
@@ -24,8 +26,14 @@ class Check:
         Its name in `CHECKS`.
     doc : str
         One sentence on what it judges.
-    judge : function
+    judge : function, optional
         From a design to its verdicts; a verdict that lacks data names the paths that are missing.
+    joint, shaft : function, optional
+        The same of every joint or shaft: from a design and the place of the part, counted from 0.
+    title : str
+        What is judged, with a place for the number of joint or shaft.
+    dimension, unit, sense, advice, power
+        As of `Verdict`.
     crosses : str
         "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others; "map"
         where it judges joints with tan φ' = κ tan φ; "law" where it needs that for many drives at once.
@@ -33,28 +41,61 @@ class Check:
 
     name: str
     doc: str
-    judge: Callable[[Design], Iterable[Verdict]]
-    crosses: str = ""
+    judge: Callable[[Design], Iterable[Verdict]] | None = None
+    joint: Callable[[Design, int], Iterable[Verdict]] | None = None
+    shaft: Callable[[Design, int], Iterable[Verdict]] | None = None
+    title: str = ""
+    dimension: str = ""
+    unit: str = ""
+    sense: Sense = "at_most"
+    advice: bool = False
+    power: float = 0.0
+    crosses: Literal["", "each", "all", "map", "law"] = ""
 
     def verdicts(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""
         joints = design.drive.joints
         if not self.crosses or not mixed(joints):
-            yield from self.judge(design)
+            yield from self._judged(design)
             return
         if self.crosses in ("map", "law"):
             own = unmapped(joints)
-            for one in self.judge(design):
+            for one in self._judged(design):
                 stuck = own and (self.crosses == "map" or bool(design.varied))
                 yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
             return
         others = [i for i, joint in enumerate(joints) if type(joint) is not Hooke]
-        for one in self.judge(design):
-            number = re.match(r"joints\[(\d+)\]", one.subject)
+        for one in self._judged(design):
             whole = self.crosses == "all" or any(path.endswith(".kind") for path in one.missing)
-            concerned = others if whole else [int(number[1])] if number else []
+            concerned = others if whole else [one.number - 1] if one.subject.startswith("joints[") else []
             kinds = [joints[i].kind for i in concerned if i in others]
             yield _unfit(one, kinds[0]) if kinds else one
+
+    def _judged(self, design: Design) -> Iterator[Verdict]:
+        """Yield the verdicts, each with what all of them share."""
+        if self.judge is not None:
+            yield from map(self._whole, self.judge(design))
+        for path, judge, count in (
+            ("joints", self.joint, design.joints),
+            ("shafts", self.shaft, design.joints + 1),
+        ):
+            for k in range(count) if judge is not None else ():
+                assert judge is not None
+                yield from (self._whole(replace(one, subject=f"{path}[{k}]")) for one in judge(design, k))
+
+    def _whole(self, one: Verdict) -> Verdict:
+        kind = one.title or _(self.title)
+        return replace(
+            one,
+            check=self.name,
+            kind=kind,
+            title=kind.format(number=one.number) if one.number else kind,
+            dimension=one.dimension or self.dimension,
+            unit=one.unit or self.unit,
+            sense=one.sense if one.sense != "at_most" else self.sense,
+            advice=one.advice or self.advice,
+            power=self.power,
+        )
 
 
 def _ruled(joint: Joint) -> str:

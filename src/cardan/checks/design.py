@@ -23,8 +23,8 @@ from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
-from cardan.questions.forces.swing import Swing, swing
 from cardan.questions.forces.turn_loads import TurnLoads, at_bend
+from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _
 
 from .carried import largest_bends, largest_of

@@ -50,7 +50,7 @@ def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
     allowed : array (...) [rad]
     """
     most = min(joint.steepest for joint in design.drive.joints)
-    note = _("joints of this kind bend no further") if np.all(allowed > most) else ""
+    note = _("joints of this kind reach no larger angle") if np.all(allowed > most) else ""
     return np.minimum(allowed, most), note
 
 

@@ -30,11 +30,11 @@ class Verdict:
     Attributes
     ----------
     check : str
-        Name of the check in `CHECKS`.
+        Name of the check in `CHECKS`; the check itself fills in what all its verdicts share.
     subject : str
         What was judged, as a path: ``joints[1]``, ``shafts[2]``; empty for the drive as a whole.
     title : str
-        What was judged, in words.
+        What was judged, in words; where a check says it, with a place for the number of joint or shaft.
     value : float or array (...)
         In SI.
     limit : float, array (...) or (float, float)
@@ -56,10 +56,16 @@ class Verdict:
         One sentence on what it means or assumes.
     advice : bool
         Whether it is a rule of thumb that does not fail the drive.
+    kind : str
+        The title without the number, the same for all joints or shafts.
+    power : float
+        Exponent of the torque in the utilisation; 0 where it does not depend on it.
+    factor : float, optional
+        By which factor the torque may grow, where no power tells it.
     """
 
-    check: str
-    title: str
+    check: str = ""
+    title: str = ""
     subject: str = ""
     value: Array | float = float("nan")
     limit: Array | float | tuple[float, float] = float("nan")
@@ -72,6 +78,14 @@ class Verdict:
     unfit: str = ""
     note: str = ""
     advice: bool = False
+    kind: str = ""
+    power: float = 0.0
+    factor: float | None = None
+
+    @property
+    def number(self) -> int:
+        """Number of the joint or shaft that was judged, from 1; 0 for the drive as a whole."""
+        return int(self.subject.partition("[")[2].partition("]")[0]) + 1 if self.subject else 0
 
     @property
     def run(self) -> bool:
@@ -84,9 +98,27 @@ class Verdict:
         return utilisation(self.value, self.limit, self.sense)
 
     @property
+    def bound(self) -> float:
+        """The limit of a single verdict, where that is no band."""
+        if isinstance(self.limit, tuple):
+            raise TypeError(f"the limit of {self.title} is a band")
+        return float(self.limit)
+
+    @property
     def passed(self) -> Array | bool:
         """Whether the value keeps the limit."""
         return self.utilisation <= 1.0
+
+    @property
+    def torque_factor(self) -> Array | float:
+        """By which factor all torques of the duty may grow until all of the limit is used."""
+        if self.power == 0.0 or not self.run:
+            return float("inf")
+        if self.factor is not None:
+            return self.factor
+        with np.errstate(divide="ignore"):
+            found = np.asarray(self.utilisation, dtype=float) ** (-1.0 / self.power)
+        return float(found) if found.ndim == 0 else found
 
     @property
     def state(self) -> State:

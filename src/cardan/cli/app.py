@@ -29,15 +29,16 @@ COMMANDS = {
             "cardan motion truck.toml --plot motion.svg",
         ),
     ),
-    "phases": Entry(
-        "phases",
+    "phasing": Entry(
+        "phasing",
         QUESTIONS,
-        _("Which yoke angles make the output even, or how even it can be."),
+        _("Which yoke angles make the output uniform, or how uniform it can be."),
         (
-            "cardan phases truck.toml --fix 2=90",
-            "cardan phases truck.toml --apply A -o better.toml",
-            "cardan phases boxed.toml --layout -o better.toml",
+            "cardan phasing truck.toml --fix 2=90",
+            "cardan phasing truck.toml --apply A -o better.toml",
+            "cardan phasing boxed.toml --layout -o better.toml",
         ),
+        aliases=("phases",),
     ),
     "articulation": Entry(
         "articulation",
@@ -59,7 +60,7 @@ COMMANDS = {
     "losses": Entry(
         "losses",
         QUESTIONS,
-        _("How much of the power turns to heat, and where."),
+        _("How much of the power is lost, and where."),
         ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
     ),
     "life": Entry(
@@ -104,14 +105,15 @@ COMMANDS = {
             "cardan joint hooke rzeppa tracta --bend-deg 25 --speed-rpm 1000 --plot joints.svg",
         ),
     ),
-    "tolerance": Entry(
-        "tolerance",
+    "accuracy": Entry(
+        "accuracy",
         QUESTIONS,
-        _("What machining tolerances do to the output, and the cheapest ones for a target."),
+        _("What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."),
         (
-            "cardan tolerance instrument.toml --method worst",
-            "cardan tolerance instrument.toml --allocate 2arcmin -o better.toml",
+            "cardan accuracy instrument.toml --method worst",
+            "cardan accuracy instrument.toml --allocate 2arcmin -o better.toml",
         ),
+        aliases=("tolerance",),
     ),
     "bending": Entry(
         "bending",

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import with_values
 from cardan.errors import refuse
+from cardan.io import dumps, edit
+from cardan.questions.phases.answer import every_setting
+from cardan.questions.phases.phases import Phasing
+from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _
 
 from .convert import SUFFIXES
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-    from cardan.questions.phases.phases import Phasing, YokeSetting
-
-    from .answer import Answer
+from .output import check_new, check_target, write_text
+from .source import STDIN
 
 
-def applied(
-    answer: Answer,
+def written(
     found: Phasing,
     drive: Drive,
     text: str,
@@ -28,15 +28,13 @@ def applied(
     label: str | None,
     out: Path,
     also: Mapping[str, Any],
-) -> Answer:
-    """Write a setting and return the answer with a word on it.
+) -> tuple[YokeSetting, dict[str, Any]]:
+    """Write a setting into a file and return it with what changed there, by paths with units.
 
     Parameters
     ----------
-    answer : Answer
-        What `cardan phases` found.
     found : Phasing
-        What it found.
+        What the yokes can do.
     drive : Drive
         The drive as it stands in the file.
     text : str
@@ -48,39 +46,20 @@ def applied(
     also : mapping of str to value
         What else changes in the file, by paths with units.
     """
-    from cardan.drive.fields.paths import with_values
-    from cardan.io import dumps, edit
-    from cardan.questions.phases.setting import values_of
-
-    from .answer import Remark, percent
-    from .output import write_text
-    from .phasing import every_setting
-
     best = (*found.pose_settings, *found.settings, found.as_built)[0]
     chosen = best if label is None else named(every_setting(found), label)
     values = dict(also) | values_of(chosen, drive)
     if out.suffix.lower() == ".json" or text.lstrip().startswith("{"):
         form = "json" if out.suffix.lower() == ".json" else "toml"
-        written = dumps(with_values(drive, values), form=form)
+        changed = dumps(with_values(drive, values), form=form)
     else:
-        written = edit(text, values) if values else text
-    write_text(out, written, "--out")
-    done = _("{path}: setting {label} written, {share} irregular.").format(
-        path=out, label=chosen.label, share=percent(chosen.irregularity)
-    )
-    kept = [remark for remark in answer.remarks if remark.tone != "next"]
-    step = Remark(text=_("Look at the new drive:"), command=("cardan", "report", str(out)), tone="next")
-    said = {"applied": {"setting": chosen.label, "file": str(out), "values": values}}
-    return replace(
-        answer, remarks=(*kept, Remark(text=done, tone="good"), step), content=lambda: {**answer.content(), **said}
-    )
+        changed = edit(text, values) if values else text
+    write_text(out, changed, "--out")
+    return chosen, values
 
 
 def check_copy(out: Path, file: Path, *, force: bool) -> None:
     """Refuse to write over another file unless told to, and what is neither TOML nor JSON, before any work is done."""
-    from .output import check_new, check_target
-    from .source import STDIN
-
     if file != STDIN and out.exists() and file.exists() and out.samefile(file):
         check_target(out, "--out")
         return

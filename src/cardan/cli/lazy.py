@@ -30,6 +30,8 @@ class Entry:
         Lines below its own help.
     entries : mapping of str to Entry
         Commands of a group; of a command with a module of its own, what else its first word may ask for.
+    aliases : tuple of str
+        Other names that ask it and that the help does not list.
     """
 
     module: str
@@ -37,6 +39,7 @@ class Entry:
     help: str
     examples: tuple[str, ...] = ()
     entries: Mapping[str, Entry] = field(default_factory=dict)
+    aliases: tuple[str, ...] = ()
 
 
 @cache
@@ -108,6 +111,11 @@ class Group(TyperGroup):
     def format_usage(self, ctx: Any, formatter: Any) -> None:
         """Write how a command of the group is called."""
         _usage(self, ctx, formatter)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Return what is listed under a name or an alias of it."""
+        own = (name for name, entry in self.entries.items() if cmd_name in entry.aliases)
+        return super().get_command(ctx, next(own, cmd_name))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Return the command itself, for a run or for completion."""

@@ -72,11 +72,12 @@ def report(
             decimal=who.decimal,
         )
 
-    from cardan.questions.forces.swing import each_shaft
+    from cardan.questions.motion.answer import sentence
+    from cardan.questions.motion.swing import each_shaft
 
     from .answer import Answer, Remark
-    from .motion import sentence
     from .show import show
+    from .source import title
 
     opened = open_ and _opened(place)
     browsed = place.suffix.lower() in (".html", ".htm")
@@ -87,7 +88,7 @@ def report(
         hint = _("No program answered; open {path} yourself.")
     return show(
         Answer(
-            sentence=sentence(drive, file, each_shaft(drive)),
+            sentence=f"{title(drive, file)}: {sentence(drive, each_shaft(drive)).told(who)}",
             remarks=(
                 Remark(text=_("Report written: {path}, {size} kB.").format(path=place, size=_kilobytes(place))),
                 Remark(text=hint.format(path=place), tone="next"),

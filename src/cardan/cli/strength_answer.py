@@ -14,7 +14,6 @@ from .answer import Answer, Column, Remark, Table, named, significant
 if TYPE_CHECKING:
     from cardan.checks import Verdict
     from cardan.checks.strength.strength import Strength
-    from cardan.checks.strength.strength_use import Use
     from cardan.drive.drive import Drive
 
     from .answer import Cell, Tone
@@ -32,7 +31,7 @@ ENDLESS = 1e7
 
 def answer(drive: Drive, file: Path, found: Strength) -> Answer:
     """Return what to say of the strength of a drive."""
-    close = any(one.utilisation >= 0.9 for one in found.binding)
+    close = any(float(one.utilisation) >= 0.9 for one in found.binding)
     tone: Tone = "plain" if found.enough is None else "failed" if not found.enough else "warning" if close else "good"
     return Answer(
         sentence=_sentence(drive, file, found),
@@ -69,26 +68,6 @@ def _sentence(drive: Drive, file: Path, found: Strength) -> str:
     return _("{name}: too weak for {torque} N·m; it carries {rated} N·m, then {title} ends it.").format(**said)
 
 
-def verdict_of(one: Use) -> Verdict:
-    """Return a use of a limit as the verdict of its check."""
-    from cardan.checks import Verdict
-
-    return Verdict(
-        check=one.check,
-        title=one.title,
-        subject=one.part,
-        value=one.value,
-        limit=one.limit,
-        sense="at_least" if one.at_least else "at_most",
-        dimension=one.dimension,
-        unit=one.unit,
-        source=one.source,
-        missing=one.missing,
-        note=_("decided by {case}").format(case=one.case) if one.case else "",
-        advice=one.advice,
-    )
-
-
 def _tables(drive: Drive, found: Strength) -> Iterator[Table]:
     if found.judged:
         yield _uses(found)
@@ -110,10 +89,10 @@ def _uses(found: Strength) -> Table:
 
     words = {"passed": _("holds"), "close": _("close"), "failed": _("fails")}
     order = sorted(found.judged, key=lambda one: (one.advice, one.torque_factor))
-    torque = {(one.check, one.part, one.title): found.torque * one.torque_factor for one in order}
+    torque = {(one.check, one.subject, one.title): found.torque * float(one.torque_factor) for one in order}
     rows: list[list[Cell]] = []
     tones: list[Tone] = []
-    for group in alike(verdict_of(one) for one in order):
+    for group in alike(order):
         one, said = group[0], [title_of(group)]
         if one.advice:
             said.append(_("a rule of thumb"))
@@ -199,9 +178,9 @@ def _lacking(found: Strength) -> Iterator[list[Cell]]:
     """Yield keys to add and what they tell, joints and shafts alike together."""
     from cardan.choices.lever import key_of
 
-    groups: dict[tuple[str, ...], list[Use]] = {}
-    for one in found.uses:
-        if not one.judged:
+    groups: dict[tuple[str, ...], list[Verdict]] = {}
+    for one in found.verdicts:
+        if not one.run:
             kind = (one.check, *(re.sub(r"\[\d+\]", "[]", path) for path in one.missing))
             groups.setdefault(kind, []).append(one)
     for members in groups.values():
@@ -213,17 +192,19 @@ def _lacking(found: Strength) -> Iterator[list[Cell]]:
 def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
     first = found.governing
     if first is not None and found.enough is False:
-        failed = [one for one in found.binding if one.utilisation > 1.0]
+        failed = [one for one in found.binding if float(one.utilisation) > 1.0]
         text = plural(
             "Failed: {title}, {used:.2f} of its limit.", "Failed: {count} limits, worst {title}.", len(failed)
         )
-        worst = max(failed, key=lambda one: one.utilisation)
-        yield Remark(text=text.format(title=worst.title, used=worst.utilisation, count=len(failed)), tone="failed")
+        worst = max(failed, key=lambda one: float(one.utilisation))
+        yield Remark(
+            text=text.format(title=worst.title, used=float(worst.utilisation), count=len(failed)), tone="failed"
+        )
         part = _sizable(first)
         if part:
             command = ("cardan", "strength", str(file), "--size", part)
             yield Remark(text=_("What it would take:"), command=command, tone="next")
-    left = sum(not one.judged for one in found.uses)
+    left = sum(not one.run for one in found.verdicts)
     if left and found.judged:
         text = plural(
             "Warning: one limit could not be judged; the drive may carry less.",
@@ -258,9 +239,9 @@ def _remarks(drive: Drive, file: Path, found: Strength) -> Iterator[Remark]:
         yield Remark(text=text, command=("cardan", "strength", str(file), "--csv"), tone="next")
 
 
-def _sizable(use: Use) -> str:
+def _sizable(use: Verdict) -> str:
     """Return what `--size` calls the part that a use is of, "" where it sizes none."""
-    number = int(use.part.partition("[")[2].rstrip("]")) + 1 if "[" in use.part else 0
+    number = int(use.subject.partition("[")[2].rstrip("]")) + 1 if "[" in use.subject else 0
     kinds = {
         "tube_strength": "tube",
         "tube_fatigue": "tube",
@@ -284,18 +265,17 @@ def _rows(found: Strength) -> Table:
 
     keys = ("check", "part", "title", "advice", "value", "sense", "limit", "unit", "utilisation", "ends_at_Nm")
     rows: list[list[Cell]] = []
-    for one in found.uses:
-        own, told = verdict_of(one), one.judged
-        by = unit_factor(own)
+    for one in found.verdicts:
+        told, by = one.run, unit_factor(one)
         rows.append(
             [
-                *(one.check, one.part, one.title, one.advice, one.value / by if told else None, own.sense),
-                *(one.limit / by if told else None, one.unit, one.utilisation if told else None),
-                *(_finite(found.torque * one.torque_factor) if told else None, one.source, one.case),
+                *(one.check, one.subject, one.title, one.advice, float(one.value) / by if told else None, one.sense),
+                *(one.bound / by if told else None, one.unit, float(one.utilisation) if told else None),
+                *(_finite(found.torque * float(one.torque_factor)) if told else None, one.source, one.note),
                 " ".join(key_of(path) for path in one.missing),
             ]
         )
-    return Table(columns=tuple(Column(key=key) for key in (*keys, "source", "decided_by", "missing")), rows=rows)
+    return Table(columns=tuple(Column(key=key) for key in (*keys, "source", "note", "missing")), rows=rows)
 
 
 def _content(drive: Drive, file: Path, found: Strength) -> dict[str, Any]:
@@ -313,7 +293,7 @@ def _content(drive: Drive, file: Path, found: Strength) -> dict[str, Any]:
         "torque_factor": found.torque_factor,
         "enough": found.enough,
         "utilisation": found.utilisation,
-        "governing": None if first is None else {"check": first.check, "part": first.part, "title": first.title},
+        "governing": None if first is None else {"check": first.check, "part": first.subject, "title": first.title},
         "shock_factor": found.shock_factor,
         "dynamic_factor": found.dynamic_factor,
         "extrapolated_shafts": found.extrapolated,

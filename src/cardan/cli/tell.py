@@ -25,6 +25,9 @@ from .show import GAP, NARROWEST, SIGNS, WIDEST, _blocks, _filled, print_lines, 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
 
+LONGEST = 28
+"""Letters of a name at the head of a row."""
+
 
 def tell(
     answer: Answer,
@@ -122,7 +125,10 @@ def _print_table(console: Console, table: Table) -> None:
     if table.title:
         console.print(Text(table.title, style="bold"))
     columns = table.columns
-    cells = [[cell.text for cell in row] for row in table.rows]
+    cells = [
+        [_short(cell.text) if k < table.fixed < len(row) else cell.text for k, cell in enumerate(row)]
+        for row in table.rows
+    ]
     headings = [[column.heading for column in columns], [column.unit for column in columns]]
     widths = [max(len(row[k]) for row in headings + cells) for k in range(len(columns))]
     if columns and columns[-1].wrap:
@@ -141,6 +147,11 @@ def _print_table(console: Console, table: Table) -> None:
                 console.print(text, soft_wrap=True)
     if table.note:
         console.print(Text(_filled(table.note, min(console.width, WIDEST)), style="dim"), soft_wrap=True)
+
+
+def _short(name: str) -> str:
+    """Return a name that leaves room for what is said of it."""
+    return name if len(name) <= LONGEST else name[: LONGEST - 1] + "…"
 
 
 def _lines(row: list[str], widths: Sequence[int], columns: Sequence[Column], block: list[int]) -> list[str]:

@@ -31,7 +31,7 @@ def across(angle: Array, *, named: bool = False) -> Axis:
     label = _("input angle φ₁ from the start position") if named else ""
     stop = float(np.max(angle)) if angle.size else 360.0
     if float(np.min(angle, initial=0.0)) < 0.0 or stop > 1080.0 or stop < 45.0:
-        made = axis(label, "°" if named else "", [angle], margin=0.0, least=1.0)
+        made = axis(label, "deg", [angle], dimension="angle", margin=0.0, least=1.0)
     else:
         made = angle_axis(label, stop)
     bare = Axis(low=made.low, high=made.high, ticks=made.ticks, texts=made.texts)

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 from cardan.answers.numbers import THIN as THIN
 from cardan.answers.numbers import fixed as fixed
 from cardan.answers.numbers import half_turn as half_turn
 from cardan.answers.numbers import raised
 from cardan.answers.numbers import significant as significant
-from cardan.texts import _, plural
-
-if TYPE_CHECKING:
-    from cardan.questions.phases.phases import Phasing
+from cardan.maths.ties import power_of
+from cardan.texts import _
 
 
 def angular(value: float, digits: int = 4) -> str:
@@ -65,95 +62,49 @@ def percent(share: float, digits: int = 3) -> str:
     return f"{significant(100.0 * share, digits)} %"
 
 
-def noiseless(slope: Iterable[float], largest: float) -> list[float]:
-    """Return slopes of the irregularity with 0 for those that are nothing but rounding.
-
-    Parameters
-    ----------
-    slope : iterable of float
-        At a minimum the slope is 0 only to the rounding of the yoke angles.
-    largest : float
-        Largest irregularity that turning the yokes can make; no slope is much greater.
+def together(words: Iterable[str]) -> str:
+    """Return what is alike named in one breath.
 
     Examples
     --------
-    >>> noiseless([0.01, 8e-9], 0.2)
-    [0.01, 0.0]
+    >>> together(["2"]), together(["2", "3"]), together(["1", "2", "4"])
+    ('2', '2 and 3', '1, 2 and 4')
     """
-    return [float(one) if abs(one) > 1e-6 * largest else 0.0 for one in slope]
+    *before, last = words
+    return _(" and ").join((", ".join(before), last)) if before else last
 
 
-LITTLE = 0.01
-"""An irregularity below which what the yokes leave is called little."""
-
-
-def excess(found: Phasing, joints: int, bend: float, kind: str = "hooke") -> str:
-    """Return in one sentence which joint keeps a drive from being even, and at what bend it would not.
+def closely(residual: float) -> str:
+    """Return how closely a check holds: its digits beyond the power of ten are the processor's.
 
     Parameters
     ----------
-    found : Phasing
-        What the yokes can do; a single joint is too uneven for the others.
-    joints : int
-        Number of joints.
-    bend : float [rad]
-        Bend of that joint.
-    kind : str
-        Its kind; of another than Hooke's no bend is named.
+    residual : float
+        What is left over, relative.
 
-    Notes
-    -----
-    The side L = -ln cos α of that joint is asinh(δ/2) too long.
+    Examples
+    --------
+    >>> closely(7e-16), closely(3.2e-10), closely(0.02), closely(float("nan"))
+    ('to rounding', 'to 10⁻⁹', 'to 0.1', 'not at all')
     """
-    if kind != "hooke":
-        text = _("Joint {number} is more uneven than the others can undo. What remains is {left}.")
-        return text.format(number=found.limiting_joint, left=percent(found.irregularity_min))
-    spare = math.asinh(0.5 * found.irregularity_min)
-    closing, now = math.degrees(math.acos(min(1.0, math.cos(bend) * math.exp(spare)))), math.degrees(bend)
-    digits = next((d for d in (2, 3, 4, 5) if fixed(closing, d) != fixed(now, d)), 6)
-    if found.irregularity_min < LITTLE:
-        text = plural(
-            "Joint {number} bends a little more than the other one can undo: with {closing}° instead of {now}° the "
-            "drive could be even. What remains is {left}.",
-            "Joint {number} bends a little more than the others can undo: with {closing}° instead of {now}° the drive "
-            "could be even. What remains is {left}.",
-            joints - 1,
-        )
-    else:
-        text = plural(
-            "Joint {number} bends more than the other one can undo: with {closing}° instead of {now}° the drive could "
-            "be even. What remains is {left}.",
-            "Joint {number} bends more than all others together can undo: with {closing}° instead of {now}° the drive "
-            "could be even. What remains is {left}.",
-            joints - 1,
-        )
-    return text.format(
-        number=found.limiting_joint,
-        closing=fixed(closing, digits),
-        now=fixed(now, digits),
-        left=percent(found.irregularity_min),
-    )
+    if not math.isfinite(residual):
+        return _("not at all")
+    power = power_of(residual)
+    return _("to rounding") if power is None else _("to {size}").format(size=powers_of_ten((10.0**power,))[0])
 
 
-def letters(found: Phasing, *, nearest: bool = False) -> str:
-    """Return what the letters of the settings stand for, "" where there is no choice.
+def leftover(residual: float) -> str:
+    """Return a residual for a cell beside what is allowed: below which power of ten it is, or that it is rounding.
 
-    Parameters
-    ----------
-    found : Phasing
-        Settings, best first.
-    nearest : bool
-        Whether the goal was the least change of the present yokes instead of calm intermediate shafts.
+    Examples
+    --------
+    >>> leftover(7e-16), leftover(3.2e-10), leftover(float("nan"))
+    ('rounding', '< 10⁻⁹', '–')
     """
-    if not found.feasible or len(found.settings) < 2:
-        return ""
-    if len(found.free) < 3:
-        return _("A and B are mirror images; both are exact.")
-    if len(found.settings) == 2:
-        return _("A is the best by the goal; B is exact as well.")
-    if nearest:
-        return _("A is nearest to the present yokes, B its mirror image; C keeps the intermediate shafts calmest.")
-    return _("A keeps the intermediate shafts calmest, B is its mirror image; C is nearest to the present yokes.")
+    if not math.isfinite(residual):
+        return "–"
+    power = power_of(residual)
+    return _("rounding") if power is None else f"< {powers_of_ten((10.0**power,))[0]}"
 
 
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:

@@ -20,24 +20,19 @@ from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from . import lacking as lacks
-from .accuracy import erring
 from .assembly import straining
 from .balance import refused
 from .block import Page
-from .followed import Followed, asked_by_laws, turning_by_laws, yokes_refused
-from .forces import carrying
+from .followed import Followed, asked_by_laws
 from .lacking import Lacking, named, told
-from .losses import rubbing
 from .mobility import binding
 from .moving import moving
 from .page import page
-from .phasing import phasing
 from .run_up import running_up
 from .selection import choosing, of_selection
 from .strength import bearing_up
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
-from .turning import turning
 from .verdicts import judged
 
 Choices: TypeAlias = Mapping[str, Any]
@@ -162,16 +157,6 @@ def _by_laws(on: object) -> Followed | None:
     return on if isinstance(on, Followed) else None
 
 
-def _turning(on: Subject) -> Page:
-    own = _by_laws(on)
-    return turning(on) if own is None else turning_by_laws(own)
-
-
-def _yokes(on: Subject) -> Page:
-    own = _by_laws(on)
-    return phasing(on) if own is None else yokes_refused(own)
-
-
 def _moving(on: Subject) -> Page:
     own = on if _by_laws(on) is None else Subject(drive=on.drive)
     if own.unmoved is not None:
@@ -215,34 +200,17 @@ def _straight(_on: Subject) -> str:
     return _("The joints bend next to nothing: they do not make torsional vibration grow.")
 
 
-def _exact(_on: Subject) -> str:
-    return _("The errors given do nothing to the output.")
-
-
 def _fits(_on: Subject) -> str:
     return _("The bearings that have a stiffness do not hold the whole drive; forces of assembly cannot be told.")
 
 
 ANSWERS: dict[str, Answer] = {
-    "motion": Answer(
-        title=lambda: _("Motion"), page=_plain(_turning), lacking=_of(lacks.of_nothing), otherwise=_nothing
-    ),
     "movement": Answer(
         title=lambda: _("While moving"),
         page=_plain(_moving),
         lacking=_of(lacks.of_movement),
         otherwise=_nothing,
         quick=False,
-    ),
-    "phases": Answer(
-        title=lambda: _("Yoke angles"), page=_plain(_yokes), lacking=_of(lacks.of_nothing), otherwise=_nothing
-    ),
-    "forces": Answer(
-        title=lambda: _("Forces"), page=_plain(carrying), lacking=_of(lacks.of_forces), otherwise=_nothing
-    ),
-    "losses": Answer(title=lambda: _("Losses"), page=_plain(rubbing), lacking=_of(lacks.of_losses), otherwise=_nothing),
-    "accuracy": Answer(
-        title=lambda: _("Accuracy"), page=_plain(erring), lacking=_of(lacks.of_accuracy), otherwise=_exact
     ),
     "torsion": Answer(
         title=lambda: _("Modes and running"),
@@ -296,8 +264,8 @@ ANSWERS: dict[str, Answer] = {
 """Every question by its name, in the order in which one asks them."""
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
-    (lambda: _("Motion"), ("motion", "movement")),
-    (lambda: _("Phases"), ("phases",)),
+    (lambda: _("Motion"), ("motion", "movement", "classical")),
+    (lambda: _("Phasing"), ("phasing",)),
     (lambda: _("Forces"), ("forces",)),
     (lambda: _("Losses"), ("losses",)),
     (lambda: _("Accuracy"), ("accuracy",)),
@@ -310,3 +278,18 @@ GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
     (lambda: _("Selection"), ("selection",)),
 )
 """Questions that belong together, with what they are called together."""
+
+
+def _registered(name: str) -> Answer:
+    """Return a question of the register as an answer among the others."""
+    question = QUESTIONS[NAMES.get(name, name)]
+    return Answer(
+        title=lambda: _(question.title),
+        page=lambda on, progress, choices: page_of(question, on, progress, choices),
+        lacking=lambda on: question.lacking(on.drive),
+        otherwise=lambda on: str(question.home.otherwise(on.drive)),
+        quick=question.quick,
+    )
+
+
+ANSWERS = {name: ANSWERS.get(name) or _registered(name) for _title, names in GROUPS for name in names}

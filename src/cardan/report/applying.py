@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from cardan.answers.quantity import say
+from cardan.answers.reader import reader
 from cardan.errors import InputError
-from cardan.figures.wording import excess, percent
+from cardan.figures.wording import percent
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.questions.motion.kinds import kind_name
+from cardan.questions.phases.answer import excess
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting, values_of
 from cardan.texts import _
@@ -107,8 +110,8 @@ def _why_not(on: Subject, found: Phasing) -> str:
         text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
         return text.format(least=least)
     i = found.limiting_joint - 1
-    why = excess(found, on.joints, float(on.bend[i]), on.drive.joints[i].kind)
-    return _("It cannot be made synchronous. {why}").format(why=why)
+    why = excess(found, on.joints, float(on.bend[i]), plain=on.drive.joints[i].kind == "hooke")
+    return say(_("It cannot be made uniform. {why}"), why=why).told(reader())
 
 
 def _of(one: YokeSetting, on: Subject) -> Applicable:

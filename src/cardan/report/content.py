@@ -9,13 +9,19 @@ from typing import cast
 
 from cardan import __version__
 from cardan.answers.answer import KeyFigure
+from cardan.answers.reader import USUAL
+from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.laws import unmapped
+from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
+from cardan.questions.motion import answer as motion
+from cardan.questions.phases import answer as yokes
+from cardan.questions.phases.phases import Phasing
 from cardan.texts import _
 
 from .balance import refused
@@ -28,19 +34,19 @@ from .followed import (
     figures_by_laws,
     judgement_by_laws,
     method_by_laws,
-    turning_by_laws,
     warnings_by_laws,
-    yokes_refused,
 )
 from .key_figures import key_figures, key_table
 from .loaded import loaded
 from .method import method
 from .moving import moving
-from .phasing import phasing
+from .page import page
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
-from .turning import turning
 from .verdicts import Judged, judged
+
+OWN = ("motion", "phasing", "articulation")
+"""Questions whose key figures the first page words in its own way."""
 
 
 def today() -> str:
@@ -145,7 +151,7 @@ def content(
     if unmapped(drive.joints):
         return _by_laws(replace(asked_by_laws(drive, duty), known=known), source_text)
     on = replace(asked(drive, duty, progress), known=known)
-    pages: list[Page] = [description(on), turning(on), phasing(on)]
+    pages: list[Page] = [description(on), *moved(on.drive), phased(on.drive, on.phasing)]
     if on.moving is not None:
         pages.append(moving(on))
     if on.unmoved is not None:
@@ -162,7 +168,7 @@ def content(
         limits,
         said=judgement(on, pages),
         warned=tuple(warnings(on, pages)),
-        figures=key_figures(on, pages),
+        figures=key_figures(on, _with_keys(pages)),
         changed=changes(on),
     )
 
@@ -170,7 +176,7 @@ def content(
 def _by_laws(on: Followed, source_text: str | None) -> Content:
     """Return the report of a drive with joints that turn by laws of their own."""
     alike = cast(Subject, on)  # what these pages ask for it has under the same names
-    pages = [description(alike), turning_by_laws(on), yokes_refused(on), *loaded(alike)]
+    pages = [description(alike), *moved(on.drive), _phased_by_laws(on.drive), *loaded(alike)]
     limits = judged(alike)
     if limits.page is not None:
         pages.append(limits.page)
@@ -182,7 +188,7 @@ def _by_laws(on: Followed, source_text: str | None) -> Content:
         limits,
         said=judgement_by_laws(on, pages),
         warned=tuple(warnings_by_laws(on, pages)),
-        figures=figures_by_laws(on, pages),
+        figures=figures_by_laws(on, _with_keys(pages)),
         changed=changes_by_laws(on),
     )
 
@@ -212,3 +218,33 @@ def _written(
         changes=changed,
         pages=tuple(pages),
     )
+
+
+def moved(drive: Drive) -> list[Page]:
+    """Return the pages of the motion: joints have their angles on the page before, shafts theirs in a table."""
+    said = motion.answer(drive, motion.ask(drive))
+    drawn = [one for one in said.figures() if one.name != "irregularity"]
+    tables = [one for one in said.tables if one.name != "joints"]
+    pages = [page(replace(said, tables=tables, figures=lambda: drawn), USUAL)]
+    seen = classical.ask(drive)
+    if seen is not None and classical.differ(seen):
+        pages.append(page(classical.answer(drive, seen), USUAL))
+    return pages
+
+
+def phased(drive: Drive, found: Phasing) -> Page:
+    """Return the page of the yokes."""
+    return page(yokes.answer(drive, found), USUAL)
+
+
+def _phased_by_laws(drive: Drive) -> Page:
+    """Return the page of the yokes of a drive with joints that turn by laws of their own: mostly why there is none."""
+    try:
+        return phased(drive, yokes.ask(drive))
+    except InputError as error:
+        return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
+
+
+def _with_keys(pages: Sequence[Page]) -> list[Page]:
+    """Return the pages whose key figures the first page does not work out by itself."""
+    return [one for one in pages if one.name not in OWN]

@@ -19,39 +19,22 @@ from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import NEGLIGIBLE, has_map, kind_problem, left_over
-from cardan.errors import InputError
-from cardan.figures.wording import fixed, percent, significant
+from cardan.drive.models.laws import has_map
 from cardan.maths.arrays import Array
-from cardan.questions.forces.swing import Swing, swing
-from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
-from cardan.questions.motion.figures.motion import motion_figure
+from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
-from cardan.questions.phases.phases import phases
-from cardan.questions.phases.setting import YokeSetting
+from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _, plural
-from cardan.units import deg
 
-from .balance import refused
 from .block import (
-    Cell,
-    Column,
     Listing,
     Page,
-    Picture,
     Points,
-    Table,
     Words,
-    number,
-    words,
 )
 from .key_figures import acceleration
-from .turning import extremes_table
-
-ORDERS = 4
-"""Orders of the angle error that are listed."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -90,59 +73,6 @@ def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
         whole=swing(whole),
         phase=by_laws(whole, np.zeros(1))["joint_angle"][:, 0],
     )
-
-
-def turning_by_laws(on: Followed) -> Page:
-    """Return the page of the motion."""
-    figure = motion_figure(on.found)
-    return Page(
-        name="motion",
-        title=_("Motion"),
-        answer=_("Followed from joint to joint, each by its own law; extremes are those seen over a turn."),
-        blocks=[Picture(figure=figure), _extremes(on), _orders(on)],
-    )
-
-
-def _extremes(on: Followed) -> Table:
-    seen = on.whole
-    parts = (seen.ratio_min, seen.ratio_max, seen.irregularity, seen.max_lead, seen.max_acceleration)
-    return extremes_table(np.stack(parts, axis=-1), on.drive.duty.speed, even=SYNCHRONOUS)
-
-
-def _orders(on: Followed) -> Table:
-    rows = [
-        [number(str(order), float(order)), number(significant(size / deg, 3), size / deg)]
-        for order, size in on.whole.orders(ORDERS)
-    ]
-    return Table(
-        title=_("Largest orders of the output's angle error"),
-        columns=(Column(heading=_("times a turn")), Column(heading=_("amplitude"), unit="°")),
-        rows=rows,
-    )
-
-
-def yokes_refused(on: Followed) -> Page:
-    """Return the page of the yoke angles: which joints keep them from being found."""
-    left = [left_over(joint, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True)]
-    far = [i for i, rest in enumerate(left) if not rest <= NEGLIGIBLE]
-    if far:
-        problems = [kind_problem(i, on.drive.joints[i], _("yoke angles")) for i in far]
-        return replace(refused("phases", _("Yoke angles"), InputError(problems)), alarms=())
-    rows = [
-        [words(one.label), *(number(fixed(float(g) / deg), float(g) / deg) for g in one.yoke_angle), _left(one)]
-        for found in [phases(on.drive)]
-        for one in (found.as_built, *found.settings, *found.spline_settings[:3])
-    ]
-    between = [Column(heading=_("γ shaft {number}").format(number=k), unit="°") for k in range(2, on.joints + 1)]
-    columns = (Column(heading=_("setting"), left=True), *between, Column(heading=_("leaves δ"), unit="%"))
-    text = _("What joints leave by laws of their own, below {most} rad, is not in these figures.")
-    table = Table(columns=columns, rows=rows, title=_("Settings to choose from"), note=text.format(most="10⁻⁶"))
-    answer = _("Yoke angles of the joints beside those that turn by laws of their own.")
-    return Page(name="phases", title=_("Yoke angles"), answer=answer, blocks=[table])
-
-
-def _left(one: YokeSetting) -> Cell:
-    return number(percent(one.irregularity).removesuffix(" %"), 100.0 * one.irregularity)
 
 
 def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:

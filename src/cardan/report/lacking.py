@@ -7,7 +7,6 @@ from typing import TypeAlias
 
 from cardan.choices.lever import key_of
 from cardan.drive.drive import Drive
-from cardan.drive.fields.keys import in_a_joint
 from cardan.texts import _
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
@@ -40,33 +39,9 @@ def of_forces(drive: Drive) -> Lacking:
     return _absent((drive.duty.torque is not None, "duty.torque"), (bool(drive.supports), "supports"))
 
 
-def of_losses(drive: Drive) -> Lacking:
-    """Return what the losses lack."""
-    joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
-    supports = any(support.friction is not None for support in drive.supports)
-    splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
-    return _absent(
-        (drive.duty.torque is not None, "duty.torque"),
-        (drive.duty.speed is not None, "duty.speed"),
-        (
-            joints or supports or splines,
-            *in_a_joint(drive, "friction"),
-            "supports[0].friction",
-            "shafts[1].spline.friction",
-        ),
-    )
-
-
 def of_strength(drive: Drive) -> Lacking:
     """Return what the strength lacks."""
     return _absent((drive.duty.torque is not None or _in_parts(drive), "duty.torque", *PARTLY))
-
-
-def of_accuracy(drive: Drive) -> Lacking:
-    """Return what the accuracy lacks."""
-    some = any(joint.tolerance is not None or joint.error is not None for joint in drive.joints)
-    keys = (*in_a_joint(drive, "tolerance"), *in_a_joint(drive, "error"))
-    return _absent((some, *(keys or ("joints[0].type",))))
 
 
 def of_assembly(drive: Drive) -> Lacking:

@@ -10,12 +10,9 @@ from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from .accuracy import erring
 from .assembly import straining
 from .balance import refused
 from .block import Page
-from .forces import carrying
-from .losses import rubbing
 from .mobility import binding
 from .page import page as page_for
 from .run_up import running_up
@@ -24,11 +21,11 @@ from .subject import Subject
 from .torsion import twisting
 
 PAGES: dict[str, Callable[[Subject], Page | None]] = {
-    "forces": carrying,
-    "losses": rubbing,
+    "forces": lambda _on: None,
+    "losses": lambda _on: None,
     "strength": bearing_up,
     "life": lambda _on: None,
-    "accuracy": erring,
+    "accuracy": lambda _on: None,
     "mobility": binding,
     "assembly": straining,
     "torsion": twisting,

@@ -169,7 +169,9 @@ def _swinging(on: Subject, found: Strength) -> Words | None:
         return Words(text=text.format(speed=speed), tone="failed")
     most = np.maximum(np.abs(runs.torque_lowest), np.abs(runs.torque_highest))
     model = runs.train.model
-    plain = np.asarray([np.max(found.loads.torque[:, model.shaft[a]]) for a, _b in model.elements])
+    plain = np.asarray(
+        [np.max([case.shaft_torque[model.shaft[a]] for case in found.cases]) for a, _b in model.elements]
+    )
     own = [e for e, (_a, b) in enumerate(model.elements) if runs.train.hangs[b] is None and plain[e] > 0.0]
     if not own:
         return None
@@ -204,8 +206,9 @@ def _heavier(on: Subject, found: Strength) -> tuple[int, float, float] | None:
     except InputError:
         return None
     load = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(every)], axis=0)
+    couple = found.cases[0].couple
     span = np.asarray([one.couple / one.journal_force if one.journal_force > 0.0 else math.nan for one in found.joints])
-    more = load * span / np.where(found.couple[0] > 0.0, found.couple[0], math.nan) - 1.0
+    more = load * span / np.where(couple > 0.0, couple, math.nan) - 1.0
     if not np.any(np.isfinite(more)):
         return None
     i = int(np.nanargmax(more))
@@ -222,7 +225,7 @@ def _notes(on: Subject, found: Strength) -> Iterator[str]:
             "The larger of the couples at its two ends bends a shaft; the chapter Forces adds both, as its supports do."
         )
     heavier = _heavier(on, found)
-    left = sum(not one.judged for one in found.uses)
+    left = sum(not one.run for one in found.verdicts)
     if left:
         yield plural(
             "One limit could not be judged; the drive may carry less.",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,16 +21,14 @@ from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import Articulation, articulation
 from cardan.questions.motion.closure import Closure, closure
-from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
+from cardan.questions.motion.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
 from cardan.questions.motion.motion import Motion, motion, phase_angles
+from cardan.questions.motion.rounding import is_rounding
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
 from cardan.questions.torsion.steady.torsion_response import TorsionResponse, torsion_response
 
 Progress = Callable[[float], object]
-
-UNDONE = 0.01
-"""Share of what all joints together could make of it, below which joints undo each other but for rounding."""
 
 ALONE = 12
 """In drives with more joints than this, single yokes are not tried one by one."""
@@ -174,21 +171,14 @@ class Subject:
         return not self.even and self.rounding(float(self.whole.irregularity))
 
     def rounding(self, share: float) -> bool:
-        """Tell whether an irregularity is no more than the rounding of the figures that describe the drive leaves.
-
-        Bends that coordinates give are never quite those meant, nor are those of joints that undo each other; a bend
-        that a file gives by itself is meant. What breaks a limit of the file is never put down to rounding.
+        """Tell whether an irregularity is no more than rounding, see `cardan.questions.motion.rounding.is_rounding`.
 
         Parameters
         ----------
         share : float
             Irregularity of this drive at some setting of its yokes.
         """
-        limit = self.drive.limits.irregularity
-        together = 2.0 * math.sinh(float(np.sum(self.closing.length)))
-        undone = self.joints > 1 and share < UNDONE * together
-        left = self.drive.form == "points" or undone or share < SYNCHRONOUS
-        return share < SPECK and left and (limit is None or share <= limit)
+        return is_rounding(self.drive, share, self.closing.length)
 
     @property
     def alone_even(self) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -13,7 +12,7 @@ from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.questions.motion.equivalence import WARN_BEND
 from cardan.questions.motion.kinds import too_steep
-from cardan.questions.phases.phases import Phasing
+from cardan.questions.phases.answer import excess
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
@@ -27,9 +26,6 @@ ILL = 80.0
 
 SAME = 1e-6
 """Yokes that differ by less than this [rad] are one and the same setting."""
-
-LITTLE = 0.01
-"""A speed fluctuation below which what the yokes leave is called little."""
 
 
 def judgement(on: Subject, pages: Sequence[Page] = ()) -> Words:
@@ -199,55 +195,6 @@ def steep_joints(on: Subject) -> Iterator[Words]:
             text = _("Joint {k} has a joint angle of {angle}; no real cross joint works above {limit}.")
             limit = Quantity(WARN_BEND * deg, "angle", trim=True)
             yield Words(text=say(text, k=k, angle=angle, limit=limit), tone="failed")
-
-
-def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> Text:
-    """Return in one sentence which joint keeps a drive from being uniform, and at what joint angle it would not.
-
-    Parameters
-    ----------
-    found : Phasing
-        What the yokes can do; a single joint fluctuates more than the others can undo.
-    joints : int
-        Number of joints.
-    bend : float [rad]
-        Angle of that joint.
-    plain : bool
-        Whether it is a Hooke joint; of another kind no angle is named.
-
-    Notes
-    -----
-    The side L = -ln cos α of that joint is asinh(δ/2) too long.
-    """
-    left = _share(found.irregularity_min)
-    if not plain:
-        text = _("Joint {number} fluctuates more than the others can undo. What remains is {left}.")
-        return say(text, number=found.limiting_joint, left=left)
-    spare = math.asinh(0.5 * found.irregularity_min)
-    closing = math.acos(min(1.0, math.cos(bend) * math.exp(spare)))
-    decimals = next((d for d in (2, 3, 4, 5) if round(closing / deg, d) != round(bend / deg, d)), 6)
-    text = plural(
-        "The angle of joint {number} is too large for the other one: at {closing} instead of {now} the drive could be "
-        "uniform. What remains is {left}.",
-        "The angle of joint {number} is too large for the others: at {closing} instead of {now} the drive could be "
-        "uniform. What remains is {left}.",
-        joints - 1,
-    )
-    if found.irregularity_min < LITTLE:
-        text = plural(
-            "The angle of joint {number} is a little too large for the other one: at {closing} instead of {now} the "
-            "drive could be uniform. What remains is {left}.",
-            "The angle of joint {number} is a little too large for the others: at {closing} instead of {now} the drive "
-            "could be uniform. What remains is {left}.",
-            joints - 1,
-        )
-    return say(
-        text,
-        number=found.limiting_joint,
-        closing=Quantity(closing, "angle", decimals=decimals),
-        now=Quantity(bend, "angle", decimals=decimals),
-        left=left,
-    )
 
 
 def changes(on: Subject) -> Table | Words:

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from cardan import figures
+from cardan.answers.reader import USUAL, Reader
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.drive import Drive
 from cardan.figures.figure import Bars, Curve, Shape
+from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import example
@@ -17,15 +19,14 @@ from cardan.questions.accuracy.accuracy import transmission_error
 from cardan.questions.accuracy.figure import MICRON, band_figure, error_figure, pareto_figure
 from cardan.questions.accuracy.sampling import MonteCarlo
 from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance
-from cardan.units import arcmin
+from cardan.units import arcmin, deg
 
 INSTRUMENT = example("instrument-joint")
 THREE = Drive.from_angles([0.3, 0.2, 0.4])
 
 
-def drawn(figure):
-    assert figure.sentence.endswith(".")
-    assert figure.sentence.count(". ") == 0
+def drawn(made):
+    figure = for_reader(made, USUAL)
     assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
     assert described(figure)["data"]
 
@@ -87,5 +88,15 @@ def test_known_errors_shift_the_band():
     assert "known errors alone" in [item.label for item in figure.entries]
 
 
-def test_joints_that_do_not_close_are_told():
-    assert "cannot be assembled" in error_figure(transmission_error(THREE, errors=Error(alpha2=1.3))).sentence
+def test_axes_and_bars_are_in_the_units_of_the_reader():
+    found = tolerance(INSTRUMENT)
+    who = Reader(units={"angle": "deg", "length": "in"}, decimal=",")
+    band, pareto = (for_reader(one, who) for one in figures.for_result(found))
+    assert [panel.heading for panel in band.panels] == [
+        "Angle error of the output [°]",
+        "Shift of the output shaft [in]",
+    ]
+    wide = band.panels[0].series[0]
+    np.testing.assert_allclose(np.max(wide.y), np.max(found.output.upper) / deg)
+    (bars,) = pareto.panels[0].series
+    assert bars.texts[0] == "75,0 %, ±0,0355°"

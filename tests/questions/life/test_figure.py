@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from cardan import figures
+from cardan.answers.reader import USUAL
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty, History
 from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.joints import Hooke
 from cardan.figures.figure import Bars, Curve
+from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.life.figure import SHOWN, history_figure, load_figure, parts_figure
@@ -25,8 +27,10 @@ JOINTS = tuple(
 DRIVE = Drive(joints=JOINTS)
 
 
-def drawn(figure):
-    assert figure.sentence.endswith(".")
+def drawn(figure, sentence=True):
+    """Draw a figure; where its answer says what it shows, it needs no sentence of its own."""
+    figure = for_reader(figure, USUAL)
+    assert figure.sentence.endswith("." if sentence else "")
     assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
     assert described(figure)["layout"]
 
@@ -39,7 +43,7 @@ def series(figure, kind):
 def test_the_duty_lies_on_the_curve_of_the_joint_that_fails_first(demanded):
     found = life(DRIVE, Duty(speed=100.0, torque=400.0, life=demanded))
     (figure,) = figures.for_result(found)
-    drawn(figure)
+    drawn(figure, sentence=demanded is not None)
     *curves, point = series(figure, Curve)
     assert len(curves) == 2
     first = curves[found.governing - 1]
@@ -59,7 +63,7 @@ def test_parts_are_told_by_time_and_damage():
     blocks = tuple(Block(torque=100.0 + 10.0 * k, speed=50.0, share=1 / 20) for k in range(20))
     found = life(DRIVE, Duty(blocks=blocks))
     for figure in figures.for_result(found):
-        drawn(figure)
+        drawn(figure, sentence=figure.name != "life")
     time, damage = series(parts_figure(found), Bars)
     assert len(time.size) == SHOWN
     assert damage.size[0] == pytest.approx(100.0 * found.damage[-1, found.governing - 1])
@@ -72,7 +76,7 @@ def test_a_measured_torque_is_a_histogram():
     history = History(file="x.csv", times=(0.0, 1.0, 3.0), torques=(-100.0, 500.0, 200.0))
     found = life(DRIVE, Duty(speed=100.0, torque_history=history))
     for figure in figures.for_result(found):
-        drawn(figure)
+        drawn(figure, sentence=figure.name != "life")
     for bars in series(history_figure(found), Bars):
         assert np.sum(bars.size) == pytest.approx(100.0)
 

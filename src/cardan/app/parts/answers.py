@@ -377,7 +377,7 @@ def _answer(question: Question) -> tuple[Page, tuple[Applicable, ...]] | str:
     try:
         page = result(question)
         assert isinstance(page, Page)
-        if question.name != "phases":
+        if question.name != "phasing":
             return page, ()
         with speaking(question.language):
             return page, settings(subject(question.drive))

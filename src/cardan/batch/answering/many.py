@@ -19,9 +19,9 @@ from cardan.drive.models.laws import mixed, unmapped
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Method
-from cardan.questions.forces.swing import Evenness, Swing, swing
 from cardan.questions.motion.equivalence import after_each_joint
 from cardan.questions.motion.extremes import Extremes, extremes
+from cardan.questions.motion.swing import Evenness, Swing, swing
 from cardan.texts import _
 
 RIGHT = 1e-15

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -26,28 +25,22 @@ def _judge(design: Design) -> Iterator[Verdict]:
     output = f"shafts[{design.joints}]"
     said = [(_("torsional acceleration of the output"), output, norm.torsional)]
     if design.joints > 1:
-        said.append((_("acceleration of inside shafts in drive"), "", norm.inertia_drive))
-        said.append((_("acceleration of inside shafts in coast"), "", norm.inertia_coast))
+        said.append((_("inertia excitation, drive"), "", norm.inertia_drive))
+        said.append((_("inertia excitation, coast"), "", norm.inertia_coast))
     drawn_swings = None if speed is None else swings(design.chain)
     moved = None if speed is None else design.while_moving(swings)
     for k, (title, subject, limit) in enumerate(said):
-        made = partial(
-            Verdict,
-            check="acceleration",
-            subject=subject,
-            title=title,
-            dimension="angular_acceleration",
-            unit="rad_s2",
-            limit=limit,
-            source=norm.source,
-        )
         if speed is None or drawn_swings is None:
-            yield made(missing=("duty.speed",))
+            yield Verdict(subject=subject, title=title, missing=("duty.speed",))
             continue
         drawn = drawn_swings[..., k]
         most = drawn if moved is None else moved[..., k]
         yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
-        yield made(
+        yield Verdict(
+            subject=subject,
+            title=title,
+            limit=limit,
+            source=norm.source,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             levers=(*yokes, *design.bend_levers, *design.speed_levers),
             note=joined((at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else "")),
@@ -74,7 +67,9 @@ def swings(chain: Chain) -> Array:
 
 CHECK = Check(
     name="acceleration",
-    doc=mark("angular acceleration of the output, and of the inside shafts in drive and in coast, against a norm"),
+    doc=mark("torsional excitation and the inertia excitation in drive and in coast, against a standard"),
     judge=_judge,
+    dimension="angular_acceleration",
+    unit="rad_s2",
     crosses="map",
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,27 +16,23 @@ from cardan.texts import _, mark
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    source = _("web articles on drive shafts: 6° and 1.5°")
-    made = partial(
-        Verdict,
-        check="angle_rule",
-        dimension="angle",
-        unit="deg",
-        source=source,
-        advice=True,
-        levers=design.bend_levers,
-    )
+    rule = Verdict(source=_("web articles on drive shafts: 6° and 1.5°"), levers=design.bend_levers)
     largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
-    yield made(title=_("largest bend, rule of thumb"), value=largest[..., 0], limit=RULE_ANGLE, note=note)
+    yield replace(
+        rule, title=_("largest joint angle, rule of thumb"), value=largest[..., 0], limit=RULE_ANGLE, note=note
+    )
     if design.joints == 2:
         apart, note = at_its_most(design, lambda bend: np.abs(bend[..., :1] - bend[..., 1:]))
-        title = _("difference of the bends, rule of thumb")
-        yield made(title=title, value=apart[..., 0], limit=RULE_DIFFERENCE, note=note)
+        title = _("difference of the joint angles, rule of thumb")
+        yield replace(rule, title=title, value=apart[..., 0], limit=RULE_DIFFERENCE, note=note)
 
 
 CHECK = Check(
     name="angle_rule",
-    doc=mark("rule of thumb: bends at most 6°, those of two joints within 1.5°"),
+    doc=mark("rule of thumb: joint angles at most 6°, those of two joints within 1.5°"),
     judge=_judge,
+    dimension="angle",
+    unit="deg",
+    advice=True,
     crosses="all",
 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -23,18 +22,9 @@ SET = 1e-3
 def _judge(design: Design) -> Iterator[Verdict]:
     if design.joints != 2 or not _phased(design):
         return
-    made = partial(
-        Verdict,
-        check="angle_table",
-        title=_("larger bend beside the smaller, table of angles"),
-        dimension="angle",
-        unit="deg",
-        source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
-        advice=True,
-    )
     speed = design.top_speed
     if speed is None:
-        yield made(missing=("duty.speed",))
+        yield Verdict(missing=("duty.speed",))
         return
     if np.any(np.asarray(speed) == 0.0):
         return
@@ -50,9 +40,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
     second = np.where(np.isfinite(high[..., 0]), high[..., 0], low)
     most: Array = angle_limits(speed, low, second, torsional=TABLE_TORSIONAL).most
     most, said = bendable(design, most)
-    yield made(
+    yield Verdict(
         value=high[..., 0],
         limit=most,
+        source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
         levers=(*design.bend_levers, *design.speed_levers),
         note=joined((at_top_speed(design), said, note)),
     )
@@ -68,5 +59,9 @@ CHECK = Check(
     name="angle_table",
     doc=mark("table of joint angles by speed, for two joints set right"),
     judge=_judge,
+    title=mark("larger joint angle beside the smaller, table of angles"),
+    dimension="angle",
+    unit="deg",
+    advice=True,
     crosses="all",
 )

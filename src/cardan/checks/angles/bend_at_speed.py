@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -14,23 +13,14 @@ from cardan.checks.moving import at_its_most
 from cardan.checks.told import bendable, joined
 from cardan.checks.verdict import Verdict
 from cardan.maths.arrays import Array
-from cardan.texts import _, mark
+from cardan.texts import mark
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
     rows = sorted(design.known.rows(MaxBend).values(), key=lambda row: row.speed)
-    made = partial(
-        Verdict,
-        check="bend_at_speed",
-        title=_("largest bend at the highest speed"),
-        dimension="angle",
-        unit="deg",
-        source=rows[0].source if rows else "",
-        advice=True,
-    )
     speed = design.top_speed
     if speed is None:
-        yield made(missing=("duty.speed",))
+        yield Verdict(missing=("duty.speed",))
         return
     if not rows:
         return
@@ -40,9 +30,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
     limit: Array = np.interp(turning, at, at * np.asarray([row.max_bend for row in rows])) / turning
     limit, said = bendable(design, limit)
     largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
-    yield made(
+    yield Verdict(
         value=largest[..., 0],
         limit=limit,
+        source=rows[0].source,
         levers=(*design.bend_levers, *design.speed_levers),
         note=joined((said, note)),
     )
@@ -50,7 +41,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="bend_at_speed",
-    doc=mark("largest bend of one joint at the highest speed, a maker's guide"),
+    doc=mark("largest joint angle at the highest speed, a maker's guide"),
     judge=_judge,
+    title=mark("largest joint angle at the highest speed"),
+    dimension="angle",
+    unit="deg",
+    advice=True,
     crosses="all",
 )

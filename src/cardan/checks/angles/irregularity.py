@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -20,20 +19,14 @@ EVEN = 0.0027
 
 def _judge(design: Design) -> Iterator[Verdict]:
     own = design.value("limits.irregularity")
-    made = partial(
-        Verdict,
-        check="irregularity",
-        subject=f"shafts[{design.joints}]",
-        title=_("irregularity of the output"),
-        dimension="share",
-        unit="percent",
-    )
+    output = f"shafts[{design.joints}]"
     if own is None and not design.duty.synchronous:
-        yield made(missing=("limits.irregularity",))
+        yield Verdict(subject=output, missing=("limits.irregularity",))
         return
     drawn = equivalent_joint(design.chain).irregularity if design.swing is None else design.swing.irregularity[-1]
     moved = design.while_moving(lambda chain: equivalent_joint(chain).irregularity[..., None])
-    yield made(
+    yield Verdict(
+        subject=output,
         value=drawn if moved is None else largest([drawn, moved[..., 0]]),
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
@@ -43,5 +36,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="irregularity", doc=mark("unevenness of the output against the limit of the user"), judge=_judge, crosses="law"
+    name="irregularity",
+    doc=mark("speed fluctuation of the output against the limit of the user"),
+    judge=_judge,
+    title=mark("speed fluctuation δ of the output"),
+    dimension="share",
+    unit="percent",
+    crosses="law",
 )

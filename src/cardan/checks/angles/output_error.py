@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
@@ -14,18 +13,12 @@ from cardan.texts import _, mark
 
 def _judge(design: Design) -> Iterator[Verdict]:
     own = design.value("limits.output_error")
-    made = partial(
-        Verdict,
-        check="output_error",
-        subject=f"shafts[{design.joints}]",
-        title=_("error of the output angle"),
-        dimension="angle",
-        unit="deg",
-    )
+    output = f"shafts[{design.joints}]"
     if own is None:
-        yield made(missing=("limits.output_error",))
+        yield Verdict(subject=output, missing=("limits.output_error",))
         return
-    yield made(
+    yield Verdict(
+        subject=output,
         value=equivalent_joint(design.chain).max_lead if design.swing is None else design.swing.max_lead[-1],
         limit=own,
         source=_("limits of the drive file"),
@@ -35,7 +28,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 CHECK = Check(
     name="output_error",
-    doc=mark("how far the output runs ahead and back against the limit of the user"),
+    doc=mark("angle error of the output, an amplitude, against the limit of the user"),
     judge=_judge,
+    title=mark("angle error of the output (±)"),
+    dimension="angle",
+    unit="deg",
     crosses="law",
 )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
@@ -19,16 +18,23 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     shafts = design.joints - 1
     title = plural("wheelbase for {count} shaft", "wheelbase for {count} shafts", shafts).format(count=shafts)
-    made = partial(Verdict, check="layout", title=title, dimension="length", unit="m", advice=True)
     if vehicle.wheelbase is None:
-        yield made(missing=("duty.vehicle.wheelbase",))
+        yield Verdict(title=title, missing=("duty.vehicle.wheelbase",))
         return
     limits = {0: 0.0, 1: ONE_SHAFT * BELOW, 2: TWO_SHAFTS}
-    yield made(
+    yield Verdict(
+        title=title,
         value=design.value("duty.vehicle.wheelbase"),
         limit=limits.get(shafts, math.inf),
         source=_("web articles on drive shafts: one shaft below 3.4 m, two up to 4.8 m, three above"),
     )
 
 
-CHECK = Check(name="layout", doc=mark("rule of thumb: how many shafts a wheelbase needs"), judge=_judge)
+CHECK = Check(
+    name="layout",
+    doc=mark("rule of thumb: how many shafts a wheelbase needs"),
+    judge=_judge,
+    dimension="length",
+    unit="m",
+    advice=True,
+)

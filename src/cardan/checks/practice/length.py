@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
@@ -14,28 +13,28 @@ LONGEST = 1.5
 """Distance of two joints beyond which unbalance becomes a problem [m]."""
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for k in range(1, design.joints):
-        made = partial(
-            Verdict,
-            check="length",
-            subject=f"shafts[{k}]",
-            title=_("length of shaft {number}").format(number=k + 1),
-            dimension="length",
-            unit="mm",
-            advice=True,
-        )
-        length = design.length(k)
-        if length is None:
-            yield made(missing=(f"shafts[{k}].length",))
-            continue
-        yield made(
-            value=length,
-            limit=LONGEST,
-            source=_("web articles on drive shafts: at most 1.5 m between joints"),
-            levers=design.levers(f"shafts[{k}].length") if design.drive.form != "points" else (),
-            note=_("a composite tube may be longer") if design.drive.shafts[k].layup is not None else "",
-        )
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
+    if not 0 < k < design.joints:
+        return
+    length = design.length(k)
+    if length is None:
+        yield Verdict(missing=(f"shafts[{k}].length",))
+        return
+    yield Verdict(
+        value=length,
+        limit=LONGEST,
+        source=_("web articles on drive shafts: at most 1.5 m between joints"),
+        levers=design.levers(f"shafts[{k}].length") if design.drive.form != "points" else (),
+        note=_("a composite tube may be longer") if design.drive.shafts[k].layup is not None else "",
+    )
 
 
-CHECK = Check(name="length", doc=mark("rule of thumb: at most 1.5 m between two joints"), judge=_judge)
+CHECK = Check(
+    name="length",
+    doc=mark("rule of thumb: at most 1.5 m between two joints"),
+    shaft=_judge,
+    title=mark("length of shaft {number}"),
+    dimension="length",
+    unit="mm",
+    advice=True,
+)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.catalogue.rows import Lubrication
 from cardan.checks.check import Check
@@ -26,15 +25,15 @@ def _judge(design: Design) -> Iterator[Verdict]:
     }
     for item in upkeep.items or ("needle_bearings",):
         row = design.known.row(Lubrication, item, field="duty.upkeep.items")
-        made = partial(Verdict, check="lubrication", subject="", source=row.source)
         asked = [name for name in COUNTERS if getattr(row, name) is not None]
         given = [name for name in asked if design.value(f"duty.upkeep.{name}") is not None]
         if not given:
             title = words[asked[0]].format(item=_words(item))
-            yield made(title=title, missing=tuple(f"duty.upkeep.{name}" for name in asked))
+            yield Verdict(title=title, missing=tuple(f"duty.upkeep.{name}" for name in asked))
         for name in given:
             dimension, unit = COUNTERS[name]
-            yield made(
+            yield Verdict(
+                source=row.source,
                 title=words[name].format(item=_words(item)),
                 dimension=dimension,
                 unit=unit,

@@ -23,30 +23,21 @@ NAMES = {
 }
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
     rows = design.known.rows(PartLimit)
-    for i, joint in enumerate(design.drive.joints):
-        for one in fields(Inspection) if joint.inspection is not None else ():
-            path = f"joints[{i}].inspection.{one.name}"
-            value, row = design.value(path), rows.get(one.name)
-            if value is None or row is None:
-                continue
-            yield Verdict(
-                check="part_accuracy",
-                subject=f"joints[{i}]",
-                title=_(NAMES[one.name]).format(number=i + 1),
-                dimension="length",
-                unit="mm",
-                value=value,
-                limit=row.limit,
-                source=row.source,
-                levers=(path,),
-            )
+    for one in fields(Inspection) if design.drive.joints[i].inspection is not None else ():
+        path = f"joints[{i}].inspection.{one.name}"
+        value, row = design.value(path), rows.get(one.name)
+        if value is not None and row is not None:
+            title = _(NAMES[one.name])
+            yield Verdict(title=title, value=value, limit=row.limit, source=row.source, levers=(path,))
 
 
 CHECK = Check(
     name="part_accuracy",
     doc=mark("what was measured on yokes and crosses against GOST 2752-74"),
-    judge=_judge,
+    joint=_judge,
+    dimension="length",
+    unit="mm",
     crosses="each",
 )

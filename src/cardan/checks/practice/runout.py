@@ -14,23 +14,23 @@ STRAIGHT, HEAVY = 0.25 * mm, 0.8 * mm
 """Run-out to which shafts are straightened before balancing, and that of trucks of 5 t and more [m]."""
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
     heavy = design.duty.balance_class == "truck_over_5t"
-    for k, shaft in enumerate(design.drive.shafts):
-        if shaft.runout is None:
-            continue
+    if design.drive.shafts[k].runout is not None:
         yield Verdict(
-            check="runout",
-            subject=f"shafts[{k}]",
-            title=_("run-out of shaft {number}").format(number=k + 1),
-            dimension="length",
-            unit="mm",
             value=design.value(f"shafts[{k}].runout"),
             limit=HEAVY if heavy else STRAIGHT,
             source=_("Book p. 247, trucks of 5 t and more") if heavy else _("web articles on drive shafts: 0.25 mm"),
             levers=(f"shafts[{k}].runout",),
-            advice=True,
         )
 
 
-CHECK = Check(name="runout", doc=mark("run-out of tubes against practice"), judge=_judge)
+CHECK = Check(
+    name="runout",
+    doc=mark("run-out of tubes against practice"),
+    shaft=_judge,
+    title=mark("run-out of shaft {number}"),
+    dimension="length",
+    unit="mm",
+    advice=True,
+)

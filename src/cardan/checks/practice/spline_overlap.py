@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -31,17 +30,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
     for k in splined:
         path = f"shafts[{k}].spline"
         out, back, stood = slides.get(k, (0.0, 0.0, 0.0))
-        made = partial(Verdict, check="spline_overlap", subject=f"shafts[{k}]", dimension="length", unit="mm")
-        made = partial(made, sense="at_least")
         moved = _("while the drive moves")
         engaged, gap = design.value(f"{path}.engaged"), design.value(f"{path}.gap")
-        title = _("engaged length of the spline of shaft {number}").format(number=k + 1)
         if engaged is None or (own is None and k not in slides):
             lacking = design.missing(f"{path}.engaged")
-            yield made(title=title, missing=lacking or ("limits.spline_overlap",))
+            yield Verdict(subject=f"shafts[{k}]", missing=lacking or ("limits.spline_overlap",))
         else:
-            yield made(
-                title=title,
+            yield Verdict(
+                subject=f"shafts[{k}]",
                 value=np.asarray(engaged) - out,
                 limit=TOUCH if own is None else own,
                 source=_("it must not come apart") if own is None else _("limits of the drive file"),
@@ -49,8 +45,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 note=moved if np.all(out > stood + ROUNDING) else "",
             )
         if gap is not None and k in slides:
-            yield made(
-                title=_("way left to bottoming of the spline of shaft {number}").format(number=k + 1),
+            yield Verdict(
+                subject=f"shafts[{k}]",
+                title=_("remaining travel of the spline of shaft {number}"),
                 value=np.asarray(gap) - back,
                 limit=TOUCH,
                 source=_("it must not bottom"),
@@ -84,5 +81,11 @@ def _slid(design: Design) -> dict[int, tuple[Array, Array, Array]]:
 
 
 CHECK = Check(
-    name="spline_overlap", doc=mark("engaged length and way left of every spline while the drive moves"), judge=_judge
+    name="spline_overlap",
+    doc=mark("engaged length and remaining travel of every spline while the drive moves"),
+    judge=_judge,
+    title=mark("engaged length of the spline of shaft {number}"),
+    dimension="length",
+    unit="mm",
+    sense="at_least",
 )

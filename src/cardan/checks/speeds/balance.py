@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -17,52 +16,44 @@ from cardan.questions.bending.balance import SLOW, allowed_unbalance
 from cardan.texts import _, mark
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
     grade, norm = design.duty.balance_grade, design.duty.balance_class
-    for k, shaft in enumerate(design.drive.shafts):
-        if not shaft.unbalance and (not (grade or norm) or not 0 < k < design.joints):
-            continue
-        made = partial(
-            Verdict,
-            check="balance",
-            subject=f"shafts[{k}]",
-            title=_("unbalance of shaft {number}").format(number=k + 1),
-            dimension="unbalance",
-            unit="g_mm",
+    shaft = design.drive.shafts[k]
+    if not shaft.unbalance and (not (grade or norm) or not 0 < k < design.joints):
+        return
+    lacking = [] if shaft.unbalance else [f"shafts[{k}].unbalance"]
+    if not grade and not norm:
+        lacking.append("duty.balance_grade")
+    mass = _mass(design, k)
+    if grade:
+        lacking += design.unmoved
+        lacking += [] if mass is not None else [f"shafts[{k}].mass"]
+    if lacking:
+        yield Verdict(missing=tuple(lacking))
+        return
+    amount = _amount(design, k)
+    levers = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
+    slow = design.top_speed is not None and bool(np.all(np.asarray(design.top_speed) < SLOW))
+    if grade:
+        row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
+        top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
+        yield Verdict(
+            value=amount,
+            limit=allowed_unbalance(mass, top, row.speed).whole,
+            source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
+            levers=(*levers, *design.speed_levers),
+            note=_("below 500 rpm makers do not balance") if slow else "",
+            advice=slow,
         )
-        lacking = [] if shaft.unbalance else [f"shafts[{k}].unbalance"]
-        if not grade and not norm:
-            lacking.append("duty.balance_grade")
-        mass = _mass(design, k)
-        if grade:
-            lacking += design.unmoved
-            lacking += [] if mass is not None else [f"shafts[{k}].mass"]
-        if lacking:
-            yield made(missing=tuple(lacking))
-            continue
-        amount = _amount(design, k)
-        levers = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
-        slow = design.top_speed is not None and bool(np.all(np.asarray(design.top_speed) < SLOW))
-        if grade:
-            row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
-            top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
-            yield made(
-                value=amount,
-                limit=allowed_unbalance(mass, top, row.speed).whole,
-                source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
-                levers=(*levers, *design.speed_levers),
-                note=_("below 500 rpm makers do not balance") if slow else "",
-                advice=slow,
-            )
-        if norm:
-            limit = design.known.row(BalanceNorm, norm, field="duty.balance_class")
-            yield made(
-                title=_("unbalance of shaft {number}, the book's norm").format(number=k + 1),
-                value=amount,
-                limit=limit.max_unbalance,
-                source=f"{limit.source}, {limit.note}",
-                levers=levers,
-            )
+    if norm:
+        limit = design.known.row(BalanceNorm, norm, field="duty.balance_class")
+        yield Verdict(
+            title=_("unbalance of shaft {number}, the book's norm"),
+            value=amount,
+            limit=limit.max_unbalance,
+            source=f"{limit.source}, {limit.note}",
+            levers=levers,
+        )
 
 
 def _mass(design: Design, k: int) -> Array | None:
@@ -96,4 +87,11 @@ def _amount(design: Design, k: int) -> Array:
     return whole
 
 
-CHECK = Check(name="balance", doc=mark("unbalance of every shaft against its balance grade or norm"), judge=_judge)
+CHECK = Check(
+    name="balance",
+    doc=mark("unbalance of every shaft against its balance grade or norm"),
+    shaft=_judge,
+    title=mark("unbalance of shaft {number}"),
+    dimension="unbalance",
+    unit="g_mm",
+)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -19,21 +18,17 @@ from .whirl import Whirl, whirls
 
 def _judge(design: Design) -> Iterator[Verdict]:
     for one in whirls(design):
-        made = partial(
-            Verdict,
-            check="critical_speed",
-            subject=f"shafts[{one.shaft}]",
-            title=_("critical speed of shaft {number} over the highest speed").format(number=one.shaft + 1),
-        )
+        subject = f"shafts[{one.shaft}]"
         if one.missing or design.unmoved:
-            yield made(missing=(*one.missing, *design.unmoved))
+            yield Verdict(subject=subject, missing=(*one.missing, *design.unmoved))
             continue
         if one.speed is None:
             continue
         top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
         own = design.value("limits.critical_speed")
         source = _("web articles on drive shafts: 60 % above the highest speed")
-        yield made(
+        yield Verdict(
+            subject=subject,
             value=one.wear * one.speed / top,
             limit=ARTICLE if own is None else own,
             sense="at_least",
@@ -46,8 +41,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
             "automotive": _("IMS catalogue, automotive drives: 70 %"),
             "industrial": _("IMS catalogue, industrial drives: 65 %"),
         }
-        yield made(
-            title=_("highest speed over the computed critical speed of shaft {number}").format(number=one.shaft + 1),
+        yield Verdict(
+            subject=subject,
+            title=_("speed ratio n/n_crit of shaft {number}, computed"),
             value=top / one.speed,
             limit=CATALOGUE[application],
             dimension="share",
@@ -81,5 +77,8 @@ def _computed(one: Whirl) -> str:
 
 
 CHECK = Check(
-    name="critical_speed", doc=mark("critical speed of every shaft in bending against the highest speed"), judge=_judge
+    name="critical_speed",
+    doc=mark("critical speed of every shaft in bending against the highest speed"),
+    judge=_judge,
+    title=mark("margin n_crit/n of shaft {number}, real"),
 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -22,35 +21,33 @@ def _judge(design: Design) -> Iterator[Verdict]:
         k, speed, lacking, levers = one.shaft, one.speed, one.missing, one.levers
         running = [case.speed for case in design.cases if case.speed is not None]
         between = design.duty.speed_range
-        made = partial(
-            Verdict,
-            check="half_critical",
-            subject=f"shafts[{k}]",
-            title=_("speed beside half the critical speed of shaft {number}").format(number=k + 1),
-            dimension="angular_speed",
-            unit="rpm",
-            sense="outside",
-            source=_("a maker's rule: 8 % to either side; couples of the joints come twice a turn"),
+        subject, source = (
+            f"shafts[{k}]",
+            _("a maker's rule: 8 % to either side; couples of the joints come twice a turn"),
         )
         if lacking or not (running or between):
-            yield made(missing=(*lacking, *(() if running or between else ("duty.speed",))))
+            yield Verdict(subject=subject, missing=(*lacking, *(() if running or between else ("duty.speed",))))
             continue
         if speed is None:
             continue
         middle = 0.5 * np.asarray(one.wear * speed)
         low, high = middle * (1.0 - HALF_BAND), middle * (1.0 + HALF_BAND)
         if running:
-            yield made(
+            yield Verdict(
+                subject=subject,
                 value=_nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
                 limit=(low, high),
+                source=source,
                 levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
             )
         if between is not None:
             nearest = np.clip(middle, design.value("duty.speed_range[0]"), design.value("duty.speed_range[1]"))
-            yield made(
-                title=_("range of speeds about half the critical speed of shaft {number}").format(number=k + 1),
+            yield Verdict(
+                subject=subject,
+                title=_("clearance of the speed range from half critical speed, shaft {number}"),
                 value=nearest,
                 limit=(low, high),
+                source=source,
                 levers=levers,
                 note=_("pass through it quickly") if np.all((nearest > low) & (nearest < high)) else "",
                 advice=True,
@@ -66,5 +63,11 @@ def _nearest(speeds: list[Array], middle: Array) -> Array:
 
 
 CHECK = Check(
-    name="half_critical", doc=mark("speeds of running against the band about half the critical speed"), judge=_judge
+    name="half_critical",
+    doc=mark("operating speeds against the band about half the critical speed"),
+    judge=_judge,
+    title=mark("clearance from half critical speed, shaft {number}"),
+    dimension="angular_speed",
+    unit="rpm",
+    sense="outside",
 )

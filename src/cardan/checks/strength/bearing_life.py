@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -22,54 +22,43 @@ from cardan.texts import _, mark
 SIZES = ("needles.count", "needles.diameter", "needles.length", "cross.journal")
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    plain = Design(drive=design.drive, duty=design.duty, known=design.known)
-    for i in range(design.joints):
-        given, span = f"joints[{i}].needles.capacity", f"joints[{i}].cross.span"
-        sizes = tuple(f"joints[{i}].{name}" for name in SIZES)
-        made = partial(
-            Verdict,
-            check="bearing_life",
-            subject=f"joints[{i}]",
-            title=_("life of the bearings of joint {number}").format(number=i + 1),
-            dimension="time",
-            unit="h",
-            sense="at_least",
-        )
-        rated = design.value(given) is not None
-        lacking = list(design.missing(span, "duty.life"))
-        if not rated and design.missing(*sizes):
-            lacking.insert(0, given)
-        lacking += [*design.unloaded, *design.unmoved]
-        if lacking:
-            yield made(missing=tuple(lacking))
-            continue
-        found = _lives(design.drive)
-        if isinstance(found, tuple):
-            yield made(missing=tuple(path for path, _message in found), note="; ".join(text for _path, text in found))
-            continue
-        value = np.asarray(found[i])
-        if design.varied:
-            value = found[i] * _relative(plain, i) / np.maximum(_relative(design, i), 1e-300)
-        yield made(
-            value=value,
-            limit=design.value("duty.life"),
-            source=_("ISO 281 over the swing of the journals, reliability {share:g} %").format(
-                share=100.0 * design.duty.reliability
-            ),
-            levers=(
-                *((given,) if rated else sizes),
-                span,
-                *design.bends_of(i),
-                *design.torque_levers,
-                *design.speed_levers,
-                "duty.life",
-            ),
-        )
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
+    given, span = f"joints[{i}].needles.capacity", f"joints[{i}].cross.span"
+    sizes = tuple(f"joints[{i}].{name}" for name in SIZES)
+    rated = design.value(given) is not None
+    lacking = list(design.missing(span, "duty.life"))
+    if not rated and design.missing(*sizes):
+        lacking.insert(0, given)
+    lacking += [*design.unloaded, *design.unmoved]
+    if lacking:
+        yield Verdict(missing=tuple(lacking))
+        return
+    found = lives(design.drive)
+    if isinstance(found, tuple):
+        yield Verdict(missing=tuple(path for path, _message in found), note="; ".join(text for _path, text in found))
+        return
+    value = np.asarray(found[i])
+    if design.varied:
+        plain = Design(drive=design.drive, duty=design.duty, known=design.known)
+        value = found[i] * _relative(plain, i) / np.maximum(_relative(design, i), 1e-300)
+    source = _("ISO 281 over the oscillation of the journals, reliability {share:g} %")
+    yield Verdict(
+        value=value,
+        limit=design.value("duty.life"),
+        source=source.format(share=100.0 * design.duty.reliability),
+        levers=(
+            *((given,) if rated else sizes),
+            span,
+            *design.bends_of(i),
+            *design.torque_levers,
+            *design.speed_levers,
+            "duty.life",
+        ),
+    )
 
 
 @lru_cache(maxsize=64)
-def _lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
+def lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
     """Return the life of every joint by ISO 281, array (n,) [s]; or what is wrong, path and message."""
     try:
         return life(drive, method="iso").of("iso")
@@ -98,6 +87,11 @@ def _relative(design: Design, i: int) -> Array:
 CHECK = Check(
     name="bearing_life",
     doc=mark("life of the needle bearings of every joint by ISO 281 against the life asked for"),
-    judge=_judge,
+    joint=_judge,
+    title=mark("life of the bearings of joint {number}"),
+    dimension="time",
+    unit="h",
+    sense="at_least",
+    power=POWER,
     crosses="each",
 )

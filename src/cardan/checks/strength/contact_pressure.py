@@ -3,44 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.needle_bearing import STATIC_PRESSURE, needle_contact
+from cardan.formulas.needle_bearing import STATIC_PRESSURE, Contact, needle_contact
 from cardan.texts import _, mark
 
+from .journal_load import journal_load
+from .needle_static import sizes_of
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for i in range(design.joints):
-        span, journal = f"joints[{i}].cross.span", f"joints[{i}].cross.journal"
-        sizes = tuple(f"joints[{i}].needles.{one}" for one in ("count", "diameter", "length"))
-        made = partial(
-            Verdict,
-            check="contact_pressure",
-            subject=f"joints[{i}]",
-            title=_("pressure on the needles of joint {number}").format(number=i + 1),
-            dimension="stress",
-            unit="MPa",
-            advice=True,
-        )
-        lacking = (*design.missing(span, journal, *sizes), *design.unloaded)
-        if lacking:
-            yield made(missing=lacking)
-            continue
-        couple, note = design.most(lambda case, i=i: case.couple[..., i])  # type: ignore[misc]
-        force = couple * design.shock / design.value(span)
-        count, diameter, length = (design.value(path) for path in sizes)
-        yield made(
-            value=needle_contact(force, count, diameter, length, design.value(journal)).pressure,
-            limit=STATIC_PRESSURE,
-            source=_("Hertz; 4000 MPa stands behind ISO 76"),
-            levers=(span, *sizes, journal, *design.torque_levers),
-            note=note,
-        )
+
+def lacking(design: Design, i: int) -> tuple[str, ...]:
+    """Return what the contact of the needles of a joint lacks."""
+    return design.missing(f"joints[{i}].cross.span", f"joints[{i}].cross.journal", *sizes_of(i))
+
+
+def contact(design: Design, i: int) -> tuple[Contact, str]:
+    """Return the contact of the most loaded needle of a joint, counted from 0, and a sentence on what decides it."""
+    load, note = journal_load(design, i)
+    count, diameter, length = (design.value(path) for path in sizes_of(i))
+    return needle_contact(load, count, diameter, length, design.value(f"joints[{i}].cross.journal")), note
+
+
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
+    missing = (*lacking(design, i), *design.unloaded)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    found, note = contact(design, i)
+    yield Verdict(
+        value=found.pressure,
+        limit=STATIC_PRESSURE,
+        source=_("Hertz; 4000 MPa stands behind ISO 76"),
+        levers=(f"joints[{i}].cross.span", *sizes_of(i), f"joints[{i}].cross.journal", *design.torque_levers),
+        note=note,
+    )
 
 
 CHECK = Check(
-    name="contact_pressure", doc=mark("pressure of Hertz on the needles of every joint"), judge=_judge, crosses="each"
+    name="contact_pressure",
+    doc=mark("pressure of Hertz on the needles of every joint"),
+    joint=_judge,
+    title=mark("contact pressure of the needles of joint {number}"),
+    dimension="stress",
+    unit="MPa",
+    advice=True,
+    power=0.5,
+    crosses="each",
 )

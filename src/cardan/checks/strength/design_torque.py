@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -21,14 +20,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
     vehicle = design.duty.vehicle
     if vehicle is None:
         return
-    made = partial(
-        Verdict,
-        check="design_torque",
-        title=_("largest torque of the duty beside that of the vehicle"),
-        dimension="torque",
-        unit="Nm",
-        sense="at_least",
-    )
     engine, power, speed = (
         design.value(f"{VEHICLE}.{name}") for name in ("engine_torque", "engine_power", "engine_speed")
     )
@@ -38,7 +29,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if engine is None:
         lacking.insert(0, f"{VEHICLE}.{'engine_torque' if power is None else 'engine_speed'}")
     if lacking:
-        yield made(missing=tuple(lacking))
+        yield Verdict(missing=tuple(lacking))
         return
     names = ("gear_ratio", "axle_ratio", "efficiency", "split_fraction", "dynamic_factor", "wheel_load", "wheel_radius")
     found = design_torque(
@@ -48,7 +39,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         **{name: design.value(f"{VEHICLE}.{name}") for name in names},
     )
     adhesion = bool(np.all(found.by_adhesion))
-    yield made(
+    yield Verdict(
         value=largest([case.torque for case in design.loaded if case.torque is not None]) * design.shock,
         limit=found.design,
         source=_("adhesion of the wheels, μ W r") if adhesion else _("torque of the engine through the gears"),
@@ -58,5 +49,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="design_torque", doc=mark("torque of the duty against what engine and wheels can bring"), judge=_judge
+    name="design_torque",
+    doc=mark("torque of the duty against what engine and wheels can bring"),
+    judge=_judge,
+    title=mark("largest torque of the duty beside that of the vehicle"),
+    dimension="torque",
+    unit="Nm",
+    sense="at_least",
 )

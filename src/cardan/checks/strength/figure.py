@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.checks.verdict import Verdict
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Rule
 from cardan.figures.palette import shaft
@@ -11,7 +12,6 @@ from cardan.figures.wording import percent, significant
 from cardan.texts import _
 
 from .strength import Strength
-from .strength_use import Use
 
 SHOWN = 16
 """Limits with a bar of their own, those used most."""
@@ -29,7 +29,7 @@ def strength_figures(found: Strength) -> tuple[Figure, ...]:
     return (uses_figure(found), fatigue_figure(found)) if tired else (uses_figure(found),)
 
 
-def tone(one: Use) -> str:
+def tone(one: Verdict) -> str:
     """Return the colour of a use: how near it is to its limit."""
     if one.advice:
         return "muted"
@@ -43,7 +43,7 @@ def uses_figure(found: Strength) -> Figure:
     ----------
     found : Strength
     """
-    order = sorted(found.judged, key=lambda one: -one.utilisation)[:SHOWN]
+    order = sorted(found.judged, key=lambda one: -float(one.utilisation))[:SHOWN]
     source = _("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")
     if len(order) < len(found.judged):
         text = _("; the {shown} nearest of {all} limits")
@@ -57,7 +57,7 @@ def uses_figure(found: Strength) -> Figure:
         source=source,
         rows=(
             Row(
-                panels=(bars_of([(one.title, one.utilisation, tone(one)) for one in order]),),
+                panels=(bars_of([(one.title, float(one.utilisation), tone(one)) for one in order]),),
                 height=0.24 * max(len(order), 1) + 0.4,
             ),
         ),
@@ -123,7 +123,7 @@ def fatigue_figure(found: Strength) -> Figure:
             swing = float(one.fatigue.alternating) / float(one.fatigue.endurance)
             places.append((one.number, 1.0 / float(one.fatigue.safety) - swing, swing, float(one.fatigue.safety)))
     most = max(1.0, *(1.1 * max(mean, swing) for _number, mean, swing, _safety in places))
-    asked = next((one.limit for one in found.uses if one.check == "tube_fatigue" and one.judged), 1.5)
+    asked = next((one.bound for one in found.judged if one.check == "tube_fatigue"), 1.5)
     line = np.asarray([0.0, 1.0])
     series: list[Curve | Note | Band] = [
         Curve(x=line, y=1.0 - line, role="failed", label=_("breaks in the end")),

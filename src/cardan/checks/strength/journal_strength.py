@@ -3,54 +3,64 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.joint_strength import journal_stress
+from cardan.formulas.joint_strength import PartStress, journal_stress
 from cardan.texts import _, mark
 
+from .journal_load import journal_load
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for i in range(design.joints):
-        cross = f"joints[{i}].cross"
-        made = partial(
-            Verdict,
-            check="journal_strength",
-            subject=f"joints[{i}]",
-            title=_("stress of the journals of joint {number}").format(number=i + 1),
-            dimension="stress",
-            unit="MPa",
-        )
-        strength = f"{cross}.material.yield_strength"
-        arm, half = design.value(f"{cross}.bending_arm"), design.value(f"{cross}.journal_length")
-        lacking = (*design.missing(f"{cross}.span", f"{cross}.journal", strength), *design.unloaded)
-        if arm is None and half is None:
-            lacking = (*lacking, f"{cross}.bending_arm")
-        if lacking:
-            yield made(missing=lacking)
-            continue
-        couple, note = design.most(lambda case, i=i: case.couple[..., i])  # type: ignore[misc]
-        stress = journal_stress(
-            couple * design.shock / design.value(f"{cross}.span"),
-            diameter=design.value(f"{cross}.journal"),
-            arm=0.5 * half if arm is None else arm,
-            bore=design.value(f"{cross}.journal_bore"),
-        )
-        lever = f"{cross}.journal_length" if arm is None else f"{cross}.bending_arm"
-        yield made(
-            value=stress.mises,
-            limit=design.allowed(strength),
-            source=_("Book (264), (265) with the grease bore; yield strength over safety"),
-            levers=(f"{cross}.journal", f"{cross}.span", lever, strength, *design.torque_levers),
-            note=note,
-        )
+
+def lacking(design: Design, i: int) -> tuple[str, ...]:
+    """Return what the stress of the journals of a joint lacks."""
+    cross = f"joints[{i}].cross"
+    arm = (
+        () if len(design.missing(f"{cross}.bending_arm", f"{cross}.journal_length")) < 2 else (f"{cross}.bending_arm",)
+    )
+    return (*design.missing(f"{cross}.span", f"{cross}.journal"), *arm)
+
+
+def stress(design: Design, i: int) -> tuple[PartStress, str]:
+    """Return the stress of the journals of a joint, counted from 0, and a sentence on what decides it."""
+    cross = f"joints[{i}].cross"
+    arm = design.value(f"{cross}.bending_arm")
+    load, note = journal_load(design, i)
+    found = journal_stress(
+        load,
+        diameter=design.value(f"{cross}.journal"),
+        arm=0.5 * design.value(f"{cross}.journal_length") if arm is None else arm,
+        bore=design.value(f"{cross}.journal_bore"),
+    )
+    return found, note
+
+
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
+    cross = f"joints[{i}].cross"
+    strength, arm = f"{cross}.material.yield_strength", f"{cross}.bending_arm"
+    missing = (*lacking(design, i), *design.missing(strength), *design.unloaded)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    found, note = stress(design, i)
+    lever = f"{cross}.journal_length" if design.missing(arm) else arm
+    yield Verdict(
+        value=found.mises,
+        limit=design.allowed(strength),
+        source=_("Book (264), (265) with the grease bore; yield strength over safety"),
+        levers=(f"{cross}.journal", f"{cross}.span", lever, strength, *design.torque_levers),
+        note=note,
+    )
 
 
 CHECK = Check(
     name="journal_strength",
     doc=mark("stress at the roots of the journals against yielding"),
-    judge=_judge,
+    joint=_judge,
+    title=mark("stress of the journals of joint {number}"),
+    dimension="stress",
+    unit="MPa",
+    power=1.0,
     crosses="each",
 )

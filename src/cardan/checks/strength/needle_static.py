@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -14,61 +13,51 @@ from cardan.formulas.needle_bearing import book_load, needle_rating
 from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
-
-def _judge(design: Design) -> Iterator[Verdict]:
-    for i in range(design.joints):
-        yield from _of_joint(design, i)
+from .journal_load import journal_load
 
 
-def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
-    made = partial(
-        Verdict,
-        check="needle_static",
-        subject=f"joints[{i}]",
-        title=_("load of the needles of joint {number} at rest").format(number=i + 1),
-        dimension="force",
-        unit="N",
-    )
+def sizes_of(i: int) -> tuple[str, ...]:
+    """Return the paths of the sizes of the needles of a joint, counted from 0."""
+    return tuple(f"joints[{i}].needles.{one}" for one in ("count", "diameter", "length"))
+
+
+def static_capacity(design: Design, i: int) -> Array | float | None:
+    """Return the static capacity of the bearings of a joint: as given, or by ISO 76 [N]; None where it is not known."""
+    given = design.value(f"joints[{i}].needles.static_capacity")
+    paths = (*sizes_of(i), f"joints[{i}].cross.journal")
+    if given is not None or design.missing(*paths):
+        return given
+    return needle_rating(*(design.value(path) for path in paths)).static
+
+
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
     span, given = f"joints[{i}].cross.span", f"joints[{i}].needles.static_capacity"
-    sizes = tuple(f"joints[{i}].{one}" for one in ("needles.count", "needles.diameter", "needles.length"))
-    journal = f"joints[{i}].cross.journal"
-    rated = design.value(given)
-    lacking = (*design.missing(span), *design.unloaded)
-    if rated is None and design.missing(*sizes, journal):
-        lacking = (*lacking, given)
-    if lacking:
-        yield made(missing=lacking)
+    sizes, journal = sizes_of(i), f"joints[{i}].cross.journal"
+    capacity, rated = static_capacity(design, i), not design.missing(given)
+    lacking = (*design.missing(span), *design.unloaded, *(() if capacity is not None else (given,)))
+    if lacking or capacity is None:
+        yield Verdict(missing=lacking)
         return
-    load, note = design.most(lambda case: case.couple[..., i])
-    load = load * design.shock / design.value(span)
-    count, diameter, length = (design.value(path) for path in sizes)
-    capacity = rated
-    if capacity is None:
-        capacity = needle_rating(count, diameter, length, design.value(journal)).static
-    inside = (given,) if rated is not None else (*sizes, journal)
-    yield made(
+    load, note = journal_load(design, i)
+    yield Verdict(
         value=load,
         limit=capacity,
-        source=_("static capacity of the bearing") if rated is not None else "ISO 76",
-        levers=(span, *inside, *design.torque_levers),
+        source=_("static capacity of the bearing") if rated else "ISO 76",
+        levers=(span, *((given,) if rated else (*sizes, journal)), *design.torque_levers),
         note=note,
     )
-    if design.missing(*sizes):
-        return
     turning = [case for case in design.loaded if case.speed is not None and np.all(np.asarray(case.speed) > 0.0)]
-    if not turning:
+    if design.missing(*sizes) or not turning:
         return
-    used = [
-        case.couple[..., i] / book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi))
-        for case in turning
-    ]
+    count, diameter, length = (design.value(path) for path in sizes)
+    allowed = [book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi)) for case in turning]
+    used = [case.couple[..., i] / limit for case, limit in zip(turning, allowed, strict=True)]
     worst = int(np.argmax([float(np.max(one)) for one in used]))
-    limit: Array = book_load(count, diameter, length, np.asarray(turning[worst].speed) / (2.0 * np.pi))
-    yield made(
-        title=_("load of the needles of joint {number}, the book's rule").format(number=i + 1),
+    yield Verdict(
+        title=_("load of the needles of joint {number}, the book's rule"),
         value=turning[worst].couple[..., i] * design.shock / design.value(span),
-        limit=np.minimum(limit, capacity),
-        source=_("Book (266), one swing a turn"),
+        limit=np.minimum(allowed[worst], capacity),
+        source=_("Book (266), one oscillation a turn"),
         levers=(span, *sizes, *design.torque_levers, *design.speed_levers),
         note=_("an old rule on the safe side; the life decides"),
         advice=True,
@@ -78,6 +67,10 @@ def _of_joint(design: Design, i: int) -> Iterator[Verdict]:
 CHECK = Check(
     name="needle_static",
     doc=mark("largest load of the needle bearings against ISO 76 and the book's rule"),
-    judge=_judge,
+    joint=_judge,
+    title=mark("load of the needles of joint {number} at rest"),
+    dimension="force",
+    unit="N",
+    power=1.0,
     crosses="each",
 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -22,47 +21,38 @@ SOURCES = {
 }
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for i, joint in enumerate(design.drive.joints):
-        torque = f"joints[{i}].rating.torque"
-        made = partial(
-            Verdict,
-            check="rated_torque",
-            subject=f"joints[{i}]",
-            title=_("rated torque of joint {number} for its life").format(number=i + 1),
-            dimension="torque",
-            unit="Nm",
-        )
-        running = design.running
-        lacking = (*design.missing(torque, "duty.life"), *design.unloaded, *design.unmoved)
-        if lacking or not running or joint.rating is None:
-            yield made(missing=tuple(dict.fromkeys(lacking)) or ("duty.torque",))
-            continue
-        convention = joint.rating.convention
-        rated = np.asarray(design.value(torque), dtype=float)
-        if convention == "book":
-            rated = rated / NOMINAL
-        # Torque that does the damage of the whole duty at its mean speed times bend.
-        pace: Array = sum(np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) for one in running)
-        worn: Array = sum(
-            np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) * one.joint_torque[..., i] ** POWER
-            for one in running
-        )
-        whole: Array = sum(np.asarray(one.share) for one in running)
-        value = design.shock * (worn / pace) ** (1.0 / POWER)
-        allowed = rated * (CONVENTIONS[convention] / (pace / whole * design.value("duty.life"))) ** (1.0 / POWER)
-        yield made(
-            value=value,
-            limit=allowed,
-            source=_(SOURCES[convention]),
-            levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
-            note=_("a bend below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
-        )
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
+    torque, rating = f"joints[{i}].rating.torque", design.drive.joints[i].rating
+    running = design.running
+    lacking = (*design.missing(torque, "duty.life"), *design.unloaded, *design.unmoved)
+    if lacking or not running or rating is None:
+        yield Verdict(missing=tuple(dict.fromkeys(lacking)) or ("duty.torque",))
+        return
+    convention = rating.convention
+    rated = np.asarray(design.value(torque), dtype=float)
+    if convention == "book":
+        rated = rated / NOMINAL
+    # Torque that does the damage of the whole duty at its mean speed times joint angle.
+    paces = [np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) for one in running]
+    pace: Array = sum(paces)
+    worn: Array = sum(own * one.joint_torque[..., i] ** POWER for own, one in zip(paces, running, strict=True))
+    whole: Array = sum(np.asarray(one.share) for one in running)
+    yield Verdict(
+        value=design.shock * (worn / pace) ** (1.0 / POWER),
+        limit=rated * (CONVENTIONS[convention] / (pace / whole * design.value("duty.life"))) ** (1.0 / POWER),
+        source=_(SOURCES[convention]),
+        levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
+        note=_("a joint angle below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
+    )
 
 
 CHECK = Check(
     name="rated_torque",
     doc=mark("torque of the duty against the rated torque of every joint for the life"),
-    judge=_judge,
+    joint=_judge,
+    title=mark("rated torque of joint {number} for its life"),
+    dimension="torque",
+    unit="Nm",
+    power=1.0,
     crosses="each",
 )

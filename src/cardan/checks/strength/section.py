@@ -9,6 +9,7 @@ from cardan.checks.design import Design
 from cardan.drive.body import body_material
 from cardan.drive.material import Material
 from cardan.maths.arrays import Array
+from cardan.texts import _
 
 STEEL = Material()
 
@@ -26,6 +27,8 @@ class Section:
         Of the stretch; None where the drive does not say it.
     levers : tuple of str
         Paths that change its sizes.
+    number : int
+        Of the stretch, from 1; 0 where the shaft is one.
     """
 
     path: str
@@ -33,6 +36,12 @@ class Section:
     inner: Array | float
     length: Array | float | None
     levers: tuple[str, ...]
+    number: int = 0
+
+    @property
+    def words(self) -> str:
+        """What to add to the name of its shaft; nothing where the shaft is one stretch."""
+        return _(", stretch {number}").format(number=self.number) if self.number else ""
 
     def of_material(self, name: str) -> str:
         """Return the path of a figure of its material."""
@@ -46,7 +55,8 @@ def sections(design: Design, k: int) -> Iterator[Section]:
     for s, _segment in enumerate(shaft.segments):
         one = f"{path}.segments[{s}]"
         outer, inner, length = (design.value(f"{one}.{name}") for name in ("outer", "inner", "length"))
-        yield Section(path=one, outer=outer, inner=inner, length=length, levers=design.levers(f"{one}.outer"))
+        levers = design.levers(f"{one}.outer")
+        yield Section(path=one, outer=outer, inner=inner, length=length, levers=levers, number=s + 1)
     outer = design.value(f"{path}.outer")
     if outer is None:
         return
@@ -63,7 +73,7 @@ def sections(design: Design, k: int) -> Iterator[Section]:
 
 def modulus(design: Design, section: Section, name: str) -> float | Array:
     """Return "youngs", "shear_modulus" or "density" of a stretch; those of steel where none is given."""
-    if "segments" not in section.path and design.value(f"{section.path}.layup") is not None:
+    if not section.number and design.value(f"{section.path}.layup") is not None:
         tube = body_material(design.value(section.path))
         return float(getattr(tube, name))
     path = f"{section.path}.material"
@@ -73,14 +83,3 @@ def modulus(design: Design, section: Section, name: str) -> float | Array:
     material = design.value(path) or STEEL
     shear = design.value(f"{path}.shear")
     return material.shear_modulus if shear is None else shear
-
-
-def number_of(path: str) -> int:
-    """Return the number of a stretch from its path.
-
-    Examples
-    --------
-    >>> number_of("shafts[1].segments[2]")
-    3
-    """
-    return int(path.rpartition("[")[2].rstrip("]")) + 1

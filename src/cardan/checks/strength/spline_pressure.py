@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -14,6 +13,11 @@ from cardan.formulas.spline_strength import SplineStress, spline_stress
 from cardan.texts import _, mark
 
 SIZES = ("outer", "root", "teeth", "tooth_width", "length")
+
+
+def lacking(design: Design, k: int) -> tuple[str, ...]:
+    """Return what the stresses of the spline of a shaft lack."""
+    return design.missing(*(f"shafts[{k}].spline.{name}" for name in SIZES))
 
 
 def stresses(design: Design, k: int) -> tuple[SplineStress, str]:
@@ -34,38 +38,30 @@ def stresses(design: Design, k: int) -> tuple[SplineStress, str]:
     return found, note
 
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for k, shaft in enumerate(design.drive.shafts):
-        if shaft.spline is None:
-            continue
-        path = f"shafts[{k}].spline"
-        made = partial(
-            Verdict,
-            check="spline_pressure",
-            subject=f"shafts[{k}]",
-            title=_("pressure on the spline of shaft {number}").format(number=k + 1),
-            dimension="stress",
-            unit="MPa",
-        )
-        lacking = (
-            *design.missing(*(f"{path}.{name}" for name in SIZES), "limits.spline_pressure"),
-            *design.unloaded,
-        )
-        if lacking:
-            yield made(missing=lacking)
-            continue
-        found, note = stresses(design, k)
-        yield made(
-            value=found.pressure,
-            limit=design.value("limits.spline_pressure"),
-            source=_("2T/(d_m z ψ h l); limits of the drive file, no source gives one"),
-            levers=(f"{path}.length", f"{path}.outer", f"{path}.teeth", *design.torque_levers),
-            note=note,
-        )
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
+    if design.drive.shafts[k].spline is None:
+        return
+    path = f"shafts[{k}].spline"
+    missing = (*lacking(design, k), *design.missing("limits.spline_pressure"), *design.unloaded)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    found, note = stresses(design, k)
+    yield Verdict(
+        value=found.pressure,
+        limit=design.value("limits.spline_pressure"),
+        source=_("2T/(d_m z ψ h l); limits of the drive file, no source gives one"),
+        levers=(f"{path}.length", f"{path}.outer", f"{path}.teeth", *design.torque_levers),
+        note=note,
+    )
 
 
 CHECK = Check(
     name="spline_pressure",
     doc=mark("pressure on the teeth of every spline against the limit of the user"),
-    judge=_judge,
+    shaft=_judge,
+    title=mark("flank pressure of the spline of shaft {number}"),
+    dimension="stress",
+    unit="MPa",
+    power=1.0,
 )

@@ -1,32 +1,74 @@
-"""Is a drive strong enough, and how much torque may it carry at most?"""
+"""Is a drive strong enough, and how much torque may it carry at most? The verdicts of the checks on its parts."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.catalogue import Catalogue, catalogue, filled
+from cardan.catalogue import Catalogue
+from cardan.checks.case import Case
+from cardan.checks.design import Design, design
+from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import given_chain
 from cardan.drive.models.train import train
 from cardan.errors import InputError, Problem, check
+from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array
-from cardan.questions.forces.turn_loads import LoadCase, case_loads, load_cases
 from cardan.questions.life.bearing_loads import bearing_loads
-from cardan.questions.life.life import duty_parts
+from cardan.questions.life.life import duty_parts, life
 from cardan.texts import _
 
-from .joint_uses import JointStrength, judged_joints
-from .shaft_body import stretches
-from .shaft_loads import ShaftLoads, shaft_loads
-from .shaft_uses import ShaftStrength, judged_shafts
-from .strength_use import Use, governing
+from . import (
+    bearing_life,
+    contact_pressure,
+    joint_torque,
+    journal_strength,
+    needle_static,
+    rated_torque,
+    spline_pressure,
+    spline_strength,
+    tube_buckling,
+    tube_fatigue,
+    tube_strength,
+    twist,
+    yoke_strength,
+)
+from .joint_strength import JointStrength, joint_strength
+from .section import sections
+from .shaft_strength import ShaftStrength, lasting, shaft_strength
+
+STRENGTH = tuple(
+    module.CHECK
+    for module in (
+        tube_strength,
+        tube_buckling,
+        tube_fatigue,
+        spline_strength,
+        spline_pressure,
+        twist,
+        joint_torque,
+        rated_torque,
+        journal_strength,
+        yoke_strength,
+        needle_static,
+        contact_pressure,
+        bearing_life,
+    )
+)
+"""Checks of the parts that the torque can break, in the order in which they are told."""
 
 WIDEST = 0.254
 """Diameter up to which the size factor of fatigue is measured [m], Shigley chapter 6."""
+
+ROUNDS = 8
+"""Times that a torque for a life is bettered at most; three are usual."""
+
+RESTS = 1e-11
+"""Change of the torque at which this ends."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -35,16 +77,13 @@ class Strength:
 
     Attributes
     ----------
-    cases : tuple of LoadCase (c,)
-        Ways in which it runs: its duty, the parts of its duty cycle, the peak of its torque history.
-    loads : ShaftLoads
-        Torques, secondary couples and moments of the shafts in each of them, without the factor for shocks.
-    couple : array (c, n) [N·m]
-        Largest couple of each cross in each of them, without the factor for shocks.
+    cases : tuple of Case (c,)
+        Ways in which it runs under torque, with the largest loads of shafts and crosses over a turn, without the factor
+        for shocks: its duty, the parts of its duty cycle, the peak of its torque history.
     shafts : tuple of ShaftStrength (n+1,)
     joints : tuple of JointStrength (n,)
-    uses : tuple of Use
-        What every part uses of its limits, and what it lacks to be judged.
+    verdicts : tuple of Verdict
+        What every part uses of its limits, and what it lacks to be judged: shafts, then all of them together, joints.
     torque : float [N·m]
         Largest size of the torque of the duty.
     shock_factor : float
@@ -56,42 +95,40 @@ class Strength:
         Numbers of shafts that are wider than those whose fatigue was measured.
     """
 
-    cases: tuple[LoadCase, ...]
-    loads: ShaftLoads
-    couple: Array
+    cases: tuple[Case, ...]
     shafts: tuple[ShaftStrength, ...]
     joints: tuple[JointStrength, ...]
-    uses: tuple[Use, ...]
+    verdicts: tuple[Verdict, ...]
     torque: float
     shock_factor: float
     dynamic_factor: float = 1.0
     extrapolated: tuple[int, ...] = ()
 
     @property
-    def judged(self) -> tuple[Use, ...]:
-        """Uses of limits for which nothing is missing."""
-        return tuple(one for one in self.uses if one.judged)
+    def judged(self) -> tuple[Verdict, ...]:
+        """Verdicts for which nothing is missing."""
+        return tuple(one for one in self.verdicts if one.run)
 
     @property
-    def binding(self) -> tuple[Use, ...]:
+    def binding(self) -> tuple[Verdict, ...]:
         """Those of them that must be kept: no rules of thumb."""
         return tuple(one for one in self.judged if not one.advice)
 
     @property
     def missing(self) -> tuple[str, ...]:
         """Paths of the drive file without which some parts are not judged, each once."""
-        return tuple(dict.fromkeys(path for one in self.uses for path in one.missing))
+        return tuple(dict.fromkeys(path for one in self.verdicts for path in one.missing))
 
     @property
-    def governing(self) -> Use | None:
-        """The use that ends first when all torques grow; None where nothing is judged."""
-        return governing(self.uses)
+    def governing(self) -> Verdict | None:
+        """The limit that is reached first when all torques grow; None where nothing is judged."""
+        return min(self.binding, key=lambda one: float(one.torque_factor), default=None)
 
     @property
     def torque_factor(self) -> float:
         """By which factor all torques of the duty may grow until the first part uses all of its limit."""
         first = self.governing
-        return math.nan if first is None else first.torque_factor
+        return math.nan if first is None else float(first.torque_factor)
 
     @property
     def rated_torque(self) -> float:
@@ -101,16 +138,16 @@ class Strength:
     @property
     def utilisation(self) -> float:
         """Largest share of a limit that is used; nan where nothing is judged."""
-        return max((one.utilisation for one in self.binding), default=math.nan)
+        return max((float(one.utilisation) for one in self.binding), default=math.nan)
 
     @property
     def enough(self) -> bool | None:
-        """Whether every part that is judged holds; None where nothing is judged."""
+        """Whether every part that is judged is strong enough; None where nothing is judged."""
         return self.utilisation <= 1.0 if self.binding else None
 
-    def of(self, part: str) -> tuple[Use, ...]:
-        """Return the uses of a part, as ``joints[0]`` or ``shafts[1]``."""
-        return tuple(one for one in self.uses if one.part == part)
+    def of(self, subject: str) -> tuple[Verdict, ...]:
+        """Return the verdicts on a part, as ``joints[0]`` or ``shafts[1]``."""
+        return tuple(one for one in self.verdicts if one.subject == subject)
 
 
 def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None = None) -> Strength:
@@ -153,46 +190,93 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
     >>> print(found.governing.check, f"{found.utilisation:.3f} {found.rated_torque:.1f}")
     tube_fatigue 0.423 1890.9
     """
-    rows = known or catalogue()
-    whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
-    used = whole.duty
-    cases = tuple(load_cases(used))
-    if not cases:
+    subject = design(drive, duty, known=known)
+    if not subject.loaded:
         check([Problem("duty.torque", _("missing; how strong a drive must be depends on it"), "missing")])
-    loads = [case_loads(whole, case) for case in cases]
-    shafts = shaft_loads(loads)
-    couple = np.stack([one.couple for one in loads])
-    own = np.asarray(given_chain(whole).bend, dtype=float)
-    bend = np.stack([own if case.bend is None else np.full(own.shape, case.bend) for case in cases])
-    of_shafts, shaft_uses = judged_shafts(whole, used, cases, shafts)
-    of_joints, joint_uses = judged_joints(whole, used, rows, cases, shafts.torque, couple, bend)
+    parts = range(subject.joints + 1)
     return Strength(
-        cases=cases,
-        loads=shafts,
-        couple=couple,
-        shafts=of_shafts,
-        joints=of_joints,
-        uses=(*shaft_uses, *joint_uses),
-        torque=max(abs(case.torque) for case in cases),
-        shock_factor=used.shock_factor,
-        dynamic_factor=_dynamic(whole, used, cases, couple),
+        cases=subject.loaded,
+        shafts=tuple(shaft_strength(subject, k) for k in parts),
+        joints=tuple(joint_strength(subject, i) for i in parts[:-1]),
+        verdicts=tuple(_verdicts(subject)),
+        torque=max(abs(float(case.torque or 0.0)) for case in subject.loaded),
+        shock_factor=float(subject.shock),
+        dynamic_factor=_dynamic(subject),
         extrapolated=tuple(
             k + 1
-            for k, shaft in enumerate(whole.shafts)
-            if shaft.layup is None and any(one.outer > WIDEST for one in stretches(whole, k))
+            for k in parts
+            if subject.drive.shafts[k].layup is None and any(one.outer > WIDEST for one in sections(subject, k))
         ),
     )
 
 
-def _dynamic(drive: Drive, duty: Duty, cases: tuple[LoadCase, ...], couple: Array) -> float:
+def _verdicts(subject: Design) -> Iterator[Verdict]:
+    """Yield the verdicts on shafts, on all of them together, on joints."""
+    every = [one for check in STRENGTH for one in check.verdicts(subject) if _asked(one)]
+    limits = {(one.check, one.subject) for one in every if not one.advice}
+    kept = [one for one in every if not (one.advice and (one.check, one.subject) in limits)]  # no rule beside a limit
+    longer = _longer(subject)
+    order = {"shafts": 0, "": 1, "joints": 2}
+    for one in sorted(kept, key=lambda one: (order[one.subject.partition("[")[0]], one.number)):
+        yield replace(one, factor=float(longer[one.number - 1])) if one.check == "bearing_life" and one.run else one
+
+
+def _asked(one: Verdict) -> bool:
+    """Tell whether a verdict is about what the drive has and is to do: no life that nobody asks for."""
+    rated = one.check != "rated_torque" or not any(path.endswith(".rating.torque") for path in one.missing)
+    return not one.unfit and rated and "duty.life" not in one.missing
+
+
+def _longer(subject: Design) -> Array:
+    """Return by which factor the torques may grow for the life demanded, joint by joint, array (n,).
+
+    Masses count in a life, so that it is not quite a power of the torque: of the joint that fails first the factor is
+    bettered until it rests, that of the others is left at the power.
+    """
+    drive, duty = subject.drive, subject.duty
+    found = bearing_life.lives(drive)
+    if isinstance(found, tuple) or duty.life is None:
+        return np.full(subject.joints, math.nan)
+    with np.errstate(divide="ignore"):
+        factors = (found / duty.life) ** (1.0 / POWER)
+    first = int(np.nanargmin(factors)) if not np.all(np.isnan(factors)) else -1
+    for _round in range(ROUNDS if first >= 0 and math.isfinite(factors[first]) else 0):
+        now = life(drive, scaled(duty, factors[first]), method="iso").of("iso")[first]
+        step = float((now / duty.life) ** (1.0 / POWER))
+        factors[first] *= step
+        if abs(step - 1.0) < RESTS:
+            break
+    return factors
+
+
+def scaled(duty: Duty, factor: float) -> Duty:
+    """Return a duty with all its torques times a factor.
+
+    Examples
+    --------
+    >>> scaled(Duty(torque=100.0), 1.5).torque
+    150.0
+    """
+    history = duty.torque_history
+    return replace(
+        duty,
+        torque=None if duty.torque is None else factor * duty.torque,
+        harmonics=tuple(replace(one, torque=factor * one.torque) for one in duty.harmonics),
+        blocks=tuple(replace(one, torque=factor * one.torque) for one in duty.blocks),
+        torque_history=None
+        if history is None
+        else replace(history, torques=tuple(factor * one for one in history.torques)),
+    )
+
+
+def _dynamic(subject: Design) -> float:
     """Return by which factor masses and friction raise the largest couple of a cross; 1 where it cannot be told."""
     try:
-        parts, asked, _history, _cycles = duty_parts(duty)
-        real = bearing_loads(drive, train(drive), asked, parts).couple
+        parts, asked, _history, _cycles = duty_parts(subject.duty)
+        real = bearing_loads(subject.drive, train(subject.drive), asked, parts).couple
     except InputError:
         return 1.0
-    own = [c for c, case in enumerate(cases) if case.share > 0.0]
-    plain = np.max(couple[own or [0]], axis=0)
+    plain = np.max([case.couple for case in lasting(subject) or subject.loaded[:1]], axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         grown = np.max(real, axis=0) / plain
     return float(max(1.0, np.max(grown[np.isfinite(grown)], initial=1.0)))

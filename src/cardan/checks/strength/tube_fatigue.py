@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -12,77 +11,74 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
 from cardan.drive.shaft import Notch
-from cardan.formulas.fatigue import shaft_fatigue
-from cardan.maths.arrays import Array
+from cardan.formulas.fatigue import Fatigue, shaft_fatigue
+from cardan.maths.arrays import ArrayLike
 from cardan.texts import _, mark
 
 from .section import Section, sections
 
-
-def _judge(design: Design) -> Iterator[Verdict]:
-    for k, shaft in enumerate(design.drive.shafts):
-        if shaft.layup is not None:
-            continue
-        found = list(sections(design, k))
-        made = partial(
-            Verdict,
-            check="tube_fatigue",
-            subject=f"shafts[{k}]",
-            title=_("safety of shaft {number} against fatigue").format(number=k + 1),
-            sense="at_least",
-        )
-        if not found:
-            if 0 < k < design.joints:
-                material = f"shafts[{k}].material"
-                strong = design.missing(f"{material}.ultimate_strength", f"{material}.yield_strength")
-                yield made(missing=(f"shafts[{k}].outer", *strong, *design.unloaded))
-            continue
-        strengths = [section.of_material(name) for section in found for name in ("ultimate_strength", "yield_strength")]
-        lacking = (*design.missing(*strengths), *design.unloaded)
-        if lacking:
-            yield made(missing=lacking)
-            continue
-        safeties = [_safety(design, case, section, k) for case in design.loaded for section in found]
-        sizes = tuple(path for section in found for path in section.levers)
-        notches = design.levers(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion")
-        yield made(
-            value=np.min(np.stack(np.broadcast_arrays(*safeties)), axis=0),
-            limit=design.value("limits.fatigue_safety"),
-            source=_("Goodman with Marin's factors, Shigley chapter 6"),
-            levers=(*sizes, strengths[0], *notches, *design.bend_levers, *design.torque_levers),
-        )
+STRENGTHS = ("ultimate_strength", "yield_strength")
 
 
-def _safety(design: Design, case: Case, section: Section, k: int) -> Array:
-    """Return the safety of a stretch in one way of running."""
-    shaft = design.drive.shafts[k]
-    least, most = (torque[..., k] for torque in case.torque_range)
-    notch = shaft.notch or Notch()
-    factors = [design.value(f"shafts[{k}].notch.{name}") for name in ("bending", "torsion")]
-    bending, torsion = (
-        getattr(notch, name) if given is None else given
-        for name, given in zip(("bending", "torsion"), factors, strict=True)
+def _judge(design: Design, k: int) -> Iterator[Verdict]:
+    if design.drive.shafts[k].layup is not None:
+        return
+    found = list(sections(design, k))
+    if not found:
+        if 0 < k < design.joints:
+            strong = design.missing(*(f"shafts[{k}].material.{name}" for name in STRENGTHS))
+            yield Verdict(missing=(f"shafts[{k}].outer", *strong, *design.unloaded))
+        return
+    strengths = [section.of_material(name) for section in found for name in STRENGTHS]
+    lacking = (*design.missing(*strengths), *design.unloaded)
+    if lacking:
+        yield Verdict(missing=lacking)
+        return
+    safeties = [fatigue(design, k, section, case).safety for case in design.loaded for section in found]
+    sizes = tuple(path for section in found for path in section.levers)
+    notches = design.levers(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion")
+    yield Verdict(
+        value=np.min(np.stack(np.broadcast_arrays(*safeties)), axis=0),
+        limit=design.value("limits.fatigue_safety"),
+        source=_("Goodman with Marin's factors, Shigley chapter 6"),
+        levers=(*sizes, strengths[0], *notches, *design.bend_levers, *design.torque_levers),
     )
-    ultimate = design.value(section.of_material("ultimate_strength"))
-    outer = np.asarray(section.outer, dtype=float)
+
+
+def fatigue(design: Design, k: int, section: Section, case: Case) -> Fatigue:
+    """Return the fatigue of a stretch of a shaft, counted from 0, in one way of running."""
+    least, most = (torque[..., k] for torque in case.torque_range)
+    return of_loads(design, k, section, 0.5 * (most + least), 0.5 * (most - least), case.end_bending[..., k])
+
+
+def of_loads(
+    design: Design, k: int, section: Section, mean: ArrayLike, alternating: ArrayLike, bending: ArrayLike
+) -> Fatigue:
+    """Return the fatigue of a stretch under a mean and an alternating torque and a bending moment that turns [N·m]."""
+    shaft = design.drive.shafts[k]
+    notch = shaft.notch or Notch()
+    factors = {name: design.value(f"shafts[{k}].notch.{name}") for name in ("bending", "torsion")}
     return shaft_fatigue(
-        mean_torque=0.5 * (most + least),
-        swinging_torque=0.5 * (most - least),
+        mean_torque=mean,
+        swinging_torque=alternating,
         mean_bending=0.0,
-        swinging_bending=case.end_bending[..., k],
-        outer=outer,
+        swinging_bending=bending,
+        outer=np.asarray(section.outer, dtype=float),
         inner=section.inner,
-        ultimate=ultimate,
+        ultimate=design.value(section.of_material("ultimate_strength")),
         yield_strength=design.value(section.of_material("yield_strength")),
         finish=shaft.finish,
-        bending_notch=bending,
-        torsion_notch=torsion,
+        bending_notch=notch.bending if factors["bending"] is None else factors["bending"],
+        torsion_notch=notch.torsion if factors["torsion"] is None else factors["torsion"],
         reliability=design.duty.reliability,
-    ).safety
+    )
 
 
 CHECK = Check(
     name="tube_fatigue",
-    doc=mark("safety of every shaft against fatigue by torque that swings and turning bending"),
-    judge=_judge,
+    doc=mark("safety of every shaft against fatigue by alternating torque and rotating bending"),
+    shaft=_judge,
+    title=mark("safety of shaft {number} against fatigue"),
+    sense="at_least",
+    power=1.0,
 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import numpy as np
 
@@ -17,34 +16,39 @@ from cardan.texts import _, mark
 from .section import modulus, sections
 
 
+def compliance(design: Design, k: int) -> tuple[Array | float | None, tuple[str, ...]]:
+    """Return the twist of a shaft, counted from 0, under 1 N·m [rad], and the paths that move it; None if not known."""
+    given, found = design.value(f"shafts[{k}].stiffness"), list(sections(design, k))
+    if given is not None:
+        return 1.0 / np.asarray(given), (f"shafts[{k}].stiffness",)
+    if not found or any(one.length is None for one in found):
+        return None, ()
+    soft = sum(
+        one.length / (modulus(design, one, "shear_modulus") * polar_moment(one.outer, one.inner)) for one in found
+    )
+    return soft, tuple(path for one in found for path in one.levers)
+
+
 def _judge(design: Design) -> Iterator[Verdict]:
-    made = partial(Verdict, check="twist", title=_("twist of the shafts under torque"), dimension="angle", unit="deg")
     soft: dict[int, Array | float] = {}
     levers: list[str] = []
     lacking = list(design.unloaded)
     for k in range(design.joints + 1):
-        between = 0 < k < design.joints
-        given = design.value(f"shafts[{k}].stiffness")
-        found = list(sections(design, k))
-        if given is not None:
-            soft[k] = 1.0 / np.asarray(given)
-            levers.append(f"shafts[{k}].stiffness")
-        elif found and all(one.length is not None for one in found):
-            soft[k] = sum(
-                one.length / (modulus(design, one, "shear_modulus") * polar_moment(one.outer, one.inner))
-                for one in found
-            )
-            levers += [path for one in found for path in one.levers]
-        elif between:
+        twisted, moving = compliance(design, k)
+        if twisted is not None:
+            soft[k] = twisted
+            levers += moving
+        elif 0 < k < design.joints:
+            found = list(sections(design, k))
             lacking += [] if found else [f"shafts[{k}].outer"]
             lacking += [f"shafts[{k}].length"] if design.length(k) is None or found else []
     if lacking or not soft:
         if lacking:
-            yield made(missing=tuple(lacking))
+            yield Verdict(missing=tuple(lacking))
         return
     value, note = design.most(lambda case: sum(case.shaft_torque[..., k] * one for k, one in soft.items()))
     own = design.value("limits.twist")
-    yield made(
+    yield Verdict(
         value=value,
         limit=RATED_TWIST if own is None else own,
         source=_("Book (262): 9°") if own is None else _("limits of the drive file"),
@@ -54,5 +58,11 @@ def _judge(design: Design) -> Iterator[Verdict]:
 
 
 CHECK = Check(
-    name="twist", doc=mark("twist of all shafts under their largest torque against 9° or the limit"), judge=_judge
+    name="twist",
+    doc=mark("twist of all shafts under their largest torque against 9° or the limit"),
+    judge=_judge,
+    title=mark("twist of the shafts under torque"),
+    dimension="angle",
+    unit="deg",
+    power=1.0,
 )

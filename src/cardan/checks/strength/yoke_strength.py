@@ -3,52 +3,63 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.joint_strength import yoke_stress
+from cardan.formulas.joint_strength import PartStress, yoke_stress
 from cardan.texts import _, mark
 
+from .journal_load import journal_load
 
-def _judge(design: Design) -> Iterator[Verdict]:
-    for i, joint in enumerate(design.drive.joints):
-        yoke = f"joints[{i}].yoke"
-        made = partial(
-            Verdict,
-            check="yoke_strength",
-            subject=f"joints[{i}]",
-            title=_("stress of the yokes of joint {number}").format(number=i + 1),
-            dimension="stress",
-            unit="MPa",
-        )
-        span, strength = f"joints[{i}].cross.span", f"{yoke}.material.yield_strength"
-        paths = tuple(f"{yoke}.{one}" for one in ("bending_arm", "torsion_arm", "section"))
-        lacking = (*design.missing(span, *paths, strength), *design.unloaded)
-        section = joint.yoke.section if joint.yoke is not None else None
-        if lacking or section is None:
-            yield made(missing=lacking)
-            continue
-        couple, note = design.most(lambda case, i=i: case.couple[..., i])  # type: ignore[misc]
-        height, width = f"{yoke}.section.height", f"{yoke}.section.width"
-        stress = yoke_stress(
-            couple * design.shock / design.value(span),
-            bending_arm=design.value(paths[0]),
-            torsion_arm=design.value(paths[1]),
-            height=design.value(height),
-            width=design.value(width),
-            shape=section.shape,
-        )
-        yield made(
-            value=stress.mises,
-            limit=design.allowed(strength),
-            source=_("Book (263) with Saint-Venant's torsion; yield strength over safety"),
-            levers=(height, width, *paths[:2], span, strength, *design.torque_levers),
-            note=note,
-        )
+SIZES = ("bending_arm", "torsion_arm", "section")
+
+
+def lacking(design: Design, i: int) -> tuple[str, ...]:
+    """Return what the stress of the yokes of a joint lacks."""
+    return design.missing(f"joints[{i}].cross.span", *(f"joints[{i}].yoke.{one}" for one in SIZES))
+
+
+def stress(design: Design, i: int) -> tuple[PartStress, str]:
+    """Return the stress of the yokes of a joint, counted from 0, and a sentence on what decides it."""
+    yoke = f"joints[{i}].yoke"
+    load, note = journal_load(design, i)
+    found = yoke_stress(
+        load,
+        bending_arm=design.value(f"{yoke}.bending_arm"),
+        torsion_arm=design.value(f"{yoke}.torsion_arm"),
+        height=design.value(f"{yoke}.section.height"),
+        width=design.value(f"{yoke}.section.width"),
+        shape=design.value(f"{yoke}.section.shape"),
+    )
+    return found, note
+
+
+def _judge(design: Design, i: int) -> Iterator[Verdict]:
+    yoke = f"joints[{i}].yoke"
+    strength = f"{yoke}.material.yield_strength"
+    missing = (*lacking(design, i), *design.missing(strength), *design.unloaded)
+    if missing:
+        yield Verdict(missing=missing)
+        return
+    found, note = stress(design, i)
+    sizes = (f"{yoke}.section.height", f"{yoke}.section.width", f"{yoke}.bending_arm", f"{yoke}.torsion_arm")
+    yield Verdict(
+        value=found.mises,
+        limit=design.allowed(strength),
+        source=_("Book (263) with Saint-Venant's torsion; yield strength over safety"),
+        levers=(*sizes, f"joints[{i}].cross.span", strength, *design.torque_levers),
+        note=note,
+    )
 
 
 CHECK = Check(
-    name="yoke_strength", doc=mark("stress of the yokes of every joint against yielding"), judge=_judge, crosses="each"
+    name="yoke_strength",
+    doc=mark("stress of the yokes of every joint against yielding"),
+    joint=_judge,
+    title=mark("stress of the yokes of joint {number}"),
+    dimension="stress",
+    unit="MPa",
+    power=1.0,
+    crosses="each",
 )

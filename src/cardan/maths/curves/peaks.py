@@ -130,3 +130,33 @@ def level(slope: Callable[[Array], Array], left: Array, right: Array) -> Array:
         if np.all(np.abs(middle - before) <= 1e-15 * np.abs(middle)):
             break
     return middle
+
+
+def peak(values: Array) -> Array:
+    """Return the largest values of periodic curves: of the quartic through the five samples about the largest.
+
+    Parameters
+    ----------
+    values : array (..., p)
+        At evenly spaced places of a period.
+
+    Examples
+    --------
+    >>> print(f"{float(peak(2.0 + np.cos(np.arange(120) * 2 * np.pi / 120 + 0.02))):.9f}")
+    3.000000000
+    """
+    at = np.argmax(values, axis=-1)[..., None]
+    count = values.shape[-1]
+    a, b, top, c, d = (np.take_along_axis(values, (at + k) % count, axis=-1)[..., 0] for k in range(-2, 3))
+    first = (a - 8.0 * b + 8.0 * c - d) / 12.0
+    second = (-a + 16.0 * b - 30.0 * top + 16.0 * c - d) / 12.0
+    third = 0.5 * (-a + 2.0 * b - 2.0 * c + d)
+    fourth = a - 4.0 * b + 6.0 * top - 4.0 * c + d
+    curved = np.where(second < 0.0, second, -1.0)
+    place = np.where(second < 0.0, np.clip(-first / curved, -1.0, 1.0), 0.0)
+    for _step in range(2):
+        slope = first + place * (second + place * (0.5 * third + place * fourth / 6.0))
+        rise = second + place * (third + 0.5 * place * fourth)
+        place = np.where(rise < 0.0, np.clip(place - slope / np.where(rise < 0.0, rise, -1.0), -1.0, 1.0), 0.0)
+    found = top + place * (first + place * (0.5 * second + place * (third / 6.0 + place * fourth / 24.0)))
+    return np.maximum(top, found)

@@ -58,8 +58,10 @@ class Allotted:
 
     Attributes
     ----------
-    field : str
-        Path of the tolerance in the drive.
+    joint : int
+        Number of its joint, from 1.
+    key : str
+        Its key, ``alpha2``.
     tolerance : float
         ± [rad or m]; infinite where it has no influence.
     cost : float
@@ -72,12 +74,18 @@ class Allotted:
         The tolerance of the drive so far; 0 where none is given.
     """
 
-    field: str
+    joint: int
+    key: str
     tolerance: float
     cost: float
     weight: float
     kept: bool
     before: float
+
+    @property
+    def field(self) -> str:
+        """Path of the tolerance in the drive."""
+        return f"joints[{self.joint - 1}].tolerance.{self.key}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -210,14 +218,15 @@ def allocate(
         method=method,
         rows=tuple(
             Allotted(
-                field=field,
+                joint=k // len(names) + 1,
+                key=names[k % len(names)],
                 tolerance=float(tolerances[k]),
                 cost=float(costs[k]),
                 weight=float(weight[k]),
                 kept=bool(kept[k]),
                 before=float(flat[k]),
             )
-            for k, field in enumerate(fields)
+            for k in range(len(fields))
         ),
         spread=_spread(given, names, finite.reshape(limits.shape)),
         cost=float(np.sum(costs[free])),

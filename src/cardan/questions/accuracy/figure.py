@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import shaft
 from cardan.figures.turning import across
-from cardan.figures.wording import percent, significant
 from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import arcmin, deg, mm
@@ -25,8 +25,62 @@ MICRON = 1e-3 * mm
 SHOWN = 10
 """Tolerances with a bar of their own."""
 
-GREEK = {"alpha1": "α₁", "alpha2": "α₂", "alpha3": "α₃", "alpha4": "α₄"}
-LATIN = {"s1": "s₁", "a1": "a₁", "a2": "a₂", "a3": "a₃", "a4": "a₄"}
+SIGNS = {"alpha1": "α₁", "alpha2": "α₂", "alpha3": "α₃", "alpha4": "α₄"} | {
+    "s1": "s₁",
+    "a1": "a₁",
+    "a2": "a₂",
+    "a3": "a₃",
+    "a4": "a₄",
+}
+"""Key of a tolerance -> its sign."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Side:
+    """What errors do to the output: its angle, or its place along its axis.
+
+    Attributes
+    ----------
+    key : str
+        ``"angle"`` or ``"shift"``, for programs.
+    dimension, unit : str
+        In which it is told, see `Quantity`.
+    size : float
+        That unit in SI.
+    """
+
+    key: str
+    dimension: str
+    unit: str
+    size: float
+
+    @property
+    def title(self) -> str:
+        """What it is, in the language spoken."""
+        return _("Shift of the output shaft") if self.key == "shift" else _("Angle error of the output")
+
+    def quantity(self, value: float, digits: int = 3) -> Quantity:
+        """Return an error of this side as a quantity."""
+        return Quantity(value, self.dimension, digits, unit=self.unit)
+
+
+ANGLE = Side(key="angle", dimension="angle", unit="arcmin", size=arcmin)
+SHIFT = Side(key="shift", dimension="displacement", unit="um", size=MICRON)
+
+
+def sides(found: ToleranceBand, *, shifts: bool = True) -> list[tuple[Side, Band]]:
+    """Return the sides of the output that tolerances leave open; its shift only where nothing holds it.
+
+    Parameters
+    ----------
+    found : ToleranceBand
+        Of one drive.
+    shifts : bool
+        Whether the output shaft may shift; where it may not, its shift still stands in for an angle without tolerances.
+    """
+    turned = [(ANGLE, found.output)] if found.output.contributions else []
+    shifted = [(SHIFT, found.shift)] if found.shift.contributions and (shifts or not turned) else []
+    return turned + shifted
 
 
 def tolerance_figures(found: ToleranceBand) -> tuple[Figure, ...]:
@@ -34,24 +88,22 @@ def tolerance_figures(found: ToleranceBand) -> tuple[Figure, ...]:
     return (band_figure(found), pareto_figure(found))
 
 
-def tolerance_name(field: str) -> tuple[str, int, bool]:
-    """Return what a tolerance is called, the number of its joint, and whether it is one of length.
+def tolerance_name(joint: int, key: str) -> str:
+    """Return what a tolerance is called.
 
     Parameters
     ----------
-    field : str
-        Its path in the drive.
+    joint : int
+        Number of its joint, from 1.
+    key : str
+        Its key in the file.
 
     Examples
     --------
-    >>> tolerance_name("joints[0].tolerance.alpha2")
-    ('α₂ of joint 1', 1, False)
+    >>> tolerance_name(1, "alpha2")
+    'α₂ of joint 1'
     """
-    match = re.fullmatch(r"joints\[(\d+)\]\.tolerance\.(\w+)", field)
-    assert match is not None, field
-    number, key = int(match[1]) + 1, match[2]
-    name = GREEK.get(key) or LATIN.get(key) or _("yoke phase")
-    return _("{name} of joint {number}").format(number=number, name=name), number, key in LATIN
+    return _("{name} of joint {number}").format(number=joint, name=SIGNS.get(key) or _("yoke phase"))
 
 
 def band_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
@@ -65,25 +117,18 @@ def band_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
         Show the shift of the output too; leave it out where a bearing holds it.
     """
     angle = _round(np.asarray(found.angle), 2.0 * np.pi) / deg
-    both = [(_("Error of the output angle"), "′", found.output, arcmin)]
-    if shifts and found.shift.largest > 0.0:
-        both.append((_("Shift of the output shaft"), "µm", found.shift, MICRON))
+    both = sides(found, shifts=shifts)
     rows = [
         Row(
-            panels=(_band(angle, label, unit, one, size, found, named=k + 1 == len(both), first=k == 0),),
+            panels=(_band(angle, side, one, found, named=k + 1 == len(both), first=k == 0),),
             height=1.6 if k == 0 else 1.3,
         )
-        for k, (label, unit, one, size) in enumerate(both)
+        for k, (side, one) in enumerate(both)
     ]
     return Figure(
         name="band",
         title=_("What the tolerances leave open at the output"),
-        sentence=_(
-            "At the same input angle the output errs by up to {most}′, and by up to {swing}′ over a turn."
-        ).format(
-            most=significant(found.output.largest / arcmin, 3),
-            swing=significant(found.output.peak_to_peak / arcmin, 3),
-        ),
+        sentence="",
         source=_(
             "Loops of four axes chained, Book (171), (180); influence of every error exactly about the ideal joint"
         ),
@@ -104,10 +149,8 @@ def _bounds(found: ToleranceBand) -> str:
     return _("root of the sum of squares")
 
 
-def _band(
-    angle: Array, label: str, unit: str, one: Band, size: float, found: ToleranceBand, *, named: bool, first: bool
-) -> Panel:
-    count = len(found.angle)
+def _band(angle: Array, side: Side, one: Band, found: ToleranceBand, *, named: bool, first: bool) -> Panel:
+    count, size = len(found.angle), side.size
 
     def closed(values: Array) -> Array:
         return _round(values, float(values[0])) if len(angle) > count else values
@@ -133,7 +176,7 @@ def _band(
     return Panel(
         series=tuple(series),
         x=across(angle, named=named),
-        y=axis(label, unit, ends, include=(0.0,), least=1e-6, count=4),
+        y=axis(side.title, side.unit, ends, dimension=side.dimension, include=(0.0,), least=1e-6, count=4),
     )
 
 
@@ -147,49 +190,48 @@ def pareto_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
     shifts : bool
         Show the shift of the output too; leave it out where a bearing holds it.
     """
-    both = [(_("Share of the variance of the output angle [%]"), found.output.contributions, arcmin, "′")]
-    if shifts and found.shift.contributions:
-        both.append((_("Share of the variance of the output shift [%]"), found.shift.contributions, MICRON, " µm"))
-    both = [one for one in both if one[1]]
-    rows = tuple(
-        Row(panels=(_pareto(title, rows, size, unit),), height=0.24 * min(len(rows), SHOWN) + 0.2)
-        for title, rows, size, unit in both
-    )
-    top = found.output.contributions or found.shift.contributions
     return Figure(
         name="pareto",
         title=_("Which tolerances matter"),
-        sentence=_("{share} of the variance is due to {name}.").format(
-            name=tolerance_name(top[0].field)[0], share=percent(top[0].share)
-        ),
+        sentence="",
         source=_(
             "Mean square of the influence times the standard deviation over the turn; ± the largest error by itself"
         ),
-        rows=rows,
+        rows=tuple(
+            Row(panels=(_pareto(side, one.contributions),), height=0.24 * min(len(one.contributions), SHOWN) + 0.2)
+            for side, one in sides(found, shifts=shifts)
+        ),
         legend=False,
     )
 
 
-def _pareto(title: str, given: Sequence[Contribution], size: float, unit: str) -> Panel:
+def _pareto(side: Side, given: Sequence[Contribution]) -> Panel:
+    turned, shifted = _("Share of the variance of the angle error"), _("Share of the variance of the shift")
     rows = given[:SHOWN]
     share = np.asarray([100.0 * row.share for row in rows])
     at = np.arange(len(rows), 0, -1, dtype=float)
-    names = [tolerance_name(row.field) for row in rows]
     top = float(np.max(share))
     ticks = steps(0.0, top, 5)
     bars = Bars(
         at=at,
         size=share,
-        texts=tuple(f"{percent(row.share)}, ±{significant(row.largest / size, 3)}{unit}" for row in rows),
-        roles=tuple(shaft(number + 1) for _name, number, _long in names),
+        texts=tuple(
+            say("{share}, ±{size}", share=Quantity(row.share, "share", 3), size=side.quantity(row.largest))
+            for row in rows
+        ),
+        roles=tuple(shaft(row.joint + 1) for row in rows),
         thick=0.62,
         lying=True,
     )
-    upright = Axis(
-        low=0.4, high=len(rows) + 0.6, ticks=tuple(at), texts=tuple(name for name, _number, _long in names), grid=False
+    names = tuple(tolerance_name(row.joint, row.key) for row in rows)
+    return Panel(
+        series=(bars,),
+        x=Axis(low=0.0, high=1.28 * top, ticks=ticks, texts=written(ticks)),
+        y=Axis(low=0.4, high=len(rows) + 0.6, ticks=tuple(at), texts=names, grid=False),
+        title=shifted if side is SHIFT else turned,
+        dimension="share",
+        unit="percent",
     )
-    along = Axis(low=0.0, high=1.28 * top, ticks=ticks, texts=written(ticks))
-    return Panel(series=(bars,), x=along, y=upright, title=title)
 
 
 def error_figures(found: TransmissionError) -> tuple[Figure, ...]:
@@ -208,12 +250,13 @@ def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
         Show the shift of the output too; leave it out where a bearing holds it.
     """
     angle = _round(np.asarray(found.angle), 2.0 * np.pi) / deg
-    both = [(_("Error of the output angle"), "′", np.asarray(found.error), np.asarray(found.error_linear), arcmin)]
+    both = [(ANGLE, np.asarray(found.error), np.asarray(found.error_linear))]
     shift, linear = np.asarray(found.output_shift), np.asarray(found.shift_linear)[..., -1, :]
     if shifts and float(np.max(np.abs(linear))) > 0.0:
-        both.append((_("Shift of the output shaft"), "µm", shift, linear, MICRON))
+        both.append((SHIFT, shift, linear))
     rows = []
-    for k, (label, unit, given, tangent, size) in enumerate(both):
+    for k, (side, given, tangent) in enumerate(both):
+        size = side.size
         exact, first = (_round(one, float(one[0])) if len(angle) > len(one) else one for one in (given, tangent))
         curves = (
             Curve(x=angle, y=exact / size, role="exact", width=2.0, label=_("exact") if not k else ""),
@@ -226,22 +269,17 @@ def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
                 label=_("first order") if not k else "",
             ),
         )
-        upright = axis(label, unit, [exact / size, first / size], include=(0.0,), least=1e-6, count=4)
+        both_curves = [exact / size, first / size]
+        upright = axis(
+            side.title, side.unit, both_curves, dimension=side.dimension, include=(0.0,), least=1e-6, count=4
+        )
         named = k + 1 == len(both)
         rule = Rule(value=0.0, dash="solid", role="faint")
         rows.append(Row(panels=(Panel(series=(rule, *curves), x=across(angle, named=named), y=upright),), height=1.5))
-    error = np.asarray(found.error)
-    if not bool(np.all(found.closes)):
-        sentence = _("With these errors a joint cannot be assembled at every position.")
-    else:
-        sentence = _("The known errors put the output up to {most}′ off, and change by {swing}′ over a turn.").format(
-            most=significant(float(np.max(np.abs(error))) / arcmin, 3),
-            swing=significant(float(np.ptp(error)) / arcmin, 3),
-        )
     return Figure(
         name="errors",
         title=_("What the known errors do to the output"),
-        sentence=sentence,
+        sentence="",
         source=_("Every joint a closed loop of four axes, exactly; first order Book (171), (180), chained"),
         rows=tuple(rows),
     )

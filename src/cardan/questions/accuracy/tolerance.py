@@ -21,6 +21,9 @@ from .sampling import SIGMA, Convergence, MonteCarlo, Sample, sampled
 NORMAL_95 = 1.959963984540054
 """Standard deviations on both sides that hold 95 % of a normal law."""
 
+ALIKE = 9
+"""Digits of shares by which contributions are sorted: what differs by less is alike, and stays in its order."""
+
 DIRECTIONS = 90
 """Phases at which the amplitude of an order is looked at."""
 
@@ -45,8 +48,10 @@ class Contribution:
 
     Attributes
     ----------
-    field : str
-        Path of the tolerance in the drive, ``joints[0].tolerance.alpha2``.
+    joint : int
+        Number of its joint, from 1.
+    key : str
+        Its key, ``alpha2``.
     tolerance : float
         The tolerance, ± [rad or m].
     share : float
@@ -57,13 +62,19 @@ class Contribution:
         The parts of that error that stay, come once a turn, and come twice a turn [rad or m].
     """
 
-    field: str
+    joint: int
+    key: str
     tolerance: float
     share: float
     largest: float
     mean: float
     first: float
     second: float
+
+    @property
+    def field(self) -> str:
+        """Path of the tolerance in the drive, ``joints[0].tolerance.alpha2``."""
+        return f"joints[{self.joint - 1}].tolerance.{self.key}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -295,7 +306,8 @@ def contributions(table: Array, limits: Array, deviations: Array, names: Sequenc
     mean, orders = _orders(np.moveaxis(reach, 0, -1).reshape(-1, len(table)).T)
     rows = [
         Contribution(
-            field=f"joints[{j}].tolerance.{name}",
+            joint=j + 1,
+            key=name,
             tolerance=float(limits[j, k]),
             share=float(variance[j, k]) / total,
             largest=float(np.max(np.abs(reach[:, j, k]))),
@@ -307,7 +319,7 @@ def contributions(table: Array, limits: Array, deviations: Array, names: Sequenc
         for k, name in enumerate(names)
         if limits[j, k] > 0.0 and variance[j, k] > 0.0
     ]
-    return tuple(sorted(rows, key=lambda row: -row.share))
+    return tuple(sorted(rows, key=lambda row: -float(f"{row.share:.{ALIKE}g}")))
 
 
 def _flat(table: Array) -> Array:

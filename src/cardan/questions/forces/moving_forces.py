@@ -16,6 +16,7 @@ from cardan.drive.movement import Movement
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost_on
 from cardan.questions.motion.moving_points import STEPS, default_times, shortest_period, start_time
 from cardan.texts import _
 
@@ -133,7 +134,7 @@ class MovingForces:
             The quantity at `times`.
         """
         table = np.asarray(values)
-        low, high = np.argmin(table, axis=-1), np.argmax(table, axis=-1)
+        low, high = foremost_on(table, least=True), foremost_on(table)
         return Extreme(
             low=np.min(table, axis=-1),
             high=np.max(table, axis=-1),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -30,10 +31,19 @@ class Uncounted:
         Path of the key to add.
     message : str
         What is left out and why, in one sentence.
+    part : str
+        Which kind of part it is the loss of: ``joints``, ``supports`` or ``shafts``.
+    number : int, optional
+        Number of that part, from 1; None where it is all of them.
+    missing : bool
+        Whether nothing but the key is missing.
     """
 
     field: str
     message: str
+    part: Literal["joints", "supports", "shafts"]
+    number: int | None = None
+    missing: bool = True
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -68,7 +78,7 @@ def counted(
     except InputError as error:
         machine, short = (
             train(replace(drive, supports=())),
-            [Uncounted(field=p.field, message=p.message) for p in error.problems],
+            [Uncounted(field=p.field, message=p.message, part="supports", missing=False) for p in error.problems],
         )
     rub, supports = _supports(drive, machine, short)
     slide, splines = _splines(drive, movement)
@@ -79,7 +89,7 @@ def counted(
     uncounted = (*joints, *supports, *splines)
     problems = []
     if duty.speed is None:
-        problems.append(Problem("duty.speed", _("missing; heat is power, and power needs the input speed")))
+        problems.append(Problem("duty.speed", _("missing; a loss of power needs the input speed")))
     elif duty.speed == 0.0:
         problems.append(
             Problem("duty.speed", _("at standstill the sense of friction is open; give the speed of running"))
@@ -103,23 +113,23 @@ def _joints(drive: Drive) -> Iterator[Uncounted]:
             key = "cross.journal"
         else:
             continue
-        text = _("missing; without it the heat of joint {number} is not counted")
-        yield Uncounted(field=f"joints[{i}].{key}", message=text.format(number=i + 1))
+        text = _("missing; without it the power loss of joint {number} is not counted")
+        message = text.format(number=i + 1)
+        yield Uncounted(field=f"joints[{i}].{key}", message=message, part="joints", number=i + 1)
 
 
 def _supports(drive: Drive, machine: Train, short: list[Uncounted]) -> tuple[Array, list[Uncounted]]:
     """Return μ_b d_b/2 of each support, zero where it is not counted, and those that are not."""
     rub = np.asarray([0.5 * (one.friction or 0.0) * (one.bore or 0.0) for one in drive.supports])
-    text = _("missing; without it the heat of support {number} is not counted")
+    text = _("missing; without it the power loss of support {number} is not counted")
     found = [
-        Uncounted(field=f"supports[{k}].friction", message=text.format(number=k + 1))
-        for k, one in enumerate(drive.supports)
+        Uncounted(field=f"supports[{k - 1}].friction", message=text.format(number=k), part="supports", number=k)
+        for k, one in enumerate(drive.supports, 1)
         if one.friction is None
     ]
     if not drive.supports:
-        found.append(
-            Uncounted(field="supports", message=_("missing; without them friction in bearings is not counted"))
-        )
+        message = _("missing; without them friction in bearings is not counted")
+        found.append(Uncounted(field="supports", message=message, part="supports"))
     if not np.any(rub):
         return rub, found
     if not short:
@@ -127,7 +137,8 @@ def _supports(drive: Drive, machine: Train, short: list[Uncounted]) -> tuple[Arr
 
         why = trouble(machine)
         text = _("{why}; friction in them is not counted")
-        short = [Uncounted(field="supports", message=text.format(why=why))] if why else []
+        message = text.format(why=why)
+        short = [Uncounted(field="supports", message=message, part="supports", missing=False)] if why else []
     return (np.zeros_like(rub), [*found, *short]) if short else (rub, found)
 
 
@@ -137,14 +148,14 @@ def _splines(drive: Drive, movement: Movement | Sequence[Movement] | None) -> tu
     splined = [shaft for shaft in drive.shafts if shaft.spline is not None]
     for shaft in splined:
         if shaft.spline is not None and shaft.spline.friction is None:
-            text = _("missing; without it the heat of the spline of shaft {number} is not counted")
-            found.append(
-                Uncounted(field=f"shafts[{shaft.number - 1}].spline.friction", message=text.format(number=shaft.number))
-            )
+            text = _("missing; without it the power loss in the spline of shaft {number} is not counted")
+            field, message = f"shafts[{shaft.number - 1}].spline.friction", text.format(number=shaft.number)
+            found.append(Uncounted(field=field, message=message, part="shafts", number=shaft.number))
     if not splined or len(found) == len(splined):
         return slide, found
     if movement is None and not drive.movements:
-        found.append(Uncounted(field="movements", message=_("missing; the splines slide only while the drive moves")))
+        message = _("missing; the splines slide only while the drive moves")
+        found.append(Uncounted(field="movements", message=message, part="shafts"))
         return slide, found
     moved = articulation(drive, movement)
     lasts = float(moved.times[-1] - moved.times[0])

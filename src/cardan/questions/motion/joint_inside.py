@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity
 from cardan.drive.joints import (
     DoubleCardan,
     ElasticHalfCardan,
@@ -56,6 +57,10 @@ class Inside:
     meaning: str
     value: float
     dimension: str | None = "angle"
+
+    def quantity(self, digits: int = 4) -> Quantity:
+        """Return it with its dimension and with so many digits."""
+        return Quantity(self.value, self.dimension or "", digits)
 
 
 def joint_inside(joint: Joint, bend: float) -> tuple[Inside, ...]:

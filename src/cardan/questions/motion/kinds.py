@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cardan.answers.answer import Remark
+from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.models.chain import given_chain
-from cardan.figures.wording import significant
 from cardan.texts import _
-from cardan.units import deg, factor, label, preferred
 
 from .joint_inside import Inside, joint_inside
 
@@ -40,8 +41,8 @@ def kind_name(joint: Joint) -> str:
     return names[joint.kind]
 
 
-def too_steep(joint: Joint, number: int, bend: float) -> str:
-    """Return what to say of a joint that bends more than one of its kind can, "" where it does not.
+def steep(joint: Joint, number: int, bend: float) -> Say | None:
+    """Return what to say of a joint at a greater joint angle than one of its kind reaches, None where it is not.
 
     Parameters
     ----------
@@ -49,27 +50,42 @@ def too_steep(joint: Joint, number: int, bend: float) -> str:
     number : int
         Its number.
     bend : float [rad]
+        Its joint angle.
+    """
+    if bend <= joint.steepest * (1.0 + 1e-12):
+        return None
+    text = _("joint {number} has a joint angle of {angle}; above {limit} no real joint of its kind, {kind}, works.")
+    if joint.kind == "hooke":
+        text = _("joint {number} has a joint angle of {angle}; above {limit} no real cross joint works.")
+    return say(
+        text,
+        number=number,
+        angle=Quantity(bend, "angle", decimals=1),
+        limit=Quantity(joint.steepest, "angle", 6, trim=True),
+        kind=kind_name(joint),
+    )
+
+
+def too_steep(joint: Joint, number: int, bend: float) -> str:
+    """Return the same in words, in the usual units; "" where there is nothing to say.
 
     Examples
     --------
     >>> from cardan.drive.joints import Hooke, Tripod
     >>> too_steep(Hooke(), 1, 0.5), too_steep(Tripod(), 2, 0.5)
-    ('', 'Joint 2 bends 28.6°; above 26° no real joint of its kind, tripod, works.')
+    ('', 'Joint 2 has a joint angle of 28.6°; above 26° no real joint of its kind, tripod, works.')
     """
-    if bend <= joint.steepest * (1.0 + 1e-12):
-        return ""
-    text = _("Joint {number} bends {bend:.1f}°; above {limit:g}° no real joint of its kind, {kind}, works.")
-    if joint.kind == "hooke":
-        text = _("Joint {number} bends {bend:.1f}°; above {limit:g}° no real cross joint works.")
-    return text.format(number=number, bend=bend / deg, limit=round(joint.steepest / deg, 6), kind=kind_name(joint))
+    found = steep(joint, number, bend)
+    said = "" if found is None else found.told(USUAL)
+    return said[:1].upper() + said[1:]
 
 
-def figure_of(one: Inside) -> tuple[float, str]:
-    """Return a figure of the inside of a joint in the unit people read it in, and that unit."""
-    if one.dimension is None:
-        return one.value, ""
-    unit = preferred(one.dimension)
-    return one.value / factor(one.dimension, unit), label(unit) if unit != "deg" else "°"
+def steep_joints(drive: Drive) -> Iterator[Remark]:
+    """Yield a warning for every joint at a greater joint angle than one of its kind reaches."""
+    for number, (joint, bend) in enumerate(zip(drive.joints, given_chain(drive).bend, strict=True), start=1):
+        found = steep(joint, number, float(bend))
+        if found is not None:
+            yield Remark(text=say(_("Warning: {what}"), what=found), tone="warning")
 
 
 def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:
@@ -80,11 +96,8 @@ def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:
             yield number, one
 
 
-def beside_turning(drive: Drive) -> Iterator[str]:
+def beside_turning(drive: Drive) -> Iterator[Say]:
     """Yield in a sentence each what else moves inside the joints of a drive."""
     for number, one in inside(drive):
-        value, unit = figure_of(one)
-        space = "" if unit in ("°", "") else " "
-        yield _("Joint {number}: {title}, {value}{space}{unit}.").format(
-            number=number, title=one.meaning, value=significant(value, 3), space=space, unit=unit
-        )
+        text = _("Joint {number}: {title}, {value}.")
+        yield say(text, number=number, title=one.meaning, value=one.quantity(3))

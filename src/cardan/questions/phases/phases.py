@@ -158,7 +158,7 @@ def phases(
         return settings(whole, yokes, labels, as_built, chains) if len(labels) else ()
 
     return Phasing(
-        as_built=evaluated(as_built[None], [_("as built")])[0],
+        as_built=evaluated(as_built[None], [_("as specified")])[0],
         feasible=feasible,
         irregularity_min=2.0 * math.sinh(low),
         irregularity_max=2.0 * math.sinh(high),

@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from cardan import figures
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import geometry
-from cardan.figures.figure import Curve
+from cardan.figures.figure import Curve, Note
+from cardan.figures.for_reader import for_reader
 from cardan.figures.projection import onto
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
@@ -32,8 +35,8 @@ def curves(panel):
 
 
 def drawn(figure):
-    assert figure.sentence.endswith(".")
-    assert figure.sentence.count(". ") == 0
+    figure = for_reader(figure, USUAL)
+    assert not figure.sentence or figure.sentence.endswith(".")
     tree = ElementTree.fromstring(inline_svg(figure))
     assert figure.title in tree.get("aria-label")
     assert described(figure)["data"]
@@ -56,7 +59,7 @@ def test_drives_without_supports_have_torques_alone(bends):
     found = forces(Drive.from_angles(bends), Duty(torque=10.0))
     (figure,) = forces_figures(found)
     drawn(figure)
-    assert ("no joint bends" in figure.sentence) == (bends == [0.0])
+    assert ("joints are straight" in told(figure.sentence, USUAL)) == (bends == [0.0])
 
 
 def test_one_position_is_drawn_too():
@@ -114,9 +117,20 @@ def test_supports_are_called_by_their_names():
     assert labels[:5] == [f"{k} {name}" for k, name in enumerate(names, start=1)]
 
 
-def test_the_sentence_names_the_worst_of_both_ways_of_sliding():
+def test_the_worst_is_that_of_both_ways_of_sliding():
     top = max(float(np.max(frames.norm(one.reaction))) for one in (FORCES, FORCES.reverse))
-    assert f"{significant(top)} N" in reactions_figure(FORCES).sentence
+    assert worst(FORCES).size == top
+    sentences = [told(figure.sentence, USUAL) for figure in forces_figures(FORCES, TRUCK)]
+    assert sentences[1] == "All forces on the shafts at 156°, where support 4 (pinion, front) carries most."
+    assert sentences[2:] == ["", ""]  # said once
+
+
+def test_what_a_reader_sees_in_other_units_is_the_same():
+    pounds = Reader(units={"force": "lbf", "torque": "lbft"}, decimal=",")
+    plain, seen = (for_reader(reactions_figure(FORCES), one) for one in (USUAL, pounds))
+    assert (seen.panels[0].y.unit, plain.panels[0].y.unit) == ("lbf", "N")
+    ring = [[item.text for item in one.panels[2].series if isinstance(item, Note)] for one in (plain, seen)]
+    assert ring == [["3\u202f000 N"], ["674,4 lbf"]]
 
 
 def test_arrows_start_at_the_supports_and_point_as_the_forces_do():
@@ -150,7 +164,7 @@ def test_arrows_stay_on_the_page():
 
 def test_arrows_in_a_scene_have_heads_at_their_tips_and_tell_the_force():
     figure = loads_figures(FORCES, TRUCK)[1]
-    data = described(figure)["data"]
+    data = described(for_reader(figure, USUAL))["data"]
     arrows = [item for item in curves(figure.panels[0]) if item.arrow and item.z is not None]
     shafts = [one for one in data if one["type"] == "scatter3d" and one["mode"] == "lines"]
     heads = [one for one in data if one["type"] == "mesh3d" and one["hoverinfo"] == "skip"]
@@ -162,7 +176,7 @@ def test_arrows_in_a_scene_have_heads_at_their_tips_and_tell_the_force():
         back = np.asarray([arrow.x[0], arrow.y[0], arrow.z[0]]) - tip
         assert np.all((corners - tip) @ back >= 0.0)  # the head does not reach beyond the tip
         assert "N" in shaft["text"]
-    assert f"support 4 pinion, front: {significant(worst(FORCES).size)} N" in [one["text"] for one in shafts]
+    assert f"support 4 (pinion, front): {significant(worst(FORCES).size)} N" in [one["text"] for one in shafts]
     bodies = [one for one in data if one["type"] == "mesh3d" and one["hoverinfo"] == "text"]
     assert all(one["opacity"] < 1.0 for one in bodies)
 

@@ -7,18 +7,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Say, numbered, say
 from cardan.drive.bodies.solids import solids
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
 from cardan.figures.drive import MARGIN, WIDE, space_figure, views_figure
 from cardan.figures.figure import Curve, Figure, Mesh, Note, Panel, Row, Series
 from cardan.figures.projection import onto
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost, foremost_on
 from cardan.questions.forces.forces import Forces
+from cardan.questions.forces.told import senses
 from cardan.texts import _
-from cardan.units import deg, mm
+from cardan.units import mm
+
+__all__ = ["Worst", "loads_figures", "senses", "worst"]
 
 LONGEST = 0.6
 """Length of the largest force on the drawing of a drive [inch]."""
@@ -50,19 +54,8 @@ class Worst:
     size: float
 
 
-def senses(found: Forces) -> tuple[Forces, ...]:
-    """Return the forces, and those with the splines sliding back where that differs.
-
-    Parameters
-    ----------
-    found : Forces
-        Of one drive.
-    """
-    return (found,) if found.reverse is None else (found, found.reverse)
-
-
 def worst(found: Forces) -> Worst:
-    """Return the largest force on any support, of both ways of sliding.
+    """Return the largest force on any support, of both ways of sliding; the first of those alike but for rounding.
 
     Parameters
     ----------
@@ -70,7 +63,9 @@ def worst(found: Forces) -> Worst:
         Of one drive with supports.
     """
     size = np.stack([frames.norm(np.asarray(one.reaction)) for one in senses(found)])
-    sense, support, when = (int(part) for part in np.unravel_index(int(np.argmax(size)), size.shape))
+    peaks = np.max(size, axis=-1)
+    sense, support = (int(part) for part in np.unravel_index(int(foremost(np.ravel(peaks))), peaks.shape))
+    when = int(foremost_on(size[sense, support]))
     return Worst(forces=senses(found)[sense], support=support, when=when, size=float(np.max(size)))
 
 
@@ -123,18 +118,17 @@ class _Loads:
             base,
             name="loads-space",
             title=_("Forces of the supports in space"),
-            sentence=self._sentence(),
+            sentence="",
             source=self._source(),
             rows=self._rows([base.rows[0].panels[0]]),
         )
 
-    def _sentence(self) -> str:
-        name = self.drive.supports[self.most.support].name
-        number = self.most.support + 1
-        return _("All forces on the shafts at {angle}°, where support {name} takes most, {size} N.").format(
-            angle=f"{round(float(np.asarray(self.most.forces.angle)[self.most.when]) / deg, 1) + 0.0:g}",
-            name=f"{number} ({name})" if name else str(number),
-            size=significant(self.most.size),
+    def _sentence(self) -> Say:
+        angle = float(np.asarray(self.most.forces.angle)[self.most.when])
+        return say(
+            _("All forces on the shafts at {angle}, where support {name} carries most."),
+            angle=Quantity(angle, "angle", decimals=1, trim=True),
+            name=numbered(self.most.support + 1, self.drive.supports[self.most.support].name),
         )
 
     def _source(self) -> str:
@@ -175,9 +169,10 @@ class _Loads:
         longest = float(np.max(frames.norm(tips - self.feet)))
         for k, (foot, tip) in enumerate(zip(self.feet, tips, strict=True), start=1):
             name = self.drive.supports[k - 1].name
-            text = _("support {name}: {size} N").format(
-                name=" ".join((str(k), name)).strip(),
-                size=significant(float(np.linalg.norm(self.force[k - 1]))),
+            text = say(
+                _("support {name}: {force}"),
+                name=numbered(k, name),
+                force=Quantity(float(np.linalg.norm(self.force[k - 1])), "force"),
             )
             way = onto(panel.view, tip - foot)[:2]
             long = float(np.hypot(*way))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.figures.axes import clear_way, steps, written
+from cardan.answers.quantity import Quantity
+from cardan.figures.axes import clear_way, steps
 from cardan.figures.figure import Axis, Curve, Note, Panel, Row, Series
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
@@ -27,7 +28,9 @@ class Tip:
     Attributes
     ----------
     title : str
-        What stands above it, with its unit.
+        What stands above it.
+    dimension : str
+        What it is, as of `cardan.answers.quantity.Quantity`; in SI.
     axis : array (p, 3)
         Direction of its shaft.
     paths : sequence of array (p, 3)
@@ -37,6 +40,7 @@ class Tip:
     """
 
     title: str
+    dimension: str
     axis: Array
     paths: Sequence[Array]
     role: str
@@ -71,7 +75,8 @@ def _panel(tip: Tip, reach: float) -> Panel:
     rings = steps(0.0, reach, 3)[1:]
     series += [Curve(x=ring * np.sin(turn), y=ring * np.cos(turn), role="faint", width=0.8) for ring in rings]
     seen = [(frames.dot(path, right), frames.dot(path, up)) for path in tip.paths]
-    for ring, name in list(zip(rings, written(rings), strict=True))[-1:]:
+    for ring in rings[-1:]:
+        name = Quantity(ring, tip.dimension, trim=True)
         way = clear_way(np.concatenate([x + 1j * y for x, y in seen]), [ring], 0.5**0.5 * (1.0 - 1.0j))
         series.append(Note(text=name, x=ring * way.real, y=ring * way.imag, role="muted", size=6.6))
     series.append(Curve(x=np.asarray([0.0]), y=np.asarray([0.0]), role="muted", width=0.0, marker=2.5))

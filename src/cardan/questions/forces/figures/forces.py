@@ -6,20 +6,22 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import dash_of, shaft
 from cardan.figures.turning import across, shaft_name, support_dashes, support_name
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost, foremost_on
 from cardan.questions.forces.forces import Forces
 from cardan.questions.forces.reactions import Held
+from cardan.questions.forces.told import senses
 from cardan.texts import _
 from cardan.units import deg
 
-from .arrows import loads_figures, senses, worst
+from .arrows import loads_figures, worst
 from .end_on import Tip, end_on
 
 NOTHING = 1e-9
@@ -56,47 +58,42 @@ def torques_figure(found: Forces) -> Figure:
     """
     angle = np.asarray(found.angle) / deg
     torque, couple = np.asarray(found.shaft_torque), np.asarray(found.bending_couple)
-    entering = np.asarray(found.input_torque)
-    bent = int(np.argmax(np.max(couple, axis=-1))) + 1
-    most = float(np.max(couple))
-    if most <= NOTHING * float(np.max(np.abs(torque), initial=0.0)):
-        sentence = _("The input takes {low} to {high} N·m; no joint bends, so no couple bends a shaft.")
-    else:
-        sentence = _(
-            "The input takes {low} to {high} N·m; the secondary couple is largest on shaft {number}, {most} N·m at "
-            "{angle}°."
-        )
     return Figure(
         name="torques",
         title=_("Torque and secondary couple of every shaft"),
-        sentence=sentence.format(
-            low=significant(float(np.min(entering))),
-            high=significant(float(np.max(entering))),
-            number=bent,
-            most=significant(most),
-            angle=_degrees(float(angle[int(np.argmax(couple[bent - 1]))])),
-        ),
+        sentence=_most_bent(found),
         source=_(
-            "Couples along the normals of the crosses balance the torques, K = T n; the rest bends the shafts, Book "
-            "p. 129 ff., exact; paths: tip of the couple seen along the power flow, dot at the start"
+            "Couples along the normals of the crosses balance the torques, K = T n; the rest bends the shafts, "
+            "Kozhevnikov and Perfil'ev (1978), p. 129 ff., exact; paths: tip of the couple seen along the power "
+            "flow, dot at the start"
         ),
         rows=(
-            _over_angle(angle, torque, _("Torque that enters each shaft"), "N·m", shafts=True),
-            _over_angle(angle, couple, _("Secondary couple, size"), "N·m", named=True, base=True),
+            _over_angle(angle, torque, _("Torque that enters each shaft"), shafts=True),
+            _over_angle(angle, couple, _("Secondary couple, size"), named=True, base=True),
             *_couples(found),
         ),
     )
 
 
-def _degrees(angle: float) -> str:
-    return f"{round(angle, 1) + 0.0:g}"
+def _most_bent(found: Forces) -> Say | str:
+    """Return which shaft has the largest secondary couple, and where."""
+    couple = np.asarray(found.bending_couple)
+    high = np.max(couple, axis=-1)
+    k = int(foremost(high))
+    if high[k] <= NOTHING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
+        return _("The joints are straight: there is no secondary couple.")
+    return say(
+        _("The secondary couple is largest on shaft {number}, {most} at {angle}."),
+        number=k + 1,
+        most=Quantity(float(high[k]), "torque"),
+        angle=Quantity(float(np.asarray(found.angle)[int(foremost_on(couple[k]))]), "angle", decimals=1, trim=True),
+    )
 
 
 def _over_angle(
     angle: Array,
     rows: Array,
     label: str,
-    unit: str,
     *,
     shafts: bool = False,
     named: bool = False,
@@ -115,7 +112,15 @@ def _over_angle(
         for k, row in enumerate(rows, start=1)
     ]
     size = float(np.max(np.abs(rows), initial=0.0))
-    upright = axis(label, unit, [rows], include=(0.0,) if base else (), least=max(0.02 * size, LEAST), count=4)
+    upright = axis(
+        label,
+        "Nm",
+        [rows],
+        dimension="torque",
+        include=(0.0,) if base else (),
+        least=max(0.02 * size, LEAST),
+        count=4,
+    )
     return Row(panels=(Panel(series=tuple(curves), x=across(angle, named=named), y=upright),), height=1.35)
 
 
@@ -128,7 +133,8 @@ def _couples(found: Forces) -> Iterator[Row]:
     yield from end_on(
         [
             Tip(
-                title=_("shaft {number} [N·m]").format(number=k),
+                title=_("shaft {number}").format(number=k),
+                dimension="torque",
                 axis=axes[k - 1],
                 paths=(vector[k - 1],),
                 role=shaft(k),
@@ -192,17 +198,8 @@ def reactions_figure(found: Forces, names: Sequence[str] = ()) -> Figure:
         )
     return Figure(
         name="reactions",
-        title=_("What the supports take"),
-        sentence=(
-            _("Support {number} on shaft {shaft} takes most, {most} N at {angle}°, radial and axial force together.")
-            if pushed
-            else _("Support {number} on shaft {shaft} takes most, {most} N at {angle}°.")
-        ).format(
-            number=most.support + 1,
-            shaft=found.support_shaft[most.support],
-            most=significant(most.size),
-            angle=_degrees(float(angle[most.when])),
-        ),
+        title=_("What the supports carry"),
+        sentence="",
         source=source,
         rows=(*rows, *paths),
     )
@@ -222,13 +219,13 @@ def _radial_paths(found: Forces, top: float) -> Iterator[Row]:
         paths = [one[k] for one in radial]
         if len(paths) > 1 and float(np.max(frames.norm(paths[1] - paths[0]))) <= NOTHING * max(top, LEAST):
             paths = paths[:1]
-        title = _("support {number} [N]").format(number=k + 1)
-        tips.append(Tip(title=title, axis=axes[k], paths=paths, role=shaft(number), dash=dash))
+        title = _("support {number}").format(number=k + 1)
+        tips.append(Tip(title=title, dimension="force", axis=axes[k], paths=paths, role=shaft(number), dash=dash))
     yield from end_on(tips, most)
 
 
 def _force_axis(label: str, rows: list[Array]) -> Axis:
-    return axis(label, "N", rows, include=(0.0,), least=LEAST, count=4)
+    return axis(label, "N", rows, dimension="force", include=(0.0,), least=LEAST, count=4)
 
 
 def _curves(found: Forces, angle: Array, part: str, names: Sequence[str], *, labelled: bool) -> Iterator[Series]:

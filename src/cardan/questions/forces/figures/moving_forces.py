@@ -6,14 +6,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import dash_of, shaft
 from cardan.figures.turning import shaft_name, support_dashes, support_name
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.questions.forces.moving_forces import MovingForces
 from cardan.texts import _
+from cardan.units import preferred
 
 FEW = 12
 """Fewer turns than this are drawn as they are; more by the largest and least of each."""
@@ -51,9 +53,7 @@ def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> F
     """
     forces = found.forces
     size = found.reaction_size
-    most = found.extreme(size)
-    worst = int(np.argmax(most.high))
-    top = float(most.high[worst])
+    top = float(np.max(size))
     axial = np.asarray(forces.axial)
     shafts = forces.support_shaft
     kinds = list(zip(shafts, support_dashes(shafts), strict=True))
@@ -67,21 +67,20 @@ def moving_reactions_figure(found: MovingForces, names: Sequence[str] = ()) -> F
 
     pushed = float(np.max(np.abs(axial))) > NOTHING * max(top, LEAST)
     rows = [
-        _row(found, curves(np.asarray(forces.radial), labelled=True, both=False), _("Radial force"), "N", not pushed)
+        _row(
+            found, curves(np.asarray(forces.radial), labelled=True, both=False), _("Radial force"), "force", not pushed
+        )
     ]
     if pushed:
         zero: list[Series] = [Rule(value=0.0, dash="solid", role="faint")]
         series = [*zero, *curves(axial, labelled=False, both=True)]
-        rows.append(_row(found, series, _("Axial force on the shaft, along the power flow positive"), "N", named=True))
+        rows.append(
+            _row(found, series, _("Axial force on the shaft, along the power flow positive"), "force", named=True)
+        )
     return Figure(
         name="moving-reactions",
-        title=_("What the supports take while the drive moves"),
-        sentence=_("Support {number} on shaft {shaft} takes most, {most} N at {time} s.").format(
-            number=worst + 1,
-            shaft=shafts[worst],
-            most=significant(top),
-            time=significant(float(most.high_time[worst]), 3),
-        ),
+        title=_("What the supports carry while the drive moves"),
+        sentence="",
         source=_source(found),
         rows=tuple(rows),
     )
@@ -96,9 +95,8 @@ def moving_torques_figure(found: MovingForces) -> Figure:
         Of one drive.
     """
     torque, couple = np.asarray(found.forces.shaft_torque), np.asarray(found.forces.bending_couple)
-    entering = found.extreme(torque[0])
     bent = found.extreme(couple)
-    worst = int(np.argmax(bent.high))
+    worst = int(foremost(bent.high))
     count = len(torque)
 
     def curves(rows: Array, *, labelled: bool, both: bool) -> list[Series]:
@@ -111,20 +109,16 @@ def moving_torques_figure(found: MovingForces) -> Figure:
     return Figure(
         name="moving-torques",
         title=_("Torque and secondary couple of every shaft while the drive moves"),
-        sentence=_(
-            "The input takes {low} to {high} N·m; the secondary couple is largest on shaft {number}, {most} N·m at "
-            "{time} s."
-        ).format(
-            low=significant(float(entering.low)),
-            high=significant(float(entering.high)),
+        sentence=say(
+            _("The secondary couple is largest on shaft {number}, {most} at {time}."),
             number=worst + 1,
-            most=significant(float(bent.high[worst])),
-            time=significant(float(bent.high_time[worst]), 3),
+            most=Quantity(float(bent.high[worst]), "torque"),
+            time=Quantity(float(bent.high_time[worst]), "time", 3),
         ),
         source=_source(found),
         rows=(
-            _row(found, curves(torque, labelled=True, both=True), _("Torque that enters each shaft"), "N·m"),
-            _row(found, curves(couple, labelled=False, both=False), _("Secondary couple, size"), "N·m", named=True),
+            _row(found, curves(torque, labelled=True, both=True), _("Torque that enters each shaft"), "torque"),
+            _row(found, curves(couple, labelled=False, both=False), _("Secondary couple, size"), "torque", named=True),
         ),
     )
 
@@ -139,15 +133,15 @@ def _course(found: MovingForces, values: Array, role: str, dash: str, label: str
 
 
 def _row(
-    found: MovingForces, series: Sequence[Series] | Iterator[Series], label: str, unit: str, named: bool = False
+    found: MovingForces, series: Sequence[Series] | Iterator[Series], label: str, dimension: str, named: bool = False
 ) -> Row:
     made = tuple(series)
     rows = [item.y for item in made if isinstance(item, Curve)]
-    across = axis(_("time") if named else "", "s" if named else "", [np.asarray(found.times)], margin=0.0, least=1e-9)
+    across = axis(_("time"), "s", [np.asarray(found.times)], dimension="time", margin=0.0, least=1e-9)
     if not named:
         across = Axis(low=across.low, high=across.high, ticks=across.ticks, texts=across.texts)
     size = max((float(np.max(np.abs(row))) for row in rows), default=0.0)
-    upright = axis(label, unit, rows, least=max(0.02 * size, LEAST), count=4)
+    upright = axis(label, preferred(dimension), rows, dimension=dimension, least=max(0.02 * size, LEAST), count=4)
     return Row(panels=(Panel(series=made, x=across, y=upright),), height=1.5)
 
 

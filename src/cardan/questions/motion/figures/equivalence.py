@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis, written
 from cardan.figures.figure import Axis, Bars, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import shaft
-from cardan.figures.wording import THIN, angular, percent, powers_of_ten, significant
+from cardan.figures.wording import powers_of_ten
 from cardan.questions.motion.equivalence import SYNCHRONOUS, EquivalentJoint
 from cardan.texts import _
 from cardan.units import deg
@@ -36,20 +38,26 @@ def irregularity_figure(found: EquivalentJoint) -> Figure:
     """
     share = 100.0 * np.ravel(np.asarray(found.shaft_irregularity))
     at = np.arange(2, len(share) + 2)
-    texts = tuple(percent(value / 100.0) for value in share)
-    upright = axis(_("Irregularity δ of each shaft"), "%", [share], include=(0.0,), least=1.0, count=4)
+    texts = tuple(Quantity(value / 100.0, "share", 3) for value in share.tolist())
+    upright = axis(
+        _("Speed fluctuation δ of each shaft"),
+        "percent",
+        [share],
+        dimension="share",
+        include=(0.0,),
+        least=1.0,
+        count=4,
+    )
     ticks = tuple(float(k) for k in at)
     across = Axis(label=_("shaft"), low=1.4, high=float(at[-1]) + 0.6, ticks=ticks, texts=written(ticks), grid=False)
     bars = Bars(at=at, size=share, texts=texts, roles=tuple(shaft(int(k)) for k in at), thick=0.5)
     even = share[-1] < 100.0 * SYNCHRONOUS
     return Figure(
         name="irregularity",
-        title=_("Irregularity of every shaft"),
-        sentence=_("The output is even; what the shafts between do cancels out.")
+        title=_("Speed fluctuation of every shaft"),
+        sentence=_("The output is uniform; what the shafts between do cancels out.")
         if even
-        else _("The output speed swings by {share} of its mean, from its lowest to its highest.").format(
-            share=texts[-1]
-        ),
+        else say(_("The output speed varies by {share} of its mean, peak to peak."), share=texts[-1]),
         source=_("δ = i_max − i_min = 4|a||b| of the product of the first joints' matrices, Book (79); exact"),
         rows=(Row(panels=(Panel(series=(bars,), x=across, y=_from_zero(upright)),), height=1.5),),
         legend=False,
@@ -77,7 +85,8 @@ def orders_figure(found: EquivalentJoint) -> Figure:
     ticks = tuple(10.0**p for p in powers if (p - powers[0]) % every == 0)
     upright = Axis(
         label=_("Amplitude of the output's angle error"),
-        unit="°",
+        unit="deg",
+        dimension="angle",
         low=low,
         high=high * 3.0,
         ticks=ticks,
@@ -85,19 +94,19 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         log=True,
     )
     across = Axis(
-        label=_("order: swings per turn of the input"),
+        label=_("order, times a turn of the input"),
         low=1.0,
         high=2.0 * ORDERS + 1.0,
         ticks=tuple(orders),
         texts=written(tuple(orders)),
         grid=False,
     )
-    little = f"< {powers_of_ten((low,))[0]}{THIN}°"
+    little = say(_("< {least}"), least=Quantity(low * deg, "angle", 1, trim=True))
     series: list[Series] = [
         Bars(
             at=orders,
             size=amplitude,
-            texts=tuple(f"{angular(value, 3)}°" if value >= low else little for value in amplitude.tolist()),
+            texts=tuple(Quantity(value * deg, "angle", 3) if value >= low else little for value in amplitude.tolist()),
             base=low,
             least=low,
             roles=("accent",),
@@ -105,15 +114,16 @@ def orders_figure(found: EquivalentJoint) -> Figure:
         )
     ]
     if even:
-        series = [Rule(value=low, text=_("no orders: the output turns exactly evenly"), role="muted")]
+        series = [Rule(value=low, text=_("no orders: the output turns exactly uniformly"), role="muted")]
     return Figure(
         name="orders",
         title=_("Orders of the output's angle error"),
-        sentence=_("There are none: the output turns exactly evenly.")
+        sentence=_("There are none: the output turns exactly uniformly.")
         if even
-        else _(
-            "Order 2, twice a turn, is the largest: order 4 is {times} times smaller, and odd orders do not occur."
-        ).format(times=significant(float(amplitude[0] / max(float(amplitude[1]), 1e-300)), 2)),
+        else say(
+            _("Order 2, twice a turn, is the largest: order 4 is {times} times smaller, and odd orders do not occur."),
+            times=Quantity(float(amplitude[0] / max(float(amplitude[1]), 1e-300)), digits=2),
+        ),
         source=_(
             "amplitude τᵏ/k at order 2k, τ = |b|/|a|; exact, a chain has no other harmonics than those of one joint"
         ),
@@ -123,9 +133,8 @@ def orders_figure(found: EquivalentJoint) -> Figure:
 
 
 def _from_zero(one: Axis) -> Axis:
-    return Axis(
-        label=one.label,
-        unit=one.unit,
+    return replace(
+        one,
         low=0.0,
         high=one.high * 1.08,
         ticks=tuple(t for t in one.ticks if t >= 0.0),

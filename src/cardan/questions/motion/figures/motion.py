@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.figures.turning import across, shaft_name
-from cardan.figures.wording import angular
 from cardan.maths.arrays import Array
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.motion import Motion
@@ -46,15 +46,16 @@ def motion_figure(found: Motion) -> Figure:
     even = len(angle) > 1 and float(np.max(np.ptp(ratio, axis=-1), initial=0.0)) < NOISE  # nothing else to be seen
     panels = (
         _panel(angle, ratio, across(angle, named=even), _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
-        _panel(angle, lead, along, _("Angle error φ − φ₁"), "°", 0.0, 0.2),
+        _panel(angle, lead, along, _("Angle error φ − φ₁"), "deg", 0.0, 0.2, dimension="angle"),
         _panel(
             angle,
             steep,
             across(angle, named=True),
             _("Angular acceleration ε") if known else _("Angular acceleration per input speed squared, ε/ω₁²"),
-            "rad/s²" if known else "–",
+            "rad_s2" if known else "–",
             0.0,
             1.0 if known else 0.02,
+            dimension="angular_acceleration" if known else "",
         ),
     )
     return Figure(
@@ -80,6 +81,7 @@ def _panel(
     middle: float,
     least: float,
     *,
+    dimension: str = "",
     named: bool = False,
 ) -> Panel:
     swing = float(np.max(np.abs(rows - middle), initial=0.0))
@@ -102,6 +104,7 @@ def _panel(
         label,
         unit,
         [rows],
+        dimension=dimension,
         include=(middle,),
         mirrored=middle if flat or lopsided < 2.0 else None,
         least=least if flat else 0.0,
@@ -109,29 +112,23 @@ def _panel(
     return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=along, y=upright)
 
 
-def _sentence(found: Motion, lead: Array) -> str:
+def _sentence(found: Motion, lead: Array) -> Text:
+    """Return between which speeds the output runs; at a uniform output, what the shafts between do."""
     ratio = np.asarray(found.ratio)
     low, high = float(np.min(ratio)), float(np.max(ratio))
     if high - low < NOISE:
-        between = float(np.max(np.ptp(lead, axis=-1))) / 2.0
-        if between < NOISE / deg:
-            return _("Every shaft turns exactly evenly.")
-        return _("The output turns exactly evenly; between the ends a shaft runs ahead and back by {lead}°.").format(
-            lead=angular(between, 3)
-        )
+        between = float(np.max(np.ptp(lead, axis=-1))) / 2.0 * deg
+        if between < NOISE:
+            return _("Every shaft turns exactly uniformly.")
+        text = _("Between input and output a shaft has an angle error of ±{error}.")
+        return say(text, error=Quantity(between, "angle", 3))
     swing = np.ptp(lead, axis=-1)
     if high - low < SPECK and float(swing[-1]) < UNDONE * float(np.max(swing)):
-        return _("But for rounding the output turns evenly: it runs ahead and back of its mean by {lead}°.").format(
-            lead=angular(float(np.ptp(lead[-1])) / 2.0, 2)
-        )
-    text = _(
-        "The output runs ahead and back of its mean by {lead}° twice a turn, its speed between {low} and {high} of the "
-        "input's."
-    )
-    if found.followed:
-        text = _(
-            "The output runs ahead and back of its mean by {lead}°, its speed between {low} and {high} of the input's."
-        )
+        text = _("But for rounding the output turns uniformly: its angle error is ±{error}.")
+        return say(text, error=Quantity(float(swing[-1]) / 2.0 * deg, "angle", 2))
     places = min(max(1 - math.floor(math.log10(100.0 * (high - low))), 1), 9)  # so that the two differ in two figures
-    least, most = (f"{100.0 * ratio:.{places}f} %" for ratio in (low, high))
-    return text.format(lead=angular(float(np.ptp(lead[-1])) / 2.0, 3), low=least, high=most)
+    return say(
+        _("The output speed runs between {low} and {high} of the input speed."),
+        low=Quantity(low, "share", decimals=places),
+        high=Quantity(high, "share", decimals=places),
+    )

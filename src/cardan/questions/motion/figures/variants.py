@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.reader import USUAL
 from cardan.errors import refuse
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.figures.turning import across
-from cardan.figures.wording import angular
 from cardan.maths.arrays import Array
 from cardan.questions.motion.motion import Motion
 from cardan.texts import _
@@ -44,8 +45,8 @@ def variants_figure(found: Sequence[Motion], names: Sequence[str]) -> Figure:
     >>> from cardan import Drive, motion
     >>> from cardan.units import deg
     >>> even, odd = Drive.from_angles([20 * deg, 20 * deg]), Drive.from_angles([20 * deg])
-    >>> variants_figure([motion(even), motion(odd)], ["two joints", "one joint"]).sentence
-    'two joints: the output turns most evenly, ahead and back by 0°; one joint: by 1.78°.'
+    >>> variants_figure([motion(even), motion(odd)], ["two joints", "one joint"]).sentence.told(USUAL)
+    'two joints turns most uniformly, output angle error ±0°; one joint: ±1.78°.'
     """
     if not found or len(found) != len(names):
         raise refuse("names", _("one name is needed for each drive, and at least one drive"))
@@ -67,7 +68,7 @@ def variants_figure(found: Sequence[Motion], names: Sequence[str]) -> Figure:
             )
             for rows, label, unit, middle, least, named in (
                 (ratios, _("Speed ratio ω/ω₁ of the output"), "–", 1.0, 0.002, True),
-                (leads, _("Angle error φ − φ₁ of the output"), "°", 0.0, 0.02, False),
+                (leads, _("Angle error φ − φ₁ of the output"), "deg", 0.0, 0.02, False),
             )
         ),
     )
@@ -100,20 +101,24 @@ def _panel(
     return Panel(
         series=(Rule(value=middle, dash="solid", role="faint"), *curves),
         x=across(longest, named=last),
-        y=axis(label, unit, list(rows), include=(middle,), least=least),
+        y=axis(label, unit, list(rows), dimension="angle" if unit == "deg" else "", include=(middle,), least=least),
     )
 
 
-def _sentence(leads: Sequence[Array], names: Sequence[str]) -> str:
-    swing = [0.5 * float(np.ptp(lead)) if lead.size else 0.0 for lead in leads]
-    told = [angular(one, 3) if one > NOISE else "0" for one in swing]
+def _sentence(leads: Sequence[Array], names: Sequence[str]) -> Say:
+    errors = [0.5 * float(np.ptp(lead)) if lead.size else 0.0 for lead in leads]
+    told = [Quantity(one * deg if one > NOISE else 0.0, "angle", 3) for one in errors]
     if len(told) == 1:
-        return _("{name}: the output runs ahead and back by {lead}°.").format(name=names[0], lead=told[0])
-    best, worst = int(np.argmin(swing)), int(np.argmax(swing))
-    if told[best] == told[worst]:
-        return _("All outputs run ahead and back by {lead}°.").format(lead=told[best])
-    return _("{best}: the output turns most evenly, ahead and back by {least}°; {worst}: by {most}°.").format(
-        best=names[best], least=told[best], worst=names[worst], most=told[worst]
+        return say(_("{name}: output angle error ±{error}."), name=names[0], error=told[0])
+    best, worst = int(np.argmin(errors)), int(np.argmax(errors))
+    if told[best].told(USUAL) == told[worst].told(USUAL):
+        return say(_("All outputs have an angle error of ±{error}."), error=told[best])
+    return say(
+        _("{best} turns most uniformly, output angle error ±{least}; {worst}: ±{most}."),
+        best=names[best],
+        least=told[best],
+        worst=names[worst],
+        most=told[worst],
     )
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.drive.bodies.solids import solids
 from cardan.figures.axes import axis, written
 from cardan.figures.drive import views_figure
 from cardan.figures.figure import Axis, Bars, Figure, Panel, Row
 from cardan.figures.palette import shaft
-from cardan.figures.wording import fixed, percent, significant
 from cardan.questions.phases.layout import Layout
 from cardan.texts import _
-from cardan.units import deg, mm
+from cardan.units import deg
 
 
 def layout_figures(found: Layout) -> tuple[Figure, ...]:
@@ -30,7 +30,7 @@ def bends_figure(found: Layout) -> Figure:
     """
     before, after = np.asarray(found.bend_before) / deg, np.asarray(found.bend) / deg
     number = np.arange(1, len(after) + 1)
-    upright = axis(_("Bend of each joint"), "°", [before, after], include=(0.0,), least=1.0, count=4)
+    upright = axis(_("Joint angle"), "deg", [before, after], dimension="angle", include=(0.0,), least=1.0, count=4)
     ticks = tuple(float(k) for k in number)
     across = Axis(
         label=_("joint"), low=0.4, high=float(number[-1]) + 0.6, ticks=ticks, texts=written(ticks), grid=False
@@ -39,7 +39,7 @@ def bends_figure(found: Layout) -> Figure:
         Bars(
             at=number - 0.2,
             size=before,
-            texts=tuple(f"{fixed(float(b), 1)}°" for b in before),
+            texts=tuple(Quantity(float(b) * deg, "angle", decimals=1) for b in before),
             roles=("faint",),
             thick=0.36,
             label=_("as described"),
@@ -47,7 +47,7 @@ def bends_figure(found: Layout) -> Figure:
         Bars(
             at=number + 0.2,
             size=after,
-            texts=tuple(f"{fixed(float(b), 1)}°" for b in after),
+            texts=tuple(Quantity(float(b) * deg, "angle", decimals=1) for b in after),
             roles=tuple(shaft(int(k) + 1) for k in number),
             thick=0.36,
             label=_("moved, in the colour of the driven shaft"),
@@ -55,10 +55,8 @@ def bends_figure(found: Layout) -> Figure:
     )
     return Figure(
         name="layout",
-        title=_("Bends before and after the joints were moved"),
-        sentence=_("The joints move by up to {way} mm; the new layout with its best yokes leaves {share}.").format(
-            way=significant(float(np.max(found.moved)) / mm, 3), share=percent(found.irregularity)
-        ),
-        source=_("cos α_max ≥ Π cos α of the other joints lets the yokes make a drive synchronous; exact"),
+        title=_("Joint angles before and after the joints were moved"),
+        sentence=say(_("The joints move by up to {way}."), way=Quantity(float(np.max(found.moved)), "length", 3)),
+        source=_("cos α_max ≥ Π cos α of the other joints lets the yokes make a drive uniform; exact"),
         rows=(Row(panels=(Panel(series=bars, x=across, y=upright),), height=1.7),),
     )

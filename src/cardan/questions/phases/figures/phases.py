@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.figures.axes import axis, clear_way, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, Row, Series
 from cardan.figures.palette import dash_of, shaft
-from cardan.figures.wording import percent, significant
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import SPECK, SYNCHRONOUS
@@ -54,29 +55,26 @@ def polygon_figure(found: Phasing) -> Figure:
         panels = (*panels, Panel(series=(), bare=True))
     best = found.settings[0].irregularity if found.settings else found.as_built.irregularity
     if best < SPECK:
-        sentence = _(
-            "As built the path ends {start} from the middle; with the yokes set it comes back to the middle: "
-            "the drive is synchronous."
-        )
+        text = _("As specified the path ends {start} from the middle; with the yokes phased it comes back to it.")
     else:
-        sentence = _(
-            "As built the path ends {start} from the middle, with the best yokes {end}: one side is too long "
-            "for the others to close."
+        text = _(
+            "As specified the path ends {start} from the middle, with the best yokes {end}: one side is too long for "
+            "the others to close."
         )
     if best < SYNCHRONOUS and found.as_built.irregularity < SYNCHRONOUS:
-        sentence = _("The path comes back to the middle: as built the drive is synchronous.")
+        text = _("The path comes back to the middle as specified.")
     elif found.as_built.irregularity < SPECK < found.irregularity_max:
-        sentence = _("But for the rounding of the drive's figures the path comes back to the middle as built.")
+        text = _("But for the rounding of the drive's figures the path comes back to the middle as specified.")
     elif found.as_built.irregularity - best < SYNCHRONOUS:
-        sentence = _(
+        text = _(
             "The path ends {start} from the middle and no yokes bring it nearer: one side is too long for the others."
         )
     if not found.settings:
-        sentence = _("One joint is one side: its path cannot come back to the middle.")
+        text = _("One joint is one side: its path cannot come back to the middle.")
     return Figure(
         name="polygon",
         title=_("Phase polygon"),
-        sentence=sentence.format(start=percent(found.as_built.irregularity), end=percent(best)),
+        sentence=say(text, start=Quantity(found.as_built.irregularity, "share", 3), end=Quantity(best, "share", 3)),
         source=_(
             "Poincaré disk: side k is joint k, length −ln cos α, turned by the yoke angles; corners −b/a of the matrix "
             "product; rings of equal δ"
@@ -98,7 +96,7 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
         rings.append(Curve(x=radius * np.cos(turn), y=radius * np.sin(turn), role="faint", width=0.8))
         rings.append(
             Note(
-                text=f"{share:g} %",
+                text=Quantity(share / 100.0, "share", trim=True),
                 x=radius * way.real,
                 y=radius * way.imag,
                 role="muted",
@@ -130,10 +128,9 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
                 marker=7.0 if last else 4.5,
             )
         )
-    leaves = percent(one.irregularity)
     name = _("setting {label}").format(label=one.label) if best else one.label
     span = Axis(low=-reach, high=reach)
-    title = _("{name}: leaves {share}").format(name=name, share=leaves)
+    title = say(_("{name}: leaves {share}"), name=name, share=Quantity(one.irregularity, "share", 3))
     return Panel(series=(*rings, *sides, middle), x=span, y=span, title=title, equal=True, bare=True)
 
 
@@ -174,22 +171,40 @@ def settings_figure(found: Phasing) -> Figure:
     )
     upright = Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=tuple(one.label for one in shown), grid=False)
     roles = tuple("muted" if one is found.as_built else "accent" for one in shown)
-    bars = Bars(at=at, size=share, texts=tuple(percent(s / 100.0) for s in share), roles=roles, thick=0.62, lying=True)
+    bars = Bars(
+        at=at,
+        size=share,
+        texts=tuple(Quantity(s / 100.0, "share", 3) for s in share.tolist()),
+        roles=roles,
+        thick=0.62,
+        lying=True,
+    )
     band = Band(low=low, high=min(high, 1.16 * top), upright=True, role="accent", opacity=0.07)
-    sentence = _("The free yokes can reach every value in the shaded range, from {low} to {high}.")
+    text = _("The free yokes can reach every value in the shaded range, from {low:bare} to {high}.")
     if high > across.high:
-        sentence = _(
-            "The free yokes can reach every value from {low} to {high}; the shaded range goes on to the right."
+        text = _(
+            "The free yokes can reach every value from {low:bare} to {high}; the shaded range goes on to the right."
         )
     return Figure(
         name="settings",
         title=_("What each setting of the yokes leaves"),
-        sentence=sentence.format(low=percent(found.irregularity_min), high=percent(found.irregularity_max)),
+        sentence=say(
+            text,
+            low=Quantity(found.irregularity_min, "share", 3),
+            high=Quantity(found.irregularity_max, "share", 3),
+        ),
         source=_("bounds: δ = 2 sinh L, L from max(0, 2L_max − ΣL) to ΣL, L = −ln cos α; exact, in place of Book (86)"),
         rows=(
             Row(
                 panels=(
-                    Panel(series=(band, bars), x=across, y=upright, title=_("Irregularity δ left at the output [%]")),
+                    Panel(
+                        series=(band, bars),
+                        x=across,
+                        y=upright,
+                        title=_("Speed fluctuation δ left at the output"),
+                        dimension="share",
+                        unit="percent",
+                    ),
                 ),
                 height=0.3 * len(shown) + 0.2,
             ),
@@ -209,21 +224,29 @@ def sensitivity_figure(found: Phasing) -> Figure:
     best = found.settings[0]
     cost = 100.0 * np.maximum(best.one_off, 0.0)
     number = np.arange(2, len(cost) + 2)
-    upright = axis(_("Irregularity by one degree of yoke error"), "%", [cost], include=(0.0,), least=1e-3, count=3)
+    upright = axis(
+        _("Fluctuation δ by one degree of yoke error"),
+        "percent",
+        [cost],
+        dimension="share",
+        include=(0.0,),
+        least=1e-3,
+        count=3,
+    )
     ticks = tuple(float(k) for k in number)
     across = Axis(
         label=_("shaft"), low=1.4, high=float(number[-1]) + 0.6, ticks=ticks, texts=written(ticks), grid=False
     )
     kept = tuple(t for t in upright.ticks if t >= 0.0)
-    upright = Axis(
-        label=upright.label, unit=upright.unit, low=0.0, high=1.1 * upright.high, ticks=kept, texts=written(kept)
-    )
+    upright = replace(upright, low=0.0, high=1.1 * upright.high, ticks=kept, texts=written(kept))
     worst = int(np.argmax(cost))
     return Figure(
         name="sensitivity",
         title=_("How exactly the yokes must stand"),
-        sentence=_("Shaft {number} asks for most care: one degree off costs {cost}.").format(
-            number=worst + 2, cost=percent(float(cost[worst]) / 100.0)
+        sentence=say(
+            _("Shaft {number} asks for most care: one degree off adds {cost}."),
+            number=worst + 2,
+            cost=Quantity(float(cost[worst]) / 100.0, "share", 3),
         ),
         source=_("δ(γ ± 1°) − δ(γ) at setting {label}, to the worse side; exact, δ = 4|a||b|").format(label=best.label),
         rows=(
@@ -234,7 +257,7 @@ def sensitivity_figure(found: Phasing) -> Figure:
                             Bars(
                                 at=number,
                                 size=cost,
-                                texts=tuple(significant(float(c), 3) for c in cost),
+                                texts=tuple(Quantity(float(c) / 100.0, "share", 3) for c in cost),
                                 roles=tuple(shaft(int(k)) for k in number),
                                 thick=0.5,
                             ),

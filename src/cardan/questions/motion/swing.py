@@ -10,10 +10,10 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.maths.arrays import Array
-from cardan.questions.motion.equivalence import EquivalentJoint, after_each_joint
-from cardan.questions.motion.motion import motion
+from cardan.maths.curves.peaks import peak
 
-from .turn_loads import peak
+from .equivalence import EquivalentJoint, after_each_joint
+from .motion import motion
 
 PLACES = 720
 """Places in a turn at which the motion is looked at; between them the largest values are found by a quartic."""

@@ -1,4 +1,4 @@
-"""cardan tolerance: bounds of the output, what makes them, and the cheapest tolerances for a target."""
+"""cardan accuracy: bounds of the output, what makes them, and the cheapest tolerances for a target."""
 
 import csv
 import io
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.cli.allocating import target
+from cardan.cli.accuracy import goal_of
 from cardan.errors import InputError
 from cardan.questions.accuracy.allocation import allocate
 from cardan.questions.accuracy.sampling import MonteCarlo
@@ -27,14 +27,31 @@ ROUND = {"rtol": 1e-12, "atol": 1e-12}
     ids=["squares", "worst", "samples", "allocate"],
 )
 def test_the_answer_stands_within_80_columns(cardan, options):
-    done = cardan("tolerance", INSTRUMENT, *options)
+    done = cardan("accuracy", INSTRUMENT, *options)
     assert (done.code, done.err) == (0, "")
     assert widest(done.out) <= 80
     assert done.out.startswith("instrument joint: ")
 
 
+def test_the_old_name_asks_it_too(cardan):
+    assert cardan("tolerance", INSTRUMENT).out == cardan("accuracy", INSTRUMENT).out
+
+
+def test_known_errors_alone_are_answered(cardan, drive_file):
+    text = "format = 1\n[[joints]]\nbend_deg = 20\nerror = { alpha2_arcmin = 2 }\n"
+    done = cardan("accuracy", drive_file(text))
+    assert done.code == 0
+    assert "known errors make an angle error of up to" in plain(done.out)
+
+
+def test_errors_that_keep_a_joint_from_closing_are_told(cardan, drive_file):
+    text = "format = 1\n[[joints]]\nbend_deg = 20\nerror = { alpha2_deg = 80 }\n"
+    done = cardan("accuracy", drive_file(text), "--json")
+    assert (done.code, done.content["closes"]) == (0, False)
+
+
 def test_json_is_the_band(cardan):
-    said = cardan("tolerance", INSTRUMENT, "--json").content
+    said = cardan("accuracy", INSTRUMENT, "--json").content
     found = tolerance(files.load(INSTRUMENT))
     assert said["angle"]["largest_arcmin"] == pytest.approx(found.output.largest / arcmin, rel=1e-12)
     assert said["shift"]["largest_um"] == pytest.approx(found.shift.largest * 1e6, rel=1e-12)
@@ -48,7 +65,7 @@ def test_json_is_the_band(cardan):
 def test_the_worst_case_is_the_widest(cardan):
     """Sums of sizes exceed roots of squares, and hold every drive that can be drawn."""
     sizes = {
-        method: cardan("tolerance", INSTRUMENT, "--method", method, "--json").content["angle"]["largest_arcmin"]
+        method: cardan("accuracy", INSTRUMENT, "--method", method, "--json").content["angle"]["largest_arcmin"]
         for method in ("squares", "worst", "samples")
     }
     assert sizes["worst"] > sizes["squares"]
@@ -59,21 +76,21 @@ def test_the_worst_case_is_the_widest(cardan):
 
 def test_samples_and_seed_count(cardan):
     options = ("--method", "samples", "--samples", 256, "--seed", 7)
-    said = cardan("tolerance", INSTRUMENT, *options, "--json").content
+    said = cardan("accuracy", INSTRUMENT, *options, "--json").content
     found = tolerance(files.load(INSTRUMENT), method=MonteCarlo(samples=256, seed=7))
     assert (said["samples"], said["seed"], said["lost_samples"]) == (256, 7, 0)
     assert said["angle"]["largest_arcmin"] == pytest.approx(found.output.largest / arcmin, rel=1e-12)
-    assert "256 drives drawn, seed 7" in plain(cardan("tolerance", INSTRUMENT, *options).out)
+    assert "256 drives drawn, seed 7" in plain(cardan("accuracy", INSTRUMENT, *options).out)
 
 
 def test_csv_and_json_agree(cardan):
-    table = list(csv.DictReader(io.StringIO(cardan("tolerance", INSTRUMENT, "--csv").out)))
-    said = cardan("tolerance", INSTRUMENT, "--json").content["bounds"]
+    table = list(csv.DictReader(io.StringIO(cardan("accuracy", INSTRUMENT, "--csv").out)))
+    said = cardan("accuracy", INSTRUMENT, "--json").content["bounds"]
     assert {key: [float(row[key]) for row in table] for key in said} == said
 
 
 def test_allotted_tolerances_are_those_of_the_library(cardan):
-    said = cardan("tolerance", INSTRUMENT, "--allocate", "2arcmin", "--keep", "alpha4", "--json").content
+    said = cardan("accuracy", INSTRUMENT, "--allocate", "2arcmin", "--keep", "alpha4", "--json").content
     found = allocate(files.load(INSTRUMENT), 2 * arcmin, keep=["joints[0].tolerance.alpha4"])
     assert said["cost"] == pytest.approx(found.cost, rel=1e-9)
     assert [row["kept"] for row in said["tolerances"]] == [False, False, False, False, True]
@@ -83,18 +100,18 @@ def test_allotted_tolerances_are_those_of_the_library(cardan):
 
 @pytest.mark.parametrize("options", [(), ("--method", "worst")], ids=["squares", "worst"])
 def test_what_is_written_keeps_the_target_and_the_comments(cardan, tmp_path, options):
-    done = cardan("tolerance", INSTRUMENT, "--allocate", "2arcmin", *options, "-o", "better.toml")
+    done = cardan("accuracy", INSTRUMENT, "--allocate", "2arcmin", *options, "-o", "better.toml")
     assert done.code == 0, done.err
     for line in INSTRUMENT.read_text().splitlines():
         if "#" in line:
             assert line in (tmp_path / "better.toml").read_text()
-    left = cardan("tolerance", "better.toml", *options, "--json").content["angle"]["largest_arcmin"]
+    left = cardan("accuracy", "better.toml", *options, "--json").content["angle"]["largest_arcmin"]
     assert 1.98 < left <= 2.0  # rounded down to three digits
 
 
 def test_tolerances_are_found_where_none_is_given(cardan, tmp_path):
     path = EXAMPLES / "six-joints.toml"
-    done = cardan("tolerance", path, "--allocate", "0.1deg", "-o", "new.toml")
+    done = cardan("accuracy", path, "--allocate", "0.1deg", "-o", "new.toml")
     assert done.code == 0, done.err
     found = tolerance(files.load(tmp_path / "new.toml"))
     assert found.output.largest == pytest.approx(0.1 * deg, rel=1e-2)
@@ -102,7 +119,7 @@ def test_tolerances_are_found_where_none_is_given(cardan, tmp_path):
 
 
 def test_a_length_limits_the_shift(cardan, tmp_path):
-    said = cardan("tolerance", INSTRUMENT, "--allocate", "5um", "-o", "new.json", "--json").content
+    said = cardan("accuracy", INSTRUMENT, "--allocate", "5um", "-o", "new.json", "--json").content
     assert said["of"] == "shift"
     assert said["target_um"] == pytest.approx(5.0)
     assert tolerance(files.load(tmp_path / "new.json")).shift.largest <= 5e-6
@@ -110,7 +127,7 @@ def test_a_length_limits_the_shift(cardan, tmp_path):
 
 def test_the_suggested_commands_work(cardan, tmp_path):
     for options in ((), ("--allocate", "2arcmin", "--of", "change", "--method", "worst", "--keep", "phase")):
-        out = cardan("tolerance", INSTRUMENT, *options).out
+        out = cardan("accuracy", INSTRUMENT, *options).out
         line = next(line for line in out.splitlines() if line.startswith("    cardan"))
         done = cardan(*line.replace("'", "").split()[1:])
         assert done.code == 0, done.err
@@ -122,14 +139,14 @@ def test_the_suggested_commands_work(cardan, tmp_path):
     [("2arcmin", 2 * arcmin, False), ("0.05 deg", 0.05 * deg, False), ("2′", 2 * arcmin, False), ("7um", 7e-6, True)],
 )
 def test_targets_have_units(text, size, length):
-    found = target(text)
+    found = goal_of(text)
     assert found == (pytest.approx(size, rel=1e-12), length)
 
 
 @pytest.mark.parametrize("text", ["2", "arcmin", "2rpm", "1e", "--1deg", ""])
 def test_targets_without_sense_are_refused(text):
-    with pytest.raises(InputError, match="no error with a unit"):
-        target(text)
+    with pytest.raises(InputError, match="not an error with a unit"):
+        goal_of(text)
 
 
 @pytest.mark.parametrize(
@@ -141,7 +158,7 @@ def test_targets_without_sense_are_refused(text):
         (("--keep", "alpha1"), "--keep: belongs to --allocate"),
         (("-o", "x.toml"), "--out: belongs to --allocate"),
         (("--allocate", "2arcmin", "--method", "samples"), "--method: --allocate adds errors up"),
-        (("--allocate", "2"), "--allocate: 2 is no error with a unit"),
+        (("--allocate", "2"), "--allocate: not an error with a unit: 2"),
         (("--allocate=-2deg",), "--allocate: -2deg is not allowed; the error must be above 0"),
         (("--allocate", "0arcmin"), "--allocate: 0arcmin is not allowed"),
         (("--method", "samples", "--samples", 10**12), "--samples: 1000000000000 drives asked for; the limit is"),
@@ -150,14 +167,14 @@ def test_targets_without_sense_are_refused(text):
     ],
 )
 def test_bad_options_are_refused(cardan, tmp_path, options, said):
-    done = cardan("tolerance", INSTRUMENT, *options)
+    done = cardan("accuracy", INSTRUMENT, *options)
     assert (done.code, done.out) == (2, "")
     assert said in done.err
     assert not list(tmp_path.iterdir())
 
 
 def test_missing_tolerances_are_named(cardan):
-    done = cardan("tolerance", EXAMPLES / "six-joints.toml")
+    done = cardan("accuracy", EXAMPLES / "six-joints.toml")
     assert (done.code, done.out) == (2, "")
     assert "joints[0].tolerance: missing" in done.err
     assert "alpha1_deg" in done.err
@@ -165,13 +182,13 @@ def test_missing_tolerances_are_named(cardan):
 
 @pytest.mark.parametrize("options", [(), ("--allocate", "2arcmin")], ids=["band", "allotted"])
 def test_a_figure_is_drawn(cardan, tmp_path, options):
-    assert cardan("tolerance", INSTRUMENT, *options, "--plot", "band.svg").code == 0
+    assert cardan("accuracy", INSTRUMENT, *options, "--plot", "band.svg").code == 0
     assert (tmp_path / "band.svg").stat().st_size > 1000
 
 
 def test_errors_beyond_first_order_are_told_to_be_so(cardan, drive_file):
     # sin α/(2 cos α) of the bend multiplies a minute of alpha2 by 3 000 at 89.99°.
     text = "format = 1\n[[joints]]\nbend_deg = 89.99\ntolerance = { alpha2_arcmin = 1 }\n"
-    out = plain(cardan("tolerance", drive_file(text)).out)
+    out = plain(cardan("accuracy", drive_file(text)).out)
     assert "▲ Warning: errors this large are beyond first order" in out
-    assert "beyond first order" not in cardan("tolerance", INSTRUMENT).out
+    assert "beyond first order" not in cardan("accuracy", INSTRUMENT).out

@@ -1,0 +1,109 @@
+"""What there is to say of the classical approximations of a drive's motion: what each makes of its fluctuation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cardan.answers.answer import Answer, Cell, Column, Table
+from cardan.answers.quantity import Quantity, say
+from cardan.answers.question import Lacking
+from cardan.drive.drive import Drive
+from cardan.drive.models.laws import unmapped
+from cardan.questions.motion.equivalence import SYNCHRONOUS
+from cardan.questions.motion.rounding import each_uniform
+from cardan.texts import _
+
+from .comparison import BookComparison, book_comparison
+from .figures.comparison import book_figure
+
+ALIKE = 5e-4
+"""Share of the exact value below which an approximation agrees with it to three digits."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks: nothing."""
+    return ()
+
+
+def ask(drive: Drive) -> BookComparison | None:
+    """Return the exact motion beside the classical approximations; None where there is nothing to compare.
+
+    Examples
+    --------
+    >>> ask(Drive.from_angles([0.0])) is None
+    True
+    """
+    if unmapped(drive.joints) or each_uniform(drive):
+        return None
+    return book_comparison(drive)
+
+
+def otherwise(drive: Drive) -> str:
+    """Return why there is nothing to compare."""
+    if unmapped(drive.joints):
+        return _("The classical series know no joints that turn by laws of their own.")
+    return _("Every joint turns uniformly by itself: there is nothing to approximate.")
+
+
+def differ(result: BookComparison) -> bool:
+    """Tell whether an approximation says something else than the exact motion, in three digits.
+
+    Examples
+    --------
+    >>> from cardan.units import deg
+    >>> [differ(book_comparison(Drive.from_angles([angle * deg]))) for angle in (0.5, 20.0)]
+    [False, True]
+    """
+    exact = float(result.irregularity)
+    told = (result.irregularity_80, result.irregularity_mean_phases, result.irregularity_without_theta)
+    return any(abs(float(one) - exact) > ALIKE * exact for one in told)
+
+
+def answer(drive: Drive, result: BookComparison) -> Answer:
+    """Return what there is to say of the classical approximations."""
+    exact = float(result.irregularity)
+    rows = (
+        (_("exact"), _("matrix product"), exact),
+        (_("series, first order"), _("Book (80), exact phase angles"), float(result.irregularity_80)),
+        (
+            _("series, mean phases"),
+            _("first order, start position left out"),
+            float(result.irregularity_mean_phases),
+        ),
+        (_("series without Θ"), _("as calculated in Book (90)"), float(result.irregularity_without_theta)),
+    )
+    shares = [share for _name, _source, share in rows]
+    bend = 0.0 if exact < SYNCHRONOUS else float(result.bend)
+    return Answer(
+        name="classical",
+        title=_("Classical approximations"),
+        sentence=say(
+            _("The rule of practice √|Σ ±α²| gives an equivalent joint angle of {rule}, exact is {exact}."),
+            rule=Quantity(float(result.rule_of_practice), "angle", decimals=3),
+            exact=Quantity(bend, "angle", decimals=3),
+        ),
+        figures=lambda: (book_figure(result),),
+        tables=(
+            Table(
+                name="approximations",
+                title=_("Speed fluctuation by the classical approximations"),
+                records=True,
+                columns=(
+                    Column(key="method", heading=_("method"), values=[name for name, _source, _share in rows]),
+                    Column(key="source", heading=_("source"), values=[source for _name, source, _share in rows]),
+                    Column(key="speed_fluctuation", heading="δ", values=np.asarray(shares), dimension="share"),
+                    Column(
+                        key="error",
+                        heading=_("error"),
+                        values=[None, *(_off(share - exact) for share in shares[1:])],
+                        dimension="share",
+                        digits=3,
+                    ),
+                ),
+            ),
+        ),
+    )
+
+
+def _off(difference: float) -> Cell | float:
+    return Cell(value=difference, before="+") if difference > 0.0 else difference

@@ -1,0 +1,171 @@
+"""What every shaft of a drive goes through: torque and couples, stresses, fatigue and how long it lasts, twist."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.checks.case import Case
+from cardan.checks.design import Design
+from cardan.formulas.fatigue import Fatigue
+from cardan.formulas.shaft_strength import ShaftStress, shaft_stress, torsion_modulus
+from cardan.formulas.spline_strength import SplineStress
+from cardan.questions.life.rainflow import rainflow, time_at_level
+
+from .section import Section, modulus, sections
+from .spline_pressure import lacking, stresses
+from .tube_buckling import composite_buckling
+from .tube_fatigue import STRENGTHS, fatigue, of_loads
+from .twist import compliance
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ShaftStrength:
+    """What a shaft goes through; None where the drive does not say enough.
+
+    Attributes
+    ----------
+    number : int
+        1 is the input shaft.
+    torque, bending : float [N·m]
+        Largest torque and largest secondary couple over all ways of running, shocks counted.
+    weight_bending : float [N·m]
+        Largest bending moment of its own weight between its joints; not part of the stresses. nan if not known.
+    stress : ShaftStress or None
+        Of the stretch that is worst off.
+    stretch : int
+        Which stretch that is, from 1.
+    fatigue : Fatigue or None
+        Of the stretch and the way of running with the least safety.
+    fatigue_life : float [s]
+        Running time until the shaft breaks by Palmgren's and Miner's rule; infinite where it does not, nan where not
+        known.
+    twist : float [rad]
+        Under its largest torque, without shocks; nan where not known.
+    spline : SplineStress or None
+    buckling_torque : float [N·m]
+        Of a tube of composite; else nan.
+    """
+
+    number: int
+    torque: float
+    bending: float
+    weight_bending: float = math.nan
+    stress: ShaftStress | None = None
+    stretch: int = 1
+    fatigue: Fatigue | None = None
+    fatigue_life: float = math.nan
+    twist: float = math.nan
+    spline: SplineStress | None = None
+    buckling_torque: float = math.nan
+
+
+def shaft_strength(design: Design, k: int) -> ShaftStrength:
+    """Return what a shaft of one drive under torque goes through, counted from 0."""
+    shock, shaft = float(design.shock), design.drive.shafts[k]
+    torque = float(design.most(lambda case: case.shaft_torque[..., k])[0])
+    soft, buckles = compliance(design, k)[0], composite_buckling(design, k)
+    found = list(sections(design, k))
+    plain = ShaftStrength(
+        number=k + 1,
+        torque=shock * torque,
+        bending=shock * float(design.most(lambda case: case.end_bending[..., k])[0]),
+        weight_bending=weight_bending(design, k),
+        twist=math.nan if soft is None else float(soft) * torque,
+        spline=None if shaft.spline is None or lacking(design, k) else stresses(design, k)[0],
+        buckling_torque=math.nan if buckles is None else float(buckles),
+    )
+    if not found or shaft.layup is not None:
+        return plain
+    worst = max(range(len(found)), key=lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
+    case = max(design.loaded, key=lambda one: float(one.mises_moment[k]))
+    moments = shock * float(case.shaft_torque[k]), shock * float(case.end_bending[k])
+    stress = shaft_stress(*moments, found[worst].outer, found[worst].inner)
+    plain = replace(plain, stress=stress, stretch=worst + 1)
+    if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):
+        return plain
+    tired = min((fatigue(design, k, one, c) for one in found for c in design.loaded), key=lambda one: float(one.safety))
+    moving = any(one.speed for one in lasting(design)) or design.duty.torque_history is not None
+    return replace(plain, fatigue=tired, fatigue_life=_life(design, k, found) if moving else math.nan)
+
+
+def lasting(design: Design) -> Sequence[Case]:
+    """Return the ways of running that make up the time of a duty by themselves: none where a torque was measured."""
+    history = design.duty.torque_history
+    measured = history is not None and bool(history.torques)
+    return [one for one in design.running if float(one.share) > 0.0 and (one.block or not measured)]
+
+
+def _life(design: Design, k: int, found: Sequence[Section]) -> float:
+    """Return the time until the worst stretch breaks, by Palmgren and Miner [s]."""
+    rates = [_damage(design, k, one) + _measured(design, k, one) for one in found]
+    return min(1.0 / rate if rate > 0.0 else math.inf for rate in rates)
+
+
+def _damage(design: Design, k: int, section: Section) -> float:
+    """Return the damage a second of every turn."""
+    rate = 0.0
+    for case in lasting(design):
+        cycles = float(fatigue(design, k, section, case).cycles)
+        rate += float(case.share) * abs(float(case.speed or 0.0)) / (2.0 * math.pi * max(cycles, 1.0))
+    return rate
+
+
+def _measured(design: Design, k: int, section: Section) -> float:
+    """Return the damage a second of a torque history: its own cycles, and the turns at its levels."""
+    duty = design.duty
+    history = duty.torque_history
+    if history is None or not history.torques or duty.blocks:
+        return 0.0
+    peak, most = design.loaded[-1], max(abs(one) for one in history.torques) or 1.0
+    low, high = (float(torque[k]) / most for torque in peak.torque_range)
+    bending = float(peak.end_bending[k]) / most
+    counted = rainflow(history.torques)
+    own = of_loads(design, k, section, high * np.abs(counted.mean), 0.5 * high * counted.range, 0.0)
+    rate = float(np.sum(counted.count / np.maximum(own.cycles, 1.0))) / (history.times[-1] - history.times[0])
+    if not duty.speed:
+        return rate
+    levels = time_at_level(history.times, history.torques)
+    size = np.abs(levels.value)
+    turned = of_loads(design, k, section, 0.5 * (high + low) * size, 0.5 * (high - low) * size, bending * size)
+    turns = abs(duty.speed) / (2.0 * math.pi)
+    return rate + float(np.sum(levels.share / np.maximum(turned.cycles, 1.0))) * turns
+
+
+def weight_bending(design: Design, k: int) -> float:
+    """Return the largest bending moment of a shaft's weight between its joints, counted from 0 [N·m].
+
+    Parameters
+    ----------
+    design : Design
+        One drive.
+    k : int
+        Shaft, counted from 0.
+
+    Notes
+    -----
+    A beam on two hinges, g across its full length: weights of its stretches and of the parts it carries; nan for the
+    end shafts, and where body or length is not given.
+    """
+    found, length = list(sections(design, k)), design.length(k)
+    if not 0 < k < design.joints or not found or length is None:
+        return math.nan
+    length = float(length)
+    lengths = [float(one.length or 0.0) for one in found]
+    fit, gravity = length / (sum(lengths) or length), math.hypot(*design.drive.settings.gravity)
+    edges = fit * np.concatenate(([0.0], np.cumsum(lengths)))
+    at = np.linspace(0.0, length, 401)
+    moment = np.zeros(at.size)
+    for one, start, end in zip(found, edges[:-1], edges[1:], strict=True):
+        area = 0.25 * math.pi * (one.outer**2 - one.inner**2)
+        load = gravity * modulus(design, one, "density") * area
+        force, middle = load * (end - start), 0.5 * (start + end)
+        beside = np.clip(at - start, 0.0, end - start)
+        moment += force * (1.0 - middle / length) * at - load * beside * (at - start - 0.5 * beside)
+    for lump in design.drive.shafts[k].masses:
+        force = gravity * lump.mass
+        moment += force * (1.0 - lump.position / length) * at - force * np.clip(at - lump.position, 0.0, None)
+    return float(np.max(np.abs(moment)))

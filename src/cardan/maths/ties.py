@@ -1,0 +1,153 @@
+"""What rounding does not decide: which of several is the largest, and how large is what a check leaves over.
+
+Two supports that carry alike by symmetry differ in the last digits, in which order the processor says. So the first of
+those that are alike counts, or all of them are named; and of a residual no more is told than its power of ten, and
+nothing but "to rounding" where it is as small as sums of rounded numbers leave it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+import numpy as np
+
+from .arrays import Array, ArrayLike
+
+TIE = 1e-9
+"""Values that differ by less than this share are alike."""
+
+ROUNDING = 1e-12
+"""A relative residual up to this is rounding: sums of some thousand terms of one size leave less."""
+
+NOTHING = 1e-13
+"""A number without a unit that is smaller than this is nought but for rounding: shares and ratios are near 1."""
+
+One = TypeVar("One")
+
+
+def alike(values: ArrayLike, *, least: bool = False, scale: ArrayLike | None = None) -> Array:
+    """Tell which values are the largest but for rounding.
+
+    Parameters
+    ----------
+    values : array (..., n)
+        To be compared along the last axis; nan is never the largest.
+    least : bool
+        Whether the smallest are asked for.
+    scale : array (...), optional
+        What a share is of; the extreme value itself when not given. Of a curve through zero it is its largest size.
+
+    Returns
+    -------
+    bool array (..., n)
+
+    Examples
+    --------
+    >>> alike([3.0, 5.0, 5.0 + 1e-13, np.nan]).tolist()
+    [False, True, True, False]
+    """
+    given = np.asarray(values, dtype=float)
+    table = np.where(np.isnan(given), -np.inf, -given if least else given)
+    top = np.max(table, axis=-1, keepdims=True, initial=-np.inf)
+    size = np.abs(top) if scale is None else np.asarray(scale, dtype=float)[..., None]
+    return (table >= top - np.where(np.isfinite(top), TIE * size, 0.0)) & ~np.isnan(given)
+
+
+def foremost(values: ArrayLike, *, least: bool = False, scale: ArrayLike | None = None) -> Array:
+    """Return the place of the largest value, of those that differ by rounding alone the first.
+
+    Parameters
+    ----------
+    values, least, scale
+        As for `alike`.
+
+    Returns
+    -------
+    int array (...)
+        0 where all are nan.
+
+    Examples
+    --------
+    >>> int(foremost([3.0, 5.0, 5.0 + 1e-13])), int(foremost([2.0, 1.0 + 1e-13, 1.0], least=True))
+    (1, 1)
+    """
+    return np.argmax(alike(values, least=least, scale=scale), axis=-1)
+
+
+def foremost_on(curve: ArrayLike, *, least: bool = False) -> Array:
+    """Return the place of the largest value of curves (..., p), where rounding is a share of their largest size.
+
+    Examples
+    --------
+    >>> angle = np.radians(np.arange(360))
+    >>> int(foremost_on(np.cos(2.0 * angle), least=True)), int(foremost_on(1e-15 * np.sin(angle) + 1.0))
+    (90, 0)
+    """
+    table = np.asarray(curve, dtype=float)
+    size = np.max(np.where(np.isfinite(table), np.abs(table), 0.0), axis=-1, initial=0.0)
+    return foremost(table, least=least, scale=size)
+
+
+def largest(values: ArrayLike) -> tuple[int, ...]:
+    """Return the places of all values that are the largest but for rounding, in rising order.
+
+    Parameters
+    ----------
+    values : array (n,)
+
+    Examples
+    --------
+    >>> largest([547.8, 2374.0 - 1e-11, 2374.0, 547.8])
+    (1, 2)
+    """
+    return tuple(int(k) for k in np.flatnonzero(alike(values)))
+
+
+def foremost_of(items: Iterable[One], size: Callable[[One], float], *, least: bool = False) -> One:
+    """Return the first of the items whose size is the largest but for rounding.
+
+    Raises
+    ------
+    ValueError
+        There are none.
+
+    Examples
+    --------
+    >>> foremost_of(("one", "three", "seven"), len)
+    'three'
+    """
+    every = list(items)
+    if not every:
+        raise ValueError("no items")
+    return every[int(foremost([size(one) for one in every], least=least))]
+
+
+def tidied(number: float) -> float:
+    """Return a number without a unit, 0 where it is nothing but rounding.
+
+    Examples
+    --------
+    >>> tidied(5.4e-18), tidied(0.0031)
+    (0.0, 0.0031)
+    """
+    return 0.0 if abs(number) < NOTHING else number
+
+
+def power_of(residual: float) -> int | None:
+    """Return the power of ten below which a relative residual is, None where it is rounding.
+
+    Parameters
+    ----------
+    residual : float
+        Over the size of what is balanced; not nan or infinite.
+
+    Examples
+    --------
+    >>> power_of(7e-16), power_of(3e-10), power_of(0.02)
+    (None, -9, -1)
+    """
+    if residual <= ROUNDING:
+        return None
+    return math.ceil(math.log10(residual))

@@ -1,0 +1,376 @@
+"""What there is to say of forces: what shafts, joints and supports carry, as drawn and while the drive moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, KeyFigure, Remark, Table
+from cardan.answers.quantity import Quantity, Say, listed, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import spelled
+from cardan.drive.models.chain import given_chain
+from cardan.errors import InputError, Problem
+from cardan.figures.figure import Figure
+from cardan.figures.wording import closely
+from cardan.maths.curves.over_turn import harmonics
+from cardan.maths.ties import foremost, largest
+from cardan.questions.motion.kinds import too_steep
+from cardan.texts import _, plural
+
+from .figures.forces import forces_figures
+from .figures.moving_forces import moving_forces_figures
+from .force_tables import joint_table, rubs, shaft_table, support_table, trace
+from .forces import Forces, forces
+from .moving_forces import MovingForces, moving_forces
+from .reactions import Held
+from .solving_order import reaction_groups
+from .told import ROUNDING, constant, largest_left, senses, size, span, support_names, tidy, together, turn
+
+__all__ = ["Carried", "answer", "ask", "lacking"]
+
+ORDERS = 7
+"""Orders 0 to 6 of the input speed are told to programs."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Carried:
+    """What a drive carries.
+
+    Attributes
+    ----------
+    forces : Forces
+        As drawn.
+    moving : MovingForces, optional
+        While it moves, where the file says how.
+    unheld : tuple of Problem
+        Why the supports tell nothing.
+    unmoved : tuple of Problem
+        Why nothing is told of the movement.
+    """
+
+    forces: Forces
+    moving: MovingForces | None = None
+    unheld: tuple[Problem, ...] = ()
+    unmoved: tuple[Problem, ...] = ()
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for the forces on its supports."""
+    return absent((drive.duty.torque is not None, "duty.torque"), (bool(drive.supports), "supports"))
+
+
+def ask(drive: Drive) -> Carried:
+    """Return what a drive carries as drawn and while it moves; without supports where these tell nothing.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+
+    Raises
+    ------
+    InputError
+        What even the torques lack.
+    """
+    try:
+        found = Carried(forces=forces(drive))
+    except InputError as error:
+        try:
+            return Carried(forces=forces(replace(drive, supports=())), unheld=error.problems)
+        except InputError:
+            raise error from None
+    if found.forces.reaction is None or not drive.movements or not drive.duty.speed:
+        return found
+    try:
+        return replace(found, moving=moving_forces(drive))
+    except InputError as error:
+        return replace(found, unmoved=error.problems)
+
+
+def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answer:
+    """Return what there is to say of what a drive carries.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    result : Carried
+        Over a turn.
+    curves : Forces, optional
+        At the positions whose curves are asked for.
+    """
+    found = result.forces
+    shown = found if curves is None else curves
+    return Answer(
+        name="forces",
+        title=_("Forces"),
+        sentence=_sentence(drive, found),
+        figures=lambda: _figures(drive, result),
+        tables=(*_tables(drive, found), *_back(shown)),
+        remarks=tuple(_remarks(drive, result)),
+        keys=tuple(_keys(drive, result)),
+        facts=_facts(drive, found),
+        full=lambda: trace(shown),
+    )
+
+
+def _figures(drive: Drive, result: Carried) -> tuple[Figure, ...]:
+    own = forces_figures(result.forces, drive if result.forces.reaction is not None else None)
+    return own if result.moving is None else (*own, *moving_forces_figures(result.moving, support_names(drive)))
+
+
+def needed(drive: Drive, low: float, high: float) -> Say:
+    """Return what the torque of the duty at one end is at the other."""
+    given = Quantity(drive.duty.torque or 0.0, "torque")
+    if constant(low, high):
+        text = _("{given} at the output need {high} at the input")
+        if drive.duty.torque_at == "input":
+            text = _("{given} at the input meet {high} at the output")
+    else:
+        text = _("{given} at the output need {low:bare} to {high} at the input")
+        if drive.duty.torque_at == "input":
+            text = _("{given} at the input meet {low:bare} to {high} at the output")
+    return say(text, given=given, **span(low, high, "torque"))
+
+
+def _sentence(drive: Drive, found: Forces) -> Say:
+    other = turn(found.angle, found.output_torque if drive.duty.torque_at == "input" else found.input_torque)
+    torque = needed(drive, float(other.low), float(other.high))
+    if found.reaction is None:
+        bent = turn(found.angle, found.bending_couple).high
+        places = largest(bent)
+        if not bent[places[0]] > 0.0:
+            return say(_("{torque}; the joints are straight, so there is no secondary couple."), torque=torque)
+        text = _("{torque}; the secondary couple is largest on shaft {which}, {most}.")
+        if len(places) > 1:
+            text = _("{torque}; the secondary couple is largest on shafts {which}, {most} each.")
+        which = together([one.name for one in drive.shafts], places)
+        return say(text, torque=torque, which=which, most=Quantity(float(bent[places[0]]), "torque"))
+    total = _support_peaks(found)
+    places = largest(total)
+    if not total[places[0]] > 0.0:
+        return say(_("{torque}; the supports carry nothing."), torque=torque)
+    text = _("{torque}; support {which} carries most, up to {most}.")
+    if len(places) > 1:
+        text = _("{torque}; supports {which} carry most, up to {most} each.")
+    which = together(support_names(drive), places)
+    return say(text, torque=torque, which=which, most=Quantity(float(total[places[0]]), "force"))
+
+
+def _support_peaks(found: Forces) -> Any:
+    """Return the largest force on each support, array (k,) [N]."""
+    return np.max([turn(one.angle, size(one.reaction)).high for one in senses(found)], axis=0)
+
+
+def _tables(drive: Drive, found: Forces) -> Iterator[Table]:
+    yield shaft_table(drive, found)
+    yield joint_table(drive, found)
+    if found.reaction is not None:
+        yield support_table(drive, found)
+
+
+def _back(shown: Forces) -> Iterator[Table]:
+    """Yield the curves of the splines sliding back, for programs."""
+    if shown.reverse is not None:
+        yield trace(shown.reverse, "forces_sliding_back")
+
+
+def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
+    found = result.forces
+    for k, problem in enumerate(result.unheld):
+        text = _("Warning: forces on the supports are not calculated. {field}: {message}")
+        yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
+    yield from _steep(drive)
+    surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
+    if surplus:
+        text = _(
+            "Warning: statically indeterminate, degree {n}: the supports share the forces by their stiffness, "
+            "misalignment included."
+        )
+        yield Remark(text=say(text, n=surplus), tone="warning")
+    groups = reaction_groups(drive) if found.reaction is not None else ()
+    if len(groups) > 1:
+        order = _(", then ").join(_(" and ").join(map(str, group)) for group in groups)
+        yield Remark(text=say(_("By hand the reactions follow from shaft {order}."), order=order))
+    yield from _thrust(found)
+    yield from _without(drive, found)
+    yield from _moving(drive, result)
+    yield balanced(found)
+    yield from _next(drive, found, surplus)
+
+
+def _parts(problem: Problem) -> dict[str, str]:
+    return {"field": spelled(problem.field), "message": problem.message}
+
+
+def _steep(drive: Drive) -> Iterator[Remark]:
+    """Yield a warning for every joint at a greater joint angle than one of its kind reaches."""
+    for number, (joint, angle) in enumerate(zip(drive.joints, given_chain(drive).bend, strict=True), 1):
+        text = too_steep(joint, number, float(angle))
+        if text:
+            yield Remark(text=say(_("Warning: {what}"), what=text[:1].lower() + text[1:]), tone="warning")
+
+
+def _thrust(found: Forces) -> Iterator[Remark]:
+    """Yield what friction in the splines does."""
+    most = float(np.max(np.abs(found.spline_thrust), initial=0.0))
+    if most > 0.0:
+        text = _("Friction in the spline thrusts with up to {most}.")
+        if found.reverse is not None:
+            text = _("Friction in the spline thrusts with up to {most}; loads are the largest of sliding in and out.")
+        yield Remark(text=say(text, most=Quantity(most, "force")))
+
+
+def balanced(found: Forces) -> Remark:
+    """Return how closely all balances hold."""
+    left = largest_left(found.power_left, found.force_left, found.moment_left)
+    text = _("Power balance checked: input less output, losses and inertia closes {closely}.")
+    if found.force_left is not None:
+        text = _("Balances checked: power, and the external forces and moments on the whole drive, close {closely}.")
+    return Remark(text=say(text, closely=closely(left)), tone="plain" if left <= ROUNDING else "failed")
+
+
+def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
+    """Yield what was left out because the file does not say."""
+    crossed = [i for i, joint in enumerate(drive.joints, 1) if "cross" not in joint.foreign]
+    bare = [i for i in crossed if not np.all(np.isfinite(found.journals.size[i - 1]))]
+    if bare:
+        text = plural(
+            "Joint {numbers} gives no cross.span_mm: the loads of its journals are not known.",
+            "Joints {numbers} give no cross.span_mm: the loads of their journals are not known.",
+            len(bare),
+        )
+        yield Remark(text=say(text, numbers=listed(bare)))
+    elif found.joint_force is None:
+        yield Remark(
+            text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
+        )
+    loose = [
+        i for i, joint in enumerate(drive.joints, 1) if not rubs(joint) and (joint.friction or joint.material_friction)
+    ]
+    if loose:
+        text = plural(
+            "Warning: friction of joint {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
+            "Warning: friction of joints {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
+            len(loose),
+        )
+        yield Remark(text=say(text, numbers=listed(loose)), tone="warning")
+    light = [int(path.partition("[")[2].partition("]")[0]) + 1 for path in found.assumed if path.endswith(".inertia")]
+    if "duty.speed" in found.assumed:
+        yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))
+    elif light:
+        text = plural(
+            "Shaft {numbers} counts as without inertia: neither inertia_kg_m2 nor outer_mm is given.",
+            "Shafts {numbers} count as without inertia: neither inertia_kg_m2 nor outer_mm is given.",
+            len(light),
+        )
+        yield Remark(text=say(text, numbers=listed(light)))
+    others = [path for path in found.assumed if path != "duty.speed" and not path.endswith(".inertia")]
+    if others:
+        text = _("Not given, so assumed: {paths}.")
+        yield Remark(text=say(text, paths=", ".join(map(spelled, others))), depth="full")
+
+
+def _moving(drive: Drive, result: Carried) -> Iterator[Remark]:
+    """Yield what the supports carry while the drive moves, or why that is not told."""
+    for problem in result.unmoved[:1]:
+        text = _("Warning: forces while the drive moves are not calculated: {field}: {message}")
+        yield Remark(text=say(text, **_parts(problem)), tone="warning")
+    if result.moving is not None:
+        text = _("While it moves, support {which} carries most, up to {most} at {time}.")
+        yield Remark(text=say(text, **worst_moving(drive, result.moving)))
+
+
+def worst_moving(drive: Drive, found: MovingForces) -> dict[str, Any]:
+    """Return which support carries most while the drive moves, how much, and when."""
+    peak = found.extreme(found.reaction_size)
+    k = int(foremost(peak.high))
+    return {
+        "which": together(support_names(drive), [k]),
+        "most": Quantity(float(peak.high[k]), "force"),
+        "time": Quantity(float(peak.high_time[k]), "time", 3),
+    }
+
+
+def _next(drive: Drive, found: Forces, surplus: int) -> Iterator[Remark]:
+    """Yield the next step."""
+    if surplus:
+        text = _("What misalignment does alone, and what to release:")
+        yield Remark(text=text, command=("cardan", "assembly", FILE), tone="next")
+    elif found.reaction is None:
+        yield Remark(text=_("Add [[supports]] to the file for the loads of bearings and journals."), tone="next")
+    elif found.loss.any() and drive.duty.speed:
+        yield Remark(text=_("Where power is lost:"), command=("cardan", "losses", FILE), tone="next")
+
+
+def _keys(drive: Drive, result: Carried) -> Iterator[KeyFigure]:
+    """Yield the largest couple, journal load and reaction."""
+    found = result.forces
+    couple = np.max(np.asarray(found.bending_couple), axis=-1)
+    bent = int(foremost(couple))
+    if couple[bent] > ROUNDING * float(np.max(np.abs(np.asarray(found.shaft_torque)), initial=0.0)):
+        yield KeyFigure(
+            name="secondary_couple",
+            title=say(_("largest secondary couple, shaft {k}"), k=bent + 1),
+            value=Quantity(float(couple[bent]), "torque"),
+        )
+    journal = np.max([np.max(np.asarray(one.journals.size), axis=(-1, -2)) for one in senses(found)], axis=0)
+    if np.any(np.isfinite(journal)):
+        most = int(foremost(journal))
+        yield KeyFigure(
+            name="journal_load",
+            title=say(_("largest load of a journal, joint {k}"), k=most + 1),
+            value=Quantity(float(journal[most]), "force"),
+        )
+    if found.reaction is None:
+        return
+    total = np.max([np.max(size(one.reaction), axis=-1) for one in senses(found)], axis=0)
+    places = largest(total)
+    yield KeyFigure(
+        name="support_force",
+        title=say(_("largest force on a support, {name}"), name=together(support_names(drive), places)),
+        value=Quantity(float(total[places[0]]), "force"),
+    )
+    if result.moving is not None:
+        worst = worst_moving(drive, result.moving)
+        yield KeyFigure(
+            name="support_force_while_moving",
+            title=say(_("the same while moving, {name}"), name=worst["which"]),
+            value=worst["most"],
+        )
+
+
+def _facts(drive: Drive, found: Forces) -> dict[str, Any]:
+    orders = harmonics(found.angle, found.shaft_torque, count=ORDERS).amplitude
+    return {
+        **duty_facts(drive),
+        "status": Held(int(found.status)).name.lower(),
+        "equations": found.equations,
+        "unknowns": found.unknowns,
+        "solving_order": [list(group) for group in reaction_groups(drive)],
+        "torque_orders": Quantity([tidy(row).tolist() for row in orders], "torque"),
+        **({} if found.reaction is not None else {"supports": []}),
+        **balance_facts(found),
+        "assumed": found.assumed,
+    }
+
+
+def duty_facts(drive: Drive) -> dict[str, Any]:
+    """Return speed and torque that the forces are told for."""
+    speed = drive.duty.speed
+    return {
+        "speed": None if speed is None else Quantity(speed, "angular_speed"),
+        "torque": Quantity(drive.duty.torque or 0.0, "torque"),
+        "torque_at": drive.duty.torque_at,
+    }
+
+
+def balance_facts(found: Forces) -> dict[str, Any]:
+    """Return what the balances leave."""
+    rows = {"power_left": found.power_left, "force_left": found.force_left, "moment_left": found.moment_left}
+    return {name: None if row is None else float(np.max(np.asarray(row))) for name, row in rows.items()}

@@ -1,0 +1,588 @@
+"""What there is to say of the phasing of the yokes: settings to choose from, what each leaves, and why no less."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.question import Lacking
+from cardan.drive.drive import Drive
+from cardan.drive.models.chain import given_chain
+from cardan.drive.models.laws import is_even, mixed, unmapped
+from cardan.errors import InputError
+from cardan.figures.palette import colour
+from cardan.figures.palette import shaft as shaft_role
+from cardan.maths.arrays import Array
+from cardan.questions.motion.closure import closure
+from cardan.questions.motion.equivalence import SYNCHRONOUS
+from cardan.questions.motion.kinds import steep_joints
+from cardan.questions.motion.rounding import each_uniform, is_rounding
+from cardan.texts import _, plural
+from cardan.units import deg
+
+from .figures.phases import phasing_figures
+from .phases import Phasing
+from .phases import phases as ask
+from .setting import YokeSetting
+
+__all__ = ["answer", "ask", "lacking"]
+
+WIDEST = 7
+"""With more yokes than this the table of settings is turned: shafts downwards."""
+
+WORTH = 2e-4
+"""A setting that turns no yoke by more than this [rad] is not worth writing."""
+
+PITCHED = 3
+"""So many settings of spline teeth are shown; JSON and CSV hold all."""
+
+LITTLE = 0.01
+"""A speed fluctuation below which what the yokes leave is called little."""
+
+SIDES = 8
+"""So many sides of the phase polygon are told."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks: nothing."""
+    return ()
+
+
+def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None = None, nearest: bool = False) -> Answer:
+    """Return what there is to say of the phasing of the yokes of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive as it stands in the file.
+    result : Phasing
+        What its yoke angles can do.
+    fixed : mapping of int to float, optional
+        What was held beside the file: shaft number -> yoke angle [rad].
+    nearest : bool
+        Whether the goal was the least change of the present yokes.
+    """
+    shown = (result.as_built, *result.settings, *result.spline_settings[:PITCHED], *result.pose_settings)
+    several = len(drive.joints) > 1
+    return Answer(
+        name="phasing",
+        title=_("Phasing of the yokes"),
+        sentence=_sentence(drive, result),
+        tone="good" if is_uniform(drive, result.as_built.irregularity) else "plain",
+        figures=lambda: phasing_figures(result),
+        tables=(
+            *((settings_table(drive, shown),) if several else ()),
+            *((_poses(result, shown),) if result.poses else ()),
+            *((_costs(drive, result),) if several and result.settings else ()),
+        ),
+        remarks=tuple(_remarks(drive, result, fixed or {}, nearest)),
+        keys=tuple(_keys(result)),
+        facts=_facts(drive, result),
+        full=lambda: _everything(drive, result),
+        code=0 if result.complete else 1,
+    )
+
+
+def is_uniform(drive: Drive, share: float) -> bool:
+    """Tell whether a speed fluctuation of a drive is none, or only the rounding of its figures."""
+    return share < SYNCHRONOUS or is_rounding(drive, share)
+
+
+def every_setting(found: Phasing) -> tuple[YokeSetting, ...]:
+    """Return all settings of an answer, the one as specified first."""
+    return (found.as_built, *found.settings, *found.spline_settings, *found.pose_settings)
+
+
+def _sentence(drive: Drive, found: Phasing) -> Say:
+    now, least = found.as_built.irregularity, found.irregularity_min
+    if len(drive.joints) == 1:
+        text = _("one joint, speed fluctuation δ = {now}; a single joint has no yokes to phase.")
+    elif each_uniform(drive):
+        text = _("{count}; every joint turns uniformly by itself, the yokes may stand anyhow.")
+        elsewhere = drive.movements or drive.poses
+        if elsewhere and not all(is_even(joint) for joint in drive.joints):
+            text = _(
+                "{count}; as drawn every joint turns uniformly by itself, the yokes count where joint angles differ."
+            )
+    elif now < SYNCHRONOUS:
+        text = _("{count}; the yokes are phased right, the output is exactly uniform as specified.")
+    elif is_rounding(drive, now):
+        text = _("{count}; the yokes are phased right, uniform but for the rounding of its figures: δ = {now}.")
+    elif found.feasible:
+        text = _("{count}; speed fluctuation δ = {now} as specified, exactly uniform with other yoke angles.")
+    elif is_rounding(drive, least):
+        text = _("{count}; speed fluctuation δ = {now} as specified, with other yoke angles uniform but for rounding.")
+    elif not found.free and np.max(np.abs(found.settings[0].change)) < 1e-9:
+        text = _("{count}; speed fluctuation δ = {now}, no yokes to set.")
+    elif not found.free:
+        text = _("{count}; speed fluctuation δ = {now} as specified, {least} with the yokes held.")
+    else:
+        text = _("{count}; speed fluctuation δ = {now} as specified; no yoke angles leave less than {least}.")
+    return say(text, count=_count(drive), now=Quantity(now, "share"), least=Quantity(least, "share"))
+
+
+def _count(drive: Drive) -> str:
+    return plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints))
+
+
+def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
+    """Return yoke angles and what they leave, row by row, or column by column where there are many shafts."""
+    numbers = range(2, len(drive.joints) + 1)
+    title = _("Yoke angles γ, and the speed fluctuation δ that they leave")
+    tones = ["good" if one.irregularity < SYNCHRONOUS else "plain" for one in shown]
+    if len(numbers) <= WIDEST:
+        return Table(
+            title=title,
+            columns=(
+                Column(key="setting", heading=_("setting"), values=[one.label for one in shown], left=True),
+                *(
+                    Column(
+                        key=f"shaft_{k}",
+                        heading=_("shaft {number}").format(number=k),
+                        values=[float(one.yoke_angle[k - 2]) for one in shown],
+                        dimension="angle",
+                        decimals=2,
+                    )
+                    for k in numbers
+                ),
+                Column(
+                    key="speed_fluctuation",
+                    heading="δ",
+                    values=[
+                        Cell(value=float(one.irregularity), tone=tone)  # type: ignore[arg-type]
+                        for one, tone in zip(shown, tones, strict=True)
+                    ],
+                    dimension="share",
+                ),
+                Column(
+                    key="worst_shaft",
+                    heading=_("worst shaft between"),
+                    values=[float(np.max(one.shaft_irregularity[:-1])) for one in shown],
+                    dimension="share",
+                    depth="full",
+                ),
+            ),
+        )
+    return Table(
+        title=title,
+        columns=(
+            Column(key="shaft", heading=_("yoke of shaft"), values=[*map(str, numbers), "δ"], left=True),
+            *(
+                Column(
+                    key=one.label,
+                    heading=one.label,
+                    values=[*one.yoke_angle.tolist(), Quantity(one.irregularity, "share")],
+                    dimension="angle",
+                    decimals=2,
+                )
+                for one in shown
+            ),
+        ),
+    )
+
+
+def _steps(found: Phasing) -> str:
+    """Return between how many places the teeth of splines let yokes be set."""
+    steps = ", ".join(
+        _("{steps} places on shaft {number}").format(steps=steps, number=number)
+        for number, steps in found.spline_steps.items()
+    )
+    return _("Spline teeth allow {steps}; all of them were looked at.").format(steps=steps)
+
+
+def _poses(found: Phasing, shown: Sequence[YokeSetting]) -> Table:
+    some = [one for one in shown if len(one.pose_irregularity) == len(found.poses)]
+    return Table(
+        title=_("Speed fluctuation δ in each pose"),
+        columns=(
+            Column(key="setting", heading=_("setting"), values=[one.label for one in some], left=True),
+            *(
+                Column(
+                    key=name,
+                    heading=f"{k} {name}" if len(name) <= 20 else f"{k} {name[:19]}…",
+                    values=[float(one.pose_irregularity[k - 1]) for one in some],
+                    dimension="share",
+                )
+                for k, name in enumerate(found.poses, 1)
+            ),
+        ),
+    )
+
+
+def _costs(drive: Drive, found: Phasing) -> Table:
+    some = [found.as_built, *found.settings[:3]]
+    note = _("In the pose where it grows most.") if found.poses else ""
+    if drive.movements and not found.poses:
+        note = _("This concerns the drive as drawn, standing still.")
+    return Table(
+        title=_("Growth of δ when one yoke stands one degree off"),
+        depth="full",
+        columns=(
+            Column(
+                key="shaft",
+                heading=_("shaft"),
+                values=[Cell(value=str(k), chip=colour(shaft_role(k))) for k in range(2, len(drive.joints) + 1)],
+                left=True,
+            ),
+            *(
+                Column(
+                    key=one.label,
+                    heading=one.label,
+                    values=noiseless(one.one_off, found.reach),
+                    dimension="share",
+                    digits=3,
+                )
+                for one in some
+            ),
+        ),
+        note=note,
+    )
+
+
+def _everything(drive: Drive, found: Phasing) -> Table:
+    every, n = every_setting(found), len(drive.joints)
+
+    def column(key: str, values: Iterable[Any], dimension: str = "share") -> Column:
+        return Column(key=key, values=list(values), dimension=dimension)
+
+    between = range(2, n + 1)
+    return Table(
+        columns=(
+            Column(key="setting", values=[one.label for one in every]),
+            column("speed_fluctuation", (float(one.irregularity) for one in every)),
+            *(
+                column(f"shaft_{k}_yoke_angle", (float(one.yoke_angle[k - 2]) for one in every), "angle")
+                for k in between
+            ),
+            *(column(f"shaft_{k}_change", (float(one.change[k - 2]) for one in every), "angle") for k in between),
+            *(
+                column(f"shaft_{k}_speed_fluctuation", (float(one.shaft_irregularity[k - 2]) for one in every))
+                for k in range(2, n + 2)
+            ),
+            *(
+                column(f"pose_{name}_speed_fluctuation", (float(one.pose_irregularity[k]) for one in every))
+                for k, name in enumerate(found.poses)
+            ),
+        )
+    )
+
+
+def _remarks(drive: Drive, found: Phasing, fixed: Mapping[int, float], nearest: bool) -> Iterator[Remark]:
+    if not found.complete:
+        text = _("Warning: the search was stopped; these are the best settings so far.")
+        yield Remark(text=text, tone="warning")
+    yield Remark(text=_proof(drive, found), depth="full")
+    if not found.feasible:
+        yield from _limits(drive, found)
+    if meaning := letters(found, nearest=nearest):
+        yield Remark(text=meaning)
+    yield from spread(found)
+    if found.spline_steps:
+        yield Remark(text=_steps(found), depth="full")
+    if found.poses:
+        text = _("δ beside the yoke angles is that of the drive as drawn; the poses have a table of their own.")
+        yield Remark(text=text, depth="full")
+    if unmapped(drive.joints):
+        text = _("What joints leave by laws of their own, below {most}, is not in these figures.")
+        yield Remark(text=say(text, most=Quantity(1e-6, "angle", 1, unit="rad")))
+    if found.spline_refusal:
+        yield Remark(text=_("Warning: splines: {reason}.").format(reason=found.spline_refusal), tone="warning")
+    yield from steep_joints(drive)
+    writable = (*found.pose_settings, *found.settings)
+    if writable and np.max(np.abs(writable[0].change)) > WORTH:
+        text = _("Write setting {label} into a copy of the file:").format(label=writable[0].label)
+        parts = command(fixed, "--apply", writable[0].label, "-o", "better.toml", nearest=nearest)
+        yield Remark(text=text, command=parts, tone="next")
+
+
+def command(fixed: Mapping[int, float], *more: str, nearest: bool) -> tuple[str, ...]:
+    """Return the command that asks the same again, and more."""
+    fixes = [part for k, angle in fixed.items() for part in ("--fix", f"{k}={math.degrees(angle):.12g}")]
+    return ("cardan", "phasing", FILE, *fixes, *(["--goal", "nearest"] if nearest else []), *more)
+
+
+def _proof(drive: Drive, found: Phasing) -> Text:
+    """Return what the sides of the phase polygon say."""
+    drawn = _("This concerns the drive as drawn, standing still.") if drive.movements else ""
+    if each_uniform(drive):
+        said = _("Every joint turns uniformly by itself, straight or of constant velocity: there is nothing to cancel.")
+        return Joined([said, drawn], between=" ")
+    try:
+        seen = closure(drive)
+    except InputError:
+        return _("Yoke angles of the joints beside those that turn by laws of their own.")
+    longest = float(np.max(seen.length))
+    places = min(max(4, 2 - math.floor(math.log10(longest))), 12) if longest > 0.0 else 4
+    sides: list[Text] = [Quantity(float(value), decimals=places) for value in seen.length[:SIDES]]
+    if len(drive.joints) > SIDES:
+        sides.append("…")
+    text = _("Every joint is a side of length L = −ln cos α, here {sides}.")
+    values: dict[str, Any] = {
+        "sides": Joined(sides),
+        "longest": seen.longest,
+        "long": Quantity(float(seen.length[seen.longest - 1]), decimals=places),
+        "others": Quantity(seen.others, decimals=places),
+        "low": Quantity(found.irregularity_min, "share", 3),
+        "high": Quantity(found.irregularity_max, "share", 3),
+        "angle": Quantity(seen.bend_allowed, "angle", decimals=2),
+    }
+    if len(drive.joints) == 1:
+        text = f"{text} {_('One side never comes back to its start.')}"
+    elif found.fixed:
+        values["held"] = ", ".join(map(str, found.fixed))
+        more = _(
+            "The yokes of shaft {held} are held, so the joints at their ends count as one. The free yokes reach every "
+            "fluctuation from {low:bare} to {high}."
+        )
+        text = f"{text} {more}"
+    else:
+        text = f"{text} {_('The yoke angles are the corners.')} {_closing(drive, found, closes=seen.closes)}"
+        if not seen.closes and not is_rounding(drive, found.irregularity_min):
+            alike = drive.joints[seen.longest - 1].kind != "hooke"
+            more = _("It could be closed if that joint had a joint angle of {angle}.")
+            if alike:
+                more = _("It could be closed if the Hooke joint that turns like that joint had an angle of {angle}.")
+            text = f"{text} {more}"
+    if mixed(drive.joints):
+        text = f"{text} {_('α is the angle of the Hooke joint that turns alike.')}"
+    return say(text, **values)
+
+
+def _closing(drive: Drive, found: Phasing, *, closes: bool) -> str:
+    """Return whether the longest side is too long for the others."""
+    if closes:
+        return _(
+            "The longest side, joint {longest} with {long}, is no longer than the others together, {others}: the path "
+            "can be closed, exactly and for all harmonics at once."
+        )
+    if is_rounding(drive, found.irregularity_min):
+        return _(
+            "The longest side, joint {longest}, is as long as the others together but for the rounding of the figures "
+            "that describe the drive: what it leaves, {low}, is no fluctuation of the design."
+        )
+    return _(
+        "The longest side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles "
+        "can close the path."
+    )
+
+
+def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
+    """Yield why no yoke angles make the drive uniform, and what would."""
+    if len(drive.joints) == 1:
+        if drive.joints[0].kind == "hooke":
+            alone = _("A single joint always fluctuates; a second one at the same joint angle can cancel it.")
+            yield Remark(text=alone, tone="next")
+        return
+    if found.limiting_joint is None or not found.free or is_rounding(drive, found.irregularity_min):
+        return
+    bend = float(given_chain(drive).bend[found.limiting_joint - 1])
+    if len(found.limiting_joints) > 1:
+        text: Text = say(
+            _(
+                "Joints {tied}, tied by held yokes, act as one whose joint angle is too large for the others; free a "
+                "yoke, or reduce the angle of joint {number}, {angle}."
+            ),
+            tied=", ".join(str(k) for k in found.limiting_joints),
+            number=found.limiting_joint,
+            angle=Quantity(bend, "angle", decimals=2),
+        )
+    else:
+        text = excess(found, len(drive.joints), bend, plain=drive.joints[found.limiting_joint - 1].kind == "hooke")
+    yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
+
+
+def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> Text:
+    """Return in one sentence which joint keeps a drive from being uniform, and at what joint angle it would not.
+
+    Parameters
+    ----------
+    found : Phasing
+        What the yokes can do; a single joint fluctuates more than the others can undo.
+    joints : int
+        Number of joints.
+    bend : float [rad]
+        Angle of that joint.
+    plain : bool
+        Whether it is a Hooke joint; of another kind no angle is named.
+
+    Notes
+    -----
+    The side L = -ln cos α of that joint is asinh(δ/2) too long.
+    """
+    left = Quantity(found.irregularity_min, "share", 3)
+    if not plain:
+        text = _("Joint {number} fluctuates more than the others can undo. What remains is {left}.")
+        return say(text, number=found.limiting_joint, left=left)
+    spare = math.asinh(0.5 * found.irregularity_min)
+    closing = math.acos(min(1.0, math.cos(bend) * math.exp(spare)))
+    decimals = next((d for d in (2, 3, 4, 5) if round(closing / deg, d) != round(bend / deg, d)), 6)
+    text = plural(
+        "The angle of joint {number} is too large for the other one: at {closing} instead of {now} the drive could be "
+        "uniform. What remains is {left}.",
+        "The angle of joint {number} is too large for the others: at {closing} instead of {now} the drive could be "
+        "uniform. What remains is {left}.",
+        joints - 1,
+    )
+    if found.irregularity_min < LITTLE:
+        text = plural(
+            "The angle of joint {number} is a little too large for the other one: at {closing} instead of {now} the "
+            "drive could be uniform. What remains is {left}.",
+            "The angle of joint {number} is a little too large for the others: at {closing} instead of {now} the drive "
+            "could be uniform. What remains is {left}.",
+            joints - 1,
+        )
+    return say(
+        text,
+        number=found.limiting_joint,
+        closing=Quantity(closing, "angle", decimals=decimals),
+        now=Quantity(bend, "angle", decimals=decimals),
+        left=left,
+    )
+
+
+def letters(found: Phasing, *, nearest: bool = False) -> str:
+    """Return what the letters of the settings stand for, "" where there is no choice.
+
+    Parameters
+    ----------
+    found : Phasing
+        Settings, best first.
+    nearest : bool
+        Whether the goal was the least change of the present yokes instead of the most uniform intermediate shafts.
+    """
+    if not found.feasible or len(found.settings) < 2:
+        return ""
+    if len(found.free) < 3:
+        return _("A and B are mirror images; both are exact.")
+    if len(found.settings) == 2:
+        return _("A is the best by the goal; B is exact as well.")
+    if nearest:
+        return _(
+            "A is nearest to the present yokes, B its mirror image; C leaves the intermediate shafts the least "
+            "fluctuation."
+        )
+    return _(
+        "A leaves the intermediate shafts the least fluctuation, B is its mirror image; C is nearest to the present "
+        "yokes."
+    )
+
+
+def noiseless(slope: Iterable[float], largest: float) -> list[float]:
+    """Return slopes of the speed fluctuation with 0 for those that are nothing but rounding.
+
+    Parameters
+    ----------
+    slope : iterable of float
+        At a minimum the slope is 0 only to the rounding of the yoke angles.
+    largest : float
+        Largest fluctuation that turning the yokes can make; no slope is much greater.
+
+    Examples
+    --------
+    >>> noiseless([0.01, 8e-9], 0.2)
+    [0.01, 0.0]
+    """
+    return [float(one) if abs(one) > 1e-6 * largest else 0.0 for one in slope]
+
+
+def spread(found: Phasing) -> Iterator[Remark]:
+    """Yield what an error of the yokes costs, or what the free yokes reach."""
+    if not found.settings or not found.free:
+        return
+    if not found.feasible:
+        text = _("The free yokes reach every speed fluctuation from {low:bare} to {high}.")
+        low, high = Quantity(found.irregularity_min, "share"), Quantity(found.irregularity_max, "share")
+        yield Remark(text=say(text, low=low, high=high))
+        return
+    numbers = sorted((*found.free, *found.fixed))
+    costs = noiseless(found.settings[0].one_off, found.reach)
+    each = [costs[k - 2] for k in numbers]
+    if len(numbers) > WIDEST:
+        worst = numbers[each.index(max(each))]
+        text = _("A yoke 1° off adds at most {cost} to δ, on shaft {shaft}.")
+        yield Remark(text=say(text, cost=Quantity(max(each), "share", 2), shaft=worst))
+        return
+    text = _("A yoke 1° off adds {costs} to δ on shaft {shafts}.")
+    parts = [Quantity(cost, "share", 2) for cost in each]
+    yield Remark(text=say(text, costs=Joined(parts, between=" / "), shafts=" / ".join(map(str, numbers))))
+
+
+def _keys(found: Phasing) -> Iterator[KeyFigure]:
+    least = min((one.irregularity for one in found.settings), default=found.as_built.irregularity)
+    title = _("least speed fluctuation δ by other yoke angles")
+    yield KeyFigure(name="least_speed_fluctuation", title=title, value=Quantity(float(least), "share"))
+    share = found.as_built.pose_irregularity
+    if share.size:
+        worst = int(np.argmax(share))
+        yield KeyFigure(
+            name="pose_speed_fluctuation",
+            title=_("speed fluctuation δ of the output"),
+            place=say(_("in the pose {name}"), name=found.poses[worst]),
+            value=Quantity(float(share[worst]), "share"),
+        )
+
+
+def _facts(drive: Drive, found: Phasing) -> dict[str, Any]:
+    return {
+        "synchronous_possible": found.feasible,
+        "speed_fluctuation_as_specified": Quantity(found.as_built.irregularity, "share"),
+        "speed_fluctuation_min": Quantity(found.irregularity_min, "share"),
+        "speed_fluctuation_max": Quantity(found.irregularity_max, "share"),
+        "equivalent_joint_angle_min": Quantity(found.bend_min, "angle"),
+        "equivalent_joint_angle_max": Quantity(found.bend_max, "angle"),
+        "limiting_joint": found.limiting_joint,
+        "limiting_joints": list(found.limiting_joints),
+        "free_shafts": list(found.free),
+        "held_shafts": list(found.fixed),
+        "shafts": list(range(2, len(drive.joints) + 1)),
+        "poses": list(found.poses),
+        "settings": [setting_facts(one) for one in every_setting(found)],
+        "spline_refusal": found.spline_refusal,
+        "complete": found.complete,
+    }
+
+
+def setting_facts(one: YokeSetting) -> dict[str, Any]:
+    """Return one setting for a program; lists run over the yokes of shafts 2 … n unless their name says otherwise."""
+
+    def each(values: Array, dimension: str) -> Quantity:
+        return Quantity(np.asarray(values, dtype=float), dimension)
+
+    return {
+        "label": one.label,
+        "speed_fluctuation": Quantity(one.irregularity, "share"),
+        "yoke_angle": each(one.yoke_angle, "angle"),
+        "change": each(one.change, "angle"),
+        "sensitivity_per_deg": np.asarray(one.sensitivity, dtype=float) * deg,
+        "initial_yoke_position": each(one.phase_angle, "angle"),
+        "shaft_speed_fluctuation": each(one.shaft_irregularity, "share"),
+        "pose_speed_fluctuation": each(one.pose_irregularity, "share"),
+    }
+
+
+def with_applied(said: Answer, setting: YokeSetting, file: str, values: Mapping[str, Any]) -> Answer:
+    """Return an answer with a word on the setting that was written into a file, and with what to do next.
+
+    Parameters
+    ----------
+    said : Answer
+        What was found.
+    setting : YokeSetting
+        The setting that was written.
+    file : str
+        Into which file.
+    values : mapping of str to value
+        What changed in it, by paths with units.
+    """
+    text = _("{path}: setting {label} written, speed fluctuation δ = {share}.")
+    done = say(text, path=file, label=setting.label, share=Quantity(setting.irregularity, "share"))
+    step = Remark(text=_("Look at the new drive:"), command=("cardan", "report", file), tone="next")
+    kept = [remark for remark in said.remarks if remark.tone != "next"]
+    facts = {**said.facts, "applied": {"setting": setting.label, "file": file, "values": values}}
+    return replace(said, remarks=(*kept, Remark(text=done, tone="good"), step), facts=facts)

@@ -1,0 +1,102 @@
+"""What is said of the motion: the numbers of the analysis, for any reader, of drives with joints of any kinds."""
+
+import pytest
+
+from cardan.answers.data import data
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.book import answer as classical
+from cardan.drive.drive import Drive
+from cardan.drive.joints import PinCoupling
+from cardan.io import example
+from cardan.questions.motion.answer import answer, ask
+from cardan.questions.motion.equivalence import equivalent_joint
+from cardan.questions.motion.swing import swing
+from cardan.report.page import page
+from cardan.texts import speaking
+from cardan.units import deg
+
+RADIANS = Reader(units={"angle": "rad", "angular_speed": "rad_s"}, decimal=",")
+
+
+def of(drive):
+    return answer(drive, ask(drive))
+
+
+def column(table, key):
+    return next(one for one in table.columns if one.key == key)
+
+
+def words(said, reader=USUAL):
+    return " ".join([told(said.sentence, reader), *(told(one.text, reader) for one in said.remarks)])
+
+
+@pytest.mark.parametrize(
+    ("drive", "text"),
+    [
+        (Drive.from_angles([20 * deg]), "one joint at a joint angle of 20.00°, speed fluctuation δ = 12.45 %."),
+        (Drive.from_angles([0.2, 0.2]), "2 joints; synchronous: the joints cancel each other"),
+        (Drive.from_angles([0.0, 0.0]), "2 joints; every joint turns uniformly by itself"),
+        (example("pto-spline-thrust"), "2 joints; synchronous but for the rounding of the figures"),
+        (example("pto-hitch"), "and so does the output. This concerns the drive as drawn, standing still."),
+        (example("truck-printed-angles"), "4 joints; equivalent joint angle 20.05°, speed fluctuation δ = 12.51 %."),
+    ],
+)
+def test_the_sentence_says_how_uniformly_the_output_turns(drive, text):
+    assert text in told(of(drive).sentence, USUAL)
+
+
+def test_a_joint_with_a_law_of_its_own_is_answered_alike():
+    drive = example("instrument-joint")
+    plain = Drive.from_angles([20 * deg])
+
+    own = Drive(
+        joints=(PinCoupling(bend=20 * deg, driving_slant=40 * deg, driving_distance=0.05, driven_distance=0.052),)
+    )
+    seen, found = swing(own), of(own)
+    assert (
+        [one.name for one in found.tables] == [one.name for one in of(plain).tables] == ["joints", "shafts", "orders"]
+    )
+    assert data(found, USUAL)["speed_fluctuation_percent"] == pytest.approx(100.0 * float(seen.irregularity[-1]))
+    assert "as of one cross joint at" in told(found.sentence, USUAL)
+    assert [figure.name for figure in found.figures()] == ["motion"]
+    assert of(drive).keys
+
+
+def test_tables_and_keys_are_those_of_the_analysis():
+    drive = example("truck-printed-angles")
+    said, whole = of(drive), equivalent_joint(drive)
+    keys = {one.name: one.value.value for one in said.keys}
+    assert keys["speed_fluctuation"] == float(whole.irregularity)
+    assert keys["equivalent_joint_angle"] == pytest.approx(float(whole.bend))
+    assert keys["angle_error"] == pytest.approx(float(whole.max_lead))
+    shafts = next(one for one in said.tables if one.name == "shafts")
+    assert list(column(shafts, "speed_fluctuation").values) == pytest.approx(list(whole.shaft_irregularity))
+
+
+def test_readers_are_told_in_their_units_and_language():
+    drive = example("truck-printed-angles")
+    said = of(drive)
+    assert "Output angle error ±0,03125 rad, 2nd order; at 89,54 rad/s" in words(said, RADIANS)
+    assert data(said, RADIANS)["angle_error_rad"] == pytest.approx(0.03125, abs=1e-5)
+    made = page(said, USUAL)
+    assert made.answer.startswith("4 joints; equivalent")
+    with speaking("ru"):
+        assert "4 шарнира" in told(of(drive).sentence, USUAL)
+
+
+def test_ratios_of_a_nearly_uniform_shaft_are_not_alike():
+    shafts = next(one for one in of(example("pto-spline-thrust")).tables if one.name == "shafts")
+    low, high = (column(shafts, f"ratio_{end}").values[-1].told(USUAL) for end in ("min", "max"))
+    assert (low, high) == ("0.99999968", "1.00000032")
+
+
+def test_the_classical_approximations_are_told_where_they_differ():
+    truck = example("truck-printed-angles")
+    seen = classical.ask(truck)
+    assert classical.differ(seen)
+    (table,) = classical.answer(truck, seen).tables
+    # Book (80) as in the worked example: 12.335 % with mean phases.
+    assert column(table, "speed_fluctuation").values[2] == pytest.approx(0.12335, abs=5e-6)
+    assert classical.ask(example("front-halfshaft")) is None
+    assert "nothing to approximate" in classical.otherwise(example("front-halfshaft"))
