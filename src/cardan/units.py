@@ -33,6 +33,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
     "duration": {"h": 3600.0, "min": 60.0, "s": 1.0},
     "frequency": {"Hz": 2 * math.pi, "rad_s": 1.0, "per_min": 2 * math.pi / 60},
+    "sampling_rate": {"Hz": 1.0, "kHz": 1e3},
     "share": {"percent": percent, "fraction": 1.0},
     "torque": {"Nm": 1.0, "kNm": 1e3, "MNm": 1e6, "Nmm": mm, "lbft": 12 * inch * lbf, "lbin": inch * lbf},
     "force": {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": lbf},

@@ -11,6 +11,8 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = ((r"^tolerance ", "accuracy "),)
 
 PATHS: tuple[tuple[str, str, str], ...] = (
     ("rotor", r"peak_rpm", "peak_at_rpm"),
+    ("diagnose", r"causes\.score", "causes.probability_percent"),
+    ("simulate-fault", r"(orders|knocks)\.size(_m_s2|)", r"\1.amplitude"),
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
     ("losses", r"efficiency_small_bends", "efficiency_small_joint_angles"),
     ("losses", r"(.*[._])?heat_W", r"\1power_loss_W"),
@@ -41,6 +43,6 @@ FIELDS: tuple[tuple[str, str], ...] = ()
 ANSWERED: tuple[str, ...] = ()
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 
-AMONG: tuple[tuple[str, str], ...] = ()
+AMONG: tuple[tuple[str, str], ...] = (("simulate-fault", r"orders\.size"),)
 """Pattern of a command line's start, pattern of a whole old path: its numbers stand in another order now, or among
-others."""
+others, or under one name with several units."""
