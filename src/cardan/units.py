@@ -126,6 +126,17 @@ def factor(dimension: str, unit: str) -> float:
     return DIMENSIONS[dimension][unit]
 
 
+def dimension_of(unit: str) -> str:
+    """Return the first dimension that has a unit; empty where none has.
+
+    Examples
+    --------
+    >>> dimension_of("deg"), dimension_of("")
+    ('angle', '')
+    """
+    return next((dimension for dimension, units in DIMENSIONS.items() if unit in units), "")
+
+
 def preferred(dimension: str) -> str:
     """Return the unit we write for a dimension.
 
