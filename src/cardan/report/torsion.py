@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.fields.words import with_key
 from cardan.drive.models.chain import given_chain
 from cardan.errors import InputError
 from cardan.figures.wording import fixed, significant
@@ -25,7 +26,6 @@ from cardan.units import deg, rpm
 from .balance import ROUNDING, checks, refused
 from .block import Block, Cell, Column, Page, Picture, Points, Table, Words, key, number, words
 from .lacking import of_orders, of_stability, of_torsion
-from .named import with_key
 from .subject import Progress, Subject
 
 MODES = 4
