@@ -5,6 +5,8 @@ from functools import cache
 import pytest
 
 from cardan import Drive, example
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.catalogue import completed
 from cardan.checks import Verdict, check
 from cardan.choices.cure import Cure, cured, cures, most_helpful
@@ -146,7 +148,7 @@ def test_what_fails_only_in_a_pose_while_moving_is_cured_where_one_key_can():
     drive = replace(drive, limits=replace(drive.limits, bend=9 * deg))
     verdicts = check(drive)
     failed = [one for one in verdicts if one.check == "bend" and one.state == "failed"]
-    assert {one.note for one in failed} == {"while the drive moves; in the pose empty"}
+    assert {told(one.note, USUAL) for one in failed} == {"while the drive moves; in the pose empty"}
     found = [cure for cure in cures(drive, [one for one in verdicts if one.check == "bend"])]
     assert {one.title for one in failed} == {cure.title for cure in found}
     for cure in found:

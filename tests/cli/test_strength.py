@@ -189,7 +189,7 @@ def test_a_need_that_cannot_be_names_its_options(cardan):
 
 def test_the_need_of_one_joint(cardan, winch):
     assert cardan("select", winch, "--joint", 3).code == 2
-    assert cardan("select", winch, "--joint", 1, "--json").content["need"]["bend_deg"] == pytest.approx(14)
+    assert cardan("select", winch, "--joint", 1, "--json").content["need"]["joint_angle_deg"] == pytest.approx(14)
 
 
 def test_json_is_the_balance(cardan, winch):

@@ -58,6 +58,7 @@ PATHS: tuple[tuple[str, str, str], ...] = (
     ("torsion calm", r"(\w+)\.push_left", r"\1.excitation_left"),
     ("strength", r"shafts\.bending_Nm", "shafts.secondary_couple_Nm"),
     ("strength", r"limits\.ends_at_Nm", "limits.limit_torque_Nm"),
+    ("select", r"need\.bend_deg", "need.joint_angle_deg"),
     ("check", r"cures\.(.*)", r"remedies.\1"),
 )
 """Pattern at the start of the old command line, pattern of a whole old path, its new path (with or without unit):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize
 from cardan.checks import design
@@ -17,7 +18,6 @@ from cardan.drive.models.chain import given_chain
 from cardan.errors import Problem, check
 from cardan.questions.forces.turn_loads import case_loads, load_cases
 from cardan.texts import _
-from cardan.units import factor, label
 
 from .selection import SLACK, Candidate, Need
 
@@ -30,7 +30,7 @@ class Reason:
     ----------
     code : str
         Cause or condition, as in `Candidate`.
-    message : str
+    message : Text
         In a sentence, without its full stop.
     value, limit : float or None
         In SI, where figures decide.
@@ -39,7 +39,7 @@ class Reason:
     """
 
     code: str
-    message: str
+    message: Text
     value: float | None = None
     limit: float | None = None
     source: str = ""
@@ -144,11 +144,13 @@ def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
 
     Examples
     --------
+    >>> from cardan.answers.reader import USUAL
     >>> from cardan.choices.selection import select_joint
     >>> from cardan.units import deg
     >>> need = Need(torque=50.0, bend=20 * deg, speed=10.0)
-    >>> print(next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light"))
-    50 N·m is more than its 12.5 N·m
+    >>> said = next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light")
+    >>> said.told(USUAL)
+    '50 N·m is more than its 12.5 N·m'
     """
     return tuple(_reason(code, candidate, need) for code in (*candidate.causes, *candidate.flags))
 
@@ -156,30 +158,29 @@ def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
 def _reason(code: str, candidate: Candidate, need: Need) -> Reason:
     row, torque = candidate.row, need.torque * need.service_factor
     figures = {
-        "torque": (torque, row.max_torque, "torque", "Nm"),
-        "angle": (need.bend, row.max_bend, "angle", "deg"),
-        "n_alpha": (need.speed * need.bend, row.max_speed_angle, "speed_angle", "rpm_deg"),
-        "rim_speed": (0.5 * need.speed * (need.outer or math.nan), row.max_rim_speed, "speed", "m_s"),
+        "torque": (torque, row.max_torque, "torque"),
+        "angle": (need.bend, row.max_bend, "angle"),
+        "n_alpha": (need.speed * need.bend, row.max_speed_angle, "speed_angle"),
+        "rim_speed": (0.5 * need.speed * (need.outer or math.nan), row.max_rim_speed, "speed"),
     }
     if code in figures:
-        value, limit, dimension, unit = figures[code]
+        value, limit, dimension = figures[code]
         text = _("{value} is more than its {limit}")
         if code == "n_alpha":
-            text = _("speed times bend is {value}, more than its {limit}")
+            text = _("speed times angle n·α is {value}, more than its {limit}")
         if code == "rim_speed":
             text = _("its rim runs at {value}, faster than {limit}")
-        by = factor(dimension, unit)
-        said = text.format(value=_short(value / by, unit), limit=_short((limit or math.nan) / by, unit))
+        said = say(text, value=_given(value, dimension), limit=_given(limit or math.nan, dimension))
         return Reason(code=code, message=said, value=value, limit=limit, source=row.source)
     if code == "oversized":
-        said = _("made for {least} and more").format(least=_short(row.min_torque or 0.0, "Nm"))
+        said = say(_("made for {least} and more"), least=_given(row.min_torque or 0.0, "torque"))
         return Reason(code=code, message=said, value=torque, limit=row.min_torque, source=row.source)
     texts = {
-        "synchronous": _("it turns unevenly, in a pair too"),
-        "pair_needed": _("even only as a pair with the right yoke angle"),
-        "approx_synchronous": _("nearly even"),
+        "synchronous": _("its output is not uniform, in a pair neither"),
+        "pair_needed": _("uniform only as a pair with the right yoke angle"),
+        "approx_synchronous": _("nearly uniform"),
         "unverified_torque": _("no largest torque given"),
-        "unverified_angle": _("no largest bend given"),
+        "unverified_angle": _("no largest joint angle given"),
         "unverified_rim_speed": _("limited in rim speed, no outer diameter given"),
     }
     return Reason(code=code, message=texts[code], source=row.source)
@@ -220,17 +221,16 @@ def _size_reasons(row: JointSize, need: Need) -> Iterator[Reason]:
     if rating is None:
         return
     rim = 0.5 * need.speed * (rating.outer or math.nan)
-    for code, value, limit, dimension, unit in (
-        ("torque", need.torque * need.service_factor, rating.max_torque, "torque", "Nm"),
-        ("angle", need.bend, rating.max_bend, "angle", "deg"),
-        ("speed", need.speed, rating.max_speed, "angular_speed", "rpm"),
-        ("n_alpha", need.speed * need.bend if need.continuous else 0.0, rating.speed_angle, "speed_angle", "rpm_deg"),
-        ("rim_speed", rim, rating.rim_speed, "speed", "m_s"),
+    for code, value, limit, dimension in (
+        ("torque", need.torque * need.service_factor, rating.max_torque, "torque"),
+        ("angle", need.bend, rating.max_bend, "angle"),
+        ("speed", need.speed, rating.max_speed, "angular_speed"),
+        ("n_alpha", need.speed * need.bend if need.continuous else 0.0, rating.speed_angle, "speed_angle"),
+        ("rim_speed", rim, rating.rim_speed, "speed"),
     ):
         if limit is not None and value > limit * (1.0 + SLACK):
-            by = factor(dimension, unit)
             text = _("{value} is more than its {limit}")
-            said = text.format(value=_short(value / by, unit), limit=_short(limit / by, unit))
+            said = say(text, value=_given(value, dimension), limit=_given(limit, dimension))
             yield Reason(code=code, message=said, value=value, limit=limit, source=row.source)
 
 
@@ -238,14 +238,6 @@ def _outer(row: JointSize) -> float:
     return math.inf if row.rating is None or row.rating.outer is None else row.rating.outer
 
 
-def _short(value: float, unit: str) -> str:
-    """Return a figure with up to four digits, thin grouping and its unit.
-
-    Examples
-    --------
-    >>> _short(12.5, "Nm"), _short(29999.7, "rpm_deg"), _short(9.0, "deg")
-    ('12.5 N·m', '30\u202f000 rpm·°', '9°')
-    """
-    text = f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.4g}"
-    sign = label(unit)
-    return text.replace(",", "\u202f") + (sign if sign == "°" else f" {sign}")
+def _given(value: float, dimension: str) -> Quantity:
+    """Return a figure as it is given, without zeros at its end."""
+    return Quantity(value, dimension, trim=True)

@@ -221,6 +221,8 @@ class Axis:
         Logarithmic.
     grid : bool
         Draw lines across the panel at the ticks.
+    numeric : bool
+        Whether the texts at its ticks are nothing but the numbers; known once it is written for a reader.
     turning : bool
         Whether it is the input angle from the start position [°] that runs along it: a place on it is a position of
         the drive.
@@ -235,6 +237,7 @@ class Axis:
     texts: tuple[Text, ...] = ()
     log: bool = False
     grid: bool = True
+    numeric: bool = False
     turning: bool = False
 
     @property

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
 from cardan.answers.question import Question
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
@@ -23,7 +23,6 @@ from .followed import Followed, asked_by_laws
 from .lacking import Lacking, told
 from .page import page
 from .run_up import running_up
-from .selection import choosing, of_selection
 from .subject import Progress, Subject
 from .torsion import ordered, stable, swinging
 
@@ -124,7 +123,7 @@ def page_of(question: Question, on: Subject, progress: Progress | None, choices:
         return refused(question.name, title, error)
     if result is None:
         return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
-    return page(question.answer(on.drive, result), USUAL)
+    return page(question.answer(on.drive, result), reader())
 
 
 def _plain(made: Callable[[Subject], Page | None]) -> Callable[[Subject, Progress | None, Choices], Page | None]:
@@ -187,12 +186,6 @@ ANSWERS: dict[str, Answer] = {
         lacking=_of(lacks.of_run_up),
         otherwise=_free,
         quick=False,
-    ),
-    "selection": Answer(
-        title=lambda: _("Choice of joints"),
-        page=lambda on, _progress, choices: choosing(on, choices.get("joint")),
-        lacking=of_selection,
-        otherwise=_nothing,
     ),
 }
 """Every question by its name, in the order in which one asks them."""

@@ -12,9 +12,6 @@ from cardan.texts import _
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 """Paths that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
 
-PARTLY = ("duty.blocks", "duty.torque_history")
-"""Duties in parts, that stand for one torque and one speed."""
-
 
 def told(lacking: Lacking) -> str:
     """Return in a sentence what is to be added to the drive file.
@@ -71,10 +68,6 @@ def of_nothing(drive: Drive) -> Lacking:
 
 
 Asked: TypeAlias = Callable[[Drive], Lacking]
-
-
-def _in_parts(drive: Drive) -> bool:
-    return bool(drive.duty.blocks) or drive.duty.torque_history is not None
 
 
 def _absent(*conditions: tuple[bool | str, ...]) -> Lacking:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from cardan.answers.question import Question
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
@@ -51,4 +51,4 @@ def _asked(question: Question, on: Subject) -> Page | None:
         result = question.ask(on.drive, known=on.known)
     except InputError as error:
         return refused(question.name, _(question.title), error)
-    return None if result is None else page_for(question.answer(on.drive, result), USUAL)
+    return None if result is None else page_for(question.answer(on.drive, result), reader())

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import Any
 
+from cardan.answers.printed import framed
 from cardan.figures import Figure
 from cardan.figures.page import laid_out
 from cardan.io.book import leads_to, put, words
 
-from .amounts import amount
 from .block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 from .chart_data import ChartData
 from .charts import Drawn, charts, split
@@ -245,10 +245,10 @@ class Paper:
     def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
         chip: dict[str, Any] = {"left": 5, "left_color": cell.chip, "indent": 1} if cell.chip else {}
         how: dict[str, Any] = {**_side(k, column), "valign": "vcenter", "bottom": 4, "bottom_color": "#d5dae2", **chip}
-        found = amount(cell, column)
-        if found is not None:
-            look = self._looks(tone=cell.tone, num_format=found.form, **how)
-            put(self._sheet, self.row, k, found.value, look)
+        if cell.amount is not None:
+            form = framed(cell.form, f"{cell.sign} " if cell.sign else "")
+            look = self._looks(tone=cell.tone, num_format=form, **how)
+            put(self._sheet, self.row, k, cell.amount, look)
         else:
             text = f"{cell.sign} {cell.text}".strip()
             self._put(table, k, text, self._looks(tone=cell.tone, text_wrap=True, **how))

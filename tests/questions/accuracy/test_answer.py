@@ -20,7 +20,7 @@ from cardan.texts import speaking
 from cardan.units import arcmin
 
 INSTRUMENT = example("instrument-joint")
-INCHES = Reader(units={"length": "in", "angle": "deg"}, decimal=",")
+INCHES = Reader(units={"displacement": "in", "angle": "deg"}, decimal=",")
 
 
 def with_errors(drive, error, spread=None):

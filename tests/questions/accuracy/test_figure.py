@@ -90,7 +90,7 @@ def test_known_errors_shift_the_band():
 
 def test_axes_and_bars_are_in_the_units_of_the_reader():
     found = tolerance(INSTRUMENT)
-    who = Reader(units={"angle": "deg", "length": "in"}, decimal=",")
+    who = Reader(units={"angle": "deg", "displacement": "in"}, decimal=",")
     band, pareto = (for_reader(one, who) for one in figures.for_result(found))
     assert [panel.heading for panel in band.panels] == [
         "Angle error of the output [°]",

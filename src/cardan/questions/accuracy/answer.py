@@ -555,7 +555,7 @@ def values_of(found: Allocation) -> dict[str, float]:
     --------
     >>> from .allocation import allocate
     >>> values_of(allocate(Drive.from_angles([0.5]), 1e-3))["joints[0].tolerance.phase_arcmin"]
-    1.75
+    1.77
     """
     size, unit = (mm, "mm") if found.of is Of.SHIFT else (arcmin, "arcmin")
     values = {}

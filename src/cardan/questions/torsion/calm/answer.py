@@ -110,7 +110,8 @@ def _values(result: Calm) -> Table:
                 key="best", heading=_("best"), values=[result.values[one.path] for one in free], digits=5, trim=True
             ),
             Column(key="range", heading=_("range"), values=[_range(one) for one in free], left=True),
-        )
+        ),
+        fixed=0,
     )
 
 

@@ -1,0 +1,235 @@
+"""What there is to say of a choice of joints: types and sizes that do a job, under which conditions, why not others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.question import Lacking, all_of
+from cardan.catalogue import Catalogue
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.texts import _, plural
+
+from .selection import Candidate, Need, select_joint
+from .selection_reasons import Reason, SizeFit, fitting_sizes, need_of, reasons
+
+TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "failed"}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Selection:
+    """What could be taken for a need.
+
+    Attributes
+    ----------
+    need : Need
+    types : tuple of Candidate
+        Every type of the catalogue: accepted, under conditions, rejected.
+    sizes : tuple of SizeFit
+        Every size of it.
+    """
+
+    need: Need
+    types: tuple[Candidate, ...]
+    sizes: tuple[SizeFit, ...]
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for a choice of its joints."""
+    try:
+        need_of(drive)
+    except InputError as error:
+        return all_of([one.field for one in error.problems])
+    return ()
+
+
+def selected(need: Need, *, known: Catalogue | None = None, modern: bool = False) -> Selection:
+    """Return what could be taken for a need.
+
+    Parameters
+    ----------
+    need : Need
+    known : Catalogue, optional
+        The shipped one when not given.
+    modern : bool
+        Count modern types too, whose limits are typical values.
+    """
+    types = select_joint(need, known=known, include_beyond=modern)
+    return Selection(need=need, types=tuple(types), sizes=fitting_sizes(need, known=known))
+
+
+def ask(drive: Drive, *, known: Catalogue | None = None, joint: int | None = None) -> Selection:
+    """Return what could be taken for the joints of a drive, or for one of them."""
+    return selected(need_of(drive, joint=joint, known=known), known=known)
+
+
+def answer(_drive: Drive | None, result: Selection) -> Answer:
+    """Return what there is to say of a choice of joints."""
+    states = [one.state for one in result.types]
+    tone: Tone = "good" if "ok" in states else "warning" if "conditional" in states else "failed"
+    return Answer(
+        name="select",
+        title=_("Selection of joints"),
+        sentence=_sentence(result),
+        tone=tone,
+        tables=(_types(result), *((_sizes(result.sizes),) if result.sizes else ())),
+        remarks=tuple(_remarks(result)),
+        facts=_facts(result),
+        full=lambda: _rows(result),
+        code=1 if tone == "failed" else 0,
+    )
+
+
+def _sentence(result: Selection) -> Say:
+    need = result.need
+    accepted, under = (sum(one.state == state for one in result.types) for state in ("ok", "conditional"))
+    done = plural("one type does it", "{count} types do it", accepted).format(count=accepted)
+    more = plural("one more under conditions", "{count} more under conditions", under).format(count=under)
+    return say(
+        _("{torque} at {angle} and {speed}: {accepted}, {more}."),
+        torque=Quantity(need.torque * need.service_factor, "torque"),
+        angle=Quantity(need.bend, "angle", 3),
+        speed=Quantity(need.speed, "angular_speed"),
+        accepted=done if accepted else _("no type does it without conditions"),
+        more=more if under else _("none under conditions"),
+    )
+
+
+def _said(why: Sequence[Reason]) -> Text:
+    return Joined([one.message for one in why], between="; ")
+
+
+def _types(result: Selection) -> Table:
+    words = {"ok": _("accepted"), "conditional": _("with conditions"), "rejected": _("rejected")}
+    found = result.types
+    why = [reasons(one, result.need) for one in found]
+    return Table(
+        title=_("Types of joints"),
+        fixed=2,
+        columns=(
+            Column(
+                key="",
+                heading=_("verdict"),
+                values=[Cell(value=words[one.state], tone=TONES[one.state]) for one in found],
+                left=True,
+            ),
+            Column(key="", heading=_("type"), values=[one.row.id for one in found], left=True),
+            Column(key="", heading=_("name"), values=[one.row.name for one in found], left=True, depth="full"),
+            Column(key="", heading=_("torque reserve"), values=_room([one.headroom for one in found]), digits=3),
+            Column(
+                key="",
+                heading=_("why"),
+                values=[_said(own) if own else one.row.name for one, own in zip(found, why, strict=True)],
+                left=True,
+                wrap=True,
+            ),
+            Column(key="", heading=_("source"), values=[one.row.source for one in found], left=True, depth="full"),
+        ),
+        note=_("Torque reserve: the torque it may carry over that needed."),
+    )
+
+
+def _room(values: Sequence[float]) -> list[float | None]:
+    return [None if math.isnan(one) else one for one in values]
+
+
+def _sizes(sizes: Sequence[SizeFit]) -> Table:
+    fits = [(_("fits"), "good") if one.fits else (_("too small"), "failed") for one in sizes]
+    outer = [None if one.row.rating is None else one.row.rating.outer for one in sizes]
+    return Table(
+        title=_("Sizes of the catalogue by their makers' ratings"),
+        fixed=2,
+        columns=(
+            Column(
+                key="",
+                heading=_("verdict"),
+                values=[Cell(value=word, tone="good" if tone == "good" else "failed") for word, tone in fits],
+                left=True,
+            ),
+            Column(key="", heading=_("size"), values=[one.row.id for one in sizes], left=True),
+            Column(key="", heading=_("outer diameter"), values=outer, dimension="length"),
+            Column(key="", heading=_("mass"), values=[one.row.mass for one in sizes], dimension="mass", digits=3),
+            Column(key="", heading=_("torque reserve"), values=_room([one.headroom for one in sizes]), digits=3),
+            Column(
+                key="",
+                heading=_("why"),
+                values=[one.row.source if one.fits else _said(one.reasons) for one in sizes],
+                left=True,
+                wrap=True,
+            ),
+        ),
+    )
+
+
+def _remarks(result: Selection) -> Iterator[Remark]:
+    yield Remark(text=_("A figure that the source of a type does not give is a condition: look it up at the maker's."))
+    if any(one.fits and one.row.confidence == "made_up" for one in result.sizes):
+        text = _("The shipped sizes are made up for examples; a maker's own rows come with --catalogue FILE.")
+        yield Remark(text=text, tone="warning")
+    command = ("cardan", "catalogue", "joint_types", "TYPE")
+    yield Remark(text=_("Where every figure comes from:"), command=command, tone="next")
+
+
+def _rows(result: Selection) -> Table:
+    found = result.types
+    return Table(
+        columns=(
+            Column(key="type", values=[one.row.id for one in found]),
+            Column(key="state", values=[one.state for one in found]),
+            Column(key="codes", values=[" ".join((*one.causes, *one.flags)) for one in found]),
+            Column(key="why", values=[_said(reasons(one, result.need)) for one in found]),
+            Column(key="headroom", values=[one.headroom for one in found]),
+            Column(key="confidence", values=[one.row.confidence for one in found]),
+            Column(key="source", values=[one.row.source for one in found]),
+        )
+    )
+
+
+def _facts(result: Selection) -> dict[str, Any]:
+    need = result.need
+    return {
+        "need": {
+            "torque": Quantity(need.torque, "torque"),
+            "joint_angle": Quantity(need.bend, "angle"),
+            "speed": Quantity(need.speed, "angular_speed"),
+            "service_factor": need.service_factor,
+            "synchronous": need.synchronous,
+            "continuous": need.continuous,
+            "outer": None if need.outer is None else Quantity(need.outer, "length"),
+        },
+        "types": [
+            {
+                "type": one.row.id,
+                "name": one.row.name,
+                "state": one.state,
+                "headroom": one.headroom,
+                "reasons": _reasons(reasons(one, need)),
+                "confidence": one.row.confidence,
+                "source": one.row.source,
+            }
+            for one in result.types
+        ],
+        "sizes": [
+            {
+                "size": one.row.id,
+                "fits": one.fits,
+                "headroom": one.headroom,
+                "reasons": _reasons(one.reasons),
+                "confidence": one.row.confidence,
+                "source": one.row.source,
+            }
+            for one in result.sizes
+        ],
+    }
+
+
+def _reasons(why: Sequence[Reason]) -> list[dict[str, Any]]:
+    return [
+        {"code": one.code, "message": one.message, "value": one.value, "limit": one.limit, "source": one.source}
+        for one in why
+    ]

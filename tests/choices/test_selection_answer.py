@@ -1,0 +1,51 @@
+"""What is said of a choice of joints: what does the job, under which conditions, why not the others, for any reader."""
+
+import pytest
+
+from cardan.answers.data import data
+from cardan.answers.printed import printed
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection_answer import answer, ask, lacking, selected
+from cardan.choices.selection_reasons import fitting_sizes
+from cardan.drive.drive import Drive
+from cardan.io import example
+from cardan.texts import speaking
+from cardan.units import deg, rpm
+
+NEED = Need(torque=700.0, bend=10 * deg, speed=900 * rpm)
+POUNDS = Reader(units={"torque": "lbft", "length": "in"}, decimal=",")
+
+
+def test_the_job_and_how_many_do_it_stand_first():
+    found = select_joint(NEED)
+    accepted, under = (sum(one.state == state for one in found) for state in ("ok", "conditional"))
+    text = told(answer(None, selected(NEED)).sentence, USUAL)
+    assert text.startswith("700.0 N·m at 10.0° and 900.0 rpm: ")
+    assert f"{under} more under conditions." in text
+    assert accepted == 0 or str(accepted) in text or "one type" in text
+
+
+def test_every_type_and_size_is_told_in_the_units_of_the_reader():
+    said = answer(None, selected(NEED))
+    types, sizes = (printed(one, POUNDS) for one in said.tables)
+    assert len(types.rows) == len(select_joint(NEED))
+    assert any("lbf·ft" in cell.text for row in types.rows for cell in row)
+    assert [column.unit for column in sizes.columns if column.heading == "outer diameter"] == ["in"]
+    content = data(said, POUNDS)
+    assert content["need"]["torque_lbft"] == pytest.approx(700.0 / 1.3558179483314004)
+    fits = [one.fits for one in fitting_sizes(NEED)]
+    assert [row["fits"] for row in content["sizes"]] == fits
+
+
+def test_a_drive_asks_for_the_largest_of_its_joints_or_for_one():
+    drive = example("car-propshaft")
+    assert ask(drive).need.bend >= ask(drive, joint=1).need.bend
+    assert lacking(Drive.from_angles([0.1])) == (("duty.torque",), ("duty.speed",))
+
+
+def test_reasons_speak_the_language_of_the_reader():
+    with speaking("ru"):
+        said = [told(cell, USUAL) for cell in answer(None, selected(NEED)).full().columns[3].values]
+    assert any("наибольш" in text or "больше" in text for text in said)
