@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from cardan.answers.reader import Reader, reading
+from cardan.figures.figure import Curve, Figure
 from cardan.io import example, example_names
 from cardan.report.answers import ANSWERS, answered, subject
 from cardan.report.block import Cell, Listing, Page, Picture, Table

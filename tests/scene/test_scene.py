@@ -110,7 +110,7 @@ def test_lengths_are_those_between_the_joint_centres():
     assert "Δz −340 mm" in words
     with reading(Reader(units={"length": "in", "force": "lbf"}, decimal=",")):
         inches = scene(drive, frames=8)
-    assert "Δz −13,39 in" in {label.text for label in inches.labels}
+    assert "Δz −13,4 in" in {label.text for label in inches.labels}
     assert any("3,937 × 0,1575 in" in body.text for body in inches.bodies)
 
 
