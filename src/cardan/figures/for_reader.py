@@ -101,6 +101,10 @@ def _axis(old: Axis, scale: float, reader: Reader) -> Axis:
             ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
             texts = _plainly(ticks, old.log)
         texts = tuple(reader.signed(one) for one in texts)
+    elif old.ticks and not any(texts):  # marks without words: where they stand along the axis that names them
+        if scale != 1.0:
+            ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
+        texts = ("",) * len(ticks)
     return replace(
         old,
         label=label,
