@@ -167,7 +167,7 @@ def goal_of(text: str) -> tuple[float, bool]:
     """
     match = re.fullmatch(r"\s*([-+0-9.eE]+?)\s*([a-z]+|°|′|')?\s*", text)
     word = {"°": "deg", "′": "arcmin", "'": "arcmin"}.get((match[2] or "") if match else "", match[2] if match else "")
-    for dimension in ("angle", "length"):
+    for dimension in ("angle", "length", "displacement"):
         if match and word in DIMENSIONS[dimension]:
             try:
                 value = float(match[1])
@@ -175,7 +175,7 @@ def goal_of(text: str) -> tuple[float, bool]:
                 break
             if not 0.0 < value < inf:
                 raise refuse("--allocate", _("{text} is not allowed; the error must be above 0").format(text=text))
-            return value * DIMENSIONS[dimension][word], dimension == "length"
+            return value * DIMENSIONS[dimension][word], dimension != "angle"
     raise refuse(
         "--allocate", _("not an error with a unit: {text}; write 2arcmin, 0.05deg or 0.01mm").format(text=text)
     )
