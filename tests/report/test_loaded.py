@@ -72,7 +72,7 @@ def test_each_part_stands_only_where_the_file_asks_for_it(name):
 @pytest.mark.parametrize("name", WITH)
 def test_every_check_passes(name):
     text = of_example(name)
-    tables = re.findall(r"<h3>Checks</h3>(.*?)</table>", text, flags=re.DOTALL)
+    tables = re.findall(r"<h3>Self-checks</h3>(.*?)</table>", text, flags=re.DOTALL)
     said = re.findall(r">([^<>]*[Cc]hecked: [^<>]*)<", text)
     assert len(tables) + len(said) >= len(WITH[name] - {"balance"})  # each part that solves something has one
     assert not any(re.search("to 0|not at all|[Ff]ailed", one) for one in said)

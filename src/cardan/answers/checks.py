@@ -57,7 +57,7 @@ def checks(rows: Sequence[Checked], depth: Depth = "full") -> Table:
     words = [_("passed") if one.passed else _("failed") for one in rows]
     return Table(
         name="checks",
-        title=_("Checks"),
+        title=_("Self-checks"),
         records=True,
         columns=(
             Column(key="what", heading=_("what"), values=[one.what for one in rows]),

@@ -24,7 +24,7 @@ def checks(rows: Iterable[tuple[str, str, float, float]]) -> Table:
         What is checked, how, what is left, and what may be left.
     """
     return Table(
-        title=_("Checks"),
+        title=_("Self-checks"),
         columns=(
             Column(heading=_("what"), left=True),
             Column(heading=_("how"), left=True),
