@@ -66,13 +66,20 @@ def called(column: Field) -> str:
     return _(column.text) if column.role == "answer" and column.text and "[" not in column.name else column.name
 
 
-def shown(column: Field, values: Sequence[Any], digits: int = 5) -> Column:
+def shown(column: Field, values: Sequence[Any], digits: int = 5, *, heading: str = "") -> Column:
     """Return a column of a sweep for people: its values in the unit of the reader."""
     dimension = dimension_of(column.unit)
     size = factor(dimension, column.unit) if dimension else 1.0
     told = [one * size if isinstance(one, float) else one for one in values]
     unit = column.unit if dimension else ""
-    return Column(key=column.name, heading=called(column), values=told, dimension=dimension, unit=unit, digits=digits)
+    return Column(
+        key=column.name,
+        heading=heading or called(column),
+        values=told,
+        dimension=dimension,
+        unit=unit,
+        digits=digits,
+    )
 
 
 def answer_of_optimum(found: Optimum) -> Answer:
