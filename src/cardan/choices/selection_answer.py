@@ -139,7 +139,7 @@ def _room(values: Sequence[float]) -> list[float | None]:
 
 
 def _sizes(sizes: Sequence[SizeFit]) -> Table:
-    fits = [(_("fits"), "good") if one.fits else (_("too small"), "failed") for one in sizes]
+    fits = [(_("fits"), "good") if one.fits else (_("rejected"), "failed") for one in sizes]
     outer = [None if one.row.rating is None else one.row.rating.outer for one in sizes]
     return Table(
         title=_("Sizes of the catalogue by their makers' ratings"),

@@ -274,15 +274,15 @@ def _types(found: Sequence[JointType], result: Beside) -> Table:
 def _verdict(row: JointType, turn: JointTurn, speed: float | None) -> Cell:
     """Return in words whether a type of the catalogue allows joint angle and speed."""
     if row.max_bend is not None and turn.bend > row.max_bend * SLACK:
-        return Cell(value=_("✖ joint angle too large"), tone="failed")
+        return Cell(value=_("joint angle too large"), tone="failed")
     if row.max_speed_angle is not None and speed is not None:
         if abs(speed) * turn.bend > row.max_speed_angle * SLACK:
-            return Cell(value=_("✖ too fast at this joint angle, if it runs for long"), tone="failed")
+            return Cell(value=_("too fast at this joint angle, if it runs for long"), tone="failed")
         if row.max_bend is None:
-            return Cell(value=_("▲ speed allowed, joint angle not given"), tone="warning")
+            return Cell(value=_("speed allowed, joint angle not given"), tone="warning")
     if row.max_bend is None:
-        return Cell(value=_("▲ the source gives no joint angle"), tone="warning")
-    return Cell(value=_("● allowed"), tone="good")
+        return Cell(value=_("the source gives no joint angle"), tone="warning")
+    return Cell(value=_("allowed"), tone="good")
 
 
 def _remarks(result: Beside) -> Iterator[Remark]:
