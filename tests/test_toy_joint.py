@@ -217,7 +217,7 @@ def test_the_keys_of_its_file_are_told(kind, cardan):  # noqa: F811
     assert [key["key"] for key in listed[kind]["keys"]]
     assert listed[kind]["types"] == []
     (by_itself,) = cardan("joint", kind, "--json", "--bend-deg", "20").content["joints"]
-    assert by_itself["irregularity"] > 0.0
+    assert by_itself["speed_fluctuation_percent"] > 0.0
     assert kind in cardan("joint", kind, "hooke", "--bend-deg", "20").out
 
 

@@ -80,7 +80,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="orders",
-            module="cardan.questions.torsion.orders_answer",
+            module="cardan.questions.torsion.steady.answer",
             title=mark("Orders over speed"),
             group=TORSION,
             help=mark("Alternating torque over the speeds in use, order by order."),
@@ -90,7 +90,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="stability",
-            module="cardan.questions.torsion.stability_answer",
+            module="cardan.questions.torsion.stability.answer",
             title=mark("Parametric stability"),
             group=TORSION,
             help=mark("Where torsional vibration is stable, over speed and joint angle."),
@@ -100,7 +100,7 @@ QUESTIONS: dict[str, Question] = {
         ),
         Question(
             name="run-up",
-            module="cardan.questions.torsion.run_up_answer",
+            module="cardan.questions.torsion.transient.run_up_answer",
             title=mark("Run-up"),
             group=TORSION,
             help=mark("Torques in time while the drive runs up."),

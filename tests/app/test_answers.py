@@ -125,11 +125,11 @@ PRESSED = """name => {
 
 def test_a_long_answer_shows_how_far_it_is_can_be_stopped_and_begun_again(page):
     page.click(mark("tab-torsion"))
-    page.locator(mark("inner-torsion")).get_by_text("Stability map").click()
+    page.locator(mark("inner-torsion")).get_by_text("Parametric stability").click()
     page.wait_for_function(PRESSED, arg=f"{mark('sheet-stability')} {mark('cancel')}")
     page.locator(mark("sheet-stability")).locator(mark("again")).wait_for()
-    page.locator(mark("inner-torsion")).get_by_text("Modes and running").click()
-    page.wait_for_function("() => document.body.innerText.includes('The slowest mode swings at')")
+    page.locator(mark("inner-torsion")).get_by_text("Torsional vibration").click()
+    page.wait_for_function("() => document.body.innerText.includes('first torsional natural frequency is')")
     assert page.locator(SHEET).locator(mark("cancel")).is_hidden()
 
 

@@ -89,8 +89,9 @@ def test_modes_are_those_of_the_library(cardan, rig):
 
 def test_modes_say_what_meets_in_use(cardan, rig, drive_file):
     out = plain(cardan("torsion", "modes", rig).out)
-    assert out.startswith("▲ test rig: the slowest torsional mode swings at 45.5 Hz; joints excite it at 1 364 rpm")
-    assert "joint 1 is nearest to that of mode 1" in out
+    assert out.startswith("▲ test rig: the first torsional natural frequency is 45.5 Hz; joints excite it at 1 364 rpm")
+    assert "Campbell crossings in or near the operating range." in out
+    assert "Joint 1 is nearest to the node of mode 1." in out
     high = drive_file(RIG.replace("[300, 2000]", "[2500, 3000]").replace("0.02", "0.001"))
     assert plain(cardan("torsion", "modes", high).out).startswith("✖ test rig:")
     calm = drive_file(RIG.replace("[300, 2000]", "[2050, 2400]"))

@@ -15,6 +15,9 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = (
 PATHS: tuple[tuple[str, str, str], ...] = (
     ("rotor", r"peak_rpm", "peak_at_rpm"),
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
+    ("torsion (response|stability)", r"growth_rate_1_per_s", "growth_rate_per_s"),
+    ("torsion response", r"apart\.(.*)", r"nonsynchronous.\1"),
+    ("torsion stability", r"nearest_zone_rpm", "nearest_zone_speed_rpm"),
     ("losses", r"efficiency_small_bends", "efficiency_small_joint_angles"),
     ("losses", r"(.*[._])?heat_W", r"\1power_loss_W"),
     ("mobility", r"(joints\.)?misfit(.*)", r"\1misalignment\2"),

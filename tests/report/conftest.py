@@ -6,13 +6,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from cardan.report import torsion
+from cardan.questions.torsion.stability import answer as stability
+from cardan.questions.torsion.steady import answer as steady
 
 
 @pytest.fixture(autouse=True, scope="session")
 def small_maps() -> Iterator[None]:
     """Sweep over a handful of speeds, and judge stability at few of them."""
     with pytest.MonkeyPatch.context() as patch:
-        for name, count in (("SWEEP", 5), ("ACROSS", 9), ("UP", 4), ("COARSE_ACROSS", 5), ("COARSE_UP", 3)):
-            patch.setattr(torsion, name, count)
+        patch.setattr(steady, "SWEEP", 5)
+        for name, count in (("ACROSS", 9), ("UP", 4), ("COARSE_ACROSS", 5), ("COARSE_UP", 3)):
+            patch.setattr(stability, name, count)
         yield

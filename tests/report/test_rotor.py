@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import pytest
+from cardan.report.rotor import whirling_cracked
 
 from cardan.drive.crack import ShaftCrack
 from cardan.io import example
 from cardan.questions.bending.rotor_response import rotor_response
-from cardan.report.rotor import whirling_cracked
 from cardan.report.subject import asked
 
 

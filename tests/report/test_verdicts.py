@@ -4,12 +4,12 @@ import re
 from dataclasses import replace
 
 import pytest
+from cardan.report.preferred import in_choice
 
 from cardan.catalogue import catalogue, with_files
 from cardan.checks import check
 from cardan.io import example
 from cardan.report.block import Page, Table, Words
-from cardan.report.preferred import in_choice
 from cardan.report.report import page
 from cardan.report.subject import asked
 from cardan.report.summary import judgement, uniformity, warnings

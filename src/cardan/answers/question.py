@@ -20,13 +20,17 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 if TYPE_CHECKING:
-    from cardan.drive.conditions import Gathering
-    from cardan.drive.drive import Drive
-
     from .answer import Answer
+
+Drive: TypeAlias = Any
+"""A `cardan.drive.drive.Drive`, which stands above what is said of it."""
+
+Gathering: TypeAlias = Literal["worst", "mean", "sum", "each"]
+"""How answers are gathered over conditions: the largest, the mean by share of the time, the sum of shares of damage, or
+each by itself."""
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 """Paths of the drive file that are missing; of each inner tuple any one would do. Empty where nothing is missing."""

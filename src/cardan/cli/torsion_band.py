@@ -29,7 +29,7 @@ SpeedBand: TypeAlias = Annotated[
     typer.Option(
         "--speeds",
         metavar="LOW:HIGH",
-        help=_("Band of input speeds [rpm], instead of the speed_range of the file."),
+        help=_("Band of input speeds in rpm, instead of the speed_range of the file."),
         show_default=False,
     ),
 ]

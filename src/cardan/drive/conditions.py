@@ -8,20 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
 
 import numpy as np
 
+from cardan.answers.question import Gathering
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, floats
 from cardan.texts import _
 
 from .drive import Drive
 from .fields.paths import pose_drives
-
-Gathering: TypeAlias = Literal["worst", "mean", "sum", "each"]
-"""How answers are gathered over conditions: the largest, the mean by share of the time, the sum of shares of damage, or
-each by itself."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -221,6 +221,8 @@ class Axis:
         Logarithmic.
     grid : bool
         Draw lines across the panel at the ticks.
+    numeric : bool
+        Whether the texts at its ticks are nothing but the numbers; known once it is written for a reader.
     turning : bool
         Whether it is the input angle from the start position [°] that runs along it: a place on it is a position of
         the drive.
@@ -235,6 +237,7 @@ class Axis:
     texts: tuple[Text, ...] = ()
     log: bool = False
     grid: bool = True
+    numeric: bool = False
     turning: bool = False
 
     @property
@@ -325,7 +328,7 @@ class Figure:
     title : str
         Heading.
     sentence : str
-        The one sentence under it that says what to see.
+        The one sentence under it that says what to see; empty where title and axes say it all.
     source : str
         Which equation the values come from.
     rows : tuple of Row
@@ -348,6 +351,11 @@ class Figure:
     def panels(self) -> tuple[Panel, ...]:
         """All panels, row by row."""
         return tuple(panel for row in self.rows for panel in row.panels)
+
+    @property
+    def spoken(self) -> str:
+        """What it is, for who hears the page: title and sentence, where it has one, of a figure made for a reader."""
+        return f"{self.title}. {self.sentence}" if self.sentence else f"{self.title}."
 
     @property
     def entries(self) -> tuple[Curve | Bars | Shape, ...]:

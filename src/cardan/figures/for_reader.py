@@ -95,13 +95,26 @@ def _shared(axis: Axis, every: Sequence[Panel]) -> Axis:
 def _axis(old: Axis, scale: float, reader: Reader) -> Axis:
     label, texts = told(old.label, reader), tuple(told(one, reader) for one in old.texts)
     low, high, ticks = old.low * scale, old.high * scale, tuple(one * scale for one in old.ticks)
-    if texts == _plainly(old.ticks, old.log):  # written by the numbers themselves: round ones in the new unit
+    numeric = texts == _plainly(old.ticks, old.log)
+    if numeric:  # round numbers in the new unit
         if scale != 1.0:
             ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
             texts = _plainly(ticks, old.log)
         texts = tuple(reader.signed(one) for one in texts)
+    elif old.ticks and not any(texts):  # marks without words: where they stand along the axis that names them
+        if scale != 1.0:
+            ticks = _decades(low, high) if old.log else steps(low, high, max(len(old.ticks) - 1, 3))
+        texts = ("",) * len(ticks)
     return replace(
-        old, label=label, unit=_printed(old, reader), dimension="", low=low, high=high, ticks=ticks, texts=texts
+        old,
+        label=label,
+        unit=_printed(old, reader),
+        dimension="",
+        low=low,
+        high=high,
+        ticks=ticks,
+        texts=texts,
+        numeric=numeric,
     )
 
 

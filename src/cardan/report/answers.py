@@ -7,24 +7,20 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
 from cardan.answers.question import Question
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
-from cardan.questions.torsion.model.machine_torques import turns_freely
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from . import lacking as lacks
 from .balance import refused
 from .block import Page
-from .followed import Followed, asked_by_laws
+from .followed import asked_by_laws
 from .lacking import Lacking, told
 from .page import page
-from .run_up import running_up
 from .subject import Progress, Subject
-from .torsion import ordered, stable, swinging
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
@@ -93,18 +89,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:46]
     'This answer needs more in the drive file: duty'
     """
-    question = QUESTIONS.get(NAMES.get(name, name))
-    if question is not None and question.ready:
-        return page_of(question, on, progress, choices or {})
-    asked = ANSWERS[name]
-    missing = asked.lacking(on)
-    if missing:
-        return Page(name=name, title=asked.title(), answer=told(missing), blocks=())
-    try:
-        page = asked.page(on, progress, choices or {})
-    except InputError as error:
-        return refused(name, asked.title(), error)
-    return page or Page(name=name, title=asked.title(), answer=asked.otherwise(on), blocks=())
+    return page_of(QUESTIONS[NAMES.get(name, name)], on, progress, choices or {})
 
 
 NAMES = {"movement": "articulation", "phases": "phasing", "limits": "check"}
@@ -123,72 +108,8 @@ def page_of(question: Question, on: Subject, progress: Progress | None, choices:
         return refused(question.name, title, error)
     if result is None:
         return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
-    return page(question.answer(on.drive, result), USUAL)
+    return page(question.answer(on.drive, result), reader())
 
-
-def _plain(made: Callable[[Subject], Page | None]) -> Callable[[Subject, Progress | None, Choices], Page | None]:
-    return lambda on, _progress, _choices: made(on)
-
-
-def _watched(
-    made: Callable[[Subject, Progress | None], Page | None],
-) -> Callable[[Subject, Progress | None, Choices], Page | None]:
-    return lambda on, progress, _choices: made(on, progress)
-
-
-def _of(lacking: Callable[[Drive], Lacking]) -> Callable[[Subject], Lacking]:
-    return lambda on: lacking(on.drive)
-
-
-def _nothing(_on: Subject) -> str:
-    return _("There is nothing to be told of this drive.")
-
-
-def _by_laws(on: object) -> Followed | None:
-    return on if isinstance(on, Followed) else None
-
-
-def _free(on: Subject) -> str:
-    if turns_freely(on.drive, on.drive.duty):
-        return _("Torques turn its input freely; a run-up at a steady rate forces a speed on it.")
-    return _nothing(on)
-
-
-def _straight(_on: Subject) -> str:
-    return _("The joints bend next to nothing: they do not make torsional vibration grow.")
-
-
-ANSWERS: dict[str, Answer] = {
-    "torsion": Answer(
-        title=lambda: _("Modes and running"),
-        page=_plain(swinging),
-        lacking=_of(lacks.of_torsion),
-        otherwise=_nothing,
-        quick=False,
-    ),
-    "orders": Answer(
-        title=lambda: _("Orders"),
-        page=_watched(ordered),
-        lacking=_of(lacks.of_orders),
-        otherwise=_nothing,
-        quick=False,
-    ),
-    "stability": Answer(
-        title=lambda: _("Stability map"),
-        page=_watched(stable),
-        lacking=_of(lacks.of_stability),
-        otherwise=_straight,
-        quick=False,
-    ),
-    "run-up": Answer(
-        title=lambda: _("Running up"),
-        page=_watched(running_up),
-        lacking=_of(lacks.of_run_up),
-        otherwise=_free,
-        quick=False,
-    ),
-}
-"""Every question by its name, in the order in which one asks them."""
 
 GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
     (lambda: _("Motion"), ("motion", "articulation", "classical")),
@@ -219,4 +140,5 @@ def _registered(name: str) -> Answer:
     )
 
 
-ANSWERS = {name: ANSWERS.get(name) or _registered(name) for _title, names in GROUPS for name in names}
+ANSWERS: dict[str, Answer] = {name: _registered(name) for _title, names in GROUPS for name in names}
+"""Every question by its name, in the order in which one asks them."""

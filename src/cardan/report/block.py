@@ -6,6 +6,7 @@ Only data; the template gives it its looks. Texts may hold quantities: they are 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -126,7 +127,9 @@ def words(text: str, tone: Tone = "plain") -> Cell:
 
 def number(text: str, value: float | None = None, tone: Tone = "plain") -> Cell:
     """Return a cell with a number, and the same in full precision."""
-    return Cell(text=text, tone=tone, full="" if value is None else repr(float(value)))
+    if value is None or not math.isfinite(value):
+        return Cell(text=text, tone=tone)
+    return Cell(text=text, tone=tone, full=repr(float(value)), amount=float(value), form="General")
 
 
 def key(name: str, value: float, unit: str, verdict: Cell | None = None, text: str = "") -> list[Cell]:

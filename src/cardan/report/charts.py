@@ -14,7 +14,6 @@ from cardan.figures.figure import Axis, Band, Bars, Curve, Figure, Note, Panel, 
 from cardan.figures.legend import called
 from cardan.texts import _
 
-from .amounts import read
 from .chart_axes import SMALL, at_share, axis_of, named, plain, reach, snug, spread
 from .chart_data import ChartData, Place
 
@@ -92,8 +91,7 @@ def _of_curves(panel: Panel) -> bool:
 
 def _says_numbers(axis: Axis) -> bool:
     """Tell whether the texts at the ticks are their numbers."""
-    told = ((tick, read(text)) for tick, text in zip(axis.ticks, axis.texts, strict=False))
-    return all(value is not None and math.isclose(tick, value, abs_tol=1e-9) for tick, value in told)
+    return axis.numeric or not any(axis.texts)
 
 
 def _of_bars(panel: Panel) -> bool:

@@ -9,7 +9,7 @@ from typing import cast
 
 from cardan import __version__
 from cardan.answers.answer import KeyFigure
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.book import answer as classical
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids
@@ -226,23 +226,23 @@ def moved(drive: Drive) -> list[Page]:
     said = motion.answer(drive, motion.ask(drive))
     drawn = [one for one in said.figures() if one.name != "irregularity"]
     tables = [one for one in said.tables if one.name != "joints"]
-    pages = [page(replace(said, tables=tables, figures=lambda: drawn), USUAL)]
+    pages = [page(replace(said, tables=tables, figures=lambda: drawn), reader())]
     seen = classical.ask(drive)
     if seen is not None and classical.differ(seen):
-        pages.append(page(classical.answer(drive, seen), USUAL))
+        pages.append(page(classical.answer(drive, seen), reader()))
     return pages
 
 
 def phased(drive: Drive, found: Phasing) -> Page:
     """Return the page of the yokes."""
-    return page(yokes.answer(drive, found), USUAL)
+    return page(yokes.answer(drive, found), reader())
 
 
 def _articulated(drive: Drive, found: Articulation) -> Page:
     """Return the page of the movement; what it warns of stands on the first page."""
     said = articulation.answer(drive, found)
     calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
-    return page(replace(said, remarks=calm), USUAL)
+    return page(replace(said, remarks=calm), reader())
 
 
 def _phased_by_laws(drive: Drive) -> Page:

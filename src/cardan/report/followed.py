@@ -19,7 +19,6 @@ from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
-from cardan.drive.models.laws import has_map
 from cardan.maths.arrays import Array
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
@@ -113,7 +112,7 @@ def changes_by_laws(on: Followed) -> Words:
     """Return what would make the drive even."""
     if float(on.whole.irregularity[-1]) < SPECK:
         return Words(text=_("Nothing needs to be changed for a uniform output."))
-    own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not has_map(joint)]
+    own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not joint.has_map]
     text = plural(
         "Joint {own} is uniform where the parts of both its shafts are alike.",
         "Joints {own} are uniform where the parts of both their shafts are alike.",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from cardan.answers.question import Question
-from cardan.answers.reader import USUAL
+from cardan.answers.reader import reader
 from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
@@ -13,32 +13,31 @@ from cardan.texts import _
 from .balance import refused
 from .block import Page
 from .page import page as page_for
-from .run_up import running_up
 from .subject import Subject
-from .torsion import twisting
 
-PAGES: dict[str, Callable[[Subject], Page | None]] = {
-    "forces": lambda _on: None,
-    "losses": lambda _on: None,
-    "strength": lambda _on: None,
-    "life": lambda _on: None,
-    "accuracy": lambda _on: None,
-    "mobility": lambda _on: None,
-    "assembly": lambda _on: None,
-    "torsion": twisting,
-    "run-up": running_up,
-    "bending": lambda _on: None,
-    "rotor": lambda _on: None,
-    "balance": lambda _on: None,
-}
-"""What makes each part, in the order of the report; None where the drive file does not ask for it."""
+PAGES = (
+    "forces",
+    "losses",
+    "strength",
+    "life",
+    "accuracy",
+    "mobility",
+    "assembly",
+    "torsion",
+    "orders",
+    "stability",
+    "run-up",
+    "bending",
+    "rotor",
+    "balance",
+)
+"""The questions whose answers are parts, in the order of the report."""
 
 
 def loaded(on: Subject) -> Iterator[Page]:
     """Yield the parts that the drive file asks for; none once the reader stopped the work."""
-    for name, made in PAGES.items() if on.complete else ():
-        question = QUESTIONS[name]
-        page = _asked(question, on) if question.ready else made(on)
+    for name in PAGES if on.complete else ():
+        page = _asked(QUESTIONS[name], on)
         if page is not None:
             yield page
 
@@ -51,4 +50,4 @@ def _asked(question: Question, on: Subject) -> Page | None:
         result = question.ask(on.drive, known=on.known)
     except InputError as error:
         return refused(question.name, _(question.title), error)
-    return None if result is None else page_for(question.answer(on.drive, result), USUAL)
+    return None if result is None else page_for(question.answer(on.drive, result), reader())

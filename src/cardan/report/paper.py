@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import Any
 
+from cardan.answers.printed import framed
 from cardan.figures import Figure
 from cardan.figures.page import laid_out
 from cardan.io.book import leads_to, put, words
 
-from .amounts import amount
 from .block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 from .chart_data import ChartData
 from .charts import Drawn, charts, split
@@ -245,10 +245,10 @@ class Paper:
     def _cell(self, table: Table, k: int, column: Column, cell: Cell) -> None:
         chip: dict[str, Any] = {"left": 5, "left_color": cell.chip, "indent": 1} if cell.chip else {}
         how: dict[str, Any] = {**_side(k, column), "valign": "vcenter", "bottom": 4, "bottom_color": "#d5dae2", **chip}
-        found = amount(cell, column)
-        if found is not None:
-            look = self._looks(tone=cell.tone, num_format=found.form, **how)
-            put(self._sheet, self.row, k, found.value, look)
+        if cell.amount is not None:
+            form = framed(cell.form, f"{cell.sign} " if cell.sign else "")
+            look = self._looks(tone=cell.tone, num_format=form, **how)
+            put(self._sheet, self.row, k, cell.amount, look)
         else:
             text = f"{cell.sign} {cell.text}".strip()
             self._put(table, k, text, self._looks(tone=cell.tone, text_wrap=True, **how))
@@ -273,13 +273,14 @@ class Paper:
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": high})
-                told = {"description": words(f"{figure.title}. {figure.sentence}"), "object_position": 2}
+                told = {"description": words(figure.spoken), "object_position": 2}
                 self._sheet.insert_chart(self.row, 0, one.chart, {"x_offset": left, "y_offset": 4, **told})
                 left += one.width
             self._down(high)
         if others is not None:
             self.image(others)
-        self.line(figure.sentence)
+        if figure.sentence:
+            self.line(figure.sentence)
         self.line(figure.source, font_size=9, color="muted")
 
     def image(self, figure: Figure, *, most: float = math.inf) -> None:
@@ -298,7 +299,7 @@ class Paper:
             "y_scale": scale,
             "y_offset": 4,
             "object_position": 2,
-            "description": words(f"{figure.title}. {figure.sentence}"),
+            "description": words(figure.spoken),
         }
         self._sheet.insert_image(self.row, 0, f"{figure.name}.png", options)
         self._down(high)

@@ -15,8 +15,7 @@ from cardan.figures.legend import called
 from cardan.io.formats.json import plain
 from cardan.texts import _
 
-from .amounts import amount
-from .block import Block, Cell, Column, Page, Picture, Table
+from .block import Block, Cell, Page, Picture, Table
 from .content import Content
 
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
@@ -68,13 +67,12 @@ def table_data(table: Table) -> dict[str, Any]:
         "title": table.title,
         "note": table.note,
         "columns": [{"heading": one.heading, "unit": one.unit} for one in table.columns],
-        "rows": [[_cell(cell, column) for column, cell in zip(table.columns, row, strict=True)] for row in table.rows],
+        "rows": [[_cell(cell) for cell in row] for row in table.rows],
     }
 
 
-def _cell(cell: Cell, column: Column) -> dict[str, Any]:
-    found = amount(cell, column)
-    return {"text": cell.text, "value": None if found is None else found.value, "tone": cell.tone}
+def _cell(cell: Cell) -> dict[str, Any]:
+    return {"text": cell.text, "value": cell.amount, "tone": cell.tone}
 
 
 def figure_data(figure: Figure) -> dict[str, Any]:
@@ -118,15 +116,14 @@ def csv_of(tables: Sequence[Table]) -> str:
         [
             table.title,
             [_named(column.heading, column.unit) for column in table.columns],
-            [[_value(cell, column) for column, cell in zip(table.columns, row, strict=True)] for row in table.rows],
+            [[_value(cell) for cell in row] for row in table.rows],
         ]
         for table in tables
     )
 
 
-def _value(cell: Cell, column: Column) -> float | str:
-    found = amount(cell, column)
-    return cell.text if found is None else found.value
+def _value(cell: Cell) -> float | str:
+    return cell.text if cell.amount is None else cell.amount
 
 
 def figure_csv(figure: Figure) -> str:

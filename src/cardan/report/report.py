@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from cardan.answers.reader import Reader, reading
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.figures.conversion import Conversion
 from cardan.files import write_bytes
 
 from .content import content
 from .html import text
-from .preferred import in_choice, names_in
 from .renderer import renderer_for
 
 
@@ -75,10 +74,10 @@ def report(
     """
     place = Path(path)
     written = renderer_for(place, interactive=interactive)
-    chosen = Conversion(units=units or {}, decimal=decimal)  # refuses what is no unit before any work is done
-    said = content(drive, duty, source_text=source_text, progress=progress, known=known)
-    sign = "." if place.suffix.lower() == ".xlsx" else chosen.decimal
-    write_bytes(place, written(in_choice(said, chosen.units, sign, names=names_in(drive))))
+    who = Reader(units=units or {}, decimal=decimal)  # refuses what is no unit before any work is done
+    with reading(who):
+        said = content(drive, duty, source_text=source_text, progress=progress, known=known)
+        write_bytes(place, written(said))
     if progress is not None:
         progress(1.0)
     return place

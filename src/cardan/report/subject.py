@@ -11,7 +11,6 @@ import numpy as np
 from cardan.book.comparison import BookComparison, book_comparison
 from cardan.book.evidence import SelfCheck, evidence, swing_by_vectors
 from cardan.catalogue import Catalogue
-from cardan.checks.strength.left_out import steady_torsion
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -27,7 +26,6 @@ from cardan.questions.motion.motion import Motion, motion, phase_angles
 from cardan.questions.motion.rounding import is_rounding
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
-from cardan.questions.torsion.steady.torsion_response import TorsionResponse
 
 Progress = Callable[[float], object]
 
@@ -133,11 +131,6 @@ class Subject:
     def replayed(self) -> float | None:
         """Swing of the output's ratio at the best setting, by plain vectors."""
         return None if self.best is None else swing_by_vectors(as_hooke(self.drive), self.best.yoke_angle)
-
-    @cached_property
-    def swings(self) -> TorsionResponse | None:
-        """How it vibrates in torsion at the speed of its duty; None where that has none. Refused as the analysis is."""
-        return steady_torsion(self.drive)
 
     @cached_property
     def moved(self) -> Articulation | InputError | None:

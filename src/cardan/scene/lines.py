@@ -7,15 +7,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity
+from cardan.answers.reader import reader
 from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
 from cardan.drive.shapes.support import floor_frame
 from cardan.figures import palette
-from cardan.figures.wording import fixed, half_turn, significant
+from cardan.figures.wording import half_turn
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.texts import _
-from cardan.units import deg, label, mm
+from cardan.units import deg
 
 from .parts import SceneArea, SceneGroup, SceneLabel, SceneLine
 
@@ -208,7 +210,7 @@ def _twist(paper: _Paper, k: int) -> None:
     middle = start + 0.42 * (stop - start)
     for way in (before, math.cos(beta) * before + math.sin(beta) * across):
         paper.line("planes", np.stack((middle - radius * way, middle + 1.15 * radius * way)), "muted", dashed=True)
-    text = _("β{number} = {value}°").format(number=_lowered(k), value=fixed(beta / deg, 1))
+    text = _marked("β", k, beta)
     paper.sector("planes", middle, before, across, beta, radius, "muted", text)
 
 
@@ -220,7 +222,7 @@ def _bends(paper: _Paper) -> None:
         start, stop = _ends(build, i + 2)
         clear = 1.35 * build.body_radius(i + 2) / max(math.sin(bend), 1e-3)
         radius = max(3.0 * build.sizes.joints[i].radius, min(clear, 0.55 * float(np.linalg.norm(stop - start))))
-        text = f"{fixed(bend / deg, 1)}°"
+        text = _angle(bend)
         paper.sector("angles", middle, a, frames.cross(normal, a), bend, radius, "warning", text, say=False)
         paper.line("angles", np.stack((middle, middle + 1.12 * radius * a)), "muted", dashed=True)
         paper.label("angles", text, middle + 1.18 * radius * a, "value")
@@ -243,7 +245,7 @@ def _yokes(paper: _Paper) -> None:
             from_ = np.asarray([end, 0.0, 0.0]) + skin * way
             points = np.stack((from_, middle + skin * way, middle + 1.15 * radius * way))
             paper.line("yokes", points, f"shaft {k}", width=2.0, track=track)
-        text = _("γ{number} = {value}°").format(number=_lowered(k), value=fixed(gamma / deg, 1))
+        text = _marked("γ", k, gamma)
         paper.sector("yokes", middle, driving, across, gamma, radius, f"shaft {k}", text, track=track)
     for i in range(build.count):
         a, normal = build.axis(i + 1), build.place.normal[i]
@@ -253,7 +255,7 @@ def _yokes(paper: _Paper) -> None:
         size = build.sizes.joints[i]
         middle = build.centre(i) - 1.1 * build.reach(i, driving=True) * a
         radius = 1.7 * size.radius
-        text = _("ψ{number} = {value}°").format(number=_lowered(i + 1), value=fixed(psi / deg, 1))
+        text = _marked("ψ", i + 1, psi)
         paper.line("yokes", np.stack((middle, middle + 1.2 * radius * across)), "muted", dashed=True)
         paper.sector("yokes", middle, across, normal, psi, radius, "accent", text)
 
@@ -266,7 +268,7 @@ def _dimensions(paper: _Paper, size: float) -> None:
     for k in range(2, build.count + 1):
         start, stop = _ends(build, k)
         down = -floor_frame(build.axis(k), gravity)[2]
-        _measure(paper, start, stop, off * down, _millimetres(float(np.linalg.norm(stop - start)), 4))
+        _measure(paper, start, stop, off * down, _length(float(np.linalg.norm(stop - start)), 4))
     first, last = build.centre(0), build.centre(build.count - 1)
     apart = last - first
     for axis, name in ((2, "Δz"), (1, "Δy")):
@@ -275,11 +277,20 @@ def _dimensions(paper: _Paper, size: float) -> None:
             corner[axis] = first[axis]
             side = np.zeros(3)
             side[0] = 1.3 * off * (1.0 if apart[0] >= 0.0 else -1.0)
-            _measure(paper, corner, last, side, f"{name} {_millimetres(float(apart[axis]), 3)}")
+            _measure(paper, corner, last, side, f"{name} {_length(float(apart[axis]), 3)}")
 
 
-def _millimetres(length: float, digits: int) -> str:
-    return f"{significant(length / mm, digits)} {label('mm')}"
+def _length(length: float, digits: int) -> str:
+    return Quantity(length, "length", digits).told(reader())
+
+
+def _angle(value: float) -> str:
+    return Quantity(value, "angle", decimals=1).told(reader())
+
+
+def _marked(letter: str, number: int, value: float) -> str:
+    """Return an angle behind its letter: γ₂ = 30.0°."""
+    return f"{letter}{_lowered(number)} = {_angle(value)}"
 
 
 def _measure(paper: _Paper, start: Array, stop: Array, off: Array, text: str) -> None:

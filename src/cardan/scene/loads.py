@@ -7,6 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity
+from cardan.answers.reader import reader
 from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
 from cardan.drive.drive import Drive
@@ -14,12 +16,10 @@ from cardan.drive.models.geometry import geometry
 from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.figures.turning import shaft_name
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.forces.forces import forces
 from cardan.texts import _
-from cardan.units import spoken
 
 from .parts import SceneArrow, SceneGroup
 
@@ -79,7 +79,7 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
         )
         for k in range(1, build.count + 2)
     ]
-    whole, text = _scaled([*turning, *bent], "couples", "N·m", LONGEST * size, curl=True)
+    whole, text = _scaled([*turning, *bent], "couples", "Nm", LONGEST * size, curl=True)
     if whole:
         arrows += whole
         groups.append(SceneGroup(name="couples", title=_("Couples"), on=False, text=text))
@@ -145,13 +145,12 @@ def _scaled(
 
 
 def amount(value: float, unit: str) -> str:
-    """Return a force [N] or couple [N·m] as people write it.
+    """Return a force [N] or couple [N·m] as who reads here is told it.
 
     Examples
     --------
-    >>> amount(2314.0, "N"), amount(0.04, "N·m")
+    >>> amount(2314.0, "N"), amount(0.04, "Nm")
     ('2.31 kN', '0.0400 N·m')
     """
-    if abs(value) >= 1e3:
-        return f"{significant(value / 1e3, 3)} {spoken('k' + unit)}"
-    return f"{significant(value, 3)} {spoken(unit)}"
+    usual = f"k{unit}" if abs(value) >= 1e3 else unit
+    return Quantity(value, "force" if unit == "N" else "torque", 3, unit=usual).told(reader())

@@ -7,18 +7,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity
+from cardan.answers.reader import reader
 from cardan.drive.bodies.build import Build
 from cardan.drive.drive import Drive
 from cardan.drive.shapes.support import floor_frame
 from cardan.errors import InputError
 from cardan.figures import palette
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.questions.bending.bending import CriticalSpeeds, bending_speeds
 from cardan.questions.bending.figures.bending import mode_name
 from cardan.questions.torsion.model.torsion import TorsionModes, torsion_modes
 from cardan.texts import _
-from cardan.units import rpm
 
 from .loads import sentence
 from .parts import SceneCurve, SceneMode
@@ -89,7 +89,8 @@ def _whirls(found: CriticalSpeeds, build: Build, size: float) -> Iterator[SceneM
             points = axis + off[:, None] * way[:, None, :]
             radius = 0.55 * build.body_radius(k)
             curves.append(SceneCurve(points=points, colour=palette.colour(f"shaft {k}"), radius=radius))
-        text = _("critical speed {number}: {speed} rpm").format(number=number, speed=significant(float(speed) / rpm))
+        said = Quantity(float(speed), "angular_speed").told(reader())
+        text = _("critical speed {number}: {speed}").format(number=number, speed=said)
         yield SceneMode(
             name=text, text=mode_name(found.part[number - 1]), kind="whirl", frames=FRAMES, curves=tuple(curves)
         )
@@ -111,8 +112,8 @@ def _torsions(found: TorsionModes, build: Build) -> Iterator[SceneMode]:
                 angle[own] = k, float(shape[place])
         turns = {track: _turn(build.axis(k), SWING * value * swing) for track, (k, value) in angle.items()}
         node = "; ".join(_node_texts(found, number - 1))
-        hz = significant(float(omega) / (2.0 * math.pi), 3)
-        name = _("torsional mode {number}: {frequency} Hz").format(number=number, frequency=hz)
+        said = Quantity(float(omega), "frequency", 3).told(reader())
+        name = _("torsional mode {number}: {frequency}").format(number=number, frequency=said)
         yield SceneMode(
             name=name,
             text=node,
@@ -147,7 +148,7 @@ def _node_texts(found: TorsionModes, mode: int) -> Iterator[str]:
         else:
             yield _("stands still between {one} and {other}").format(one=names[node.before], other=names[node.behind])
     if damping > 0.0:
-        yield _("damping ratio {ratio}").format(ratio=significant(damping, 2))
+        yield _("damping ratio {ratio}").format(ratio=reader().number(damping, 2))
 
 
 def _turn(axis: Array, angle: Array) -> Array:

@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import told
+from cardan.answers.reader import reader
 from cardan.catalogue.completion import filled
 from cardan.checks.verdict import Verdict
 from cardan.drive.bodies.assembly import FRAMES, assembled, turns
@@ -172,7 +174,8 @@ def _stuck(drive: Drive, build: Build) -> dict[str, str]:
 
 def _body(solid: Solid, k: int, uses: Callable[[Solid], Use | None]) -> SceneBody:
     found = uses(solid)
-    text = solid.text if found is None else f"{solid.text}; {found[1]}"
+    said = told(solid.text, reader())
+    text = said if found is None else f"{said}; {found[1]}"
     return SceneBody(
         name=f"{solid.part} {solid.number}-{k}",
         part=solid.part,

@@ -7,10 +7,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity
+from cardan.answers.reader import reader
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.drive.bodies.build import Solid
 from cardan.figures import palette
-from cardan.figures.wording import significant
 from cardan.texts import _
 
 PARTS: dict[str, tuple[str, ...]] = {
@@ -55,8 +56,8 @@ def used(verdicts: Sequence[Verdict]) -> Callable[[Solid], Use | None]:
         for part in parts:
             key = one.subject.partition(".")[0], part
             if key not in worst or share > worst[key][0]:
-                text = _("{share} % of the limit of {check}")
-                worst[key] = share, text.format(share=significant(100.0 * share, 3), check=one.title)
+                text = _("{share} of the limit of {check}")
+                worst[key] = share, text.format(share=Quantity(share, "share", 3).told(reader()), check=one.title)
 
     def of(solid: Solid) -> Use | None:
         path = solid.path.partition(".")[0]

@@ -17,7 +17,6 @@ from cardan.io import edit
 from cardan.report.answers import ANSWERS, GROUPS, subject
 from cardan.report.applying import Applicable, settings
 from cardan.report.block import Page
-from cardan.report.preferred import in_choice, names_in
 from cardan.texts import _, speaking
 
 from . import toasts
@@ -261,10 +260,7 @@ class Sheet:
     def _show(self, page: Page) -> None:
         self._progress.hide()
         self.view.element.classes(remove="stale")
-        chosen, drive, apply = self.session.choices, self.about, _("apply")
-        if drive is not None:
-            page = in_choice(page, chosen.units, chosen.decimal, names=names_in(drive))
-        self.view.show(page, {one.label: apply for one in self._settings if one.values})
+        self.view.show(page, {one.label: _("apply") for one in self._settings if one.values})
 
     def _pressed(self, label: str) -> None:
         """Put a setting of the yokes into the file."""

@@ -13,7 +13,6 @@ from cardan.app.state.recordings import DIAGNOSIS, MAX_RECORDING
 from cardan.app.state.session import Session
 from cardan.errors import InputError
 from cardan.io import recording_names
-from cardan.report.preferred import in_choice, names_in
 from cardan.report.recorded import SUFFIXES, WAYS, Recorded, Sensor
 from cardan.texts import _
 
@@ -134,14 +133,12 @@ class Diagnosis(Sheet):
         found: Recorded = page
         self._progress.hide()
         self.view.element.classes(remove="stale")
-        chosen, drive, opened = self.session.choices, self.about, self.session.recordings.opened
-        if drive is None or opened is None:
+        if self.about is None or self.session.recordings.opened is None:
             return
         if (found.sensors, found.tacho) != (self._sensors, self._tacho):
             self._sensors, self._tacho = found.sensors, found.tacho
             self._offer_channels()
-        names = (*names_in(drive), opened.name, *(one.name for one in found.sensors))
-        self.view.show(in_choice(found.page, chosen.units, chosen.decimal, names=names))
+        self.view.show(found.page)
 
     def _offer_channels(self) -> None:
         """Ask for what the file does not tell."""

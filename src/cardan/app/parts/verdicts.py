@@ -13,9 +13,8 @@ from cardan.app.state.work import CURES, VERDICTS, asked, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, synchronous
-from cardan.report.block import SIGNS, Words
+from cardan.report.block import SIGNS
 from cardan.report.lights import MOST, Light, sentence
-from cardan.report.preferred import in_choice
 from cardan.texts import _
 
 from .answers import applied
@@ -127,14 +126,8 @@ class Verdicts:
             self._show(job.result)
 
     def _show(self, found: Sequence[Light]) -> None:
-        chosen = self.session.choices
-
-        def spoken(text: str) -> str:
-            said: str = in_choice(Words(text=text), chosen.units, chosen.decimal).text
-            return said
-
         self.lights = tuple(found)
-        self._list.show(lights_html(self.lights, self.opened, spoken))
+        self._list.show(lights_html(self.lights, self.opened))
 
     def _judge(self) -> None:
         """Show what is wrong with the file, over the verdicts of when it was sound."""
@@ -197,7 +190,7 @@ def field_of(light: Light) -> str:
     return next(iter((*paths, *light.levers, light.path)), "")
 
 
-def lights_html(lights: Sequence[Light], opened: set[str], spoken: Callable[[str], str] = str) -> str:
+def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
     """Return the list of verdicts, rules of thumb under a heading of their own.
 
     Parameters
@@ -206,18 +199,16 @@ def lights_html(lights: Sequence[Light], opened: set[str], spoken: Callable[[str
         The verdicts.
     opened : set of str
         Names of those that show more.
-    spoken : function
-        From a number with its usual unit to the same in the unit that the reader likes.
     """
-    parts = [_light(one, one.name in opened, spoken) for one in lights if not one.advice]
-    advice = [_light(one, one.name in opened, spoken) for one in lights if one.advice]
+    parts = [_light(one, one.name in opened) for one in lights if not one.advice]
+    advice = [_light(one, one.name in opened) for one in lights if one.advice]
     if advice:
         parts.append(f"<h3>{escape(_('Advice: rules of thumb, they fail no drive'))}</h3>")
     return "".join([*parts, *advice])
 
 
-def _light(one: Light, opened: bool, spoken: Callable[[str], str]) -> str:
-    value = escape(spoken(f"{one.value.text} {one.unit}".strip()))
+def _light(one: Light, opened: bool) -> str:
+    value = escape(f"{one.value.text} {one.unit}".strip())
     full = f' title="{escape(one.value.full)}"' if one.value.full else ""
     summary = (
         f'<summary><span class="sign" aria-hidden="true">{SIGNS[one.tone]}</span>'
@@ -225,17 +216,17 @@ def _light(one: Light, opened: bool, spoken: Callable[[str], str]) -> str:
         f'<span class="value"{full}>{value}</span></summary>'
     )
     state = " open" if opened else ""
-    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one, spoken)}</details>'
+    return f'<details class="{one.tone}" data-name="{escape(one.name)}"{state}>{summary}{_more(one)}</details>'
 
 
-def _more(one: Light, spoken: Callable[[str], str]) -> str:
+def _more(one: Light) -> str:
     share = min(one.used, 1.0) if one.used == one.used else 1.0
     said = _("{share} % of the limit").format(
         share=f"{100.0 * one.used:.0f}" if one.used <= MOST else f"> {100.0 * MOST:.0f}"
     )
     bar = f'<div class="used" role="img" aria-label="{escape(said)}"><i style="width:{100.0 * share:.1f}%"></i></div>'
     rows = [
-        (_("limit"), spoken(one.limit)),
+        (_("limit"), one.limit),
         (_("utilisation"), said),
         (_("by"), one.source),
         (_("why"), one.why),

@@ -14,10 +14,8 @@ from cardan.app.state.jobs import own_fault
 from cardan.app.state.session import Session
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError
-from cardan.report.preferred import names_in
 from cardan.scene.scene import Scene, scene
-from cardan.scene.words import in_words_of
-from cardan.texts import _, speaking
+from cardan.texts import _
 
 from .menus import drop_down
 from .timers import Timer
@@ -154,19 +152,17 @@ class View:
         verdicts: tuple[Verdict, ...] = ()
         with suppress(CardanError):
             verdicts = cardan.check(drive) if used else ()
-        found = scene(drive, verdicts=verdicts, pose=self.pose, with_forces=forces, with_modes=modes)
-        choices = self.session.choices
-        return in_words_of(found, choices.units, choices.decimal, names=names_in(drive))
+        return scene(drive, verdicts=verdicts, pose=self.pose, with_forces=forces, with_modes=modes)
 
     async def _complete(self) -> None:
         """Add utilisations, forces and mode shapes, away from the page's own work."""
-        drive, language = self.session.drive, self.session.choices.language
+        drive = self.session.drive
         if drive is None:
             return
         forces, modes = bool(self.on and self.on.intersection(LOADED)), self.mode is not None
 
         def made() -> Scene | None:
-            with speaking(language):
+            with self.session.speaking():
                 return self._attempted(drive, used=True, forces=forces, modes=modes)
 
         found = await run.io_bound(made)

@@ -14,7 +14,6 @@ from cardan.report.block import Page
 from cardan.report.compare import Variant, compared
 from cardan.report.content import content
 from cardan.report.exports import Exported, exported
-from cardan.report.preferred import in_choice, names_in, with_points
 from cardan.report.renderer import renderer_for
 from cardan.texts import _
 
@@ -28,9 +27,6 @@ Form: TypeAlias = Literal["html", "interactive", "pdf", "xlsx", "json"]
 
 REPORT, PART, COMPARE = "report", "part", "compare"
 """Questions answered here: a whole report, a figure or page as a file, variants side by side."""
-
-NUMBERS = ("xlsx", "csv", "json")
-"""Kinds of file that hold numbers with a point, whatever sign the reader sees."""
 
 
 def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
@@ -48,8 +44,7 @@ def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
     """
     from .work import asked
 
-    units = tuple(sorted(session.choices.units.items()))
-    return asked(session, name, units=units, decimal=session.choices.decimal, **choices)
+    return asked(session, name, **choices)
 
 
 def of_report(session: Session, form: Form) -> Question | None:
@@ -87,9 +82,7 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
         return _part(question.drive, how)
     if question.name == COMPARE:
         variants = [Variant(name=name, drive=drive, known=known) for name, drive in how["variants"]]
-        page = compared(variants, progress)
-        names = [name for _name, drive in how["variants"] for name in names_in(drive)]
-        return in_choice(page, dict(how["units"]), how["decimal"], names=(*names, *(one.name for one in variants)))
+        return compared(variants, progress)
     raise refuse("question", _("{name} is no question").format(name=question.name))
 
 
@@ -98,7 +91,6 @@ def _report(drive: Drive, how: dict[str, Any], known: Catalogue | None, progress
     suffix = "html" if form == "interactive" else form
     write = None if form == "json" else renderer_for(Path(f"{_('report')}.{suffix}"), interactive=form == "interactive")
     said = content(drive, source_text=how["source"], known=known, progress=_most(progress))
-    said = in_choice(said, dict(how["units"]), "." if suffix in NUMBERS else how["decimal"], names=names_in(drive))
     if write is None or form != "interactive":
         return exported(said, suffix, title="")
     return Exported(content=write(said), media_type="text/html; charset=utf-8", name=f"{safe(said.title)}.html")
@@ -107,8 +99,6 @@ def _report(drive: Drive, how: dict[str, Any], known: Catalogue | None, progress
 def _part(drive: Drive, how: dict[str, Any]) -> Exported:
     thing: Page | Figure = how["thing"]
     kind: str = how["kind"]
-    if isinstance(thing, Page) and kind in NUMBERS:
-        thing = with_points(thing)
     return exported(thing, kind, title=drive.name)
 
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias
 
+from cardan.answers.reader import Reader, reading
 from cardan.drive.drive import Drive
 from cardan.texts import speaking
 
@@ -121,9 +122,14 @@ class Session:
 
     @contextmanager
     def speaking(self) -> Iterator[None]:
-        """Speak the user's language within a block."""
-        with speaking(self.choices.language):
+        """Speak the user's language within a block, in the units that the user likes."""
+        with speaking(self.choices.language), reading(self.reader):
             yield
+
+    @property
+    def reader(self) -> Reader:
+        """The units and the decimal sign that the user likes."""
+        return Reader(units=dict(self.choices.units), decimal=self.choices.decimal)
 
     @property
     def saved(self) -> bool:

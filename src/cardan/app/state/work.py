@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from cardan.answers.reader import USUAL, Reader, reading
 from cardan.drive.drive import Drive
 from cardan.files import Enclosed
 from cardan.io.drive_file import known_to
@@ -44,6 +45,8 @@ class Question:
         Where files that the drive names are looked for, and nowhere else.
     language : str
         In which language.
+    reader : Reader
+        In which units, with which decimal sign.
     choices : mapping of str to value
         What the user chose beside the drive.
     """
@@ -52,6 +55,7 @@ class Question:
     drive: Drive
     folder: Path
     language: str = "en"
+    reader: Reader = USUAL
     choices: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -64,7 +68,8 @@ class Question:
                 files.append((name, told.st_mtime_ns, told.st_size))
             except Exception:  # a file that is not there, or not to be read: the answer will say so
                 files.append((name, 0, 0))
-        whole = (self.name, self.drive, str(self.folder), self.language, sorted(self.choices.items()), files)
+        seen = (self.language, sorted(self.reader.units.items()), self.reader.decimal)
+        whole = (self.name, self.drive, str(self.folder), seen, sorted(self.choices.items()), files)
         return hashlib.sha256(pickle.dumps(whole)).hexdigest()
 
 
@@ -87,6 +92,7 @@ def asked(session: Session, name: str, **choices: Any) -> Question | None:
         drive=session.drive,
         folder=session.workspace.folder,
         language=session.choices.language,
+        reader=session.reader,
         choices=choices,
     )
 
@@ -106,7 +112,7 @@ def result(question: Question, progress: Progress | None = None) -> Result:
     InputError
         The files that the drive names cannot be read, or it cannot be judged.
     """
-    with speaking(question.language):
+    with speaking(question.language), reading(question.reader):
         known = known_to(question.drive, Enclosed(question.folder)) if question.drive.settings.catalogues else None
         if question.name in (papers.REPORT, papers.PART, papers.COMPARE):
             return papers.made(question, known, progress)

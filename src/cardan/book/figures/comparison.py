@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, say
 from cardan.book.comparison import BookComparison
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
 from cardan.figures.turning import across
-from cardan.figures.wording import angular
 from cardan.texts import _
 from cardan.units import deg
 
@@ -41,7 +41,7 @@ def book_figure(found: BookComparison) -> Figure:
             Curve(x=angle, y=exact, role="exact", label=_("exact"), width=0.9),
         ),
         x=across(angle),
-        y=axis(_("Angle error of the output"), "°", [exact, first, second], least=0.02),
+        y=axis(_("Angle error of the output"), "deg", [exact, first, second], dimension="angle", least=0.02),
     )
     lower = Panel(
         series=(
@@ -51,18 +51,26 @@ def book_figure(found: BookComparison) -> Figure:
         ),
         x=across(angle, named=True),
         y=axis(
-            _("Error of the approximation"), "°", [first - exact, second - exact], mirrored=0.0, least=1e-9, count=4
+            _("Error of the approximation"),
+            "deg",
+            [first - exact, second - exact],
+            dimension="angle",
+            mirrored=0.0,
+            least=1e-9,
+            count=4,
         ),
     )
     misses = [float(np.max(np.abs(row - exact))) for row in (first, second)]
-    worst, agree = tuple(angular(miss, 2) for miss in misses), max(misses) < 1e-11
+    worst, agree = tuple(Quantity(miss * deg, "angle", 2) for miss in misses), max(misses) < 1e-11
     return Figure(
         name="book",
         title=_("The classical series against the exact motion"),
         sentence=_("Both series agree with the exact motion here.")
         if agree
-        else _("The first order misses the output angle by up to {first}°, the second by up to {second}°.").format(
-            first=worst[0], second=worst[1]
+        else say(
+            _("The first order misses the output angle by up to {first}, the second by up to {second}."),
+            first=worst[0],
+            second=worst[1],
         ),
         source=_(
             "Book (59)–(62), (69) first order; (63)–(68) second order, restored; exact: product of Möbius matrices"

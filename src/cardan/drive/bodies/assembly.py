@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Text, say
 from cardan.drive.body import body_length
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
@@ -209,13 +210,14 @@ def _axial_at(build: Build, k: int, place: float) -> bool:
     return any(one.axial for one in build.drive.supports if one.shaft == k and one.position == place)
 
 
-def _tube_text(build: Build, k: int) -> str:
+def _tube_text(build: Build, k: int) -> Text:
     shaft = build.drive.shafts[k - 1]
     name = _("shaft {number}").format(number=k) + (f", {shaft.name}" if shaft.name else "")
     if shaft.outer is not None and shaft.wall is not None:
-        return _("{shaft}: tube {sizes} mm").format(shaft=name, sizes=length_text(shaft.outer, shaft.wall))
+        outer, wall = length_text(shaft.outer), length_text(shaft.wall)
+        return say(_("{shaft}: tube {outer:bare} × {wall}"), shaft=name, outer=outer, wall=wall)
     if shaft.outer is not None:
-        return _("{shaft}: outer diameter {size} mm").format(shaft=name, size=length_text(shaft.outer))
+        return say(_("{shaft}: outer diameter {size}"), shaft=name, size=length_text(shaft.outer))
     if shaft.segments:
         return _("{shaft}: stretches as the file gives them").format(shaft=name)
     return _("{shaft}; the file gives no body, so its size is assumed").format(shaft=name)

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from cardan.answers.quantity import Text
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.site import BACK, Side, Site
@@ -62,7 +63,7 @@ class Solid:
     part: str
     number: int
     path: str
-    text: str
+    text: Text
     track: int
     surface: Surface
     role: str
@@ -147,7 +148,7 @@ class Build:
         part: str,
         number: int,
         path: str,
-        text: str,
+        text: Text,
         track: int,
         *surfaces: Surface,
         role: str,

@@ -204,7 +204,7 @@ class Joint:
 
     @property
     def even(self) -> bool:
-        """Whether it turns its driven shaft as its driving one, at every bend."""
+        """Whether it turns its driven shaft as its driving one, at every joint angle."""
         pair = self.pair(np.asarray(0.1))
         return pair is not None and bool(abs(pair[1]) == 0.0)
 

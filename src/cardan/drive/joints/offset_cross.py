@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from cardan.answers.quantity import say
 from cardan.drive.shapes.support import bearing, bracket, floor_frame
 from cardan.errors import Problem
 from cardan.maths.arrays import Array
@@ -69,9 +70,9 @@ class OffsetCross(Joint):
 
     def solid(self, site: Site) -> None:
         """Add its cross, and the sliding ball that holds its driven shaft."""
-        text = _("cross of {joint}: its pins stand {offset} mm apart")
-        said = text.format(joint=site.name, offset=drawn.length_text(self.offset))
-        drawn.yokes_and_cross(site, offset=self.offset, text=said)
+        text = _("cross of {joint}: its pins stand {offset} apart")
+        apart = say(text, joint=site.name, offset=drawn.length_text(self.offset))
+        drawn.yokes_and_cross(site, offset=self.offset, text=apart)
         there = site.stance.centre + self.reach * site.stance.after
         frame = floor_frame(site.stance.after, np.asarray(site.gravity))
         radius = site.driven.thickest

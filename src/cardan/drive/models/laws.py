@@ -69,24 +69,7 @@ def mixed(joints: Sequence[Joint]) -> bool:
 
 def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
     """Return the indices of joints whose motion is no Möbius map, so that no Hooke joint turns alike."""
-    return tuple(i for i, joint in enumerate(joints) if not has_map(joint))
-
-
-def has_map(joint: Joint) -> bool:
-    """Tell whether a joint turns by tan θ' = κ tan θ, as a Hooke joint of some bend does."""
-    return joint.has_map
-
-
-def is_even(joint: Joint) -> bool:
-    """Tell whether a joint turns its driven shaft as its driving one, at every bend.
-
-    Examples
-    --------
-    >>> from cardan.drive.joints import Hooke, Tripod
-    >>> is_even(Tripod()), is_even(Hooke())
-    (True, False)
-    """
-    return joint.even
+    return tuple(i for i, joint in enumerate(joints) if not joint.has_map)
 
 
 def left_over(joint: Joint, bend: float) -> float:
@@ -107,7 +90,7 @@ def left_over(joint: Joint, bend: float) -> float:
     >>> left_over(PinCoupling(driving_distance=0.05, driven_distance=0.052), 0.3) < NEGLIGIBLE
     False
     """
-    if has_map(joint):
+    if joint.has_map:
         return 0.0
     theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     alpha = np.asarray(bend)

@@ -38,7 +38,7 @@ def run_up_figure(found: RunUp) -> Figure:
             Rule(value=found.peak, role="muted", text=significant(found.peak, 3)),
             Rule(value=-found.peak, role="muted"),
         ),
-        x=axis(_("time"), "s", [found.time], margin=0.0, count=8),
+        x=axis(_("time"), "s", [found.time], dimension="time", margin=0.0, count=8),
         y=axis(
             _("Response over the static one"), "–", [found.response], mirrored=0.0, include=(found.peak,), margin=0.12
         ),
@@ -75,7 +75,7 @@ def joint_run_up_figure(found: JointRunUp) -> Figure:
             Rule(value=found.peak_torque, role="muted", text=f"{significant(found.peak_torque, 3)} N·m"),
             Rule(value=-found.peak_torque, role="muted"),
         ),
-        x=axis(_("input speed"), "rpm", [speed], margin=0.0, count=8),
+        x=axis(_("input speed"), "rpm", [speed], dimension="angular_speed", margin=0.0, count=8),
         y=axis(
             _("Torque in the driven shaft"),
             "N·m",

@@ -19,6 +19,7 @@ from .figure import life_figures
 from .joint_bearings import joint_bearings
 from .life import METHODS, Life
 from .life import life as ask
+from .life_cautions import LEAST
 
 __all__ = ["answer", "ask", "lacking"]
 
@@ -233,7 +234,9 @@ def _cautions(result: Life) -> Iterator[Remark]:
             "joints {which} oscillate so little that roller paths do not overlap: false brinelling, and the computed "
             "life is optimistic"
         ),
-        "angle_clamped_3deg": _("joints {which} have joint angles below 3°; handbook and makers count them as 3°"),
+        "angle_clamped_3deg": _(
+            "joints {which} have joint angles below {least}, as which handbook and makers count them"
+        ),
         "extrapolated": _("joints {which} are outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h"),
         "no_swing": _("joints {which} are straight: needles do not roll, and ISO 281 rates no life for that"),
         "heavy_load": _("journals of joints {which} carry over half their capacity; ISO 281 ends there"),
@@ -242,7 +245,7 @@ def _cautions(result: Life) -> Iterator[Remark]:
         own = [one for one in result.cautions if one.code == code]
         joints = [one.joint for one in own if one.joint]
         several = len(joints) > 1
-        said: list[Text] = [alike[code].format(which=listed(joints))] if several else []
+        said: list[Text] = [say(alike[code], which=listed(joints), least=LEAST)] if several else []
         said.extend(one.message for one in own if not (several and one.joint))
         for message in said:
             yield Remark(text=say(_("Warning: {what}."), what=message), tone="warning", code=code)

@@ -16,6 +16,9 @@ from cardan.texts import _
 if TYPE_CHECKING:
     from .life import Life
 
+LEAST = Quantity(LEAST_BEND, "angle", trim=True)
+"""As what smaller joint angles count."""
+
 HEAVY = 0.5
 """ISO 281 holds for loads up to this share of the capacity."""
 
@@ -84,8 +87,9 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             yield Caution(code="small_oscillation", joint=i + 1, message=said)
         figures = ~np.isnan(found.book[:, i]) | ~np.isnan(found.maker[:, i])
         if np.any(clamped(bend[:, i])) and np.any(figures):
-            text = _("joint {number} has a joint angle of {angle}; handbook and makers count it as 3°")
-            yield Caution(code="angle_clamped_3deg", joint=i + 1, message=say(text, number=i + 1, angle=angle))
+            text = _("joint {number} has a joint angle of {angle}; handbook and makers count it as {least}")
+            said = say(text, number=i + 1, angle=angle, least=LEAST)
+            yield Caution(code="angle_clamped_3deg", joint=i + 1, message=said)
         whole = book[i]
         if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), whole)):
             text = _("joint {number} is outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")

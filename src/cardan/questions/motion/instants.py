@@ -10,7 +10,6 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import Chain, turning
 from cardan.drive.models.geometry import Geometry, geometry_from_points
-from cardan.drive.models.laws import is_even
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.curves.paths import Path
@@ -112,7 +111,7 @@ class Question:
             yoke_angle=gamma,
             start_phase=np.asarray(self.drive.input.start_phase),
         )
-        even = tuple(is_even(joint) for joint in self.drive.joints)
+        even = tuple(joint.even for joint in self.drive.joints)
         with np.errstate(invalid="ignore", divide="ignore"):
             shafts = moving_shafts(jet)
             motion = self._motion(times, gamma, self.speed) if yokes and self.speed is not None else None
@@ -154,7 +153,7 @@ class Question:
             start_phase=self.drive.input.start_phase,
             start=self.start,
             normal=self.place.normal[0],
-            even=tuple(is_even(joint) for joint in self.drive.joints),
+            even=tuple(joint.even for joint in self.drive.joints),
         )
 
 

@@ -296,9 +296,8 @@ def _remarks(result: Beside) -> Iterator[Remark]:
         text = _("Without sizes these count as made exactly uniform: {names}. Sizes are keys of the drive file:")
         yield Remark(text=text.format(names=", ".join(ideal)), command=("cardan", "joint"), tone="next")
     elif len(result.named) == 1:
-        kind = result.turns[0].joint.kind
-        other = "hooke" if kind != "hooke" else "double_cardan"
-        words = ("cardan", "joint", kind, *_sizes(result.named[0]), other)
+        joint = result.turns[0].joint
+        words = ("cardan", "joint", joint.kind, *_sizes(result.named[0]), joint.beside)
         yield Remark(text=_("Beside others:"), command=words, tone="next")
 
 

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from cardan.answers.quantity import Quantity
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inside import Inside
-
-
-def quantity(one: Inside, digits: int = 4) -> Quantity:
-    """Return a measure with its dimension and with so many digits."""
-    return Quantity(one.value, one.dimension or "", digits)
 
 
 def joint_inside(joint: Joint, bend: float) -> tuple[Inside, ...]:

@@ -14,7 +14,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
-from cardan.drive.models.laws import is_even, mixed, unmapped
+from cardan.drive.models.laws import mixed, unmapped
 from cardan.errors import InputError
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
@@ -107,7 +107,7 @@ def _sentence(drive: Drive, found: Phasing) -> Say:
     elif each_uniform(drive):
         text = _("{count}; every joint turns uniformly by itself, the yokes may stand anyhow.")
         elsewhere = drive.movements or drive.poses
-        if elsewhere and not all(is_even(joint) for joint in drive.joints):
+        if elsewhere and not all(joint.even for joint in drive.joints):
             text = _(
                 "{count}; as drawn every joint turns uniformly by itself, the yokes count where joint angles differ."
             )

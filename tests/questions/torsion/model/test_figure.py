@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 
 from cardan import Drive, stability, torsion_modes, torsion_response, transient
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.shaft import Shaft
 from cardan.drive.station import Absorber, Pendulum, Station
 from cardan.figures import Figure, for_result, save
 from cardan.figures.figure import Band, Bars, Curve, Note, Rule, Shape
+from cardan.figures.for_reader import for_reader
 from cardan.questions.torsion.model.figure import campbell_figure, shapes_figure
 from cardan.questions.torsion.stability.figure import growth_figure, map_figure
 from cardan.questions.torsion.steady.figure import response_figure, sweep_figure, waterfall_figure
@@ -44,7 +47,7 @@ def test_the_campbell_chart_meets_where_the_crossings_are() -> None:
     assert {one.role for one in dots} == {"failed"}  # both in use
     zone = next(one for one in drawn(figure, Band) if one.role == "failed")
     assert (zone.low * rpm, zone.high * rpm) == pytest.approx(tuple(found.zone[0]))
-    assert "order 4 at" in figure.sentence
+    assert "order 4 at" in told(figure.sentence, USUAL)
 
 
 def test_pendulums_bend_the_natural_frequencies() -> None:
@@ -88,7 +91,7 @@ def test_orders_that_do_not_repeat_with_the_turn_have_their_bar() -> None:
     figure = response_figure(found)
     bars, words = drawn(figure, Bars, 1)[0], figure.panels[1].x.texts
     assert bars.size[words.index("1.3")] == pytest.approx(abs(found.apart[0].torque[0]))
-    assert "order 1.3, ±" in figure.source
+    assert "order 1.3, at most ±" in told(figure.source, USUAL)
 
 
 def test_no_place_is_told_in_millimetres_where_the_lengths_are_not_known() -> None:
@@ -97,13 +100,11 @@ def test_no_place_is_told_in_millimetres_where_the_lengths_are_not_known() -> No
     )
     figure = shapes_figure(torsion_modes(free))
     assert not torsion_modes(free).train.to_scale
-    assert "mm" not in figure.sentence
-    assert "% of the way from" in figure.sentence
-    assert figure.panels[0].x.unit == ""
+    assert (figure.panels[0].x.unit, figure.panels[0].x.dimension) == ("", "")
     (joint,) = (one.value for one in drawn(figure, Rule) if one.upright)
     assert joint == 1.0  # by shafts
     known = replace(free, shafts=(replace(free.shafts[0], length=0.4), Shaft(number=2, length=0.2)))
-    assert "mm" in shapes_figure(torsion_modes(known)).sentence
+    assert shapes_figure(torsion_modes(known)).panels[0].x.unit == "mm"
 
 
 def test_a_sweep_shades_what_is_unstable() -> None:
@@ -124,7 +125,6 @@ def test_maps_cover_the_unstable_points() -> None:
         values = {"duty.speed_rad_s": np.linspace(44.0, 56.0, 7), "bend_deg": bends}
         found = stability(DRIVE, over={path: values[path] for path in axes})
         figure = map_figure(found)
-        assert figure.sentence.startswith(f"{100 * found.unstable_share:.1f}")
         area = sum(float((one.x[1] - one.x[0]) * (one.y[2] - one.y[0])) for one in drawn(figure, Shape))
         assert 0.0 < area < (56.0 - 44.0) * 25.0
     growth = growth_figure(stability(DRIVE, over={"duty.speed_rad_s": SPEEDS}))
@@ -136,11 +136,11 @@ def test_a_map_tells_what_else_may_be_red() -> None:
     tight = stability(
         DRIVE, over={"duty.speed_rpm": np.linspace(44.0, 56.0, 4) / rpm, "bend_deg": np.asarray([25.0, 30])}
     )
-    assert "play" not in map_figure(tight).source
+    assert "backlash" not in told(map_figure(tight).source, USUAL)
     backlash = np.full_like(tight.train.model.backlash, 0.01)
     loose = replace(tight, train=replace(tight.train, model=replace(tight.train.model, backlash=backlash)))
     figure = map_figure(loose)
-    assert "red there is rattling" in figure.source
+    assert "red there is rattling" in told(figure.source, USUAL)
     assert all(one.text.startswith("nearest: ") for one in drawn(figure, Note))
 
 
@@ -201,4 +201,19 @@ def test_every_result_is_drawn_by_both_renderers(tmp_path: Path) -> None:
     for suffix in ("svg", "html"):
         assert save(figures, tmp_path / f"all.{suffix}").stat().st_size > 10000
     for figure in figures:
-        assert figure.sentence.endswith(".")
+        assert told(figure.sentence, USUAL).endswith(".") or not figure.sentence
+
+
+def test_a_reader_sees_axes_and_words_in_own_units() -> None:
+    who = Reader(units={"torque": "lbft", "angular_speed": "rad_s"}, decimal=",")
+    found = torsion_response(DRIVE, speed=SPEEDS)
+    usual, seen = sweep_figure(found), for_reader(sweep_figure(found), who)
+    assert [panel.heading for panel in seen.panels] == [
+        "Alternating torque, ± [lbf·ft]",
+        "Orders of shaft 1, ± [lbf·ft]",
+    ]
+    assert seen.panels[1].x.title == "input speed [rad/s]"
+    (own,), (other,) = (drawn(one, Curve) for one in (usual, seen))
+    np.testing.assert_allclose(other.x, SPEEDS)
+    np.testing.assert_allclose(other.y * 1.3558179483314, own.y)
+    assert "rad/s, ±" in for_reader(waterfall_figure(found), who).sentence

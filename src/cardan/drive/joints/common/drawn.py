@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.drive.shapes.yoke import caps, cross_body, fork
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import Surface, ball, placed, revolved
 from cardan.texts import _
-from cardan.units import mm
 
 from .site import BACK, JointSize, Side, Site
 
@@ -26,17 +26,17 @@ def about(surface: Surface, angle: float) -> Surface:
     return placed(surface, np.asarray([(1.0, 0.0, 0.0), (0.0, c, s), (0.0, -s, c)]))
 
 
-def length_text(*values: float) -> str:
-    """Return lengths in millimetres as people write them."""
-    return " × ".join(f"{value / mm:.4g}" for value in values)
+def length_text(value: float) -> Quantity:
+    """Return a length as it is told."""
+    return Quantity(value, "length", 4, trim=True)
 
 
-def cross_text(site: Site, size: JointSize) -> str:
+def cross_text(site: Site, size: JointSize) -> Text:
     """Return what to say of a cross."""
     if size.given:
-        return _("cross of {joint}: span {span} mm, journals {journal} mm").format(
-            joint=site.name, span=length_text(2.0 * size.radius), journal=length_text(size.journal)
-        )
+        text = _("cross of {joint}: span {span}, journals {journal}")
+        span, journal = length_text(2.0 * size.radius), length_text(size.journal)
+        return say(text, joint=site.name, span=span, journal=journal)
     return _("cross of {joint}; the file gives no span, so its size is in proportion to the shafts").format(
         joint=site.name
     )
@@ -71,7 +71,7 @@ def yoke(
         site.add("bearing cap", _("bearings of joint {number}").format(number=site.number), side.track, cap, shade=0.35)
 
 
-def yokes_and_cross(site: Site, *, offset: float = 0.0, text: str = "") -> None:
+def yokes_and_cross(site: Site, *, offset: float = 0.0, text: Text = "") -> None:
     """Add yokes, cross and bearings of a joint with one cross, whose pins may stand a distance apart [m]."""
     for side in site.sides:
         yoke(site, side, site.size)

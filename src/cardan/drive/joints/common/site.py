@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from cardan.answers.quantity import Text
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.maths.kernel.meshes import Surface, placed
@@ -74,7 +75,7 @@ class Stage(Protocol):
         part: str,
         number: int,
         path: str,
-        text: str,
+        text: Text,
         track: int,
         *surfaces: Surface,
         role: str,
@@ -179,7 +180,7 @@ class Site:
     def add(
         self,
         part: str,
-        text: str,
+        text: Text,
         track: int,
         *surfaces: Surface,
         role: str = "cross",
@@ -189,7 +190,7 @@ class Site:
         """Add a body of the joint itself."""
         self.stage.add(part, self.number, self.path, text, track, *surfaces, role=role, shade=shade, metal=metal)
 
-    def add_to(self, side: Side, part: str, text: str, surface: Surface) -> None:
+    def add_to(self, side: Side, part: str, text: Text, surface: Surface) -> None:
         """Add a body of a shaft, whose x runs away from the joint."""
         shape = placed(surface, side.turn)
         self.stage.add(part, side.number, self.path, text, side.track, shape, role=side.role)

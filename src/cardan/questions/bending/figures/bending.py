@@ -146,7 +146,7 @@ def shapes_figure(found: CriticalSpeeds) -> Figure:
     """
     count = min(len(found.speed), SHOWN)
     place = np.asarray(found.place) / mm
-    across = axis(_("place along the line from joint 1"), "mm", [place], margin=0.04, count=8)
+    across = axis(_("place along the line from joint 1"), "mm", [place], dimension="length", margin=0.04, count=8)
     rows = []
     for k in range(count):
         last = k == count - 1

@@ -1,4 +1,4 @@
-"""Torsional modes: where orders meet them, and how the stations swing along the line."""
+"""Torsional modes: the Campbell diagram, and the mode shapes along the line."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Curve, Figure, Note, Panel, Row, Rule, Series
 from cardan.figures.palette import DASHES, shaft
-from cardan.figures.wording import percent, significant
 from cardan.maths.arrays import Array
-from cardan.texts import _, plural
+from cardan.texts import _
 from cardan.units import mm, rpm
 
 from .torsion import TorsionModes
@@ -34,8 +34,8 @@ LETTER = 0.0085
 LOW = 0.1
 """Share of the height that the ray of order 1 leaves free below it for a word."""
 
-ENDS = 0.005
-"""Share of an element within which a node counts as at its end."""
+SAID = 3
+"""Crossings in the sentence below the diagram."""
 
 POINTS = 61
 """Speeds at which natural frequencies are drawn that change with the speed."""
@@ -59,12 +59,28 @@ def campbell_figure(found: TorsionModes) -> Figure:
     ticks_x, ticks_y = steps(low, top, 8), steps(0.0, high, 6)
     panel = Panel(
         series=tuple(_campbell(found, top, high)),
-        x=Axis(label=_("input speed"), unit="rpm", low=low, high=top, ticks=ticks_x, texts=written(ticks_x)),
-        y=Axis(label=_("frequency"), unit="Hz", low=0.0, high=high, ticks=ticks_y, texts=written(ticks_y)),
+        x=Axis(
+            label=_("input speed"),
+            unit="rpm",
+            dimension="angular_speed",
+            low=low,
+            high=top,
+            ticks=ticks_x,
+            texts=written(ticks_x),
+        ),
+        y=Axis(
+            label=_("frequency"),
+            unit="Hz",
+            dimension="frequency",
+            low=0.0,
+            high=high,
+            ticks=ticks_y,
+            texts=written(ticks_y),
+        ),
     )
     return Figure(
         name="campbell",
-        title=_("Where orders meet torsional modes"),
+        title=_("Campbell diagram of the torsional modes"),
         sentence=_campbell_sentence(found),
         source=_("natural frequencies with straight joints; zones to first order, Book (221) with the corrected q"),
         rows=(Row(panels=(panel,), height=3.0),),
@@ -93,7 +109,7 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
         yield Band(low=one, high=two, upright=True, role="accent", opacity=0.08)
         low = one / 60.0 > LOW * high  # else the rays of the orders run there
         yield Note(
-            text=_("speeds in use"),
+            text=_("operating range"),
             x=one,
             y=(0.03 if low else 0.96) * high,
             role="accent",
@@ -103,13 +119,13 @@ def _campbell(found: TorsionModes, top: float, high: float) -> Iterator[Series]:
     for k, zone in enumerate(found.zone[:MODES] / rpm):
         if np.all(np.isfinite(zone)) and zone[0] < top:
             yield Band(low=float(zone[0]), high=float(zone[1]), upright=True, role="failed", opacity=0.25)
-            text = _("mode {number} grows").format(number=k + 1)
+            text = _("mode {number} unstable").format(number=k + 1)
             yield Note(
                 text=text, x=float(zone[0]), y=(0.1 + 0.06 * k) * high, role="failed", side="right", shift=(-4.0, 0.0)
             )
     if found.speed:
         yield Rule(value=found.speed / rpm, upright=True, role="accent")
-        yield Note(text=_("runs"), x=found.speed / rpm, y=0.1 * high, role="accent", side="left", shift=(4.0, 0.0))
+        yield Note(text=_("duty"), x=found.speed / rpm, y=0.1 * high, role="accent", side="left", shift=(4.0, 0.0))
     orders = sorted({one.order: one.cause for one in found.crossings}.items())[:RAYS]
     for order, _cause in [(1.0, ""), *orders]:
         end = min(top, 60.0 * high / order)
@@ -150,26 +166,21 @@ def _at(value: float) -> Array:
     return np.asarray([value])
 
 
-def _campbell_sentence(found: TorsionModes) -> str:
-    inside = [one for one in found.crossings if one.inside]
-    if found.speed_range is not None and not inside:
-        return _("No order meets a mode at the speeds in use.")
-    if inside:
-        said = ", ".join(
-            _("order {order} at {speed} rpm").format(order=f"{one.order:g}", speed=significant(one.speed / rpm, 3))
-            for one in inside[:3]
-        )
-        text = plural(
-            "At a speed in use a mode is met: {said}.", "At speeds in use modes are met: {said}.", len(inside)
-        )
-        return text.format(said=said)
-    return _("Order 2 of the joints meets mode 1 at {speed} rpm; parametric resonance is at twice that speed.").format(
-        speed=significant(float(found.order2_speed[0]) / rpm, 3)
-    )
+def _campbell_sentence(found: TorsionModes) -> Text:
+    """Return the first crossings in the operating range; nothing where there are none."""
+    text = _("order {order} at {speed}")
+    said = [
+        say(text, order=Quantity(one.order, trim=True), speed=Quantity(one.speed, "angular_speed", 3))
+        for one in found.crossings
+        if one.inside
+    ]
+    if not said:
+        return ""
+    return say(_("Crossings in the operating range: {said}."), said=Joined(said[:SAID], between="; "))
 
 
 def shapes_figure(found: TorsionModes) -> Figure:
-    """Return how the stations swing along the line in the slowest modes, with the joints and the nodes.
+    """Return the shapes of the lowest modes along the line, with the joints and the nodes.
 
     Parameters
     ----------
@@ -184,7 +195,7 @@ def shapes_figure(found: TorsionModes) -> Figure:
     for number, (_driving, driven) in enumerate(train.joints, start=1):
         series.append(Rule(value=float(positions[driven]), upright=True, text=str(number)))
     for k in range(min(MODES, len(found.omega))):
-        hertz = significant(float(found.omega[k]) / (2.0 * math.pi), 3)
+        own = Quantity(float(found.omega[k]), "frequency", 3)
         series.append(
             Curve(
                 x=place,
@@ -192,7 +203,7 @@ def shapes_figure(found: TorsionModes) -> Figure:
                 role=shaft(k + 2),
                 dash=DASHES[k % len(DASHES)],
                 marker=4.0,
-                label=_("mode {number}, {hertz} Hz").format(number=k + 1, hertz=hertz),
+                label=say(_("mode {number}, {frequency}"), number=k + 1, frequency=own),
             )
         )
         for node in found.nodes[k]:
@@ -203,23 +214,23 @@ def shapes_figure(found: TorsionModes) -> Figure:
         if host is not None:
             shown = found.shape[0, k]
             dot = Curve(x=_at(positions[k]), y=_at(shown), role="accent", width=0.0, marker=4.0)
-            series.append(replace(dot, text=_("hung")))
+            series.append(replace(dot, text=_("attached")))
             far = float(positions[k]) > 0.5 * float(place[0] + place[-1])
-            word = Note(text=_("hung"), x=float(positions[k]), y=float(shown))
+            word = Note(text=_("attached"), x=float(positions[k]), y=float(shown))
             series.append(replace(word, side="right" if far else "left", shift=(-5.0 if far else 5.0, 0.0)))
     ticks = (-1.0, -0.5, 0.0, 0.5, 1.0)
-    along, unit = _("along the shafts from the input end; joints by their numbers"), "mm"
+    along, unit, dimension = _("along the shafts from the input end; joints by their numbers"), "mm", "length"
     if not train.to_scale:
-        along, unit = _("shafts from the input end, not to scale; joints by their numbers"), ""
+        along, unit, dimension = _("shafts from the input end, not to scale; joints by their numbers"), "", ""
     panel = Panel(
         series=tuple(series),
-        x=axis(along, unit, [place], margin=0.04, count=8),
-        y=Axis(label=_("swing, largest 1"), low=-1.1, high=1.1, ticks=ticks, texts=written(ticks)),
+        x=axis(along, unit, [place], dimension=dimension, margin=0.04, count=8),
+        y=Axis(label=_("amplitude, largest 1"), low=-1.1, high=1.1, ticks=ticks, texts=written(ticks)),
     )
     return Figure(
         name="torsion-shapes",
-        title=_("How the shafts twist as they swing"),
-        sentence=_shapes_sentence(found),
+        title=_("Torsional mode shapes"),
+        sentence="" if found.nodes[0] else _("Mode 1 has no node; the input is held."),
         source=_("(K − ω²M) u = 0 with straight joints"),
         rows=(Row(panels=(panel,), height=2.2),),
     )
@@ -233,20 +244,3 @@ def _along(train: TorsionalTrain, position: Array) -> Array:
     last = float(np.max(train.position))
     ends.append(last if last > ends[-1] else 2.0 * ends[-1])
     return np.interp(position, ends, np.arange(len(ends), dtype=float))
-
-
-def _shapes_sentence(found: TorsionModes) -> str:
-    if not found.nodes[0]:
-        return _("All masses swing the same way in mode 1; the input stands still.")
-    node, names = found.nodes[0][0], found.train.model.names
-    if found.train.to_scale:
-        text = _("Mode 1 stands still at {place} mm: a joint there excites no parametric vibration of it.")
-        return text.format(place=significant(node.position / mm, 3))
-    if node.before == node.behind or node.share < ENDS or node.share > 1.0 - ENDS:
-        text = _("Mode 1 stands still at {name}: a joint there excites no parametric vibration of it.")
-        return text.format(name=names[node.behind if node.share > 0.5 else node.before])
-    text = _(
-        "Mode 1 stands still {share} of the way from {one} to {other}: a joint there excites no parametric vibration "
-        "of it."
-    )
-    return text.format(share=percent(node.share), one=names[node.before], other=names[node.behind])

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from cardan.answers.quantity import Quantity, Say, say, told
+from cardan.answers.reader import USUAL
 from cardan.drive.body import Piece, body_length, pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
@@ -15,7 +17,6 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.station import ToNext
 from cardan.errors import Problem
 from cardan.texts import _
-from cardan.units import mm
 
 NEAR = 1e-9
 """Places nearer than this share of a shaft are one."""
@@ -34,6 +35,8 @@ class ShaftLine:
     share : list of N float
         Where the stations are, over the length of the shaft.
     names : list of N str
+    cuts : list of N (float or None) [m]
+        Where on the shaft the stations are that only part its body, as a file counts there; None for all others.
     held : list of N tuples of int
         Stations of the drive at each, by their index.
     assumed : list of str
@@ -48,6 +51,7 @@ class ShaftLine:
     loss_factor: list[float]
     share: list[float]
     names: list[str]
+    cuts: list[float | None]
     held: list[tuple[int, ...]]
     assumed: list[str]
 
@@ -99,9 +103,15 @@ def _rigid(drive: Drive, shaft: Shaft, place: Place, length: float | None) -> Sh
         loss_factor=[],
         share=[at_joint],
         names=[name],
+        cuts=[None],
         held=[place.stations],
         assumed=assumed,
     )
+
+
+def cut_name(shaft: int, place: float) -> Say:
+    """Return what a station is called that only parts the body of a shaft, at a place [m] as a file counts there."""
+    return say(_("shaft {number} at {place}"), number=shaft, place=Quantity(place, "length", trim=True))
 
 
 def _turning(piece: Piece) -> float:
@@ -163,7 +173,7 @@ class _Elastic:
             if self.shaft.spline is not None and self.spline[0] == k:
                 play[self.spline[1]] += self.shaft.spline.backlash
             backlash += play
-        share, names, held = self._stations()
+        share, names, cuts, held = self._stations()
         inertia = self._inertia(share, held)
         return ShaftLine(
             inertia=inertia,
@@ -174,6 +184,7 @@ class _Elastic:
             loss_factor=loss,
             share=share,
             names=names,
+            cuts=cuts,
             held=held,
             assumed=self._assumed(inertia, any(damping) or any(loss)),
         )
@@ -253,26 +264,28 @@ class _Elastic:
             soft[self.spline[1]] += teeth / self._compliance(0.0, float(self.length or 1.0))
         return [one / math.fsum(soft) for one in soft]
 
-    def _stations(self) -> tuple[list[float], list[str], list[tuple[int, ...]]]:
-        """Return place, name and stations of the drive at every station of the shaft."""
+    def _stations(self) -> tuple[list[float], list[str], list[float | None], list[tuple[int, ...]]]:
+        """Return place, name, cut of the body and stations of the drive at every station of the shaft."""
         shares: list[float] = []
         names: list[str] = []
+        cuts: list[float | None] = []
         held: list[tuple[int, ...]] = []
         last = len(self.places) - 1
         for k, place in enumerate(self.places):
             at = self.at[k]
             shares.append(k / last if at is None or not self.length else at / self.length)
             names.append(self._name(k, place, last))
+            cuts.append(None)
             held.append(place.stations)
             for cut in self.cuts[k] if k < last else ():
                 begin, end = float(self.at[k] or 0.0), float(self.at[k + 1] or 0.0)
                 inner = begin + cut * (end - begin)
                 shares.append(inner / float(self.length or 1.0))
-                text = _("shaft {number} at {place:.4g} mm")
                 origin = float(self.length or 0.0) if self.shaft.number == 1 else 0.0
-                names.append(text.format(number=self.shaft.number, place=(inner - origin) / mm))
+                cuts.append(inner - origin)
+                names.append(told(cut_name(self.shaft.number, inner - origin), USUAL))
                 held.append(())
-        return shares, names, held
+        return shares, names, cuts, held
 
     def _name(self, k: int, place: Place, last: int) -> str:
         named = [self.drive.stations[j].name for j in place.stations if self.drive.stations[j].name]

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say, told
+from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
@@ -21,10 +23,9 @@ from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import phase_angles
 from cardan.texts import _
-from cardan.units import mm
 
 from .machine_torques import machine_torques, turns_freely
-from .shaft_line import ShaftLine, shaft_line
+from .shaft_line import ShaftLine, cut_name, shaft_line
 from .torques import Law
 from .torsional_batch import ARRAYS, SHARED, chosen, leading
 from .torsional_model import Torque, TorsionalModel
@@ -50,6 +51,8 @@ class TorsionalTrain:
         Elements that hold pendulums: their stiffness goes with the square of the speed.
     assumed : tuple of str
         Paths of what the drive does not say and the model assumes.
+    cuts : tuple of N (float or None) [m]
+        Where on their shafts the stations are that only part its body; None for all others.
     to_scale : bool
         Whether the positions follow from lengths that the drive gives; else some shafts are as long as others.
     """
@@ -60,36 +63,50 @@ class TorsionalTrain:
     hangs: tuple[int | None, ...]
     pendulums: tuple[int, ...]
     assumed: tuple[str, ...]
+    cuts: tuple[float | None, ...]
     to_scale: bool = True
 
     @property
+    def station_names(self) -> tuple[Text, ...]:
+        """What the stations are called, with places in the units of whoever reads it."""
+        return tuple(
+            name if cut is None else cut_name(shaft + 1, cut)
+            for name, cut, shaft in zip(self.model.names, self.cuts, self.model.shaft, strict=True)
+        )
+
+    @property
     def element_names(self) -> tuple[str, ...]:
-        """Names of the elements: of their shaft where it has but one, else with the stations at their ends."""
+        """What the elements are called, in the usual units; see `elements`."""
+        return tuple(told(one, USUAL) for one in self.elements)
+
+    @property
+    def elements(self) -> tuple[Text, ...]:
+        """What the elements are called: by their shaft where it has but one, else with the stations at their ends."""
         model, names = self.model, self._end_names
         line = [b for _a, b in model.elements if self.hangs[b] is None]
         alone = {k for k in model.shaft if sum(model.shaft[b] == k for b in line) == 1}
-        found = []
+        found: list[Text] = []
         for a, b in model.elements:
+            number = model.shaft[a] + 1
             if self.hangs[b] is not None:
                 found.append(model.names[b])
-                continue
-            text = _("shaft {number}") if model.shaft[a] in alone else _("shaft {number}, {one} to {two}")
-            found.append(text.format(number=model.shaft[a] + 1, one=names[a], two=names[b]))
+            elif model.shaft[a] in alone:
+                found.append(_("shaft {number}").format(number=number))
+            else:
+                found.append(say(_("shaft {number}, {one} to {two}"), number=number, one=names[a], two=names[b]))
         return tuple(found)
 
     @property
-    def _end_names(self) -> tuple[str, ...]:
+    def _end_names(self) -> tuple[Text, ...]:
         """Names of the stations short enough for the ends of an element: what its shaft is, is said before them."""
-        names = list(self.model.names)
+        names: list[Text] = list(self.model.names)
         for number, ends in enumerate(self.joints, start=1):
             for end in ends:
                 names[end] = _("joint {number}").format(number=number)
-        starts = [0, *(driven for _driving, driven in self.joints)]
-        for k, (shaft, name) in enumerate(zip(self.model.shaft, self.model.names, strict=True)):
-            place = f"{(self.position[k] - self.position[starts[shaft]]) / mm:.4g} mm"
-            if name == _("shaft {number} at {place}").format(number=shaft + 1, place=place):
-                names[k] = place
-        return tuple(names)
+        return tuple(
+            name if cut is None else Quantity(cut, "length", trim=True)
+            for name, cut in zip(names, self.cuts, strict=True)
+        )
 
     @property
     def line(self) -> tuple[int, ...]:
@@ -185,6 +202,7 @@ def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:
         loss_factor=[0.0, *line.loss_factor],
         share=[line.share[0], *line.share],
         names=[_("{name}, before the elastic joint").format(name=line.names[0]), *line.names],
+        cuts=[None, *line.cuts],
         held=[(), *line.held],
     )
 
@@ -244,6 +262,7 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> Torsional
         hangs=(None,) * len(driven),
         pendulums=(),
         assumed=tuple(path for line in lines for path in line.assumed),
+        cuts=tuple(cut for line in lines for cut in line.cuts),
         to_scale=not any(f"shafts[{i}].length" in place.assumed for i in drawn),
     )
 
@@ -301,7 +320,8 @@ def _with_branches(
         names=tuple(names),
     )
     position = np.append(train.position, [train.position[host] for host in hangs if host is not None])
-    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums))
+    cuts = (*train.cuts, *[None] * more)
+    return replace(train, model=whole, position=position, hangs=tuple(hangs), pendulums=tuple(pendulums), cuts=cuts)
 
 
 def _empty_problems(model: TorsionalModel) -> Iterator[Problem]:

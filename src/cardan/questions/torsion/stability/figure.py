@@ -1,4 +1,4 @@
-"""Where torsional vibration grows: multipliers at a point, growth over one quantity, a map over two."""
+"""Where torsional vibration is unstable: multipliers at a point, growth over one quantity, a map over two."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
-from cardan.figures.wording import percent, significant
 from cardan.maths.arrays import Array
 from cardan.questions.torsion.steady.figure import runs, unstable_bands
 from cardan.questions.torsion.steady.run_stability import Verdict
 from cardan.texts import _
 
-from .torsion_stability import BEND, Stability
+from .map_axes import SPEED, MapAxis, map_axes
+from .torsion_stability import Stability
 
 TONGUES = 6
 """Zones with their names in a map, the largest."""
@@ -32,12 +33,6 @@ def stability_figures(found: Stability) -> tuple[Figure, ...]:
     if not found.over:
         return (multipliers_figure(found),)
     return (growth_figure(found),) if len(found.over) == 1 else (map_figure(found),)
-
-
-def _axis_words(path: str) -> tuple[str, str]:
-    return {"duty.speed_rpm": (_("input speed"), "rpm"), BEND: (_("bend of the most bent joint"), "°")}.get(
-        path, (path, "")
-    )
 
 
 def multipliers_figure(found: Stability) -> Figure:
@@ -65,11 +60,11 @@ def multipliers_figure(found: Stability) -> Figure:
         y=Axis(label=_("imaginary part"), low=-reach, high=reach, ticks=ticks, texts=written(ticks)),
         equal=True,
     )
-    text = _("Outside the circle a disturbance grows: the farthest multiplier has the modulus {radius}.")
+    text = _("Outside the circle a disturbance grows: the largest multiplier has the modulus {radius}.")
     return Figure(
         name="multipliers",
-        title=_("What each disturbance is multiplied by"),
-        sentence=text.format(radius=f"{float(found.spectral_radius):.4f}"),
+        title=_("Floquet multipliers"),
+        sentence=say(text, radius=Quantity(float(found.spectral_radius), decimals=4)),
         source=_("Floquet multipliers of the exact equations"),
         rows=(Row(panels=(panel,), height=3.0),),
         legend=False,
@@ -85,8 +80,8 @@ def growth_figure(found: Stability) -> Figure:
     found : Stability
         Over one path.
     """
-    path, values = found.over[0]
-    label, unit = _axis_words(path)
+    (over,) = map_axes(found)
+    values = over.values
     rate = np.where(np.isfinite(found.growth_rate), found.growth_rate, np.nan)
     panel = Panel(
         series=(
@@ -94,15 +89,22 @@ def growth_figure(found: Stability) -> Figure:
             Rule(value=0.0, role="ink", dash="solid"),
             Curve(x=values, y=rate, role="accent"),
         ),
-        x=axis(label, unit, [values], margin=0.0, count=8),
-        y=axis(_("Growth rate of the slowest disturbance"), "1/s", [rate], include=(0.0,), count=5),
+        x=_axis(over, count=8),
+        y=axis(
+            _("Growth rate of the least stable disturbance"),
+            "per_s",
+            [rate],
+            dimension="rate",
+            include=(0.0,),
+            count=5,
+        ),
     )
     k = int(np.nanargmax(rate)) if np.any(np.isfinite(rate)) else 0
-    text = _("Above 0 vibration grows; it grows fastest, or dies out slowest, at {value} {unit}.")
+    text = _("Above 0 vibration grows; it grows fastest, or decays slowest, at {value}.")
     return Figure(
         name="growth",
-        title=_("Does torsional vibration die out?"),
-        sentence=text.format(value=significant(float(values[k]), 3), unit=unit or label),
+        title=_("Growth rate of torsional vibration"),
+        sentence=say(text, value=over.quantity(float(values[k]), 3)),
         source=_("Floquet multipliers of the exact equations"),
         rows=(Row(panels=(panel,), height=2.0),),
         legend=False,
@@ -117,8 +119,10 @@ def map_figure(found: Stability) -> Figure:
     found : Stability
         Over two paths.
     """
-    turned = found.over[1][0] == "duty.speed_rpm"
-    (wide, x), (high, y) = found.over[::-1] if turned else found.over
+    axes = map_axes(found)
+    turned = axes[1].key == SPEED
+    wide, high = axes[::-1] if turned else axes
+    x, y = wide.values, high.values
     verdict = found.verdict.T if not turned else found.verdict
     rows = np.unique(np.linspace(0, len(y) - 1, min(len(y), CELLS)).round().astype(int))
     series: list[Series] = []
@@ -128,7 +132,7 @@ def map_figure(found: Stability) -> Figure:
         (Verdict.UNKNOWN, "faint", 0.8, _("not known")),
     ):
         series += _cells(x, y[rows], verdict[rows] == state, role, opacity, word)
-    here = _here(found, wide), _here(found, high)
+    here = wide.here, high.here
     series += _tongues(found, x, y, verdict == Verdict.UNSTABLE, here, turned=turned)
     if here[0] is not None and here[1] is not None:
         series.append(
@@ -138,7 +142,7 @@ def map_figure(found: Stability) -> Figure:
                 role="ink",
                 width=0.0,
                 marker=7.0,
-                label=_("the drive"),
+                label=_("operating point"),
             )
         )
     for value, upright in ((here[0], True), (here[1], False)):
@@ -146,38 +150,39 @@ def map_figure(found: Stability) -> Figure:
             series.append(Rule(value=value, upright=upright, role="ink"))
     panel = Panel(
         series=tuple(series),
-        x=axis(*_axis_words(wide), [x], margin=0.0, count=8),
-        y=axis(*_axis_words(high), [y], margin=0.0, count=6),
+        x=_axis(wide, count=8),
+        y=_axis(high, count=6),
     )
+    crossed = all(one.here is not None and one.values[0] <= one.here <= one.values[-1] for one in (wide, high))
+    source = _("Floquet multipliers of the exact equations at every point")
     return Figure(
         name="stability-map",
-        title=_("Where torsional vibration grows"),
-        sentence=_("{share} of the map is unstable; the lines cross where the drive stands.").format(
-            share=percent(found.unstable_share)
-        ),
-        source=_("Floquet multipliers of the exact equations at every point") + "".join(_cautions(found, wide, x)),
+        title=_("Stability map of torsional vibration"),
+        sentence=_("The lines cross at the operating point.") if crossed else "",
+        source=Joined([source, *_cautions(found, wide)], between=""),
         rows=(Row(panels=(panel,), height=3.0),),
     )
 
 
-def _cautions(found: Stability, wide: str, x: Array) -> Iterator[str]:
+def _axis(along: MapAxis, *, count: int) -> Axis:
+    return axis(along.label, along.unit, [along.values], dimension=along.dimension, margin=0.0, count=count)
+
+
+def _cautions(found: Stability, wide: MapAxis) -> Iterator[Text]:
     """Yield what a reader of a map has to know to read it rightly."""
-    label, unit = _axis_words(wide)
-    step = significant(float(np.max(np.diff(x), initial=0.0)), 2)
-    yield _("; points {step} {unit} apart, zones narrower than that may be missed").format(
-        step=step, unit=unit or label
-    )
+    step = wide.quantity(float(np.max(np.diff(wide.values), initial=0.0)), 2)
+    yield say(_("; points {step} apart, narrower zones may be missed"), step=step)
     if np.any(found.verdict == Verdict.UNKNOWN):
         yield _("; not known: no steady motion was found")
     if plays(found) and np.any(found.verdict == Verdict.UNSTABLE):
         yield _(
-            "; with play, steady running also ends where the torque changes its sign and the play opens: red there is "
-            "rattling, whatever zone is nearest"
+            "; with backlash, steady running also ends where the torque changes its sign and the backlash opens: red "
+            "there is rattling, whatever zone is nearest"
         )
 
 
 def plays(found: Stability) -> bool:
-    """Tell whether anything has play that may open."""
+    """Tell whether anything has backlash that may open."""
     return bool(np.any(found.train.model.backlash > 0.0))
 
 
@@ -217,11 +222,6 @@ def _meets(x: Array, begin: float, width: float, line: float | None) -> int:
     """Return how badly a word from a place on is set: 2 where it leaves the map, 1 where it crosses a line."""
     low, high = sorted((begin, begin + width))
     return 2 * int(low < x[0] or high > x[-1]) + int(line is not None and low < line < high)
-
-
-def _here(found: Stability, path: str) -> float | None:
-    """Return the value of the drive itself on an axis."""
-    return dict(found.here).get(path)
 
 
 def _cells(x: Array, y: Array, mask: Array, role: str, opacity: float, word: str) -> list[Series]:

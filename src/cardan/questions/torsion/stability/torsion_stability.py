@@ -67,6 +67,8 @@ class Stability:
         Values of the drive itself on the axes, where it has one.
     cancelled : bool
         Whether the work was stopped; what was not done is unknown.
+    units : tuple of (str, str)
+        Dimension and unit of the values on every axis, empty where they have none.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -81,6 +83,7 @@ class Stability:
     multipliers: Array
     here: tuple[tuple[str, float], ...] = ()
     cancelled: bool = False
+    units: tuple[tuple[str, str], ...] = ()
 
     @property
     def stable(self) -> Array:
@@ -165,7 +168,15 @@ def stability(
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
-    return Stability(over=axes, train=variants.train, zone=zone, here=variants.here, cancelled=stopped, **found)
+    return Stability(
+        over=axes,
+        train=variants.train,
+        zone=zone,
+        here=variants.here,
+        cancelled=stopped,
+        units=variants.units,
+        **found,
+    )
 
 
 def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
@@ -248,6 +259,12 @@ class _Variants:
         self.others = [k for k in range(len(axes)) if k != self.speeding]
         largest = float(np.max(given_chain(drive).bend, initial=0.0)) / deg
         own = {path: largest if path == BEND else read(drive, path) for path, _values in axes}
+        self.units = tuple(
+            ("angle", "deg")
+            if spot is None
+            else (spot.field.key.dimension or "", spot.field.unit(spot.spelling) if spot.field.key.dimension else "")
+            for spot in spots
+        )
         self.here = tuple((path, float(value)) for path, value in own.items() if isinstance(value, float | int))
         self.train, _model = loaded_model(drive, drive.duty, self.speeds[:1], pieces=pieces)
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Band, Bars, Curve, Dash, Figure, Panel, Row
 from cardan.figures.palette import DASHES, shaft
 from cardan.figures.turning import across
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain
@@ -19,10 +20,10 @@ from cardan.texts import _
 from cardan.units import deg, rpm
 
 from .run_stability import Verdict
-from .torsion_response import TorsionResponse, level
+from .torsion_response import TorsionResponse
 
 CURVES = 6
-"""Elements with a curve of their own, those that swing most."""
+"""Elements with a curve of their own, those of the largest alternating torques."""
 
 ORDERS = 4
 """Orders with a curve of their own, the strongest."""
@@ -45,7 +46,7 @@ def response_figures(found: TorsionResponse) -> tuple[Figure, ...]:
 
 
 def worst_elements(swing: Array) -> list[int]:
-    """Return the elements that swing most, the worst first."""
+    """Return the elements with the largest alternating torques, the worst first."""
     return [int(e) for e in np.argsort(-np.nan_to_num(swing), kind="stable")[:CURVES]]
 
 
@@ -59,7 +60,7 @@ def looks(train: TorsionalTrain, elements: Sequence[int]) -> Iterator[tuple[int,
 
 
 def response_figure(found: TorsionResponse) -> Figure:
-    """Return the torques over a turn and the orders of the one that swings most.
+    """Return the torques over a turn and the orders of the one that alternates most.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ def response_figure(found: TorsionResponse) -> Figure:
     turn = max(2.0 * math.pi, found.steady.period)
     angle = np.linspace(0.0, turn, 721)
     traces = found.steady.at(angle)
-    names, worst = found.train.element_names, worst_elements(found.swing)
+    names, worst = found.train.elements, worst_elements(found.swing)
     torque = np.asarray(traces.torque)
     over = Panel(
         series=tuple(
@@ -77,7 +78,7 @@ def response_figure(found: TorsionResponse) -> Figure:
             for e, role, dash in looks(found.train, worst)
         ),
         x=across(angle / deg, named=True),
-        y=axis(_("Torque"), "N·m", [torque[:, worst]], count=5),
+        y=axis(_("Torque"), "Nm", [torque[:, worst]], dimension="torque", count=5),
     )
     e = worst[0]
     order, amplitude = orders_of(found, e)
@@ -90,24 +91,36 @@ def response_figure(found: TorsionResponse) -> Figure:
     bars = Panel(
         series=(
             Bars(
-                at=at, size=amplitude[kept], roles=("accent",), texts=tuple(significant(amplitude[k], 3) for k in kept)
+                at=at,
+                size=amplitude[kept],
+                roles=("accent",),
+                texts=tuple(say("{torque:bare}", torque=_torque(amplitude[k])) for k in kept),
             ),
         ),
         x=Axis(
-            label=_("order of the input shaft, in {name}").format(name=names[e]),
+            label=say(_("order of the input shaft, in {name}"), name=names[e]),
             low=-0.6,
             high=max(len(kept), 1) - 0.4,
             ticks=tuple(at),
             texts=words,
             grid=False,
         ),
-        y=Axis(label=_("amplitude"), unit="N·m", low=0.0, high=1.2 * top, ticks=ticks, texts=written(ticks)),
+        y=Axis(
+            label=_("Amplitude"),
+            unit="Nm",
+            dimension="torque",
+            low=0.0,
+            high=1.2 * top,
+            ticks=ticks,
+            texts=written(ticks),
+        ),
     )
+    source = _("periodic solution of the exact equations of motion")
     return Figure(
         name="torsion-response",
-        title=_("Torques while it runs at {speed} rpm").format(speed=significant(abs(float(found.speed)) / rpm)),
-        sentence=_response_sentence(found, e, names[e]),
-        source=_("periodic solution of the exact equations of motion") + _left_out(found, worst) + _beside(found),
+        title=say(_("Torques in steady running at {speed}"), speed=_speed(abs(float(found.speed)))),
+        sentence="",
+        source=Joined([source, _left_out(found, worst), _beside(found)], between=""),
         rows=(Row(panels=(over,), height=2.0), Row(panels=(bars,), height=1.2)),
     )
 
@@ -130,35 +143,28 @@ def _left_out(found: TorsionResponse, shown: Sequence[int]) -> str:
     every = len(found.train.element_names)
     if len(shown) == every:
         return ""
-    return _("; of {all} torques the {shown} that swing most").format(all=every, shown=len(shown))
+    return _("; the {shown} largest alternating torques of {all}").format(all=every, shown=len(shown))
 
 
-def _beside(found: TorsionResponse) -> str:
+def _beside(found: TorsionResponse) -> Text:
     """Return what the curves over the turn leave out: torques that do not repeat with it."""
-    said = ", ".join(
-        _("order {order}, ± {torque} N·m at most").format(
-            order=f"{one.order:g}", torque=significant(float(np.max(np.abs(one.torque))), 3)
-        )
+    if not found.apart:
+        return ""
+    text = _("order {order}, at most ±{torque}")
+    parts = [
+        say(text, order=Quantity(one.order, trim=True), torque=_torque(float(np.max(np.abs(one.torque)))))
         for one in found.apart
-    )
-    return (
-        _("; the curves leave out what does not repeat within two turns: {orders}").format(orders=said) if said else ""
-    )
+    ]
+    text = _("; the curves leave out what does not repeat within two turns: {orders}")
+    return say(text, orders=Joined(parts, between="; "))
 
 
-def _response_sentence(found: TorsionResponse, e: int, name: str) -> str:
-    stable = {
-        Verdict.STABLE: _("small disturbances die out"),
-        Verdict.NEUTRAL: _("small disturbances neither grow nor die out"),
-        Verdict.UNSTABLE: _("small disturbances grow: this motion does not last"),
-    }.get(Verdict(int(found.floquet.verdict)), _("its stability is not known"))
-    text = _("The torque in {name} swings by ± {swing} N·m about {mean} N·m; {stable}.")
-    return text.format(
-        name=name,
-        swing=significant(float(found.swing[e]), 3),
-        mean=significant(level(float(found.steady.torque.mean[e]), float(found.swing[e])), 3),
-        stable=stable,
-    )
+def _torque(value: float) -> Quantity:
+    return Quantity(float(value), "torque", 3)
+
+
+def _speed(value: float, digits: int = 4) -> Quantity:
+    return Quantity(float(value), "angular_speed", digits)
 
 
 def sweep_figure(found: TorsionResponse) -> Figure:
@@ -170,7 +176,7 @@ def sweep_figure(found: TorsionResponse) -> Figure:
         Over speeds.
     """
     speed = np.abs(found.speed) / rpm
-    names = found.train.element_names
+    names = found.train.elements
     peak = np.nanmax(np.where(np.isfinite(found.swing), found.swing, np.nan), axis=0, initial=0.0)
     worst = worst_elements(peak)
     shaded = tuple(unstable_bands(speed, found.floquet.verdict))
@@ -183,7 +189,7 @@ def sweep_figure(found: TorsionResponse) -> Figure:
             ),
         ),
         x=axis("", "", [speed], margin=0.0, count=8),
-        y=axis(_("Swing of the torque, ±"), "N·m", [found.swing[:, worst]], include=(0.0,), count=5),
+        y=axis(_("Alternating torque, ±"), "Nm", [found.swing[:, worst]], dimension="torque", include=(0.0,), count=5),
     )
     e = worst[0]
     order, amplitude = orders_of(found, e)
@@ -203,15 +209,23 @@ def sweep_figure(found: TorsionResponse) -> Figure:
                 for n, k in enumerate(strongest)
             ),
         ),
-        x=axis(_("input speed"), "rpm", [speed], margin=0.0, count=8),
-        y=axis(_("Orders of {name}").format(name=names[e]), "N·m", [amplitude[:, strongest]], include=(0.0,), count=4),
+        x=axis(_("input speed"), "rpm", [speed], dimension="angular_speed", margin=0.0, count=8),
+        y=replace(
+            axis("", "Nm", [amplitude[:, strongest]], dimension="torque", include=(0.0,), count=4),
+            label=say(_("Orders of {name}, ±"), name=names[e]),
+        ),
     )
     return Figure(
         name="torsion-sweep",
         title=_("Torsional vibration over the speed"),
-        sentence=_sweep_sentence(found, speed, e, names[e]),
-        source=_("periodic solutions of the exact equations of motion, judged by their Floquet multipliers")
-        + _left_out(found, worst),
+        sentence=_("Shaded speeds are unstable.") if shaded else "",
+        source=Joined(
+            [
+                _("periodic solutions of the exact equations of motion, judged by their Floquet multipliers"),
+                _left_out(found, worst),
+            ],
+            between="",
+        ),
         rows=(Row(panels=(swings,), height=2.0), Row(panels=(orders,), height=1.6)),
     )
 
@@ -237,18 +251,8 @@ def runs(mask: Array) -> Iterator[tuple[int, int]]:
         yield int(first), int(behind) - 1
 
 
-def _sweep_sentence(found: TorsionResponse, speed: Array, e: int, name: str) -> str:
-    swing = found.swing[:, e]
-    k = int(foremost(np.where(np.isfinite(swing), swing, -1.0)))
-    text = _("The torque in {name} swings most at {speed} rpm, by ± {swing} N·m.")
-    said = text.format(name=name, speed=significant(float(speed[k]), 3), swing=significant(float(swing[k]), 3))
-    if np.any(found.floquet.verdict == Verdict.UNSTABLE):
-        said += " " + _("Shaded speeds are unstable.")
-    return said
-
-
 def waterfall_figure(found: TorsionResponse) -> Figure:
-    """Return the orders of the torque that swings most at some speeds, one behind the other.
+    """Return the orders of the largest alternating torque at some speeds, one behind the other.
 
     Parameters
     ----------
@@ -283,17 +287,25 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
             ticks=ticks,
             texts=tuple(f"{v:g}" for v in ticks),
         ),
-        y=axis(_("input speed"), "rpm", [speed], include=(max(float(np.max(one.y)) for one in curves),), count=8),
+        y=axis(
+            _("input speed"),
+            "rpm",
+            [speed],
+            dimension="angular_speed",
+            include=(max(float(np.max(one.y)) for one in curves),),
+            count=8,
+        ),
     )
     tallest = np.unravel_index(int(foremost(amplitude.ravel())), amplitude.shape)
-    text = _("The tallest peak is order {order} at {speed} rpm, ± {torque} N·m.")
+    text = _("The tallest peak is order {order} at {speed}, ±{torque}.")
     return Figure(
         name="torsion-waterfall",
-        title=_("Orders of the torque in {name}").format(name=found.train.element_names[e]),
-        sentence=text.format(
-            order=f"{order[tallest[1]]:g}",
-            speed=significant(float(speed[tallest[0]]), 3),
-            torque=significant(float(amplitude[tallest]), 3),
+        title=say(_("Orders of the torque in {name}"), name=found.train.elements[e]),
+        sentence=say(
+            text,
+            order=Quantity(float(order[tallest[1]]), trim=True),
+            speed=_speed(abs(float(found.speed[tallest[0]])), 3),
+            torque=_torque(float(amplitude[tallest])),
         ),
         source=_("harmonics of the periodic solutions; heights to one scale"),
         rows=(Row(panels=(panel,), height=3.0),),

@@ -32,6 +32,11 @@ class Verdict(IntEnum):
     """No steady motion was found."""
 
 
+def verdict_words() -> tuple[str, ...]:
+    """Return what people are told of each `Verdict`."""
+    return (_("stable"), _("neutral"), _("unstable"), _("unknown"))
+
+
 class Kind(IntEnum):
     """How the disturbance that dies out slowest, or grows fastest, swings."""
 

@@ -7,7 +7,6 @@ import numpy as np
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row
 from cardan.figures.palette import DASHES
-from cardan.figures.wording import significant
 from cardan.maths.ties import foremost
 from cardan.questions.torsion.steady.figure import looks, worst_elements
 from cardan.texts import _
@@ -30,20 +29,21 @@ def transient_figure(found: Transient) -> Figure:
         Of one drive.
     """
     motion = found.motion
-    names = found.train.element_names
+    names = found.train.elements
     ends = motion.extremes
     swing = np.nan_to_num(ends.torque_high - ends.torque_low)
     worst = worst_elements(swing)
     line = list(found.train.line)
     liveliest = int(foremost(np.nan_to_num(ends.speed_high - ends.speed_low)))
-    stations = list(dict.fromkeys([line[0], line[-1], liveliest]))
+    drawn = list(dict.fromkeys([line[0], line[-1], liveliest]))
+    stations = found.train.station_names
     torques = Panel(
         series=tuple(
             Curve(x=motion.times, y=motion.torque[:, e], role=role, dash=dash, width=1.0, label=names[e])
             for e, role, dash in looks(found.train, worst)
         ),
         x=axis("", "", [motion.times], margin=0.0, count=8),
-        y=axis(_("Torque"), "N·m", [motion.torque[:, worst]], count=5),
+        y=axis(_("Torque"), "Nm", [motion.torque[:, worst]], dimension="torque", count=5),
     )
     speeds = Panel(
         series=tuple(
@@ -53,24 +53,17 @@ def transient_figure(found: Transient) -> Figure:
                 role="accent" if n else "ink",
                 dash=DASHES[n % 4],
                 width=1.0,
-                label=found.train.model.names[k],
+                label=stations[k],
             )
-            for n, k in enumerate(stations)
+            for n, k in enumerate(drawn)
         ),
-        x=axis(_("time"), "s", [motion.times], margin=0.0, count=8),
-        y=axis(_("Speed"), "rpm", [motion.speed[:, stations] / rpm], count=4),
+        x=axis(_("time"), "s", [motion.times], dimension="time", margin=0.0, count=8),
+        y=axis(_("Speed"), "rpm", [motion.speed[:, drawn] / rpm], dimension="angular_speed", count=4),
     )
-    e = worst[0]
-    high = abs(float(ends.torque_high[e])) >= abs(float(ends.torque_low[e]))
-    text = _("The torque in {name} reaches {torque} N·m after {time} s.")
     return Figure(
         name="torsion-transient",
         title=_("Torques and speeds in time"),
-        sentence=text.format(
-            name=names[e],
-            torque=significant(float(ends.torque_high[e] if high else ends.torque_low[e]), 3),
-            time=significant(float(ends.torque_high_time[e] if high else ends.torque_low_time[e]), 3),
-        ),
+        sentence="",
         source=_("exact equations of motion in steps of one length")
         if motion.method == "fixed steps"
         else _("exact equations of motion, steps held to their error"),

@@ -1,0 +1,342 @@
+"""What there is to say of torsional modes: natural frequencies, what excites them, shapes, Campbell crossings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
+from cardan.answers.checks import closely
+from cardan.answers.quantity import Joined, Quantity, Text, listed, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.maths.ties import alike
+from cardan.texts import _, plural
+
+from .figure import modes_figures
+from .torsion import Crossing, Node, TorsionModes
+from .torsion import torsion_modes as ask
+from .wording import assumptions
+
+__all__ = ["answer", "ask", "lacking"]
+
+SHOWN = 4
+"""Modes that people are shown."""
+
+CROSSINGS = 12
+"""Crossings that people are shown."""
+
+FAR = 3.0
+"""Crossings at speeds so many times above the operating range are left out for people."""
+
+NEAR = 0.1
+"""Speeds nearer than this share are too near."""
+
+ALARMS = 2
+"""Crossings on the first page."""
+
+AT = 0.005
+"""Share of an element within which a node counts as at its end."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for torsional vibration."""
+    some = bool(drive.stations) or any(shaft.stiffness is not None for shaft in drive.shafts)
+    return absent((some, "stations", "shafts[1].stiffness"))
+
+
+def answer(drive: Drive, result: TorsionModes) -> Answer:
+    """Return what there is to say of the torsional modes of a drive."""
+    tone, said = modes_said(drive, result)
+    return Answer(
+        name="torsion-modes",
+        title=_("Torsional modes"),
+        sentence=Joined([said, "."], between=""),
+        tone=tone,
+        figures=lambda: modes_figures(result),
+        tables=tuple(_tables(drive, result)),
+        remarks=tuple(_remarks(drive, result)),
+        keys=tuple(_keys(result)),
+        facts=_facts(result),
+        full=lambda: _everything(result),
+    )
+
+
+def modes_said(drive: Drive, found: TorsionModes) -> tuple[Tone, Text]:
+    """Return what the modes come to, without the full stop, and how good that is."""
+    text = _(
+        "the first torsional natural frequency is {frequency}; joints excite it at {second} (order 2) and at "
+        "{principal} (parametric resonance)"
+    )
+    first = say(
+        text,
+        frequency=Quantity(float(found.omega[0]), "frequency", 3),
+        second=_speed(found.order2_speed[0], 3),
+        principal=_speed(found.parametric_speed[0], 3),
+    )
+    tone, more = _judged(drive, found)
+    return tone, Joined([first, more], between="; ")
+
+
+def _judged(drive: Drive, found: TorsionModes) -> tuple[Tone, Text]:
+    """Return what that means for the operating range, nothing where there is none."""
+    used = _used(drive)
+    if used is None:
+        return "plain", ""
+    if growing := _unstable(found, used):
+        text = _("mode {mode} is parametrically unstable in the operating range")
+        return "failed", say(text, mode=growing[0] + 1)
+    reach = used[0] * (1.0 - NEAR), used[1] * (1.0 + NEAR)
+    if near := _unstable(found, reach):
+        text = _("mode {mode} is parametrically unstable from {low:bare} to {high}, near the operating range")
+        low, high = (_speed(one) for one in found.zone[near[0]])
+        return "warning", say(text, mode=near[0] + 1, low=low, high=high)
+    if count := sum(reach[0] <= one.speed <= reach[1] for one in found.crossings):
+        text = plural(
+            "{count} Campbell crossing in or near the operating range",
+            "{count} Campbell crossings in or near the operating range",
+            count,
+        )
+        return "warning", text.format(count=count)
+    return "good", _("no Campbell crossing in the operating range")
+
+
+def _speed(value: float, digits: int = 4) -> Quantity:
+    return Quantity(float(value), "angular_speed", digits)
+
+
+def _used(drive: Drive) -> tuple[float, float] | None:
+    """Return lowest and highest speed in use [rad/s]."""
+    if drive.duty.speed_range is not None:
+        return drive.duty.speed_range
+    return None if drive.duty.speed is None else (abs(drive.duty.speed), abs(drive.duty.speed))
+
+
+def _unstable(found: TorsionModes, used: tuple[float, float]) -> list[int]:
+    """Return the modes whose zone of growth overlaps a range of speeds."""
+    return [k for k, zone in enumerate(found.zone) if zone[0] <= used[1] and used[0] <= zone[1]]
+
+
+def _tables(drive: Drive, found: TorsionModes) -> Iterator[Table]:
+    yield _mode_table(drive, found)
+    yield _joint_table(drive, found)
+    yield _shape_table(found)
+    if found.crossings:
+        yield _crossing_table(found)
+
+
+def _mode_table(drive: Drive, found: TorsionModes) -> Table:
+    count, used = min(SHOWN, len(found.omega)), _used(drive)
+    grows = [] if used is None else _unstable(found, used)
+    low, high = ([None if one != one else one for one in column] for column in found.zone[:count].T.tolist())
+    return Table(
+        title=_("Natural frequencies, all joints straight"),
+        columns=(
+            Column(key="", heading=_("mode"), values=list(range(1, count + 1))),
+            Column(key="", heading=_("frequency"), values=found.omega[:count], dimension="frequency"),
+            Column(key="", heading=_("order 2"), values=found.order2_speed[:count], dimension="angular_speed"),
+            Column(key="", heading=_("parametric"), values=found.parametric_speed[:count], dimension="angular_speed"),
+            Column(key="", heading=_("modulation"), values=found.modulation[:count], dimension="share", digits=3),
+            Column(key="", heading="2ζ", values=2.0 * found.damping_ratio[:count], dimension="share", digits=3),
+            Column(key="", heading=_("unstable from"), values=low, dimension="angular_speed"),
+            Column(key="", heading=_("to"), values=high, dimension="angular_speed"),
+        ),
+        tones=["failed" if k in grows else "plain" for k in range(count)],
+        note=_(
+            "Joints modulate the stiffness of a mode twice a turn. About Ω = ω a mode is unstable where the modulation "
+            "exceeds the damping 2ζ (parametric resonance)."
+        ),
+    )
+
+
+def _mode_columns(values: np.ndarray) -> list[Column]:
+    """Return a column for each mode that people are shown, of values (m, ...)."""
+    return [
+        Column(key="", heading=_("mode {number}").format(number=k), values=row + 0.0, decimals=3)
+        for k, row in enumerate(values[:SHOWN], 1)
+    ]
+
+
+def _joint_table(drive: Drive, found: TorsionModes) -> Table:
+    names = heads(_("joint"), [joint.name for joint in drive.joints])
+    return Table(
+        title=_("Distance of each joint from the node of a mode, κ"),
+        columns=(names[0], *_mode_columns(found.joint_weight)),
+        note=_("A joint in the node of a mode, κ = 0, excites no parametric vibration of it, whatever its angle."),
+    )
+
+
+def _shape_table(found: TorsionModes) -> Table:
+    train = found.train
+    place = Column(key="", heading=_("at"), values=train.position, dimension="length", decimals=0)
+    return Table(
+        title=_("Mode shapes, largest amplitude 1"),
+        columns=(
+            Column(key="", heading=_("station"), values=list(train.station_names), left=True),
+            *([place] if train.to_scale else []),
+            *_mode_columns(found.shape),
+        ),
+    )
+
+
+def _crossing_table(found: TorsionModes) -> Table:
+    used = found.speed_range[1] if found.speed_range is not None else found.speed
+    near = [one for one in found.crossings if not used or one.speed < FAR * used]
+    shown = (near or list(found.crossings))[:CROSSINGS]
+    return Table(
+        title=_("Campbell crossings: speeds at which an order meets a mode"),
+        columns=(
+            Column(key="", heading=_("speed"), values=[one.speed for one in shown], dimension="angular_speed"),
+            Column(key="", heading=_("order"), values=[_order(one.order) for one in shown]),
+            Column(key="", heading=_("mode"), values=[one.mode for one in shown]),
+            Column(key="", heading=_("in use"), values=[one.inside for one in shown]),
+            Column(key="", heading=_("excited by"), values=[one.cause for one in shown], left=True, wrap=True),
+        ),
+        tones=["warning" if one.inside else "plain" for one in shown],
+    )
+
+
+def _order(order: float) -> Quantity:
+    return Quantity(order, trim=True)
+
+
+def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
+    yield from _alarms(found)
+    yield from (Remark(text=_node(found, node)) for node in found.nodes[0])
+    if found.joint_weight.shape[-1] > 1:
+        nearest = np.flatnonzero(alike(np.abs(found.joint_weight[0]), least=True, scale=1.0)) + 1
+        text = _("Joint {number} is nearest to the node of mode 1.")
+        if len(nearest) > 1:
+            text = _("Joints {number} are equally near to the node of mode 1.")
+        yield Remark(text=text.format(number=listed(nearest.tolist())))
+    if not found.train.model.free:
+        text = _('The input is held at uniform speed, a node of every mode; input = "free" lets it vibrate.')
+        yield Remark(text=text)
+    yield from assumptions(found.train)
+    text = _("Checked: the torques of every mode balance {closely}.")
+    yield Remark(text=text.format(closely=closely(found.residual)), depth="full")
+    yield Remark(
+        text=_("Alternating torques at a speed:"), command=("cardan", "torsion", "response", FILE), tone="next"
+    )
+
+
+def _alarms(found: TorsionModes) -> Iterator[Remark]:
+    """Yield what must not be overlooked on the first page; the tables of the answer say it too."""
+    if found.speed_range is None:
+        return
+    for k in _unstable(found, found.speed_range)[:SHOWN]:
+        text = _("Torsional mode {mode} is parametrically unstable from {low:bare} to {high}, in the operating range.")
+        low, high = (_speed(one, 3) for one in found.zone[k])
+        yield Remark(text=say(text, mode=k + 1, low=low, high=high), tone="failed", depth="data", alarm=True)
+    met = [one for one in found.crossings if one.inside and one.mode <= SHOWN]
+    for one in met[:ALARMS]:
+        text = _("Order {order} ({cause}) meets torsional mode {mode} at {speed}, in the operating range.")
+        said = say(text, order=_order(one.order), cause=one.cause, mode=one.mode, speed=_speed(one.speed, 3))
+        yield Remark(text=said, tone="warning", depth="data", alarm=True)
+
+
+def _node(found: TorsionModes, node: Node) -> Text:
+    """Return where mode 1 stands still."""
+    names = found.train.station_names
+    at = node.before if node.share < AT else node.behind if node.share > 1.0 - AT else None
+    if found.train.to_scale:
+        text = _("Mode 1 has a node at {place} from the input end, between {one} and {other}.")
+        if at is not None:
+            text = _("Mode 1 has a node at {place} from the input end, at {one}.")
+    else:
+        text = _("Mode 1 has a node {share} of the way from {one} to {other}.")
+        if at is not None:
+            text = _("Mode 1 has a node at {one}.")
+    return say(
+        text,
+        place=Quantity(node.position, "length", 3),
+        share=Quantity(node.share, "share", 2),
+        one=names[node.before if at is None else at],
+        other=names[node.behind],
+    )
+
+
+def _keys(found: TorsionModes) -> Iterator[KeyFigure]:
+    first = Quantity(float(found.omega[0]), "frequency")
+    yield KeyFigure(name="torsional_frequency", title=_("first torsional natural frequency"), value=first, better="")
+    second = _speed(found.order2_speed[0])
+    title = _("speed at which order 2 meets the first torsional mode")
+    yield KeyFigure(name="torsional_order_2", title=title, value=second, better="")
+
+
+def _everything(found: TorsionModes) -> Table:
+    """Return the modes, one a row, with their shapes."""
+    weight, shape = found.joint_weight.T, found.shape.T
+    return Table(
+        columns=(
+            Column(key="mode", values=np.arange(1, len(found.omega) + 1)),
+            Column(key="frequency", values=found.omega, dimension="frequency"),
+            Column(key="order_2", values=found.order2_speed, dimension="angular_speed"),
+            Column(key="principal", values=found.parametric_speed, dimension="angular_speed"),
+            Column(key="modulation", values=found.modulation),
+            Column(key="damping_ratio", values=found.damping_ratio),
+            Column(key="zone_low", values=found.zone[:, 0], dimension="angular_speed"),
+            Column(key="zone_high", values=found.zone[:, 1], dimension="angular_speed"),
+            *(Column(key=f"joint_{i}_weight", values=one) for i, one in enumerate(weight, 1)),
+            *(Column(key=f"station_{k}", values=one) for k, one in enumerate(shape, 1)),
+        )
+    )
+
+
+def _facts(found: TorsionModes) -> dict[str, Any]:
+    train, model = found.train, found.train.model
+    stations, springs = train.station_names, np.asarray(model.stiffness)
+    return {
+        "input": "free" if model.free else "uniform",
+        "stations": [
+            {
+                "name": name,
+                "shaft": model.shaft[k] + 1,
+                "position": Quantity(float(train.position[k]), "length"),
+                "inertia": Quantity(float(model.inertia[k]), "inertia"),
+            }
+            for k, name in enumerate(stations)
+        ],
+        "elements": [
+            {
+                "from": stations[a],
+                "to": stations[b],
+                "stiffness": Quantity(springs[..., e], "turning_stiffness"),
+                "damping": Quantity(float(model.damping[e]), "turning_damping"),
+                "loss_factor": float(model.loss_factor[e]),
+                "backlash": Quantity(float(model.backlash[e]), "angle"),
+            }
+            for e, (a, b) in enumerate(model.elements)
+        ],
+        "modes": [_mode(found, k) for k in range(len(found.omega))],
+        "crossings": [_crossing(one) for one in found.crossings],
+        "residual": found.residual,
+        "assumed": train.assumed,
+    }
+
+
+def _mode(found: TorsionModes, k: int) -> dict[str, Any]:
+    return {
+        "number": k + 1,
+        "frequency": Quantity(float(found.omega[k]), "frequency"),
+        "order_2": _speed(found.order2_speed[k]),
+        "principal": _speed(found.parametric_speed[k]),
+        "shape": found.shape[k],
+        "joint_weight": found.joint_weight[k],
+        "modulation": float(found.modulation[k]),
+        "damping_ratio": float(found.damping_ratio[k]),
+        "zone": Quantity(found.zone[k], "angular_speed"),
+        "nodes": Quantity([node.position for node in found.nodes[k]], "length"),
+    }
+
+
+def _crossing(one: Crossing) -> dict[str, Any]:
+    return {
+        "speed": _speed(one.speed),
+        "order": one.order,
+        "mode": one.mode,
+        "cause": one.cause,
+        "in_use": one.inside,
+    }

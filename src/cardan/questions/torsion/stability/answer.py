@@ -1,0 +1,260 @@
+"""What there is to say of parametric stability: of steady running at a speed, over a quantity, or on a map of two."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.drive.models.chain import given_chain
+from cardan.questions.torsion.model.answer import lacking as lacking_modes
+from cardan.questions.torsion.model.torsional_train import torsional_train
+from cardan.questions.torsion.model.wording import assumptions, ranges
+from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
+from cardan.texts import _
+from cardan.units import deg, rpm
+
+from .figure import plays, stability_figures
+from .map_axes import SPEED, MapAxis, map_axes
+from .torsion_stability import BEND, Stability, stability
+
+__all__ = ["answer", "ask", "lacking", "otherwise"]
+
+ACROSS, UP = 61, 14
+"""Speeds and joint angles of a map."""
+
+COARSE_ACROSS, COARSE_UP = 21, 7
+"""The same of a drive with backlash: a point at which that opens takes a hundred times as long."""
+
+LITTLE, WIDEST = math.radians(0.5), math.radians(45.0)
+"""No map of drives with smaller joint angles; what stands for the angle of one with a larger one."""
+
+NAMED = 3
+"""Zones named in the sentence on a map."""
+
+SIGNS = ("·", "~", "#", " ")
+"""A point of a map in the terminal, by `Verdict`."""
+
+WIDE, HIGH = 61, 17
+"""Points of a map in the terminal at most."""
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for a map of stability."""
+    return (*lacking_modes(drive), *absent((bool(drive.duty.speed), "duty.speed")))
+
+
+def otherwise(_drive: Drive) -> str:
+    """Return why there is no map although nothing is missing."""
+    return _("The joints are all but straight: they excite no parametric vibration.")
+
+
+def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> Stability | None:
+    """Return where torsional vibration is stable, about the speed and the joint angles of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+        With a speed.
+    progress : function, optional
+        Told the share done; answering "stop" ends the work.
+
+    Returns
+    -------
+    Stability or None
+        None where all joints are all but straight.
+    """
+    bend = float(np.max(given_chain(drive).bend))
+    if not drive.duty.speed or bend < LITTLE:
+        return None
+    runs = abs(drive.duty.speed) / rpm
+    loose = bool(np.any(torsional_train(drive, loaded=False).model.backlash > 0.0))
+    across, up = (COARSE_ACROSS, COARSE_UP) if loose else (ACROSS, UP)
+    speeds = np.linspace(0.5 * runs, 1.5 * runs, across)
+    bends = np.linspace(0.3, 1.6, up) * min(bend, WIDEST) / deg
+    return stability(drive, over={"duty.speed_rpm": speeds, BEND: bends}, progress=progress)
+
+
+def answer(_drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
+    """Return what there is to say of stability.
+
+    Parameters
+    ----------
+    _drive : Drive
+        What is asked about.
+    result : Stability
+        Of a point, over one path or over two.
+    signs : bool
+        Draw a map in letters, for a terminal, and as a figure even where nothing is unstable.
+    """
+    axes = map_axes(result)
+    tone, said = _mapped(result, axes) if axes else _point(result)
+    drawn = signs or not axes or bool(np.any(result.verdict != Verdict.STABLE))
+    return Answer(
+        name="stability",
+        title=_("Parametric stability"),
+        sentence=said,
+        tone=tone,
+        figures=lambda: stability_figures(result) if drawn else (),
+        tables=(_picture(result, axes),) if signs and len(axes) == 2 else (),
+        remarks=tuple(_remarks(result, axes, signs=signs)),
+        facts=_facts(result),
+        full=lambda: _everything(result, axes),
+        code=1 if not axes and tone == "failed" else 0,
+    )
+
+
+def _speed(value: Any) -> Quantity:
+    return Quantity(abs(float(value)), "angular_speed")
+
+
+def _point(found: Stability) -> tuple[Tone, Text]:
+    """Return what becomes of vibration at one point."""
+    speed, verdict, rate = _speed(found.speed), int(found.verdict), float(found.growth_rate)
+    time = Quantity(math.log(10.0) / abs(rate) if rate else math.inf, "time", 3)
+    if verdict == Verdict.UNKNOWN:
+        return "failed", say(_("no steady motion was found at {speed}."), speed=speed)
+    if verdict == Verdict.UNSTABLE:
+        text = _("unstable at {speed}: vibration grows tenfold in {time} ({zone}, order {order}).")
+        digits = 3 if int(found.kind) == Kind.COMBINATION else 6
+        order = Quantity(float(found.order), digits=digits, trim=True)
+        return "failed", say(text, speed=speed, time=time, zone=found.zone.name(), order=order)
+    if verdict == Verdict.NEUTRAL:
+        return "warning", say(_("neutral at {speed}: vibration neither grows nor decays."), speed=speed)
+    return "good", say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
+
+
+def _mapped(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
+    """Return what becomes of vibration over a path or two."""
+    unstable = found.verdict == Verdict.UNSTABLE
+    if not np.any(unstable):
+        return _calm(found, axes)
+    if len(axes) == 1:
+        (over,) = axes
+        where = ranges(over.si, unstable, over.dimension, over.unit)
+        if over.key == SPEED:
+            return "failed", say(_("unstable at {where}."), where=where)
+        return "failed", say(_("unstable range: {what} {where}."), what=over.label, where=where)
+    named = np.argwhere(unstable & (found.zone.modes[..., 0] > 0)).tolist()
+    zones = sorted({found.zone.name(tuple(index)) for index in named})
+    said = ", ".join(zones[:NAMED]) + (_(" and others") if len(zones) > NAMED else "")
+    text = _("{share} of the map is unstable: {zones}.") if said else _("{share} of the map is unstable.")
+    return "failed", say(text, share=Quantity(found.unstable_share, "share"), zones=said)
+
+
+def _calm(found: Stability, axes: tuple[MapAxis, ...]) -> tuple[Tone, Text]:
+    """Return what is said where no point is known to be unstable."""
+    if np.all(found.verdict == Verdict.STABLE):
+        return "good", say(_("stable throughout: {where}."), where=Joined([_ends(one) for one in axes], between="; "))
+    if np.all(found.verdict == Verdict.UNKNOWN):
+        return "failed", _("no steady motion was found.")
+    neutral, lost = (int(np.sum(found.verdict == one)) for one in (Verdict.NEUTRAL, Verdict.UNKNOWN))
+    text = _("no point is known to be unstable; {neutral} of {all} are neutral, {lost} not known.")
+    return "warning", text.format(neutral=neutral, all=found.verdict.size, lost=lost)
+
+
+def _ends(over: MapAxis) -> Say:
+    """Return an axis with the range of its values."""
+    low, high = over.quantity(over.values[0], 3), over.quantity(over.values[-1], 3)
+    return say(_("{what} {low:bare} to {high}"), what=over.label, low=low, high=high)
+
+
+def _picture(found: Stability, axes: tuple[MapAxis, ...]) -> Table:
+    """Return a map drawn with signs."""
+    turned = axes[0].key == SPEED
+    down, across = axes[::-1] if turned else axes
+    table = found.verdict.T if turned else found.verdict
+    rows, columns = down.values, across.values
+    i = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), HIGH)).round().astype(int))[::-1]
+    j = np.unique(np.linspace(0, len(columns) - 1, min(len(columns), WIDE)).round().astype(int))
+    pictured = [[SIGNS[int(table[k, n])] for n in j] for k in i]
+    legend = [f"{SIGNS[state]} {verdict_words()[state]}" for state in (Verdict.UNSTABLE, Verdict.STABLE)]
+    if down.here is not None and across.here is not None:
+        y, x = np.abs(rows[i] - down.here), np.abs(columns[j] - across.here)
+        if min(rows) <= down.here <= max(rows) and min(columns) <= across.here <= max(columns):
+            pictured[int(np.argmin(y))][int(np.argmin(x))] = "O"
+            legend.append(f"O {_('operating point')}")
+    return Table(
+        title=", ".join(legend),
+        columns=(
+            Column(key="", heading=down.label, values=rows[i] * down.factor, dimension=down.dimension, unit=down.unit),
+            Column(key="", heading=across.label, values=["".join(line) for line in pictured], left=True),
+        ),
+        note=say(_("Across: {ends}."), ends=_ends(across)),
+    )
+
+
+def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Iterator[Remark]:
+    if found.cancelled:
+        text = _("Warning: stopped; {done} of {all} points are done.")
+        done = int(np.sum(found.verdict != Verdict.UNKNOWN))
+        yield Remark(text=text.format(done=done, all=found.verdict.size), tone="warning")
+    if not axes and int(found.verdict) == Verdict.STABLE and np.isfinite(found.zone.speed):
+        text = _("The nearest zone of instability is the {zone}, at {speed}.")
+        yield Remark(text=say(text, zone=found.zone.name(), speed=_speed(found.zone.speed)))
+    if not axes and int(found.verdict) == Verdict.UNSTABLE:
+        text = _(
+            "What helps: another speed, smaller joint angles, a joint nearer to the node of the mode, more damping."
+        )
+        yield Remark(text=text)
+    if found.train.model.free:
+        yield Remark(text=_("Rigid-body rotation is left out: a free drive may shift in time."))
+    yield from assumptions(found.train)
+    if len(axes) == 2 and not signs and plays(found):
+        text = _("The map is coarse, as motions whose backlash opens take long; in full: {command}")
+        yield Remark(text=text.format(command=_finer(axes)), depth="full")
+    if not axes:
+        text = _("A stability map over speed in rpm and largest joint angle in degrees:")
+        command = ("cardan", "torsion", "stability", FILE, "--speeds", "LOW:HIGH", "--bends", "LOW:HIGH")
+        yield Remark(text=text, command=command, tone="next")
+
+
+def _finer(axes: tuple[MapAxis, ...]) -> str:
+    """Return the command that draws a map in full."""
+    speeds, bends = (one.values for one in axes)
+    asked = "--speeds {:.4g}:{:.4g}:{} --bends {:.3g}:{:.3g}:{}"
+    asked = asked.format(speeds[0], speeds[-1], ACROSS, bends[0], bends[-1], UP)
+    return f"cardan torsion stability FILE {asked}"
+
+
+def _everything(found: Stability, axes: tuple[MapAxis, ...]) -> Table:
+    """Return the map, one point a row."""
+    grid = np.meshgrid(*(one.si for one in axes), indexing="ij") if axes else []
+    own = [
+        Column(key=one.key, values=values.reshape(-1), dimension=one.dimension, unit=one.unit)
+        for one, values in zip(axes, grid, strict=True)
+    ]
+    speed = np.broadcast_to(np.abs(found.speed), found.verdict.shape).reshape(-1)
+    return Table(
+        columns=(
+            *own,
+            Column(key="input_speed", values=speed, dimension="angular_speed"),
+            Column(key="verdict", values=found.verdict.reshape(-1)),
+            Column(key="spectral_radius", values=np.asarray(found.spectral_radius).reshape(-1)),
+            Column(key="growth_rate", values=np.asarray(found.growth_rate).reshape(-1), dimension="rate"),
+            Column(key="order", values=np.asarray(found.order).reshape(-1)),
+        )
+    )
+
+
+def _facts(found: Stability) -> dict[str, Any]:
+    names = np.asarray([one.name.lower() for one in Verdict])
+    return {
+        "over": dict(found.over),
+        "speed": Quantity(np.abs(found.speed), "angular_speed"),
+        "verdict": names[found.verdict],
+        "stable": found.stable,
+        "spectral_radius": found.spectral_radius,
+        "growth_rate": Quantity(found.growth_rate, "rate"),
+        "order": found.order,
+        "nearest_zone": [found.zone.name(index) for index in np.ndindex(found.verdict.shape)],
+        "nearest_zone_speed": Quantity(found.zone.speed, "angular_speed"),
+        "cancelled": found.cancelled,
+        "assumed": found.train.assumed,
+    }

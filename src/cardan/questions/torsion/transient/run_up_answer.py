@@ -1,0 +1,134 @@
+"""What there is to say of a run-up: the largest torques, and every resonance that is passed on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from cardan.answers.answer import Answer, Column, KeyFigure, Remark, Table
+from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.question import Lacking, absent
+from cardan.drive.drive import Drive
+from cardan.questions.torsion.model.answer import lacking as lacking_modes
+from cardan.questions.torsion.model.machine_torques import turns_freely
+from cardan.texts import _
+
+from .answer import element_table, everything, facts, largest, remarks, speed_at
+from .figure import transient_figures
+from .run_up import FollowedRunUp, follow
+from .torsion_transient import Transient
+
+__all__ = ["answer", "ask", "lacking", "otherwise"]
+
+
+def lacking(drive: Drive) -> Lacking:
+    """Return what the drive file lacks for a run-up."""
+    return (*lacking_modes(drive), *absent((drive.duty.run_up is not None, "duty.run_up")))
+
+
+def otherwise(_drive: Drive) -> str:
+    """Return why there is nothing to tell although nothing is missing."""
+    return _("Torques turn its input freely; a run-up at a steady rate forces a speed on it.")
+
+
+def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> FollowedRunUp | None:
+    """Return the run-up of the duty, None where torques turn the input freely."""
+    course = drive.duty.run_up
+    assert course is not None
+    return None if turns_freely(drive, drive.duty) else follow(drive, course, progress=progress)
+
+
+def answer(_drive: Drive, result: FollowedRunUp) -> Answer:
+    """Return what there is to say of the run-up of a drive."""
+    passed = tuple(_passed(result))
+    title, motion = _("Run-up"), result.motion
+    if motion is None:
+        text = _("it would take {count} steps to follow; cardan torsion simulate does it.")
+        count = Quantity(result.steps, digits=2)
+        return Answer(name="run-up", title=title, sentence=say(text, count=count), tables=passed)
+    alarms = tuple(_alarms(motion))
+    e, torque, _time = largest(motion)
+    key = KeyFigure(
+        name="run_up_torque",
+        title=_("largest torque during run-up"),
+        value=Quantity(abs(torque), "torque"),
+        place=motion.train.elements[e],
+        better="",
+    )
+    return Answer(
+        name="run-up",
+        title=title,
+        sentence=_sentence(result, motion),
+        tone="warning" if alarms else "plain",
+        figures=lambda: transient_figures(motion),
+        tables=(element_table(motion, result.course), *passed),
+        remarks=(*alarms, *remarks(motion)),
+        keys=(key,),
+        facts=facts(motion),
+        full=lambda: everything(motion),
+    )
+
+
+def _speed(value: float) -> Quantity:
+    return Quantity(value, "angular_speed", 3)
+
+
+def _sentence(result: FollowedRunUp, motion: Transient) -> Text:
+    e, torque, time = largest(motion)
+    text = _(
+        "while the input goes from {start:bare} to {end} in {span}, the torque in {element} reaches {torque} at "
+        "{speed}."
+    )
+    return say(
+        text,
+        start=_speed(result.course.start),
+        end=_speed(result.course.end),
+        span=Quantity(result.course.duration, "time", 3),
+        element=motion.train.elements[e],
+        torque=Quantity(torque, "torque"),
+        speed=_speed(float(speed_at(result.course, time))),
+    )
+
+
+def _alarms(motion: Transient) -> Iterator[Remark]:
+    """Yield what must not be overlooked."""
+    ends, model = motion.motion.extremes, motion.train.model
+    if not motion.complete:
+        text = _("The run-up could be followed for {span} only.")
+        ended = Quantity(float(motion.motion.ended), "time", 3)
+        yield Remark(text=say(text, span=ended), tone="failed", alarm=True)
+    for e in np.flatnonzero((ends.torque_low < 0.0) & (ends.torque_high > 0.0) & (model.backlash > 0.0)):
+        text = _("During the run-up the torque in {element} changes its sign: its backlash is crossed with impacts.")
+        yield Remark(text=say(text, element=motion.train.elements[int(e)]), tone="warning", alarm=True)
+
+
+def _passed(result: FollowedRunUp) -> Iterator[Table]:
+    """Yield the resonances on the way, where there are any."""
+    course = result.course
+    low, high = sorted((course.start, course.end))
+    rate = (course.end - course.start) / course.duration
+    met = [
+        ((speed - course.start) / rate, speed, one)
+        for one in result.modes.crossings
+        for speed in (one.speed, -one.speed)
+        if low <= speed <= high
+    ]
+    if not met:
+        return
+    met.sort(key=lambda row: row[0])
+    crossings = [one for _time, _speed, one in met]
+    yield Table(
+        name="resonances",
+        title=_("Resonances on the way"),
+        columns=(
+            Column(key="time", heading=_("after"), values=[one[0] for one in met], dimension="time", digits=3),
+            Column(
+                key="speed", heading=_("input at"), values=[one[1] for one in met], dimension="angular_speed", digits=3
+            ),
+            Column(key="order", heading=_("order"), values=[Quantity(one.order, trim=True) for one in crossings]),
+            Column(key="cause", heading=_("excited by"), values=[one.cause for one in crossings], left=True),
+            Column(key="mode", heading=_("mode"), values=[one.mode for one in crossings]),
+        ),
+        note=_("The torque peaks behind a resonance; the faster that is passed, the lower the peak."),
+    )

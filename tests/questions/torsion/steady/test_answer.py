@@ -1,0 +1,62 @@
+"""What is said of steady torsional vibration at a speed and over many."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cardan import example, torsion_response
+from cardan.answers.data import as_csv
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.questions.torsion.model.wording import ranges
+from cardan.questions.torsion.steady import answer as home
+from cardan.units import rpm
+
+
+def test_whole_speeds_keep_their_zeros() -> None:
+    speeds = rpm * np.linspace(1300.0, 1400.0, 5)
+    assert (
+        told(ranges(speeds, [False, True, True, False, False], "angular_speed"), USUAL)
+        == "1\u202f325 to 1\u202f350 rpm"
+    )
+    comma = Reader(decimal=",")
+    assert told(ranges([1.5, 2.5, 3.5], [True, False, True]), comma) == "1,5; 3,5"
+    assert told(ranges([1.0, 2.0], [False, False]), USUAL) == ""
+
+
+def test_orders_are_asked_over_the_operating_range(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(home, "SWEEP", 5)
+    drive = example("unstable-drive")
+    assert home.lacking(replace(drive, duty=replace(drive.duty, speed_range=None))) == (("duty.speed_range",),)
+    within = replace(drive, duty=replace(drive.duty, speed_range=(0.0, 150.0)))
+    found = home.ask(within)
+    assert found.speed.tolist() == pytest.approx(np.linspace(7.5, 150.0, 5).tolist())
+    said = home.answer(within, found)
+    assert said.name == "orders"
+    assert [one.name for one in said.figures()] == ["torsion-sweep", "torsion-waterfall"]
+    assert said.full is not None
+    first, *rows = "".join(as_csv(said.full(), USUAL)).splitlines()
+    assert first.startswith("speed_rpm,status,verdict,growth_rate_per_s,element_1_mean_Nm,element_1_min_Nm")
+    assert len(rows) == 5
+
+
+def test_one_speed_has_its_orders_beside_each_other() -> None:
+    drive = example("truck-power-unit")
+    found = torsion_response(drive)
+    said = home.answer(drive, found)
+    elements, stations = said.tables
+    assert [one.heading for one in elements.columns][1:] == [
+        "mean",
+        "lowest",
+        "highest",
+        "± order 2",
+        "± order 4",
+        "± other (order)",
+    ]
+    assert list(elements.columns[3].values) == found.torque_highest.tolist()
+    assert len(stations.columns[0].values) == len(found.train.model.names)
+    apart = [told(one.text, USUAL) for one in said.remarks if "non-synchronous" in told(one.text, USUAL)]
+    assert apart[0].startswith("Order 6.8 does not repeat within two turns")
