@@ -145,6 +145,7 @@ QUESTIONS: dict[str, Question] = {
             group=VIBRATION,
             help=mark("How a shaft whirls with its unbalance and a crack: orders, orbits, run-up."),
             quick=False,
+            takes=("progress",),
         ),
         Question(
             name="balance",

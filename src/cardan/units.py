@@ -34,6 +34,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "duration": {"h": 3600.0, "min": 60.0, "s": 1.0},
     "frequency": {"Hz": 2 * math.pi, "rad_s": 1.0, "per_min": 2 * math.pi / 60},
     "rate": {"per_s": 1.0},
+    "sampling_rate": {"Hz": 1.0, "kHz": 1e3},
     "share": {"percent": percent, "fraction": 1.0},
     "torque": {"Nm": 1.0, "kNm": 1e3, "MNm": 1e6, "Nmm": mm, "lbft": 12 * inch * lbf, "lbin": inch * lbf},
     "force": {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": lbf},
@@ -125,6 +126,17 @@ def factor(dimension: str, unit: str) -> float:
     0.001
     """
     return DIMENSIONS[dimension][unit]
+
+
+def dimension_of(unit: str) -> str:
+    """Return the first dimension that has a unit; empty where none has.
+
+    Examples
+    --------
+    >>> dimension_of("deg"), dimension_of("")
+    ('angle', '')
+    """
+    return next((dimension for dimension, units in DIMENSIONS.items() if unit in units), "")
 
 
 def preferred(dimension: str) -> str:

@@ -209,7 +209,7 @@ def test_a_fault_of_ours_is_no_traceback(cardan, monkeypatch):
     def broken(*_ways, **_more):
         raise ZeroDivisionError("division by zero")
 
-    monkeypatch.setattr("cardan.questions.motion.motion.motion", broken)
+    monkeypatch.setattr("cardan.cli.motion.ask", broken)
     done = cardan("motion", TRUCK)
     assert done.code == 70
     assert "ZeroDivisionError: division by zero" in done.err
@@ -222,5 +222,5 @@ def test_too_little_memory_is_said(cardan, monkeypatch):
     def greedy(*_ways, **_more):
         raise MemoryError
 
-    monkeypatch.setattr("cardan.questions.motion.motion.motion", greedy)
+    monkeypatch.setattr("cardan.cli.motion.ask", greedy)
     refused(cardan("motion", TRUCK), "not enough memory")

@@ -85,7 +85,7 @@ def test_ctrl_c_while_a_module_is_loaded_is_no_fault_of_cardan(cardan, monkeypat
         except KeyboardInterrupt as stopped:
             raise RuntimeError("Error calling __set_name__") from stopped
 
-    monkeypatch.setattr("cardan.cli.source.read", interrupt)
+    monkeypatch.setattr("cardan.cli.check.read", interrupt)
     done = cardan("check", TRUCK)
     assert (done.code, done.err.splitlines()) == (130, ["error: interrupted; nothing was written"])
 

@@ -125,7 +125,7 @@ def test_phases_finds_both_sets_of_the_truck(cardan):
     """The worked example: shaft 2 held at 90°, solutions A and B, 16-tooth splines 0.5227 %."""
     done = cardan("phasing", TRUCK, "--fix", "2=90")
     assert "δ = 12.51 % as specified, exactly uniform with other yoke angles" in " ".join(done.out.split())
-    for line in ("A 90.00 −1.70 82.84 0", "B 90.00 46.20 −2.81 0"):
+    for line in ("A 90.00 −1.70 82.84 ● 0", "B 90.00 46.20 −2.81 ● 0"):
         assert line in [" ".join(row.split()) for row in done.out.splitlines()]
     said = cardan("phasing", TRUCK, "--fix", "2=90", "--json").content
     by_label = {row["label"]: row for row in said["settings"]}

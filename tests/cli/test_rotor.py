@@ -45,7 +45,7 @@ def test_it_stands_within_80_columns_and_draws(cardan, cracked, tmp_path):
     done = cardan("rotor", cracked, "--plot", "r.svg")
     assert (done.code, done.err) == (0, "")
     assert widest(lines(done)) <= 80
-    assert "Its crack takes 20.0 % of its stiffness" in done.out
+    assert "Its open crack takes 20.0 % of its stiffness" in done.out
     assert "order 1 backward" in (tmp_path / "r.svg").read_text()
 
 

@@ -55,7 +55,7 @@ def test_the_best_point_keeps_the_limit(design):
     bend = np.radians(said["point"]["joints[0].bend_deg"])
     assert np.sin(bend) * np.tan(bend) == pytest.approx(0.1, abs=1e-5)
     assert said["values"]["irregularity"] <= 0.1 + 1e-9
-    assert "max irregularity comes to 0.1" in design("best").out
+    assert "max irregularity is 0.1" in design("best").out
     none = design("none", code=1)
     assert "none of" in none.out
     assert design("none", "--json", code=1).content["status"] == "nothing found"
@@ -66,7 +66,7 @@ def test_a_choice(design):
     assert len(said["points"]["joints[0].bend_deg"]) > 10
     rows = list(csv.DictReader(io.StringIO(design("choice", "--csv").out)))
     assert [float(row["irregularity"]) for row in rows] == said["points"]["irregularity"]
-    assert "none better in all goals" in " ".join(design("choice").out.split())
+    assert "none is better in all goals" in " ".join(design("choice").out.split())
 
 
 def test_a_boundary(design):

@@ -136,7 +136,10 @@ def _numbers(line: str, old: dict[str, Any], new: list[_Column], *, exact: bool)
         rule = _rule(line, path, scales.get(dimension, 1.0), dimension, exact=exact)
         wanted = in_si(stored, size)
         now = without_unit(path_now(line, path))[0]
-        faults = [_fault(wanted, column.values, rule) for column in new if column.bare == now]
+        held = [column.values for column in new if column.bare == now]
+        if rule.among and held:
+            held = [[value for values in held for value in values]]
+        faults = [_fault(wanted, values, rule) for values in held]
         if not faults:
             same = _nearest_first(now, [column for column in new if not _fault(wanted, column.values, rule)])
             found.append(Difference(line, path, "missing", _missing(stored, now, new, same), same))

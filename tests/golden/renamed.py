@@ -14,6 +14,8 @@ COMMAND_LINES: tuple[tuple[str, str], ...] = (
 
 PATHS: tuple[tuple[str, str, str], ...] = (
     ("rotor", r"peak_rpm", "peak_at_rpm"),
+    ("diagnose", r"causes\.score", "causes.probability_percent"),
+    ("simulate-fault", r"(orders|knocks)\.size(_m_s2|)", r"\1.amplitude"),
     ("life", r"parts\.bend_deg", "parts.joint_angle_deg"),
     ("torsion (response|stability)", r"growth_rate_1_per_s", "growth_rate_per_s"),
     ("torsion response", r"apart\.(.*)", r"nonsynchronous.\1"),
@@ -73,6 +75,6 @@ FIELDS: tuple[tuple[str, str], ...] = ()
 ANSWERED: tuple[str, ...] = ()
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 
-AMONG: tuple[tuple[str, str], ...] = ()
+AMONG: tuple[tuple[str, str], ...] = (("simulate-fault", r"orders\.size"),)
 """Pattern of a command line's start, pattern of a whole old path: its numbers stand in another order now, or among
-others."""
+others, or under one name with several units."""

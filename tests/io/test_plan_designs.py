@@ -98,8 +98,8 @@ def test_a_sensitivity_takes_the_distributions_that_are_drawn():
             'between = { "joints[0].bend_deg" = [3, 1] }\n',
             "search",
             [
-                "search.goals[0]: 'irregularity' is no goal",
-                "search.limits[0]: 'x' is no limit",
+                "search.goals[0]: not a goal: 'irregularity'",
+                "search.limits[0]: not a limit: 'x'",
                 "search.method: 'swarm'",
                 "search.betwen: unknown key; the nearest is between",
                 "two numbers are needed, the lower one first",

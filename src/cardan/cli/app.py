@@ -234,7 +234,7 @@ COMMANDS = {
     "sweep": Entry(
         "sweep",
         QUESTIONS,
-        _("What becomes of it when fields vary: grids, lists and random points, one or a hundred million."),
+        _("Parameter sweep over grids, lists and random samples."),
         (
             "cardan sweep plan.toml",
             "cardan sweep plan.toml --into results --engine processes",
@@ -245,7 +245,7 @@ COMMANDS = {
             "show": Entry(
                 "sweep_show",
                 QUESTIONS,
-                _("What stands in the table of a sweep: the best points, pictures, exports."),
+                _("Results of a sweep: the best points, pictures, exports."),
                 ("cardan sweep show results", "cardan sweep show results --plot sweep.html"),
             ),
         },

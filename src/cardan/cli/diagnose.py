@@ -3,21 +3,39 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from cardan.answers.answer import FILE, Answer, Remark
+from cardan.answers.reader import reader
+from cardan.catalogue import catalogue
+from cardan.catalogue.catalogue import with_files
+from cardan.errors import InputError, Problem, refuse
+from cardan.files import write_bytes
+from cardan.io.drive_file import known_to
+from cardan.io.signals import SIGNAL_FORMATS
+from cardan.questions.diagnosis.answer import answer, answer_of_signs
+from cardan.questions.diagnosis.examination import Examination, examine
+from cardan.questions.diagnosis.findings import diagnose as causes_of
+from cardan.questions.diagnosis.match import Signs, symptoms
+from cardan.report.content import Excerpt
+from cardan.report.page import page
+from cardan.report.renderer import Renderer, form_of
 from cardan.texts import _
+from cardan.units import nearest
 
+from .failure import about
 from .options import AsCsv, AsJson, MoreRows, Plot
-from .recording import FullScale, Places, Pulses, Rate, Tacho, Titles
-
-if TYPE_CHECKING:
-    from cardan.questions.diagnosis.examination import Examination
-    from cardan.questions.diagnosis.match import Signs
-
-    from .recording import Reading
+from .output import check_target
+from .progress import watching
+from .recording import FullScale, Places, Pulses, Rate, Reading, Tacho, Titles, placed, read_both
+from .show import check_common
+from .source import STDIN
+from .tell import tell
+from .torsion_band import band_of
 
 LEAST = 0.1
 """Share of the largest order below which one does not count."""
@@ -102,22 +120,18 @@ def diagnose(
     plot: Plot = None,
 ) -> int:
     """Tell what is likely wrong with a drive by a recording of it, what speaks for it, and what to check."""
-    from cardan.errors import refuse
-
-    from .diagnose_answer import by_recording, by_signs, report_form
-    from .recording import Reading
-    from .show import check_common, show
-    from .torsion_band import band_of
-
     check_common(json=json, csv=csv, plot=plot)
-    form = None if report is None else report_form(report)
+    form = None if report is None else _form(report)
     catalogues = tuple(more or ())
+    name = ""
     if orders is not None or symptom is not None or torque_sensitive is not None:
         if recording is not None:
             raise refuse("--orders", _("neither a recording nor a drive file is read beside orders and symptoms"))
-        said = by_signs(_signs(orders, symptom, torque_sensitive), catalogues)
+        signs = _signs(orders, symptom, torque_sensitive)
+        known = with_files(catalogue(), catalogues) if catalogues else None
+        said = answer_of_signs(signs, causes_of(signs, known=known))
     else:
-        path, drive_path = _files(recording, file)
+        recording, file = _files(recording, file)
         how = Reading(
             tacho=tacho,
             pulses_per_turn=pulses_per_turn,
@@ -126,20 +140,38 @@ def diagnose(
             places=tuple(place or ()),
             full_scale=tuple(full_scale or ()),
         )
-        examined = _examined(path, drive_path, how, band_of(speeds), channel, catalogues)
-        again = ("cardan", "diagnose", str(path), str(drive_path), *how.arguments)
-        again += () if speeds is None else ("--speeds", speeds)
-        said = by_recording(examined, drive_path, () if report is not None else again)
+        examined = _examined(recording, file, how, band_of(speeds), channel, catalogues)
+        name = examined.drive.name
+        said = _with_next(answer(examined), file, how, () if speeds is None else ("--speeds", speeds))
     if report is not None and form is not None:
-        said = said.written(report, form)
-    return show(said.answer, json=json, csv=csv, plot=plot)
+        said = _written(said, name, report, form)
+    return tell(said, recording, json=json, csv=csv, plot=plot)
+
+
+def _form(path: Path) -> Renderer:
+    """Return the form of a report, or refuse its file before any work is done."""
+    form = form_of(path, "--report")
+    check_target(path, "--report")
+    return form
+
+
+def _with_next(said: Answer, file: Path, how: Reading, band: tuple[str, ...]) -> Answer:
+    """Return an answer with its drive file, and with the command that reports it."""
+    command = ("cardan", "diagnose", FILE, str(file), *how.arguments, *band, "--report", "diagnosis.html")
+    more = Remark(text=_("Everything with its pictures:"), command=command, tone="next")
+    return replace(said, remarks=(*said.remarks, more), facts={**said.facts, "file": str(file)})
+
+
+def _written(said: Answer, title: str, path: Path, form: Renderer) -> Answer:
+    """Write the report of an answer, and return the answer that says so."""
+    write_bytes(path, form.excerpt(Excerpt(title=title or said.title, page=page(said, reader()))))
+    kept = tuple(one for one in said.remarks if one.tone != "next")
+    more = Remark(text=_("Report written: {path}.").format(path=path))
+    return replace(said, remarks=(*kept, more), facts={**said.facts, "report": str(path)})
 
 
 def _files(recording: Path | None, file: Path | None) -> tuple[Path, Path]:
     """Return the recording and the drive, refusing what is missing or in the wrong order."""
-    from cardan.errors import InputError, Problem, refuse
-    from cardan.io.signals import SIGNAL_FORMATS
-
     problems = []
     if recording is None:
         problems.append(Problem("SIGNAL", _("missing: the recording; or say what was seen with --orders or --symptom")))
@@ -155,10 +187,6 @@ def _files(recording: Path | None, file: Path | None) -> tuple[Path, Path]:
 
 def _signs(orders: str | None, symptom: str | None, torque_sensitive: bool | None) -> Signs:
     """Return what was seen, or refuse what is no sign; all at once."""
-    from cardan.errors import InputError, Problem
-    from cardan.questions.diagnosis.match import Signs, symptoms
-    from cardan.units import nearest
-
     problems = []
     if symptom is not None and symptom not in symptoms():
         near = nearest(symptom, symptoms())
@@ -175,7 +203,7 @@ def _signs(orders: str | None, symptom: str | None, torque_sensitive: bool | Non
             if not 0.0 < sizes[-1] < math.inf:
                 raise ValueError
         except ValueError:
-            text = _("{text} is no order; write them as 1,2 or 1=3.2,2=5")
+            text = _("not an order: {text}; write them as 1,2 or 1=3.2,2=5")
             problems.append(Problem("--orders", text.format(text=repr(part.strip()))))
     if not problems:
         try:
@@ -195,15 +223,6 @@ def _examined(
     catalogues: tuple[Path, ...],
 ) -> Examination:
     """Return what the recording tells of the drive; what is wrong with both files at once."""
-    from cardan.errors import InputError
-    from cardan.io.drive_file import known_to
-    from cardan.questions.diagnosis.examination import examine
-
-    from .failure import about
-    from .progress import watching
-    from .recording import placed, read_both
-    from .source import STDIN
-
     with watching(_("looking for causes")) as progress:
         signal, drive = read_both(path, drive_path, how, catalogues, lambda share: progress(0.5 * share))
         signal = placed(signal, how.places, drive)

@@ -1,4 +1,4 @@
-"""``cardan sweep``: what becomes of a drive when its fields vary?"""
+"""``cardan sweep``: a parameter sweep over the fields of a drive."""
 
 from __future__ import annotations
 
@@ -35,9 +35,7 @@ GROUPS = 24
 def sweep(
     plan: Annotated[
         Path,
-        typer.Argument(
-            metavar="PLAN", help=_("Plan file, TOML or JSON; one called show is written ./show."), show_default=False
-        ),
+        typer.Argument(metavar="PLAN", help=_("Plan file, TOML or JSON."), show_default=False),
     ],
     into: Annotated[
         Path | None,
@@ -90,7 +88,7 @@ def sweep(
         typer.Option(
             "--design",
             metavar="search|sensitivity|boundary",
-            help=_("Let the design of this name in the plan choose its points, instead of all of them."),
+            help=_("Run the plan's search, sensitivity or boundary instead of the full grid."),
             show_default=False,
         ),
     ] = None,

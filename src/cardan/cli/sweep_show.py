@@ -1,4 +1,4 @@
-"""``cardan sweep show``: what stands in the table of a sweep?"""
+"""``cardan sweep show``: the results of a sweep."""
 
 from __future__ import annotations
 
@@ -206,7 +206,7 @@ def _sentence(asked: Asked) -> str:
             name=name, count=thousands(all_points)
         )
     if len(asked.goals) > 1:
-        text = _("{name}: of {count} points {chosen} are a choice, none better in all goals.")
+        text = _("{name}: {chosen} of {count} points are Pareto-optimal: none is better in all goals.")
         return text.format(name=name, count=thousands(all_points), chosen=thousands(asked.length))
     goal = asked.goals[0]
     text = _("{name}: the best of {count} points has {answer} {value}.")

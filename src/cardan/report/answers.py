@@ -92,7 +92,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     return page_of(QUESTIONS[NAMES.get(name, name)], on, progress, choices or {})
 
 
-NAMES = {"movement": "articulation", "phases": "phasing", "limits": "check"}
+NAMES = {"limits": "check"}
 """Name of a page -> name of its question, where these differ."""
 
 

@@ -20,11 +20,13 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.maths.arrays import Array
+from cardan.questions.motion.answer import answer
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.swing import Swing, swing
+from cardan.questions.motion.turning import Turning
 from cardan.texts import _, plural
 
 from .block import (
@@ -33,7 +35,6 @@ from .block import (
     Points,
     Words,
 )
-from .key_figures import acceleration
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -98,14 +99,8 @@ def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
 
 def figures_by_laws(on: Followed, pages: Sequence[Page]) -> list[KeyFigure]:
     """Return the figures a reader compares drives by."""
-    whole = on.whole
-    share, error = Quantity(float(whole.irregularity[-1]), "share"), Quantity(float(whole.max_lead[-1]), "angle")
-    return [
-        KeyFigure(name="speed_fluctuation", title=_("speed fluctuation δ of the output"), value=share),
-        KeyFigure(name="angle_error", title=_("angle error of the output, ±"), value=error),
-        acceleration(float(whole.max_acceleration[-1]), on.drive.duty.speed),
-        *(one for page in pages for one in page.keys),
-    ]
+    said = answer(on.drive, Turning(motion=on.found, each=on.whole))
+    return [*said.keys, *(one for page in pages for one in page.keys)]
 
 
 def changes_by_laws(on: Followed) -> Words:

@@ -7,16 +7,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
+from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.io.signals import SIGNAL_FORMATS, signal
+from cardan.questions.diagnosis.answer import answer
 from cardan.questions.diagnosis.examination import examine
 from cardan.questions.diagnosis.signals.signal import DIRECTIONS, TURNING, Channel, Signal
 from cardan.texts import _
 
 from .block import Page, Points, Words
-from .diagnosis import diagnosed
+from .page import page as page_of
 
 Progress: TypeAlias = Callable[[float], object]
 """Told the share done; may answer "stop"."""
@@ -142,15 +144,14 @@ def recorded(
     )
     names = [one.name for one in found.channels]
     try:
-        page = diagnosed(
-            examine(
-                found,
-                drive,
-                channel=said.channel if said.channel in names else None,
-                known=known,
-                progress=lambda share: told(READING + (1.0 - READING) * share),
-            )
+        examined = examine(
+            found,
+            drive,
+            channel=said.channel if said.channel in names else None,
+            known=known,
+            progress=lambda share: told(READING + (1.0 - READING) * share),
         )
+        page = page_of(answer(examined), reader())
     except InputError as error:
         page = _unjudged(found, error)
     return Recorded(

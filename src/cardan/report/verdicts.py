@@ -47,6 +47,6 @@ def judged(on: Subject) -> Judged:
     rows = [row(one, reader()) for one in keys]
     return Judged(
         page=page(answer(on.drive, result), reader()),
-        lights=Table(columns=verdict_columns(), rows=rows, title=_("Checks"), note=note),
+        lights=Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note),
         changes=table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None,
     )

@@ -105,7 +105,7 @@ def test_whom_the_spread_is_owed_to():
     total, _alone = of(first, Bars)
     np.testing.assert_array_equal(total.size[::-1], found.total[0][list(found.ranked(0))])
     assert first.panels[0].y.texts == ("z", "y", "x")
-    assert "90 % of its variance goes with x, 10 % with y." in first.sentence
+    assert "90 % of its variance is due to x, 10 % to y." in first.sentence
     assert second.sentence == "The answer does not vary."
 
 
@@ -134,7 +134,7 @@ def test_a_boundary_is_drawn_with_what_was_asked():
     (figure,) = (drawn(one) for one in figures.for_result(found))
     line = next(one for one in of(figure, Curve) if one.label == "boundary")
     np.testing.assert_array_equal(np.stack([line.x, line.y], axis=1), found.lines[0])
-    assert f"{found.evaluations:,} points asked".replace(",", "\u202f") in figure.source
+    assert f"{found.evaluations:,} points evaluated".replace(",", "\u202f") in figure.source
     for high, said in ((5.0, "everywhere"), (-1.0, "nowhere")):
         assert said in drawn(figures.for_result(boundary(disc, BOX[:2], [Limit(name="r", high=high)]))[0]).sentence
 

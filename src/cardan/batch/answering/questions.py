@@ -115,7 +115,7 @@ def asked(names: Sequence[str]) -> tuple[Question, ...]:
     for k, name in enumerate(names):
         if name not in known:
             near = nearest(name, known)
-            text = _("{name} is no question; the questions are {known}")
+            text = _("unknown question {name}; the questions are {known}")
             said = text.format(name=repr(name), known=", ".join(known))
             problems.append(Problem("ask", said + (_("; the nearest is {near}").format(near=near) if near else "")))
         elif name in names[:k]:

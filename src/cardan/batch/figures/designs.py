@@ -25,7 +25,7 @@ BARS = 14
 """Fields with a bar of their own, the weightiest."""
 
 DOTS = 4000
-"""Places asked that are drawn at most."""
+"""Evaluated places that are drawn at most."""
 
 
 def sensitivity_figures(found: Sensitivity) -> tuple[Figure, ...]:
@@ -65,7 +65,7 @@ def sensitivity_figure(found: Sensitivity, answer: int = 0) -> Figure:
     )
     return Figure(
         name=f"sensitivity-{answer + 1}",
-        title=_("What the spread of this is owed to: {name}").format(name=name_of(column)),
+        title=_("Shares of the variance: {name}").format(name=name_of(column)),
         sentence=_owed(found, answer),
         source=_("Sobol' indices of {samples} samples; lines: where they lie with {share} %").format(
             samples=counted(found.samples), share=significant(100.0 * found.confidence, 2)
@@ -88,7 +88,7 @@ def _owed(found: Sensitivity, answer: int) -> str:
     first, *rest = found.ranked(answer)
     share = found.total[answer]
     mean, deviation = float(found.mean[answer]), float(found.deviation[answer])
-    text = _("{name} is {mean} ± {deviation}: {share} % of its variance goes with {field}")
+    text = _("{name} is {mean} ± {deviation}: {share} % of its variance is due to {field}")
     said = text.format(
         name=name_of(column),
         mean=amount(column, mean if abs(mean) > 1e-6 * deviation else 0.0),
@@ -98,7 +98,7 @@ def _owed(found: Sensitivity, answer: int) -> str:
     )
     said = said[:1].upper() + said[1:]
     if rest and share[rest[0]] > 0.05:
-        more = _(", {share} % with {field}")
+        more = _(", {share} % to {field}")
         said += more.format(share=f"{100.0 * float(share[rest[0]]):.0f}", field=name_of(found.fields[rest[0]]))
     return said + "."
 
@@ -191,7 +191,7 @@ def ranks_figure(found: Ranks) -> Figure:
 
 
 def boundary_figure(found: Boundary) -> Figure:
-    """Return the lines at which limits begin to be broken, with the places that were asked.
+    """Return the lines at which limits begin to be broken, with the places that were evaluated.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def boundary_figure(found: Boundary) -> Figure:
         name="boundary",
         title=_("Where the limits are kept"),
         sentence=said,
-        source=_("{evaluations} points asked; a grid as fine has {grid}").format(
+        source=_("{evaluations} points evaluated; a grid as fine has {grid}").format(
             evaluations=counted(found.evaluations), grid=counted(found.grid)
         ),
         rows=(Row(panels=(panel,), height=3.6),),
@@ -237,7 +237,7 @@ def pareto_set_figure(found: ParetoSet) -> Figure:
 
 
 def optimum_figure(found: Optimum) -> Figure:
-    """Return how the best value became better with the points asked.
+    """Return how the best value became better with the points evaluated.
 
     Parameters
     ----------
@@ -250,7 +250,7 @@ def optimum_figure(found: Optimum) -> Figure:
     y: Array = np.repeat(best, 2) if len(asked) else best
     panel = Panel(
         series=(Curve(x=x, y=y, role="accent"),),
-        x=axis(_("points asked"), "", [x], include=(0.0,), margin=0.02, count=8),
+        x=axis(_("points evaluated"), "", [x], include=(0.0,), margin=0.02, count=8),
         y=axis(title_of(column), "", [best]),
     )
     said = _("No point keeps the limits.")

@@ -198,7 +198,7 @@ def pareto_figure(columns: Sequence[Column], goals: Sequence[Goal], front: Rows,
         told += "; " + _("the darker a dot, the better by {goal}").format(goal=name_of(by[goals[2].name]))
     return Figure(
         name="pareto",
-        title=_("What none is better than in all goals"),
+        title=_("Pareto front"),
         sentence=_choice(across, up, goals, x, y),
         source=told,
         rows=(Row(panels=(panel,), height=3.4),),

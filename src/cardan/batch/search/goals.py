@@ -133,7 +133,7 @@ def goal_of(text: str) -> Goal:
     """
     found = _GOAL.fullmatch(text.strip())
     if found is None:
-        raise refuse("goals", _("{text} is no goal; write “min irregularity” or “max life_h”").format(text=repr(text)))
+        raise refuse("goals", _("not a goal: {text}; write “min irregularity” or “max life_h”").format(text=repr(text)))
     return Goal(name=found[2], largest=found[1] == "max")
 
 
@@ -152,7 +152,7 @@ def limit_of(text: str) -> Limit:
     """
     found = _LIMIT.fullmatch(text.strip())
     if found is None or (found[1] and found[3].startswith(">")):
-        message = _("{text} is no limit; write “irregularity <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
+        message = _("not a limit: {text}; write “irregularity <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
         raise refuse("limits", message.format(text=repr(text)))
     low, high = (float(found[1]) if found[1] else -math.inf), float(found[4])
     if found[3].startswith(">"):

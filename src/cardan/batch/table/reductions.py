@@ -118,7 +118,7 @@ def reduce_of(text: str) -> Reduce:
         return Reduce(kind="percentile", percent=float(percent[1]), of=percent[2].strip(), by=groups)
     kind, _space, rest = whole.partition(" ")
     if kind not in KINDS or kind == "percentile" or not rest.strip():
-        message = _("{text} is no reduction; write “max irregularity”, “p95 life_h by supplier” or “share x <= 2”")
+        message = _("not a reduction: {text}; write “max irregularity”, “p95 life_h by supplier” or “share x <= 2”")
         raise refuse("reduce", message.format(text=repr(text)))
     if not KINDS[kind].columned:
         limits = tuple(limit_of(one) for one in rest.split(" and "))

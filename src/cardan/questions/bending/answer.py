@@ -283,10 +283,11 @@ def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     }
     share = CATALOGUE[drive.duty.application]
     limits = {"article_1.6": ARTICLE * margin.most, "catalogue": share * margin.critical}
+    gravest = "supercritical" if "supercritical" in margin.violated else next(iter(margin.violated), "")
     for rule in margin.violated:
         limit = _speed(limits.get(rule, 0.0))
         said = say(texts[rule], limit=limit, share=Quantity(share, "share", trim=True))
-        yield Remark(text=said, tone="failed", alarm=True)
+        yield Remark(text=said, tone="failed", alarm=rule == gravest)
     if margin.violated and result.bowing is not None:
         number = result.bowing.number
         start, end = result.shaft_span[number - 1]

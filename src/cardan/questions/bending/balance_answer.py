@@ -24,9 +24,11 @@ __all__ = ["answer", "ask", "lacking"]
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for the balance of its shafts: a highest speed, bodies or masses."""
     duty = drive.duty
-    bodies = any(shaft.has_body or shaft.mass is not None for shaft in drive.shafts)
+    judged = [s for k, s in enumerate(drive.shafts) if 0 < k < len(drive.joints) or s.unbalance]
+    speeds = (duty.speed, duty.speed_range, *(block.speed for block in duty.blocks))
+    bodies = any(shaft.has_body or shaft.mass is not None or shaft.unbalance for shaft in judged)
     return absent(
-        (duty.speed is not None or duty.speed_range is not None, "duty.speed_range", "duty.speed"),
+        (any(speeds), "duty.speed_range", "duty.speed"),
         (bodies, "shafts[1].outer", "shafts[1].mass"),
     )
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
+from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
@@ -94,7 +95,7 @@ class Examination:
         return self.findings[0].confidence
 
     @property
-    def cautions(self) -> tuple[str, ...]:
+    def cautions(self) -> tuple[Text, ...]:
         """What was doubtful."""
         return self.findings[0].cautions
 

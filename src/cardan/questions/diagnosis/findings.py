@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue
 from cardan.catalogue.rows import Fault
 from cardan.drive.drive import Drive
 from cardan.texts import _
-from cardan.units import rpm
 
 from .features import Features, features
 from .match import Signs, likely_causes
@@ -50,9 +50,9 @@ class Finding:
     fault : str
         What is wrong, in words.
     score : float
-        From 0 to 1: share of belief, calibrated on simulated recordings; the less the recording can be trusted, the
+        From 0 to 1: probability, calibrated on simulated recordings; the less the recording can be trusted, the
         nearer to the same for all causes. All scores add up to 1.
-    evidence, against : tuple of str
+    evidence, against : tuple of Text
         What speaks for it and against it, the strongest first.
     check : str
         What to look at to make sure.
@@ -60,19 +60,19 @@ class Finding:
         What to do.
     confidence : float
         From 0 to 1: how far the recording can be relied on.
-    cautions : tuple of str
+    cautions : tuple of Text
         What was doubtful in it.
     """
 
     cause: str
     fault: str
     score: float
-    evidence: tuple[str, ...] = ()
-    against: tuple[str, ...] = ()
+    evidence: tuple[Text, ...] = ()
+    against: tuple[Text, ...] = ()
     check: str = ""
     repair: str = ""
     confidence: float = 1.0
-    cautions: tuple[str, ...] = field(default=())
+    cautions: tuple[Text, ...] = field(default=())
 
 
 def diagnose(
@@ -116,11 +116,13 @@ def diagnose(
 
     Examples
     --------
+    >>> from cardan.answers.quantity import told
+    >>> from cardan.answers.reader import USUAL
     >>> from cardan.questions.diagnosis.simulate import simulate_fault
     >>> from cardan.io import example
     >>> drive = example("truck-supports")
     >>> first = diagnose(simulate_fault(drive, "worn_spline", seed=5), drive)[0]
-    >>> first.cause, first.evidence[0]
+    >>> first.cause, told(first.evidence[0], USUAL)
     ('F21', 'Order 1 turns its phase or changes its size by 63 % with the torque.')
     """
     if isinstance(shown, OrderSpectrum):
@@ -154,7 +156,7 @@ def weighed(seen: Features, *, known: Catalogue | None = None) -> tuple[Finding,
     text = _(
         "This is beyond all that the diagnosis has learnt of: {said} A unit, a scale or the drive file may be wrong."
     )
-    strange = (text.format(said=" ".join(sentences[k] for k in beyond[:MOST_UNLIKE])),) if beyond else ()
+    strange = (say(text, said=Joined([sentences[k] for k in beyond[:MOST_UNLIKE]], between=" ")),) if beyond else ()
     found = []
     for k in sorted(range(len(model.causes)), key=lambda k: -score[k]):
         order = np.argsort(-np.abs(speaks[k]))
@@ -222,11 +224,11 @@ def _by_signs(signs: Signs, trust: float, known: Catalogue | None) -> tuple[Find
     )
 
 
-def _sentence(name: str, value: float, seen: Features) -> str:
+def _sentence(name: str, value: float, seen: Features) -> Text:
     """Return what a feature says in words; empty where it says nothing."""
     if not math.isfinite(value):
         return ""
-    times, percent = _short(10.0**value), 100.0 * value
+    times = _short(10.0**value)
     if name in ("peak_of_2", "peak_of_3", "at_third"):
         return _peak(name, times, seen)
     texts = {
@@ -236,34 +238,39 @@ def _sentence(name: str, value: float, seen: Features) -> str:
         "order_3": _("Order 3 is {times} times the order 1 of the drive in order."),
         "order_4": _("Order 4 is {times} times the order 2 of the drive in order."),
         "half_orders": _("Orders 0.5 and 1.5 are {times} times the order 1 of the drive in order."),
-        "at_centre": _("Order 3 pushes the centre bearing {times} times as hard as the ends."),
+        "at_centre": _("Order 3 loads the centre bearing {times} times as much as the ends."),
         "torque_on_1": _("Order 1 under load is {times} times that at the smaller torque."),
-        "turned_by_torque": _("Order 1 turns its phase or changes its size by {percent:.0f} % with the torque."),
+        "turned_by_torque": _("Order 1 turns its phase or changes its size by {share} with the torque."),
         "torque_on_2": _("Order 2 under load is {times} times that at the smaller torque."),
-        "power_of_1": _("Order 1 grows with the power {value:.1f} of the speed."),
-        "steep_at_top": _("Near the top speed order 1 grows with the power {value:.1f} of the speed."),
-        "power_of_2": _("Order 2 grows with the power {value:.1f} of the speed."),
+        "power_of_1": _("Order 1 grows with the power {value} of the speed."),
+        "steep_at_top": _("Near the top speed order 1 grows with the power {value} of the speed."),
+        "power_of_2": _("Order 2 grows with the power {value} of the speed."),
         "axial_share": _("Along the shaft order 1 is {times} times that across it."),
-        "knocks_1": _("The noise swells once a turn, by {percent:.0f} % of its mean."),
-        "knocks_2": _("The noise swells twice a turn, by {percent:.0f} % of its mean."),
-        "uneven": _("The output swings twice a turn {times} times as far as the joints make it."),
+        "knocks_1": _("The noise swells once a turn, by {share} of its mean."),
+        "knocks_2": _("The noise swells twice a turn, by {share} of its mean."),
+        "uneven": _("Order 2 of the output speed is {times} times what the joints make."),
     }
-    return texts[name].format(times=times, percent=percent, value=value)
+    share = Quantity(value, "share", decimals=0)
+    return say(texts[name], times=times, share=share, value=Quantity(value, decimals=1))
 
 
-def _short(value: float) -> str:
-    """Return a number with two significant digits, written out; what is next to nothing says no more."""
-    return f"{float(f'{value:.2g}'):.10g}" if value >= 1e-3 else "<0.001"
+def _short(value: float) -> Quantity | str:
+    """Return a number with two significant digits; what is next to nothing says no more."""
+    return Quantity(value, digits=2) if value >= 1e-3 else "<0.001"
 
 
-def _peak(name: str, times: str, seen: Features) -> str:
+def _peak(name: str, times: Quantity | str, seen: Features) -> Text:
     if name == "at_third":
-        text = _("At a third of the critical speed, {speed:.0f} rpm, order 3 is {times} times that elsewhere.")
-        return text.format(speed=seen.critical / 3.0 / rpm, times=times)
+        text = _("At a third of the critical speed, {speed}, order 3 is {times} times that elsewhere.")
+        return say(text, speed=Quantity(seen.critical / 3.0, "angular_speed"), times=times)
     order, speed = (2, seen.peak_2) if name == "peak_of_2" else (3, seen.peak_3)
-    text = _("Order {order} is largest at {speed:.0f} rpm, {times} times its median.")
-    text = text.format(order=order, speed=speed / rpm, times=times)
-    if math.isfinite(seen.critical):
-        more = _("That is {share:.2f} of the critical speed.").format(share=speed / seen.critical)
-        return f"{text} {more}"
-    return text
+    said = say(
+        _("Order {order} is largest at {speed}, {times} times its median."),
+        order=order,
+        speed=Quantity(speed, "angular_speed"),
+        times=times,
+    )
+    if not math.isfinite(seen.critical):
+        return said
+    more = say(_("That is {share} of the critical speed."), share=Quantity(speed / seen.critical, decimals=2))
+    return Joined([said, more], between=" ")

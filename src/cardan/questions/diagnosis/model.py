@@ -56,7 +56,7 @@ class Model:
         return np.concatenate([np.ones((*z.shape[:-1], 1)), first, second], axis=-1)
 
     def probability(self, value: Array) -> Array:
-        """Return the share of belief in each cause, array (..., f) to array (..., c)."""
+        """Return the probability of each cause, array (..., f) to array (..., c)."""
         level = self.terms(value) @ self.weight.T
         grown = np.exp(level - np.max(level, axis=-1, keepdims=True))
         return np.asarray(grown / np.sum(grown, axis=-1, keepdims=True))

@@ -145,7 +145,7 @@ def _shafts(drive: Drive, found: Articulation) -> Table:
             length("stroke", _("stroke"), [one.stroke for one in ones]),
             Column(
                 key="max_sliding_speed",
-                heading=_("sliding"),
+                heading=_("top speed"),
                 values=[one.max_rate for one in ones],
                 dimension="speed",
                 unit="mm_s",

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from cardan import figures, orbit, order_map, order_spectrum, rotation, torsional_vibration, tracked_orders
+from cardan.answers.reader import USUAL
 from cardan.figures.figure import Curve, Note, Rule, Shape
+from cardan.figures.for_reader import for_reader
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.diagnosis.figures.orders import LINES, map_figure
@@ -31,9 +33,15 @@ WHEEL = torsional_vibration(Channel(name="wheel", quantity="pulses", values=np.s
 ALL = (SPECTRUM, MAP, TRACKS, SHAFT, ORBIT, WHEEL)
 
 
+def seen(found):
+    """Return the figure of a result, as the usual reader sees it."""
+    (figure,) = figures.for_result(found)
+    return for_reader(figure, USUAL)
+
+
 @pytest.mark.parametrize("found", ALL, ids=lambda one: type(one).__name__)
 def test_both_renderers_draw_it_with_one_sentence(found):
-    (figure,) = figures.for_result(found)
+    figure = seen(found)
     assert figure.sentence.endswith(".")
     assert figure.sentence.count(". ") == 0
     assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
@@ -42,12 +50,11 @@ def test_both_renderers_draw_it_with_one_sentence(found):
 
 @pytest.mark.parametrize("found", ALL, ids=lambda one: type(one).__name__)
 def test_what_is_doubtful_is_said(found):
-    (figure,) = figures.for_result(replace(found, confidence=0.25))
-    assert figure.sentence.endswith("(with a confidence of only 25 %).")
+    assert seen(replace(found, confidence=0.25)).sentence.endswith("The confidence is only 25 %.")
 
 
 def test_peaks_are_named():
-    (figure,) = figures.for_result(SPECTRUM)
+    figure = seen(SPECTRUM)
     notes = [one for one in figure.panels[0].series if isinstance(one, Note)]
     assert [one.text for one in notes] == ["2×", "1×"]
     assert notes[0].y == pytest.approx(2.0, rel=0.01)

@@ -40,7 +40,7 @@ def test_a_lone_line_may_be_another_order_and_the_answer_says_so():
 
 
 def factors_of(one):
-    """Return the share of belief in the answer itself."""
+    """Return the probability of the answer itself."""
     return 1.0 - sum(share for _factor, share in one.alternatives)
 
 

@@ -85,7 +85,7 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
     for k, (place, band) in enumerate(zip(at, np.asarray(found.half_band[:count]) / rpm, strict=True)):
         across = place + 0.33 * np.asarray([-1.0, -1.0, 1.0, 1.0])
         role = "warning" if found.half_crossed[k] else "cross"
-        label = _("half of it ± 8 %, where the joints shake it twice a turn") if k == 0 else ""
+        label = _("half-critical band, ± 8 %") if k == 0 else ""
         series.append(Shape(x=band[[0, 1, 1, 0]], y=across, role=role, opacity=0.75, label=label))
     top = 1.12 * max(float(np.max(actual)), *included)
     ticks = steps(0.0, top, 8)

@@ -7,6 +7,7 @@ from math import isfinite
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import steps, written
 from cardan.figures.figure import Axis, Bars, Figure, Panel, Row
 from cardan.questions.diagnosis.examination import Examination
@@ -14,7 +15,7 @@ from cardan.questions.diagnosis.findings import Finding
 from cardan.texts import _
 
 from .motion import orbit_figure, rotation_figure, torsional_figure
-from .orders import map_figure, spectrum_figure, told, tracks_figure
+from .orders import map_figure, spectrum_figure, tracks_figure, trusted
 
 SHOWN = 6
 """Causes with a bar."""
@@ -23,7 +24,7 @@ LONG = 44
 """Letters of the name of a cause."""
 
 LIKELY = 0.5
-"""Share of belief from which on a cause is called likely."""
+"""Probability from which on a cause is called likely."""
 
 
 def examination_figures(found: Examination) -> tuple[Figure, ...]:
@@ -52,7 +53,7 @@ def examined_map(found: Examination) -> Figure:
 
 
 def causes_figure(findings: Sequence[Finding]) -> Figure:
-    """Return the share of belief in the likeliest causes.
+    """Return the probability of the likeliest causes.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def causes_figure(findings: Sequence[Finding]) -> Figure:
     bars = Bars(
         at=at,
         size=size,
-        texts=tuple(f"{one:.0f} %" for one in size),
+        texts=tuple(Quantity(one.score, "share", decimals=0) for one in shown),
         roles=(first, *("muted",) * (len(shown) - 1)),
         thick=0.62,
         lying=True,
@@ -77,19 +78,21 @@ def causes_figure(findings: Sequence[Finding]) -> Figure:
         series=(bars,),
         x=Axis(low=0.0, high=112.0, ticks=ticks, texts=written(ticks)),
         y=Axis(low=0.4, high=len(shown) + 0.6, ticks=tuple(at), texts=names, grid=False),
-        title=_("Share of belief [%]"),
+        title=_("Probability"),
+        dimension="share",
+        unit="percent",
     )
     return Figure(
         name="causes",
         title=_("What is likely wrong"),
-        sentence=verdict(findings),
+        sentence="",
         source=_("weights of a multinomial logistic model, calibrated on simulated recordings"),
         rows=(Row(panels=(panel,), height=0.27 * len(shown) + 0.3),),
         legend=False,
     )
 
 
-def verdict(findings: Sequence[Finding]) -> str:
+def verdict(findings: Sequence[Finding]) -> Text:
     """Return in one sentence what a recording comes to, never surer than it is.
 
     Parameters
@@ -99,21 +102,23 @@ def verdict(findings: Sequence[Finding]) -> str:
 
     Examples
     --------
+    >>> from cardan.answers.quantity import told
+    >>> from cardan.answers.reader import USUAL
     >>> one = Finding(cause="F01", fault="unbalance", score=0.81, confidence=0.9)
     >>> other = Finding(cause="F02", fault="tube bent", score=0.1, confidence=0.9)
-    >>> verdict([one, other])
+    >>> told(verdict([one, other]), USUAL)
     'Likely: unbalance (81 %).'
     """
     first, second = findings[0], findings[1]
-    share, next_share = 100.0 * first.score, 100.0 * second.score
+    share, other = (Quantity(one.score, "share", decimals=0) for one in (first, second))
     if first.score < LIKELY:
-        text = _("No cause stands out: {first} ({share:.0f} %), or {second} ({next_share:.0f} %).")
+        text = _("No cause stands out: {first} ({share}), or {second} ({next_share}).")
     elif first.cause == "healthy":
-        text = _("No fault shows ({share:.0f} %).")
+        text = _("No fault shows ({share}).")
     else:
-        text = _("Likely: {first} ({share:.0f} %).")
-    said = text.format(first=first.fault, share=share, second=second.fault, next_share=next_share)
-    return told(said, first.confidence)
+        text = _("Likely: {first} ({share}).")
+    said = say(text, first=first.fault, share=share, second=second.fault, next_share=other)
+    return trusted(said, first.confidence)
 
 
 def _short(name: str) -> str:

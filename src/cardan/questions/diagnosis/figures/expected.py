@@ -9,7 +9,6 @@ import numpy as np
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule, Series
 from cardan.figures.palette import DASHES, shaft
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
 from cardan.questions.diagnosis.expected import Expected
@@ -36,13 +35,16 @@ def expected_figure(found: Expected) -> Figure:
     """
     speed = np.linspace(*found.speed, POINTS)
     rows = []
-    loudest = ""
-    for direction, unit, factor in (("radial", "m/s²", 1.0), ("axial", "m/s²", 1.0), ("torsion", "rpm", rpm)):
+    ways = (
+        ("radial", "acceleration", "m_s2", 1.0),
+        ("axial", "acceleration", "m_s2", 1.0),
+        ("torsion", "angular_speed", "rpm", rpm),
+    )
+    for direction, dimension, unit, factor in ways:
         lines = [one for one in found.orders if one.direction == direction]
         if not lines:
             continue
         place = foremost_of(lines, lambda one: one.size).place
-        loudest = loudest or place
         curves = _curves(found, [one for one in lines if one.place == place], speed, factor)
         marks: list[Series] = []
         if isfinite(found.critical) and found.speed[0] < found.critical < found.speed[1]:
@@ -50,31 +52,49 @@ def expected_figure(found: Expected) -> Figure:
         title = {
             "radial": _("Across the shaft at {place}"),
             "axial": _("Along the shaft at {place}"),
-            "torsion": _("Swing of the speed at {place}"),
+            "torsion": _("Amplitude of the speed at {place}"),
         }[direction]
         panel = Panel(
             series=(*marks, *curves),
-            x=axis(_("speed"), "rpm", [speed / rpm], count=8),
-            y=axis(title.format(place=place), unit, [one.y for one in curves], include=(0.0,), count=4),
+            x=axis(_("speed"), "rpm", [speed / rpm], dimension="angular_speed", count=8),
+            y=axis(
+                title.format(place=place),
+                unit,
+                [one.y for one in curves],
+                dimension=dimension,
+                include=(0.0,),
+                count=4,
+            ),
         )
         rows.append(Row(panels=(panel,), height=1.5))
-    text = _("At {speed} rpm order {order} is the largest at {place}: about {size} m/s².")
-    radial = [one for one in found.orders if one.direction == "radial" and one.place == loudest]
-    orders = sorted({one.order for one in radial})
-    levels = {order: _level(found, radial, order, np.asarray(found.speed[1:])) for order in orders}
-    most = foremost_of(levels, lambda order: float(levels[order][0])) if levels else 1.0
     return Figure(
         name="expected-orders",
         title=_("What the fault should show"),
-        sentence=text.format(
-            speed=significant(found.speed[1] / rpm),
-            order=f"{most:g}",
-            place=loudest,
-            size=significant(float(levels[most][0]), 2) if levels else "0",
-        ),
-        source=_("amplitudes at the torque of the duty; sizes are good to a factor, shapes to more"),
+        sentence="",
+        source=_("amplitudes at the torque of the duty; order-of-magnitude, trends are more reliable"),
         rows=tuple(rows),
     )
+
+
+def largest_order(found: Expected) -> tuple[float, str, float] | None:
+    """Return the order across the shaft that is largest at top speed, its sensor and its amplitude [m/s²].
+
+    None where there is none across it.
+
+    Parameters
+    ----------
+    found : Expected
+        Of a drive and a fault.
+    """
+    radial = [one for one in found.orders if one.direction == "radial"]
+    if not radial:
+        return None
+    place = max(radial, key=lambda one: one.size).place
+    own = [one for one in radial if one.place == place]
+    top = np.asarray(found.speed[1:])
+    levels = {order: float(_level(found, own, order, top)[0]) for order in sorted({one.order for one in own})}
+    order = max(levels, key=lambda one: levels[one])
+    return order, place, levels[order]
 
 
 def _curves(found: Expected, lines: list[ExpectedOrder], speed: Array, factor: float) -> tuple[Curve, ...]:

@@ -6,18 +6,18 @@ import math
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row
 from cardan.figures.palette import shaft
-from cardan.figures.wording import angular, significant
 from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.diagnosis.signals.orbit import Orbit
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
 from cardan.questions.diagnosis.signals.turning import Rotation
 from cardan.texts import _
-from cardan.units import deg, rpm, spoken
+from cardan.units import deg, rpm
 
-from .orders import UNITS, order_text, quantity_word, told
+from .orders import amplitude_of, order_text, quantity_word, trusted, unit_of
 
 POINTS = 800
 """Points of a curve at most."""
@@ -58,8 +58,8 @@ def rotation_figure(found: Rotation) -> Figure:
     speed = np.diff(angle) / np.diff(time) / rpm
     panel = Panel(
         series=(Curve(x=0.5 * (time[1:] + time[:-1]), y=speed, role="accent"),),
-        x=axis(_("time"), "s", [time], margin=0.0, count=8),
-        y=axis(_("Speed"), "rpm", [speed], least=0.02 * float(np.mean(speed)), count=5),
+        x=axis(_("time"), "s", [time], dimension="time", margin=0.0, count=8),
+        y=axis(_("Speed"), "rpm", [speed], dimension="angular_speed", least=0.02 * float(np.mean(speed)), count=5),
     )
     sources = {
         "pulses": _("from the pulses of the tacho"),
@@ -67,13 +67,13 @@ def rotation_figure(found: Rotation) -> Figure:
         "angle": _("from a channel of the angle"),
         "ridge": _("found in what shakes, without a tacho"),
     }
-    text = _("{turns} turns, from {low} to {high} rpm.")
-    low, high = (one / rpm for one in found.speeds)
-    sentence = text.format(turns=f"{found.turns:.0f}", low=significant(low, 3), high=significant(high, 3))
+    low, high = (Quantity(one, "angular_speed", 3) for one in found.speeds)
+    text = _("{turns} turns, from {low:bare} to {high}.")
+    sentence = say(text, turns=Quantity(found.turns, decimals=0), low=low, high=high)
     return Figure(
         name="rotation",
         title=_("How the shaft turned"),
-        sentence=told(sentence, found.confidence),
+        sentence=trusted(sentence, found.confidence),
         source=sources[found.source],
         rows=(Row(panels=(panel,), height=1.8),),
         legend=False,
@@ -88,14 +88,14 @@ def orbit_figure(found: Orbit) -> Figure:
     found : Orbit
         Of two sensors.
     """
-    unit, size = UNITS[found.quantity]
+    dimension, unit, size = unit_of(found.quantity)
     wide = max(float(np.max(np.abs(found.x))), float(np.max(np.abs(found.y))), 1e-300) / size
     reach = 1.1 * wide
     own = 1.15 * max([one.major for one in found.ellipses], default=wide * size) / size or reach
 
     def frame(end: float, name: str) -> Axis:
         ticks = steps(-end, end, 4)
-        return Axis(label=name, unit=unit, low=-end, high=end, ticks=ticks, texts=written(ticks))
+        return Axis(label=name, unit=unit, dimension=dimension, low=-end, high=end, ticks=ticks, texts=written(ticks))
 
     step = max(1, found.x.size // (4 * POINTS))
     raw = Panel(
@@ -124,7 +124,7 @@ def orbit_figure(found: Orbit) -> Figure:
     return Figure(
         name="orbit",
         title=_("Orbit of {x} and {y}").format(x=found.names[0], y=found.names[1]),
-        sentence=told(_orbit_sentence(found, unit, size), found.confidence),
+        sentence=trusted(_orbit_sentence(found), found.confidence),
         source=_("two sensors across the shaft; ellipses fitted over {turns} turns").format(
             turns=f"{(found.angle[-1] - found.angle[0]) / (2 * math.pi):.0f}"
         ),
@@ -132,20 +132,18 @@ def orbit_figure(found: Orbit) -> Figure:
     )
 
 
-def _orbit_sentence(found: Orbit, unit: str, size: float) -> str:
+def _orbit_sentence(found: Orbit) -> Text:
+    speed = Quantity(found.speed, "angular_speed", 3)
     if not found.ellipses:
-        return _("The {quantity} at {speed} rpm.").format(
-            quantity=quantity_word(found.quantity), speed=significant(found.speed / rpm, 3)
-        )
+        return say(_("The {quantity} at {speed}."), quantity=quantity_word(found.quantity), speed=speed)
     first = foremost_of(found.ellipses, lambda one: one.major)
     way = _("with the shaft") if first.minor >= 0.0 else _("against the shaft")
-    text = _("At {speed} rpm order {order} is the largest: {major} by {minor} {unit}, run through {way}.")
-    return text.format(
-        speed=significant(found.speed / rpm, 3),
+    return say(
+        _("At {speed} order {order} is the largest: {major:bare} by {minor}, run through {way}."),
+        speed=speed,
         order=f"{first.order:g}",
-        major=significant(first.major / size, 3),
-        minor=significant(abs(first.minor) / size, 3),
-        unit=spoken(unit),
+        major=amplitude_of(found.quantity, first.major),
+        minor=amplitude_of(found.quantity, abs(first.minor)),
         way=way,
     )
 
@@ -164,27 +162,27 @@ def torsional_figure(found: TorsionalVibration) -> Figure:
     course = Panel(
         series=(Curve(x=angle, y=twist, role="accent"),),
         x=axis(_("turns"), "", [angle], margin=0.0, count=8),
-        y=axis(_("Ahead of even turning"), "°", [twist], mirrored=0.0),
+        y=axis(_("Angle error against uniform rotation"), "deg", [twist], dimension="angle", mirrored=0.0),
     )
     near = found.order <= min(ORDERS, 0.25 * found.teeth)
     lines = found.twist_amplitude[near] / deg
     orders = Panel(
         series=(Curve(x=found.order[near], y=lines, role="accent", width=1.1),),
         x=axis(_("order: times a turn"), "", [found.order[near]], margin=0.0, count=10),
-        y=axis(_("Peak amplitude of the twist"), "°", [lines], include=(0.0,)),
+        y=axis(_("Peak amplitude of the twist"), "deg", [lines], dimension="angle", include=(0.0,)),
     )
     inner = np.flatnonzero(near & (found.order > 0.2))
     best = int(inner[foremost(found.twist_amplitude[inner])]) if inner.size else 0
-    text = _("The shaft swings by ±{twist}° in order {order}, at a mean speed of {speed} rpm.")
-    sentence = text.format(
-        twist=angular(float(found.twist_amplitude[best]) / deg, 3),
+    sentence = say(
+        _("The shaft oscillates by ±{twist} in order {order}, at a mean speed of {speed}."),
+        twist=Quantity(float(found.twist_amplitude[best]), "angle", 3),
         order=order_text(float(found.order[best])),
-        speed=significant(float(np.mean(found.speed)) / rpm, 3),
+        speed=Quantity(float(np.mean(found.speed)), "angular_speed", 3),
     )
     return Figure(
         name="torsional-vibration",
         title=_("Torsional vibration by {name}").format(name=found.name),
-        sentence=told(sentence, found.confidence),
+        sentence=trusted(sentence, found.confidence),
         source=_("times of {teeth} teeth a turn; errors of teeth averaged over the turns and left out").format(
             teeth=found.teeth
         ),

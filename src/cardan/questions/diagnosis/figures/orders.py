@@ -8,15 +8,16 @@ from itertools import pairwise
 
 import numpy as np
 
+from cardan.answers.numbers import significant
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Rule, Series, Shape
 from cardan.figures.palette import DASHES, shaft
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.questions.diagnosis.signals.order_tracks import TrackedOrders
 from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum
 from cardan.texts import _
-from cardan.units import deg, rpm, spoken
+from cardan.units import deg, factor, rpm
 
 LINES = 36
 """Lines of a map at most: one for each range of speed."""
@@ -33,17 +34,29 @@ RUN, LASTING = 0.7, 0.2
 BELIEVED = 0.6
 """Confidence below which the sentence says so."""
 
-UNITS = {
-    "acceleration": ("m/s²", 1.0),
-    "velocity": ("mm/s", 1e-3),
-    "displacement": ("µm", 1e-6),
-    "angle": ("°", deg),
-    "angular_speed": ("rpm", rpm),
-    "torque": ("N·m", 1.0),
-    "pulses": ("", 1.0),
-    "other": ("", 1.0),
+DIMENSIONS = {
+    "acceleration": ("acceleration", "m_s2"),
+    "velocity": ("speed", "mm_s"),
+    "displacement": ("displacement", "um"),
+    "angle": ("angle", "deg"),
+    "angular_speed": ("angular_speed", "rpm"),
+    "torque": ("torque", "Nm"),
+    "pulses": ("", ""),
+    "other": ("", ""),
 }
-"""Quantity -> unit on an axis and its size in SI."""
+"""Quantity -> dimension and usual unit on an axis."""
+
+
+def unit_of(quantity: str) -> tuple[str, str, float]:
+    """Return dimension, usual unit and its size in SI of what a channel measures.
+
+    Examples
+    --------
+    >>> unit_of("velocity"), unit_of("pulses")
+    (('speed', 'mm_s', 0.001), ('', '', 1.0))
+    """
+    dimension, unit = DIMENSIONS[quantity]
+    return dimension, unit, factor(dimension, unit) if dimension else 1.0
 
 
 def quantity_word(quantity: str) -> str:
@@ -66,18 +79,20 @@ def quantity_word(quantity: str) -> str:
     return words.get(quantity, _("values as read"))
 
 
-def told(sentence: str, confidence: float) -> str:
+def trusted(sentence: Text, confidence: float) -> Text:
     """Return a sentence with how little the picture can be relied on, as it is where it can.
 
     Examples
     --------
-    >>> told("Order 2 is the highest.", 0.9), told("Order 2 is the highest.", 0.25)
-    ('Order 2 is the highest.', 'Order 2 is the highest (with a confidence of only 25 %).')
+    >>> from cardan.answers.quantity import told
+    >>> from cardan.answers.reader import USUAL
+    >>> told(trusted("Order 2 is the highest.", 0.9), USUAL), told(trusted("Order 2 is the highest.", 0.25), USUAL)
+    ('Order 2 is the highest.', 'Order 2 is the highest. The confidence is only 25 %.')
     """
     if confidence >= BELIEVED:
         return sentence
-    text = _("{sentence} (with a confidence of only {share:.0f} %).")
-    return text.format(sentence=sentence.rstrip("."), share=100.0 * confidence)
+    text = _("{sentence} The confidence is only {share}.")
+    return say(text, sentence=sentence, share=Quantity(confidence, "share", decimals=0))
 
 
 def order_text(order: float) -> str:
@@ -114,7 +129,7 @@ def spectrum_figure(found: OrderSpectrum) -> Figure:
     found : OrderSpectrum
         Of one channel.
     """
-    unit, size = UNITS[found.quantity]
+    dimension, unit, size = unit_of(found.quantity)
     level, floor = found.amplitude / size, found.floor / size
     peaks = found.peaks(count=NAMED)
     notes = [
@@ -132,6 +147,7 @@ def spectrum_figure(found: OrderSpectrum) -> Figure:
             _("Peak amplitude of {quantity}").format(quantity=quantity_word(found.quantity)),
             unit,
             [level],
+            dimension=dimension,
             include=(0.0,),
             margin=0.14,
         ),
@@ -139,7 +155,7 @@ def spectrum_figure(found: OrderSpectrum) -> Figure:
     return Figure(
         name="order-spectrum",
         title=_("Orders of {name}").format(name=found.name),
-        sentence=told(_peak_sentence(found, peaks, unit, size), found.confidence),
+        sentence=trusted(_peak_sentence(found, peaks), found.confidence),
         source=_(
             "read at even angles of the shaft; {windows} windows of {turns} turns; orders nearer than {width} are one"
         ).format(windows=found.windows, turns=found.turns, width=significant(found.resolution, 2)),
@@ -147,19 +163,19 @@ def spectrum_figure(found: OrderSpectrum) -> Figure:
     )
 
 
-def _peak_sentence(found: OrderSpectrum, peaks: Sequence[tuple[float, float]], unit: str, size: float) -> str:
-    low, high = (one / rpm for one in found.speeds)
+def _peak_sentence(found: OrderSpectrum, peaks: Sequence[tuple[float, float]]) -> Text:
+    low, high = (Quantity(one, "angular_speed", 3) for one in found.speeds)
     if not peaks:
-        text = _("No order stands out of the noise between {low} and {high} rpm.")
-        return text.format(low=significant(low, 3), high=significant(high, 3))
-    text = _("From {low} to {high} rpm the highest order is {order} with {amplitude} {unit}.")
-    return text.format(
-        low=significant(low, 3),
-        high=significant(high, 3),
-        order=order_text(peaks[0][0]),
-        amplitude=significant(peaks[0][1] / size, 3),
-        unit=spoken(unit),
-    )
+        return say(_("No order stands out of the noise between {low:bare} and {high}."), low=low, high=high)
+    text = _("From {low:bare} to {high} the highest order is {order} with {amplitude}.")
+    order, amplitude = peaks[0]
+    return say(text, low=low, high=high, order=order_text(order), amplitude=amplitude_of(found.quantity, amplitude))
+
+
+def amplitude_of(quantity: str, value: float) -> Quantity:
+    """Return an amplitude of what a channel measures [SI]."""
+    dimension, unit, _size = unit_of(quantity)
+    return Quantity(float(value), dimension, 3, unit=unit)
 
 
 def map_figure(
@@ -179,7 +195,7 @@ def map_figure(
     orders : mapping of float to str, or sequence of float
         Orders marked, with their names.
     """
-    unit, size = UNITS[found.quantity]
+    size = unit_of(found.quantity)[2]
     speed, rows = _by_speed(found)
     level, at = rows / size, speed / rpm
     top = float(np.max(level, initial=0.0)) or 1.0
@@ -204,11 +220,11 @@ def map_figure(
         x=axis(_("order: times a turn"), "", [found.order], margin=0.0, count=10),
         y=_speeds(low_end, high_end),
     )
-    text = _("A full line is {amplitude} {unit} high; orders stand upright, and grow where they pass a resonance.")
+    text = _("A full line is {amplitude} high; orders stand upright, and grow where they pass a resonance.")
     return Figure(
         name="order-map",
         title=_("Orders of {name} over the speed").format(name=found.name),
-        sentence=told(text.format(amplitude=significant(top, 3), unit=spoken(unit)), found.confidence),
+        sentence=trusted(say(text, amplitude=amplitude_of(found.quantity, top * size)), found.confidence),
         source=_("read at even angles of the shaft; windows of {turns} turns").format(turns=found.turns),
         rows=(Row(panels=(panel,), height=4.2),),
         legend=bool(len(critical_speeds)),
@@ -227,7 +243,9 @@ def _by_speed(found: OrderMap) -> tuple[Array, Array]:
 
 def _speeds(low: float, high: float) -> Axis:
     ticks = steps(low, high, 6)
-    return Axis(label=_("Speed"), unit="rpm", low=low, high=high, ticks=ticks, texts=written(ticks))
+    return Axis(
+        label=_("Speed"), unit="rpm", dimension="angular_speed", low=low, high=high, ticks=ticks, texts=written(ticks)
+    )
 
 
 def _crossing(critical: float, low: float, high: float, last: float) -> list[Series]:
@@ -237,7 +255,7 @@ def _crossing(critical: float, low: float, high: float, last: float) -> list[Ser
     if not first < end:
         return []
     order = np.linspace(first, end, 60)
-    name = _("natural frequency {value} Hz").format(value=significant(critical / 60.0, 3))
+    name = say(_("natural frequency {value}"), value=Quantity(critical * rpm, "frequency", 3))
     return [Curve(x=order, y=critical / order, role="failed", dash="dashed", width=1.0, label=name)]
 
 
@@ -249,16 +267,16 @@ def tracks_figure(found: TrackedOrders) -> Figure:
     found : TrackedOrders
         Of one channel.
     """
-    unit, size = UNITS[found.quantity]
+    dimension, unit, size = unit_of(found.quantity)
     run = _longest_run(found.speed)
     if run is None:
         pick = np.arange(found.time.size)
         across = found.time
-        bottom = axis(_("time"), "s", [across], margin=0.0, count=8)
+        bottom = axis(_("time"), "s", [across], dimension="time", margin=0.0, count=8)
     else:
         pick = run[0] + np.argsort(found.speed[slice(*run)], kind="stable")
         across = found.speed[pick] / rpm
-        bottom = axis(_("speed"), "rpm", [across], margin=0.0, count=8)
+        bottom = axis(_("speed"), "rpm", [across], dimension="angular_speed", margin=0.0, count=8)
     level = found.amplitude[:, pick] / size
     looks = [(shaft(k + 1), DASHES[k // 8 % len(DASHES)]) for k in range(len(found.orders))]
     upper = Panel(
@@ -271,6 +289,7 @@ def tracks_figure(found: TrackedOrders) -> Figure:
             _("Peak amplitude of {quantity}").format(quantity=quantity_word(found.quantity)),
             unit,
             [level],
+            dimension=dimension,
             include=(0.0,),
         ),
     )
@@ -285,21 +304,27 @@ def tracks_figure(found: TrackedOrders) -> Figure:
             ),
             x=bottom,
             y=Axis(
-                label=_("Phase against the mark"), unit="°", low=-180.0, high=180.0, ticks=ticks, texts=written(ticks)
+                label=_("Phase against the mark"),
+                unit="deg",
+                dimension="angle",
+                low=-180.0,
+                high=180.0,
+                ticks=ticks,
+                texts=written(ticks),
             ),
         )
         rows.append(Row(panels=(lower,), height=1.3))
     at = np.unravel_index(int(np.argmax(level)), level.shape)
-    text = _("Order {order} is the highest: {amplitude} {unit} at {speed} rpm.")
+    text = _("Order {order} is the highest: {amplitude} at {speed}.")
     return Figure(
         name="tracked-orders",
         title=_("Orders of {name} followed over the speed").format(name=found.name),
-        sentence=told(
-            text.format(
+        sentence=trusted(
+            say(
+                text,
                 order=f"{found.orders[at[0]]:g}",
-                amplitude=significant(float(level[at]), 3),
-                unit=spoken(unit),
-                speed=significant(float(found.speed[pick[at[1]]]) / rpm, 3),
+                amplitude=amplitude_of(found.quantity, float(level[at]) * size),
+                speed=Quantity(float(found.speed[pick[at[1]]]), "angular_speed", 3),
             ),
             found.confidence,
         ),

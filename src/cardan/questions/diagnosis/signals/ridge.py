@@ -330,7 +330,7 @@ def _wavering(found: _Path) -> float:
 def _shares(
     found: _Path, low: float, high: float, order: float | None, band: tuple[float, float]
 ) -> dict[float, float]:
-    """Return order of the ridge -> share of belief."""
+    """Return order of the ridge -> probability."""
     if order is not None:
         return {order: 1.0}
     middle = float(np.median(found.frequency))

@@ -59,7 +59,7 @@ class Rotation:
     order : float
         Order that the ridge was taken for; 1 otherwise.
     alternatives : tuple of (float, float)
-        Factors by which the true speed may differ from this one, with the share of belief in each; empty where pulses
+        Factors by which the true speed may differ from this one, with the probability of each; empty where pulses
         or a speed leave no choice.
     cautions : tuple of str
         What was doubtful.

@@ -7,8 +7,8 @@ import pytest
 from cardan.checks import check
 from cardan.checks.design import design
 from cardan.drive.fields.keys import meant
+from cardan.drive.fields.words import in_words
 from cardan.io import example
-from cardan.report.named import in_words
 
 
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "two-piece-rubber-bearing", "w-arrangement"])

@@ -1,0 +1,62 @@
+"""What is said of the balance of shafts: limits, what was measured, and the masses that cancel it."""
+
+from dataclasses import replace
+
+import pytest
+
+from cardan.answers.data import data
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL, Reader
+from cardan.drive.duty import Duty
+from cardan.io import example
+from cardan.questions.bending.balance_answer import answer, ask, lacking
+from cardan.questions.bending.shaft_balance import balance
+from cardan.report.page import page
+from cardan.texts import speaking
+
+CAR = example("car-propshaft")
+INCHES = Reader(units={"mass": "lb"}, decimal=",")
+
+
+def of(drive, **choices):
+    return answer(drive, ask(drive, **choices))
+
+
+def column(table, key):
+    return list(next(one for one in table.columns if one.key == key).values)
+
+
+def test_limits_and_corrections_are_those_of_the_analysis():
+    said, found = of(CAR), balance(CAR)
+    limits, fixes = said.tables
+    assert column(limits, "allowed") == [one.allowed for one in found.shafts]
+    assert column(fixes, "mass") == [fix.mass for one in found.shafts for fix in one.corrections]
+    assert (said.tone, said.code) == ("good", 0)
+    assert page(said, USUAL).answer == "Balanced well enough for 4\u202f000 rpm."
+
+
+def test_too_much_unbalance_is_a_failure():
+    tube = CAR.shafts[1]
+    much = tuple(replace(one, amount=10.0 * one.amount) for one in tube.unbalance)
+    said = of(replace(CAR, shafts=(CAR.shafts[0], replace(tube, unbalance=much), *CAR.shafts[2:])))
+    assert (said.tone, said.code) == ("failed", 1)
+    assert told(said.sentence, USUAL) == "too much unbalance on shaft 2 at 4\u202f000 rpm."
+
+
+def test_an_assumed_grade_is_told():
+    said = of(example("two-piece-rubber-bearing"))
+    assert said.facts["grade_assumed"]
+    assert any("G16 is usual for these shafts" in told(one.text, USUAL) for one in said.remarks)
+
+
+def test_readers_are_told_in_their_units_and_language():
+    said = of(CAR)
+    assert data(said, INCHES)["shafts"][0]["mass_lb"] == pytest.approx(balance(CAR).shafts[0].mass / 0.45359237)
+    with speaking("ru"):
+        assert "об/мин" in told(of(CAR).sentence, USUAL)
+
+
+def test_what_the_drive_file_lacks_is_told():
+    assert lacking(CAR) == ()
+    assert lacking(replace(CAR, duty=Duty())) == (("duty.speed_range", "duty.speed"),)
+    assert lacking(example("single-20deg"))
