@@ -9,9 +9,9 @@ from __future__ import annotations
 from cardan.answers.question import Question
 from cardan.texts import mark
 
-MOTION, LOADS, VIBRATION = mark("Motion"), mark("Loads"), mark("Vibration")
-STRENGTH, SUPPORTS, CHOICE = mark("Strength and life"), mark("Supports"), mark("Choice")
-TORSION = mark("Torsion")
+MOTION, PHASING, FORCES, LOSSES = mark("Motion"), mark("Phasing"), mark("Forces"), mark("Power loss")
+ACCURACY, TORSION, BENDING, LIFE = mark("Accuracy"), mark("Torsion"), mark("Bending"), mark("Life")
+STRENGTH, CHECKS, SUPPORTS, CHOICE = mark("Strength"), mark("Checks"), mark("Mobility"), mark("Selection")
 
 QUESTIONS: dict[str, Question] = {
     question.name: question
@@ -43,14 +43,14 @@ QUESTIONS: dict[str, Question] = {
             name="phasing",
             module="cardan.questions.phases.answer",
             title=mark("Phasing of the yokes"),
-            group=MOTION,
+            group=PHASING,
             help=mark("Which yoke angles make the output uniform, or how uniform it can be."),
         ),
         Question(
             name="accuracy",
             module="cardan.questions.accuracy.answer",
             title=mark("Accuracy"),
-            group=MOTION,
+            group=ACCURACY,
             help=mark(
                 "What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."
             ),
@@ -59,14 +59,14 @@ QUESTIONS: dict[str, Question] = {
             name="forces",
             module="cardan.questions.forces.answer",
             title=mark("Forces"),
-            group=LOADS,
+            group=FORCES,
             help=mark("What every shaft, joint and bearing carries over a turn."),
         ),
         Question(
             name="losses",
             module="cardan.questions.losses.answer",
             title=mark("Power loss"),
-            group=LOADS,
+            group=LOSSES,
             help=mark("How much of the power is lost, and where."),
         ),
         Question(
@@ -134,7 +134,7 @@ QUESTIONS: dict[str, Question] = {
             name="bending",
             module="cardan.questions.bending.answer",
             title=mark("Bending critical speeds"),
-            group=VIBRATION,
+            group=BENDING,
             help=mark("At which speeds the shafts whirl, and how far the drive stays away."),
             quick=False,
         ),
@@ -142,7 +142,7 @@ QUESTIONS: dict[str, Question] = {
             name="rotor",
             module="cardan.questions.bending.rotor_answer",
             title=mark("Whirl of a shaft"),
-            group=VIBRATION,
+            group=BENDING,
             help=mark("How a shaft whirls with its unbalance and a crack: orders, orbits, run-up."),
             quick=False,
             takes=("progress",),
@@ -151,14 +151,14 @@ QUESTIONS: dict[str, Question] = {
             name="balance",
             module="cardan.questions.bending.balance_answer",
             title=mark("Balance"),
-            group=VIBRATION,
+            group=BENDING,
             help=mark("What unbalance each shaft may have, and the masses that cancel what it has."),
         ),
         Question(
             name="life",
             module="cardan.questions.life.answer",
             title=mark("Life"),
-            group=STRENGTH,
+            group=LIFE,
             help=mark("How long the joints last, steadily or in a duty cycle."),
             gathers="sum",
         ),
@@ -175,7 +175,7 @@ QUESTIONS: dict[str, Question] = {
             name="check",
             module="cardan.choices.check_answer",
             title=mark("Checks"),
-            group=STRENGTH,
+            group=CHECKS,
             help=mark("Whether the drive keeps its limits, and which changes help where it does not."),
             takes=("known",),
             gathers="worst",
@@ -208,3 +208,17 @@ QUESTIONS: dict[str, Question] = {
     )
 }
 """Every question by its name, in the order in which one asks them."""
+
+
+def groups() -> dict[str, tuple[str, ...]]:
+    """Return the tabs, by their headings marked for translation, with the names of the questions on each.
+
+    Examples
+    --------
+    >>> groups()["Bending"]
+    ('bending', 'rotor', 'balance')
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    for question in QUESTIONS.values():
+        found[question.group] = (*found.get(question.group, ()), question.name)
+    return found

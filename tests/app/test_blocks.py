@@ -9,7 +9,8 @@ from cardan.app.parts.verdicts import field_of, lights_html
 from cardan.figures.palette import DARK, ROLES, SHAFTS
 from cardan.figures.render_plotly import described
 from cardan.io import example
-from cardan.report.answers import ANSWERS, answered, subject
+from cardan.register import QUESTIONS
+from cardan.report.answers import answered, subject
 from cardan.report.applying import Applicable
 from cardan.report.block import Cell, Column, Listing, Picture, Points, Table, Words
 from cardan.report.lights import Light, lights
@@ -111,7 +112,7 @@ def test_buttons_stand_in_the_first_table_that_has_them_alone():
 @pytest.mark.parametrize("name", ["truck-supports", "overconstrained-pump", "propshaft-with-rzeppa"])
 def test_every_quick_answer_is_sound_html(name):
     on = subject(example(name))
-    for one, asked in ANSWERS.items():
+    for one, asked in QUESTIONS.items():
         if asked.quick:
             for block in answered(one, on).blocks:
                 if not isinstance(block, Picture):

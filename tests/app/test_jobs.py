@@ -93,7 +93,7 @@ def test_questions_are_the_same_when_all_that_matters_is():
 
 def test_a_catalogue_that_changed_makes_another_question(tmp_path):
     drive = replace(DRIVE, settings=replace(DRIVE.settings, catalogues=("own.toml", "../secret.toml")))
-    asked_before = Question(name="limits", drive=drive, folder=tmp_path)
+    asked_before = Question(name="check", drive=drive, folder=tmp_path)
     before = asked_before.key
     (tmp_path / "own.toml").write_text("")
     assert asked_before.key != before

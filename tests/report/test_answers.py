@@ -11,8 +11,9 @@ from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import place
 from cardan.errors import InputError
 from cardan.io import edit, example, example_names, example_text, loads
+from cardan.register import QUESTIONS, groups
 from cardan.report import subject as subjects
-from cardan.report.answers import ANSWERS, GROUPS, answered, subject
+from cardan.report.answers import answered, subject
 from cardan.report.applying import Applicable, settings, synchronous
 from cardan.report.content import moved
 from cardan.report.lacking import told
@@ -59,8 +60,8 @@ def test_an_answer_is_the_page_of_the_report(name):
 def test_no_answer_is_silent_and_keys_named_are_keys_of_the_file(name):
     drive = example(name)
     on = subject(drive)
-    for one, asked in ANSWERS.items():
-        missing = asked.lacking(on)
+    for one, asked in QUESTIONS.items():
+        missing = asked.lacking(drive)
         if missing:
             assert answered(one, on).answer == told(missing)
         for path in (path for some in missing for path in some):
@@ -88,7 +89,7 @@ def test_why_there_is_nothing_although_no_key_is_missing():
 
 
 def test_groups_hold_every_answer_once():
-    assert [name for _title, names in GROUPS for name in names] == list(ANSWERS)
+    assert sorted(name for names in groups().values() for name in names) == sorted(QUESTIONS)
 
 
 def test_the_page_of_the_motion_asks_nothing_about_the_yokes(monkeypatch):

@@ -9,7 +9,8 @@ import pytest
 from cardan.answers.reader import Reader, reading
 from cardan.figures.figure import Curve, Figure
 from cardan.io import example, example_names
-from cardan.report.answers import ANSWERS, answered, subject
+from cardan.register import QUESTIONS
+from cardan.report.answers import answered, subject
 from cardan.report.block import Cell, Listing, Page, Picture, Table
 from cardan.units import DIMENSIONS, label
 
@@ -17,11 +18,11 @@ AMERICAN = {"length": "in", "angle": "rad", "angular_speed": "rad_s", "torque": 
 
 USUAL = tuple(next(iter(DIMENSIONS[one])) for one in AMERICAN)
 
-QUICK = tuple(name for name, one in ANSWERS.items() if one.quick and name not in ("selection", "phasing"))
+QUICK = tuple(name for name, one in QUESTIONS.items() if one.quick and name not in ("selection", "phasing"))
 
 LONG = {
     "unstable-drive": ("torsion", "orders", "stability"),
-    "pto-drive": ("limits", "bending"),
+    "pto-drive": ("check", "bending"),
     "pto-hitch": ("articulation",),
 }
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -79,14 +78,6 @@ class Question:
     def home(self) -> ModuleType:
         """The module that answers it."""
         return import_module(self.module)
-
-    @property
-    def ready(self) -> bool:
-        """Whether it is answered in a folder of its own."""
-        try:
-            return find_spec(self.module) is not None
-        except ModuleNotFoundError:
-            return False
 
     def lacking(self, drive: Drive) -> Lacking:
         """Return what a drive file lacks for it."""

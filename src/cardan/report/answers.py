@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, TypeAlias, cast
 
 from cardan.answers.question import Question
@@ -18,37 +18,12 @@ from cardan.texts import _
 from .balance import refused
 from .block import Page
 from .followed import asked_by_laws
-from .lacking import Lacking, told
+from .lacking import told
 from .page import page
 from .subject import Progress, Subject
 
 Choices: TypeAlias = Mapping[str, Any]
 """What the user chose beside the drive."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """A question that can be asked by itself.
-
-    Parameters
-    ----------
-    title : function
-        What it is called, in the language spoken.
-    page : function
-        From a drive, who watches the work, and what the user chose to the page; None where nothing can be told.
-    lacking : function
-        What the drive file lacks for it.
-    otherwise : function
-        Why nothing can be told although nothing is missing.
-    quick : bool
-        Whether it is there at once; the others are worth a process of their own.
-    """
-
-    title: Callable[[], str]
-    page: Callable[[Subject, Progress | None, Choices], Page | None]
-    lacking: Callable[[Subject], Lacking]
-    otherwise: Callable[[Subject], str]
-    quick: bool = True
 
 
 def subject(drive: Drive, *, known: Catalogue | None = None) -> Subject:
@@ -73,7 +48,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     Parameters
     ----------
     name : str
-        One of `ANSWERS`.
+        One of `cardan.register.QUESTIONS`.
     on : Subject
         The drive, as of `subject`.
     progress : function, optional
@@ -89,11 +64,7 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
     >>> answered("losses", subject(Drive.from_angles([20 * deg]))).answer[:46]
     'This answer needs more in the drive file: duty'
     """
-    return page_of(QUESTIONS[NAMES.get(name, name)], on, progress, choices or {})
-
-
-NAMES = {"limits": "check"}
-"""Name of a page -> name of its question, where these differ."""
+    return page_of(QUESTIONS[name], on, progress, choices or {})
 
 
 def page_of(question: Question, on: Subject, progress: Progress | None, choices: Choices) -> Page:
@@ -109,36 +80,3 @@ def page_of(question: Question, on: Subject, progress: Progress | None, choices:
     if result is None:
         return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
     return page(question.answer(on.drive, result), reader())
-
-
-GROUPS: tuple[tuple[Callable[[], str], tuple[str, ...]], ...] = (
-    (lambda: _("Motion"), ("motion", "articulation", "classical")),
-    (lambda: _("Phasing"), ("phasing",)),
-    (lambda: _("Forces"), ("forces",)),
-    (lambda: _("Losses"), ("losses",)),
-    (lambda: _("Accuracy"), ("accuracy",)),
-    (lambda: _("Torsion"), ("torsion", "orders", "stability", "run-up")),
-    (lambda: _("Bending"), ("bending",)),
-    (lambda: _("Life"), ("life",)),
-    (lambda: _("Strength"), ("strength",)),
-    (lambda: _("Limits"), ("limits",)),
-    (lambda: _("Mobility"), ("mobility", "assembly")),
-    (lambda: _("Selection"), ("selection",)),
-)
-"""Questions that belong together, with what they are called together."""
-
-
-def _registered(name: str) -> Answer:
-    """Return a question of the register as an answer among the others."""
-    question = QUESTIONS[NAMES.get(name, name)]
-    return Answer(
-        title=lambda: _(question.title),
-        page=lambda on, progress, choices: page_of(question, on, progress, choices),
-        lacking=lambda on: question.lacking(on.drive),
-        otherwise=lambda on: str(question.home.otherwise(on.drive)),
-        quick=question.quick,
-    )
-
-
-ANSWERS: dict[str, Answer] = {name: _registered(name) for _title, names in GROUPS for name in names}
-"""Every question by its name, in the order in which one asks them."""

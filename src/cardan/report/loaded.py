@@ -15,29 +15,15 @@ from .block import Page
 from .page import page as page_for
 from .subject import Subject
 
-PAGES = (
-    "forces",
-    "losses",
-    "strength",
-    "life",
-    "accuracy",
-    "mobility",
-    "assembly",
-    "torsion",
-    "orders",
-    "stability",
-    "run-up",
-    "bending",
-    "rotor",
-    "balance",
-)
-"""The questions whose answers are parts, in the order of the report."""
+OWN = ("motion", "classical", "articulation", "phasing", "check")
+"""Questions whose pages have places of their own in the report."""
 
 
 def loaded(on: Subject) -> Iterator[Page]:
     """Yield the parts that the drive file asks for; none once the reader stopped the work."""
-    for name in PAGES if on.complete else ():
-        page = _asked(QUESTIONS[name], on)
+    asked = (one for one in QUESTIONS.values() if one.report and one.name not in OWN)
+    for question in asked if on.complete else ():
+        page = _asked(question, on)
         if page is not None:
             yield page
 

@@ -64,7 +64,7 @@ def _close(limits: Page) -> bool:
 
 def _limits(pages: Sequence[Page]) -> Page | None:
     """Return the page of the checks; None where none could be judged."""
-    page = next((one for one in pages if one.name in ("limits", "check")), None)
+    page = next((one for one in pages if one.name == "check"), None)
     return None if page is None or any(alarm.tone == "warning" for alarm in page.alarms) else page
 
 

@@ -14,7 +14,8 @@ from cardan.app.state.work import Question, asked, result
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError, InputError
 from cardan.io import edit
-from cardan.report.answers import ANSWERS, GROUPS, subject
+from cardan.register import QUESTIONS, groups
+from cardan.report.answers import subject
 from cardan.report.applying import Applicable, settings
 from cardan.report.block import Page
 from cardan.texts import _, speaking
@@ -53,23 +54,24 @@ class Answers:
         jobs.start()
         jobs.leave(session)  # what an older page of the same window was waiting for
         ui.context.client.on_delete(lambda: jobs.leave(session))
+        tabs = groups()
         with ui.element("div").classes("asked"):
             self._tabs = ui.tabs(on_change=lambda event: self.open(str(event.value))).props(
                 "dense no-caps align=left outside-arrows mobile-arrows"
             )
             with self._tabs:
-                for title, names in GROUPS:
-                    ui.tab(names[0], label=title()).props(f'data-mark="tab-{names[0]}"')
+                for title, names in tabs.items():
+                    ui.tab(names[0], label=_(title)).props(f'data-mark="tab-{names[0]}"')
         self._bodies = ui.element("div").classes("sheets")
         self._groups: dict[str, ui.toggle] = {}
         with self._bodies:
-            for _title, names in GROUPS:
+            for names in tabs.values():
                 if len(names) > 1:
                     self._groups[names[0]] = self._toggle(names)
-            for name in ANSWERS:
+            for name in QUESTIONS:
                 self.sheets[name] = Sheet(name, session, jobs, export)
-        self.shown = GROUPS[0][1][0]
-        self._within = {names[0]: names[0] for _title, names in GROUPS}
+        self.shown = next(iter(QUESTIONS))
+        self._within = {names[0]: names[0] for names in tabs.values()}
         self._tabs.set_value(self.shown)
         self._show()
         session.listen("drive", self._follow, first=True)
@@ -99,7 +101,7 @@ class Answers:
             self._switch(self._within[group])
 
     def _toggle(self, names: tuple[str, ...]) -> ui.toggle:
-        titles = {name: ANSWERS[name].title() for name in names}
+        titles = {name: _(QUESTIONS[name].title) for name in names}
         made = ui.toggle(titles, value=names[0], on_change=lambda event: self._inner(names[0], str(event.value)))
         return made.props("dense no-caps flat size=sm").classes("inner").props(f'data-mark="inner-{names[0]}"')
 
@@ -140,7 +142,7 @@ class Sheet:
     Parameters
     ----------
     name : str
-        Which of `ANSWERS`.
+        Which of `cardan.register.QUESTIONS`.
     session : Session
         Whose drive it is about.
     jobs : Jobs
@@ -170,7 +172,7 @@ class Sheet:
     @property
     def quick(self) -> bool:
         """Whether it is there at once."""
-        return ANSWERS[self.name].quick
+        return QUESTIONS[self.name].quick
 
     def wake(self) -> None:
         """Come up to date: it is looked at now."""

@@ -28,7 +28,7 @@ Result: TypeAlias = Page | tuple[Light, ...] | Exported | Recorded
 Progress: TypeAlias = Callable[[float], object]
 
 VERDICTS, CURES = "verdicts", "cures"
-"""Questions beside those of `cardan.report.answers`: the verdicts, and the same with what cures them."""
+"""Questions beside those of the register: the verdicts, and the same with what cures them."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -38,7 +38,7 @@ class Question:
     Parameters
     ----------
     name : str
-        A question of `cardan.report.answers.ANSWERS`, `VERDICTS`, `CURES`, one of `papers`, or `recordings.DIAGNOSIS`.
+        A question of `cardan.register.QUESTIONS`, `VERDICTS`, `CURES`, one of `papers`, or `recordings.DIAGNOSIS`.
     drive : Drive
         About which drive.
     folder : Path
