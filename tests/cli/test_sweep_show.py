@@ -6,8 +6,8 @@ import io
 import numpy as np
 import pytest
 
+from cardan.batch import asked as sweep_asked
 from cardan.batch.search.pareto import pareto
-from cardan.cli import sweep_asked
 from tests.batch.tables import SIZE, stored, whole
 from tests.cli.test_forces import plain, widest
 
@@ -57,7 +57,7 @@ def test_the_best_points(cardan, folder):
 
 def test_numbers_without_end_are_told(cardan, folder):
     done = show(cardan, folder, "--query", "SELECT 'inf'::DOUBLE AS a, -('inf'::DOUBLE) AS b, 'nan'::DOUBLE AS c")
-    assert done.out.split()[-3:] == ["∞", "-∞", "–"]
+    assert done.out.split()[-3:] == ["∞", "−∞", "–"]
 
 
 def test_a_table_without_any_answer(cardan, folder):

@@ -5,13 +5,13 @@ import re
 
 import numpy as np
 import pytest
+from cardan.figures.conversion import Conversion
+from cardan.figures.converted import converted
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
 from cardan.figures import palette
 from cardan.figures.axes import axis
-from cardan.figures.conversion import Conversion
-from cardan.figures.converted import converted
 from cardan.figures.figure import Cells, Figure, Panel, Row
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described

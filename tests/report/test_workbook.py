@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 import numpy as np
 import openpyxl
 import pytest
+from cardan.report.amounts import amount, read
 from openpyxl.utils import range_boundaries
 
 from cardan.cli.main import main
@@ -23,7 +24,6 @@ from cardan.figures.figure import Axis, Bars, Curve, Figure, Note, Panel, Row, R
 from cardan.io import example, example_text
 from cardan.io.book import sheet_name
 from cardan.report import paper, renderer
-from cardan.report.amounts import amount, read
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
 from cardan.report.chart_data import BESIDE, HEAD, PRINTED
 from cardan.report.charts import split

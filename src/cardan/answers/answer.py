@@ -7,7 +7,7 @@ not another text: what is ``"brief"`` stands everywhere, what is ``"full"`` in t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -267,7 +267,7 @@ class Answer:
         What else a program is told: a tree of mappings, lists, quantities, words and numbers without a unit. A quantity
         gets the unit of the reader behind its key.
     full : callable, optional
-        Makes the table of everything, for CSV and, under its name, for JSON.
+        Makes the table of everything, for CSV and, under its name, for JSON; or the same piece by piece, for CSV alone.
     code : int
         Exit code of the command: 1 where a limit is broken.
     """
@@ -282,7 +282,7 @@ class Answer:
     keys: Sequence[KeyFigure] = ()
     figures: Callable[[], Sequence[Any]] = tuple
     facts: Mapping[str, Any] = field(default_factory=dict)
-    full: Callable[[], Table] | None = None
+    full: Callable[[], Table | Iterable[Table]] | None = None
     code: int = 0
 
 

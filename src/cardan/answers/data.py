@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -34,7 +34,8 @@ def data(answer: Answer, reader: Reader) -> dict[str, Any]:
     dict
         Sentence, facts, tables under their names, remarks.
     """
-    tables = [*answer.tables, *([answer.full()] if answer.full else ())]
+    whole = answer.full() if answer.full else ()
+    tables = [*answer.tables, *([whole] if isinstance(whole, Table) else ())]
     return {
         "question": answer.name,
         "answer": told(answer.sentence, reader),
@@ -99,8 +100,8 @@ def _plain(values: Any) -> Any:
     return values.tolist() if isinstance(values, np.ndarray) else values
 
 
-def as_csv(table: Table, reader: Reader) -> Iterator[str]:
-    """Yield the lines of a table as CSV, in full precision and with decimal points.
+def as_csv(table: Table | Iterable[Table], reader: Reader) -> Iterator[str]:
+    """Yield the lines of a table, or of one in pieces, as CSV: in full precision and with decimal points.
 
     Examples
     --------
@@ -110,14 +111,16 @@ def as_csv(table: Table, reader: Reader) -> Iterator[str]:
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    columns = [column for column in table.columns if column.key]
-    writer.writerow([column.name(reader) for column in columns])
-    for row in zip(*(_numbers(column, reader) for column in columns), strict=True):
-        writer.writerow(["" if value is None or value != value else value for value in row])
-        if buffer.tell() > BUFFER:
-            yield buffer.getvalue()
-            buffer.seek(0)
-            buffer.truncate()
+    for place, piece in enumerate((table,) if isinstance(table, Table) else table):
+        columns = [column for column in piece.columns if column.key]
+        if not place:
+            writer.writerow([column.name(reader) for column in columns])
+        for row in zip(*(_numbers(column, reader) for column in columns), strict=True):
+            writer.writerow(["" if value is None or value != value else value for value in row])
+            if buffer.tell() > BUFFER:
+                yield buffer.getvalue()
+                buffer.seek(0)
+                buffer.truncate()
     yield buffer.getvalue()
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from cardan.batch.search.answer import answer
@@ -35,5 +34,5 @@ def designed(read: Plan, file: Path, name: str, *, json: bool, csv: bool, plot: 
         design = design_of(read, name)
     with keeping(_("choosing points")) as progress, about(str(file)):
         found = design.run(progress)
-    drive = replace(read.drive, name=read.title or read.drive.name or file.stem)
-    return ended(tell(answer(found), file, drive, json=json, csv=csv, plot=plot), progress)
+    title = read.title or read.drive.name or file.stem
+    return ended(tell(answer(found), name=title, json=json, csv=csv, plot=plot), progress)

@@ -35,6 +35,7 @@ def tell(
     file: Path | None = None,
     drive: Drive | Mechanism | None = None,
     *,
+    name: str = "",
     json: bool = False,
     csv: bool = False,
     plot: Path | None = None,
@@ -49,6 +50,8 @@ def tell(
         The file that was asked about.
     drive : Drive or Mechanism, optional
         What it describes.
+    name : str
+        What to call what was asked about, instead of the drive or its file.
     json, csv : bool
         ``--json`` and ``--csv``.
     plot : path, optional
@@ -68,8 +71,8 @@ def tell(
     elif csv and (answer.full is not None or answer.tables):
         print_lines(as_csv(answer.full() if answer.full is not None else answer.tables[-1], who))
     else:
-        name = "" if drive is None and file is None else _name(drive, file)
-        _write(answer, who, name, file, drawn)
+        called = name or ("" if drive is None and file is None else _name(drive, file))
+        _write(answer, who, called, file, drawn)
     return answer.code
 
 

@@ -328,7 +328,7 @@ class Figure:
     title : str
         Heading.
     sentence : str
-        The one sentence under it that says what to see.
+        The one sentence under it that says what to see; empty where title and axes say it all.
     source : str
         Which equation the values come from.
     rows : tuple of Row
@@ -351,6 +351,11 @@ class Figure:
     def panels(self) -> tuple[Panel, ...]:
         """All panels, row by row."""
         return tuple(panel for row in self.rows for panel in row.panels)
+
+    @property
+    def spoken(self) -> str:
+        """What it is, for who hears the page: title and sentence, where it has one, of a figure made for a reader."""
+        return f"{self.title}. {self.sentence}" if self.sentence else f"{self.title}."
 
     @property
     def entries(self) -> tuple[Curve | Bars | Shape, ...]:

@@ -30,7 +30,7 @@ def render(figures: Figure | Sequence[Figure]) -> str:
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     blocks = "\n".join(
         f"<figure><figcaption><h1>{escape(figure.title)}</h1></figcaption>{fragment(figure)}"
-        f"<p>{escape(figure.sentence)}<br><small>{escape(figure.source)}</small></p></figure>"
+        f"<p>{_caption(figure)}</p></figure>"
         for figure in several
     )
     title = escape(several[0].title if several else "cardan")
@@ -43,6 +43,12 @@ def render(figures: Figure | Sequence[Figure]) -> str:
         f"<style>{style}</style>"
         f"<script>{program()}</script></head><body>\n{blocks}\n</body></html>\n"
     )
+
+
+def _caption(figure: Figure) -> str:
+    """Return what stands below a figure; many have no sentence of their own."""
+    lines = [escape(figure.sentence)] if figure.sentence else []
+    return "<br>".join([*lines, f"<small>{escape(figure.source)}</small>"])
 
 
 def program() -> str:
@@ -60,7 +66,7 @@ def fragment(figure: Figure) -> str:
     name = f"figure-{escape(figure.name)}"
     config = '{"displaylogo":false,"responsive":true,"modeBarButtonsToRemove":["lasso2d","select2d"]}'
     return (
-        f'<div id="{name}" style="height:{height:.0f}px" role="img" aria-label="{escape(figure.sentence)}"></div>'
+        f'<div id="{name}" style="height:{height:.0f}px" role="img" aria-label="{escape(figure.spoken)}"></div>'
         f"<script>(function(f){{Plotly.newPlot({json.dumps(name)},f.data,f.layout,{config})}})({text})</script>"
     )
 

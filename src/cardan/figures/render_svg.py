@@ -55,7 +55,7 @@ def inline_svg(figure: Figure, *, fonts: str = FONTS) -> str:
         Fonts of its words, the first that there is.
     """
     page = laid_out(figure, words=False)
-    label = escape(f"{figure.title}. {figure.sentence}")
+    label = escape(figure.spoken)
     head = f'{_head(page.width, page.height, fonts)} role="img" aria-label="{label}"'
     return f"<svg {head}>{_drawn(page, figure.name)}</svg>"
 

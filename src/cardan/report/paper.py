@@ -273,13 +273,14 @@ class Paper:
             left = 0.0
             for one in drawn:
                 one.chart.set_size({"width": one.width, "height": high})
-                told = {"description": words(f"{figure.title}. {figure.sentence}"), "object_position": 2}
+                told = {"description": words(figure.spoken), "object_position": 2}
                 self._sheet.insert_chart(self.row, 0, one.chart, {"x_offset": left, "y_offset": 4, **told})
                 left += one.width
             self._down(high)
         if others is not None:
             self.image(others)
-        self.line(figure.sentence)
+        if figure.sentence:
+            self.line(figure.sentence)
         self.line(figure.source, font_size=9, color="muted")
 
     def image(self, figure: Figure, *, most: float = math.inf) -> None:
@@ -298,7 +299,7 @@ class Paper:
             "y_scale": scale,
             "y_offset": 4,
             "object_position": 2,
-            "description": words(f"{figure.title}. {figure.sentence}"),
+            "description": words(figure.spoken),
         }
         self._sheet.insert_image(self.row, 0, f"{figure.name}.png", options)
         self._down(high)

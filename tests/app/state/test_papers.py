@@ -9,6 +9,7 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import pytest
+from cardan.report.preferred import in_choice
 
 from cardan.app.state import papers
 from cardan.app.state.session import Session
@@ -18,7 +19,6 @@ from cardan.figures import Figure
 from cardan.io import example_text
 from cardan.report.block import Page, Picture, Table
 from cardan.report.exports import Exported, kinds
-from cardan.report.preferred import in_choice
 
 
 @pytest.fixture

@@ -58,7 +58,7 @@ def test_readers_are_told_in_their_units_and_language():
     assert told(failed.text, INCHES).endswith("or with a capacity of 15\u202f484 lbf instead of 14\u202f163 lbf.")
     assert data(said, INCHES)["joints"][0]["equivalent_torque_lbft"] == pytest.approx(1590.5, abs=0.1)
     with speaking("ru"):
-        assert "отказывающего первым" in told(of(drive).keys[0].title, USUAL)
+        assert "шарнир 3" in told(of(drive).keys[0].called, USUAL)
 
 
 def test_a_measured_torque_has_its_figure():

@@ -34,11 +34,11 @@ class Chart(Element, component="chart.js"):
     def __init__(self, figure: Figure) -> None:
         super().__init__()
         # Within a tuple NiceGUI does not watch every number of it, which takes longer than the motion of the drive.
-        self._props.update(dark=DARK, label=_label(figure), spec=(described(figure),))
+        self._props.update(dark=DARK, label=figure.spoken, spec=(described(figure),))
 
     def show(self, figure: Figure) -> None:
         """Show another figure in its place; what the user zoomed stays zoomed."""
-        spec, label = described(figure), _label(figure)
+        spec, label = described(figure), figure.spoken
         change = changed(self._props["spec"][0], spec)
         if not change and label == self._props["label"]:
             return
@@ -83,7 +83,3 @@ def _same_but_height(old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
 def _bytes(values: Iterable[float | None]) -> str:
     """Return numbers as they are in a machine, the missing ones as NaN: shorter than as text, and sooner read."""
     return b64encode(array("d", (nan if value is None else value for value in values)).tobytes()).decode()
-
-
-def _label(figure: Figure) -> str:
-    return f"{figure.title}. {figure.sentence}"

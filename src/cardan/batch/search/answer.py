@@ -10,6 +10,7 @@ from cardan.answers.answer import Answer, Column, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.batch.work import Column as Field
 from cardan.figures import for_result
+from cardan.maths.ties import tidied
 from cardan.texts import _, plural
 from cardan.units import dimension_of, factor
 
@@ -58,7 +59,8 @@ def quantity(column: Field, value: float, digits: int = 4) -> Quantity:
     """
     dimension = dimension_of(column.unit)
     size = factor(dimension, column.unit) if dimension else 1.0
-    return Quantity(float(value) * size, dimension, digits, unit=column.unit if dimension else "")
+    told = float(value) * size if dimension else tidied(float(value))
+    return Quantity(told, dimension, digits, unit=column.unit if dimension else "")
 
 
 def called(column: Field) -> str:
@@ -66,13 +68,20 @@ def called(column: Field) -> str:
     return _(column.text) if column.role == "answer" and column.text and "[" not in column.name else column.name
 
 
-def shown(column: Field, values: Sequence[Any], digits: int = 5) -> Column:
+def shown(column: Field, values: Sequence[Any], digits: int = 5, *, heading: str = "") -> Column:
     """Return a column of a sweep for people: its values in the unit of the reader."""
     dimension = dimension_of(column.unit)
     size = factor(dimension, column.unit) if dimension else 1.0
-    told = [one * size if isinstance(one, float) else one for one in values]
+    told = [(one * size if dimension else tidied(one)) if isinstance(one, float) else one for one in values]
     unit = column.unit if dimension else ""
-    return Column(key=column.name, heading=called(column), values=told, dimension=dimension, unit=unit, digits=digits)
+    return Column(
+        key=column.name,
+        heading=heading or called(column),
+        values=told,
+        dimension=dimension,
+        unit=unit,
+        digits=digits,
+    )
 
 
 def answer_of_optimum(found: Optimum) -> Answer:

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from cardan import example, figures
-from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.duty import Duty
 from cardan.figures.figure import Band, Bars, Curve, Rule, Shape
@@ -24,11 +23,10 @@ TRUCK = example("truck-supports")
 
 
 def drawn(figure):
-    said = told(figure.sentence, USUAL)
-    assert not said or said.endswith(".")
-    figure = for_reader(figure, USUAL)
-    assert figure.title in ElementTree.fromstring(inline_svg(figure)).get("aria-label")
-    assert described(figure)["layout"]
+    seen = for_reader(figure, USUAL)
+    assert not seen.sentence or seen.sentence.endswith(".")
+    assert ElementTree.fromstring(inline_svg(seen)).get("aria-label") == seen.spoken
+    assert described(seen)["layout"]
 
 
 def of(panel, kind):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -114,18 +113,6 @@ class Asked:
         if column.name not in self.spans:
             return True
         return self.spans[column.name]["least"] < self.spans[column.name]["most"]
-
-    def streamed(self) -> Iterator[Sequence[Any]]:
-        """Yield all rows, read piece by piece."""
-        for piece in self.results.pieces(where=self.where):
-            yield from zip(*(column.tolist() for column in piece.values()), strict=True)
-
-    def export(self, path: Path) -> int:
-        """Write the rows told to a file and return how many."""
-        from cardan.io.sweep_export import export
-
-        chosen = self.rows if self.query or self.goals else None
-        return export(self.results, path, rows=chosen, where=self.where)
 
     def figures(self) -> tuple[Any, ...]:
         """Return the pictures wanted, or those that suit the table."""
