@@ -5,14 +5,14 @@ import re
 
 import numpy as np
 import pytest
-from cardan.figures.conversion import Conversion
-from cardan.figures.converted import converted
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
+from cardan.answers.reader import Reader
 from cardan.figures import palette
 from cardan.figures.axes import axis
 from cardan.figures.figure import Cells, Figure, Panel, Row
+from cardan.figures.for_reader import for_reader
 from cardan.figures.render_matplotlib import render
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import SHADES, inline_svg
@@ -69,8 +69,8 @@ def test_the_scale_grows_darker(share):
 
 
 def test_in_other_units_the_cells_stand_where_they_did():
-    panel = Panel(series=(CELLS,), x=axis("place", "mm", [CELLS.x]), y=axis("y", "", [CELLS.y]))
+    panel = Panel(series=(CELLS,), x=axis("place", "mm", [CELLS.x], dimension="length"), y=axis("y", "", [CELLS.y]))
     figure = Figure(name="c", title="C", sentence="C.", source="s", rows=(Row(panels=(panel,)),))
-    (cells,) = converted(figure, Conversion(units={"length": "in"})).panels[0].series
+    (cells,) = for_reader(figure, Reader(units={"length": "in"})).panels[0].series
     np.testing.assert_allclose(cells.x, CELLS.x / 25.4)
     np.testing.assert_array_equal(cells.values, VALUES)

@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 
 import pytest
-from cardan.report.preferred import in_choice
 
 from cardan.answers.reader import Reader, reading
 from cardan.catalogue import catalogue, with_files

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
 from cardan.calc.calculation import Calculation, Values, given, gives
 from cardan.drive.drives import Drives
 from cardan.drive.duty import Limits
@@ -100,7 +102,7 @@ def _sliding(values: Values) -> Values:
         "slip_path_m": found.slip_path,
         "engaged_min_m": found.engaged_min,
         "gap_min_m": found.gap_min,
-        "flags": [flag.message for flag in found.flags],
+        "flags": [told(flag.message, USUAL) for flag in found.flags],
     }
 
 

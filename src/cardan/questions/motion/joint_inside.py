@@ -24,6 +24,7 @@ def joint_inside(joint: Joint, bend: float) -> tuple[Inside, ...]:
     Examples
     --------
     >>> from cardan.drive.joints import Tripod
+    >>> from cardan.units import deg
     >>> (orbit,) = joint_inside(Tripod(track_radius=0.02), 20 * deg)
     >>> print(f"{orbit.meaning}: {1e3 * orbit.value:.4f} mm")
     radius of the circle that the spider runs round three times a turn: 0.6418 mm
