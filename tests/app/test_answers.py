@@ -114,7 +114,7 @@ def test_a_setting_is_applied_with_one_touch(page):
     sheet.locator("button[data-do='A']").wait_for()
     assert "exactly uniform with other yoke angles" in said(page).inner_text()
     sheet.locator("button[data-do='A']").click()
-    page.wait_for_function("() => document.body.innerText.includes('The yokes stand right')")
+    page.wait_for_function("() => document.body.innerText.includes('the yokes are phased right')")
     sheet.locator("button[data-do='A']").wait_for(state="detached")
     turn_to(page, "motion")
     page.wait_for_function("() => document.body.innerText.includes('the output turns exactly uniformly')")
