@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass, replace
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from cardan.drive.fields.keys import NAMED, fields_of
@@ -20,6 +21,10 @@ WORDS = ("parts", "uses")
 """Fields of rows with a list of such words; rows keep them as they are, for they are compared."""
 
 
+USUAL: Mapping[str, str] = MappingProxyType({})
+"""No other units than those we write."""
+
+
 class RowKey(NamedTuple):
     """A key of a row."""
 
@@ -27,6 +32,8 @@ class RowKey(NamedTuple):
     """With its unit; inside an inner table after a point."""
     needed: bool
     meaning: str
+    dimension: str = ""
+    """Of its unit; empty where it has none."""
 
 
 def row_keys(table: str) -> Iterator[RowKey]:
@@ -47,7 +54,7 @@ def row_keys(table: str) -> Iterator[RowKey]:
 
 def _of_class(cls: Any, before: str) -> Iterator[RowKey]:
     for one in fields_of(cls).values():
-        yield RowKey(before + one.spelling, one.required, _(one.key.doc))
+        yield RowKey(before + one.spelling, one.required, _(one.key.doc), one.key.dimension or "")
         if is_dataclass(one.type) and one.type not in NAMED:
             yield from _of_class(one.type, f"{before}{one.spelling}.")
 
@@ -70,18 +77,21 @@ def told(row: R) -> R:
     return row if all(said[name] == own[name] for name in said) else replace(row, **said)
 
 
-def row_tree(row: Any) -> dict[str, Any]:
+def row_tree(row: Any, units: Mapping[str, str] = USUAL) -> dict[str, Any]:
     """Return a row as a catalogue file has it: keys with units, nothing that is not said.
 
     Parameters
     ----------
     row : Row
+    units : mapping of str to str
+        Dimension -> unit, where it is not the usual one.
 
     Examples
     --------
     >>> from cardan.catalogue import catalogue
-    >>> row_tree(catalogue().tables["balance_grades"]["G16"])["speed_m_s"]
-    0.016
+    >>> row = catalogue().tables["balance_grades"]["G16"]
+    >>> row_tree(row)["speed_m_s"], row_tree(row, {"speed": "mm_s"})["speed_mm_s"]
+    (0.016, 16.0)
     """
     found: dict[str, Any] = {}
     for name, one in fields_of(type(row)).items():
@@ -90,20 +100,24 @@ def row_tree(row: Any) -> dict[str, Any]:
             continue
         if is_dataclass(value) and not isinstance(value, type):
             named = getattr(value, NAMED[type(value)]) if type(value) in NAMED else ""
-            found[one.spelling] = named or row_tree(value)
+            found[one.spelling] = named or row_tree(value, units)
         else:
-            found[one.spelling] = _in_unit(value, one.spellings[one.spelling])
+            dimension = one.key.dimension or ""
+            spelling = f"{name}_{units[dimension]}" if dimension in units else one.spelling
+            found[spelling] = _in_unit(value, one.spellings[spelling])
     return found
 
 
-def row_flat(row: Row) -> dict[str, Any]:
+def row_flat(row: Row, units: Mapping[str, str] = USUAL) -> dict[str, Any]:
     """Return a row with its inner tables spread out, as ``rating.torque_Nm``; lists as text.
 
     Parameters
     ----------
     row : Row
+    units : mapping of str to str
+        As of `row_tree`.
     """
-    return dict(_spread(row_tree(row), ""))
+    return dict(_spread(row_tree(row, units), ""))
 
 
 def _spread(tree: Mapping[str, Any], before: str) -> Iterator[tuple[str, Any]]:

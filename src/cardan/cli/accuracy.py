@@ -22,9 +22,8 @@ from cardan.units import DIMENSIONS
 from .asked import keys_of
 from .changed import write_changed
 from .options import AsCsv, AsJson, DriveFile, Plot
-from .output import check_target
+from .output import check_common, check_target
 from .progress import watching
-from .show import check_common
 from .source import read_with_text
 from .tell import tell
 

@@ -294,7 +294,7 @@ COMMANDS = {
     "calc": Entry(
         "calc",
         FORMULAS,
-        _("Reach any single formula by name, with unit keys."),
+        _("Evaluate one formula by name."),
         ("cardan calc --list", "cardan calc single_joint_extremes alpha_deg=20"),
     ),
 }
@@ -310,7 +310,7 @@ class Commands(Group):
 app = typer.Typer(
     name="cardan",
     cls=Commands,
-    help=_("Universal-joint drives: is it good, and what should I change?"),
+    help=_("Analyse and design universal-joint drivelines."),
     epilog=_("New here? cardan init my.toml, then cardan report my.toml")
     + "\n\n"
     + _("Exit codes: 0 done, 1 a check failed, 2 bad input, 130 interrupted."),

@@ -14,8 +14,7 @@ from cardan.texts import _
 from cardan.units import rpm
 
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
-from .output import check_speed
-from .show import check_common
+from .output import check_common, check_speed
 from .source import read
 from .tell import tell
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
 from cardan.texts import _
 
+from .output import check_common, check_speed
+
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
     from cardan.errors import Problem
-
-    from .answer import Cell, Table
 
 TorqueNm: TypeAlias = Annotated[
     float | None,
@@ -78,9 +78,6 @@ def check_options(
     plot: Path | None = None,
 ) -> None:
     """Refuse common options that cannot be, before anything is read."""
-    from .output import check_speed
-    from .show import check_common
-
     check_common(json=json, csv=csv, plot=plot)
     check_speed(speed_rpm)
     check_torque(torque)
@@ -160,38 +157,3 @@ def key_of(field: str) -> str:
     from cardan.drive.fields.keys import spelled
 
     return spelled(field)
-
-
-def figures(*results: Any) -> Any:
-    """Return the figures of results.
-
-    Raises
-    ------
-    InputError
-        None of them can be drawn.
-    """
-    from cardan.errors import refuse
-    from cardan.figures import for_result
-
-    try:
-        return tuple(figure for result in results for figure in for_result(result))
-    except TypeError as error:
-        raise refuse("--plot", _("this answer has no figure yet; --csv gives the curves to draw")) from error
-
-
-def listed(indices: Sequence[int]) -> str:
-    """Return the numbers of what is counted from 0.
-
-    Examples
-    --------
-    >>> listed([0, 3]), listed([0, 1, 2])
-    ('1, 4', '1 to 3')
-    """
-    if len(indices) > 2 and indices[-1] - indices[0] == len(indices) - 1:
-        return _("{first} to {last}").format(first=indices[0] + 1, last=indices[-1] + 1)
-    return ", ".join(str(i + 1) for i in indices)
-
-
-def columns_of(table: Table) -> dict[str, list[Cell]]:
-    """Return the columns of a table by their keys, for a program."""
-    return {column.key: [row[k] for row in table.rows] for k, column in enumerate(table.columns)}

@@ -8,7 +8,7 @@ from cardan.questions.forces.assembly_answer import answer
 from .asked import CurveAngle, CurveStep, keys_of
 from .motion import check_positions, positions
 from .options import AsCsv, AsJson, DriveFile, Plot
-from .show import check_common
+from .output import check_common
 from .source import read
 from .tell import tell
 

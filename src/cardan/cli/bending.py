@@ -14,7 +14,7 @@ from cardan.texts import _
 
 from .asked import keys_of
 from .options import AsCsv, AsJson, DriveFile, Plot
-from .show import check_common
+from .output import check_common
 from .source import read
 from .tell import tell
 

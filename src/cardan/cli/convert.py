@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
+from cardan import io
+from cardan.answers.answer import Answer
+from cardan.drive.drive import Drive
+from cardan.drive.models.forms import in_form
+from cardan.errors import refuse
+from cardan.files import write_bytes
+from cardan.scene.gltf import render
+from cardan.scene.scene import scene
 from cardan.texts import _
 
 from .options import AsJson, DriveFile
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
+from .output import check_new, print_text
+from .source import STDIN, read
+from .tell import tell
 
 SUFFIXES = (".toml", ".json", ".glb")
 BODIES = ".glb"
@@ -41,13 +49,6 @@ def convert(
     json: AsJson = False,
 ) -> int:
     """Rewrite a drive file in another form or format."""
-    from cardan.errors import refuse
-
-    from .answer import Answer
-    from .output import check_new
-    from .show import print_text, show
-    from .source import STDIN, read
-
     if out != STDIN:
         if out.suffix.lower() not in SUFFIXES:
             known = ", ".join(SUFFIXES)
@@ -58,53 +59,37 @@ def convert(
     if out.suffix.lower() == BODIES:
         if form is not None:
             raise refuse("--form", _("bodies have none of these forms; leave this out"))
-        return _bodies(file, drive, out, json=json)
-
-    from cardan import io
-    from cardan.drive.models.forms import in_form
-
+        return tell(_bodies(file, drive, out), json=json)
     moved = drive if form is None else in_form(drive, form)
     if out == STDIN:
         print_text(io.dumps(moved))
         return 0
     io.save(moved, out)
-    return show(
+    return tell(
         Answer(
+            name="convert",
+            title=_("Converted drive file"),
             sentence=_("{out}: the drive of {file} written, given by {form}.").format(
                 out=out, file=file, form=moved.form
             ),
             tone="good",
-            content=lambda: {"question": "convert", "file": str(file), "out": str(out), "form": moved.form},
+            facts={"file": str(file), "out": str(out), "form": moved.form},
         ),
         json=json,
     )
 
 
-def _bodies(file: Path, drive: Drive, out: Path, *, json: bool) -> int:
-    """Write a drive as bodies that turn."""
-    from cardan.files import write_bytes
-    from cardan.scene.gltf import render
-    from cardan.scene.scene import scene
-
-    from .answer import Answer
-    from .show import show
-
+def _bodies(file: Path, drive: Drive, out: Path) -> Answer:
+    """Write a drive as bodies that turn, and return what is said of it."""
     shown = scene(drive)
     write_bytes(out, render(shown))
     triangles = sum(len(one.indices) for one in shown.bodies)
-    return show(
-        Answer(
-            sentence=_("{out}: the drive of {file} as {bodies} bodies that turn.").format(
-                out=out, file=file, bodies=len(shown.bodies)
-            ),
-            tone="good",
-            content=lambda: {
-                "question": "convert",
-                "file": str(file),
-                "out": str(out),
-                "bodies": len(shown.bodies),
-                "triangles": triangles,
-            },
+    return Answer(
+        name="convert",
+        title=_("Converted drive file"),
+        sentence=_("{out}: the drive of {file} as {bodies} bodies that turn.").format(
+            out=out, file=file, bodies=len(shown.bodies)
         ),
-        json=json,
+        tone="good",
+        facts={"file": str(file), "out": str(out), "bodies": len(shown.bodies), "triangles": triangles},
     )

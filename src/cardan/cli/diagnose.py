@@ -29,10 +29,9 @@ from cardan.units import nearest
 
 from .failure import about
 from .options import AsCsv, AsJson, MoreRows, Plot
-from .output import check_target
+from .output import check_common, check_target
 from .progress import watching
 from .recording import FullScale, Places, Pulses, Rate, Reading, Tacho, Titles, placed, read_both
-from .show import check_common
 from .source import STDIN
 from .tell import tell
 from .torsion_band import band_of

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from cardan.answers.answer import Answer, Column, Remark, Table
+from cardan.io import example_names, example_text, mechanism_names, recording_names
+from cardan.io.examples import example_file
 from cardan.texts import _
 
 from .options import AsCsv, AsJson
-
-if TYPE_CHECKING:
-    from .answer import Answer
+from .output import check_common, check_new, print_text, write_text
+from .source import STDIN
+from .tell import tell
 
 
 def _names(incomplete: str) -> list[str]:
     """Complete the name of an example."""
-    from cardan.io import example_names, mechanism_names, recording_names
-
     return [name for name in (*example_names(), *mechanism_names(), *recording_names()) if name.startswith(incomplete)]
 
 
@@ -37,17 +38,9 @@ def example(
     csv: AsCsv = False,
 ) -> int:
     """List the shipped examples, or copy one."""
-    from .output import check_new, write_text
-    from .show import check_common, print_text, show
-    from .source import STDIN
-
     check_common(json=json, csv=csv)
-
-    from cardan.io import example_text
-    from cardan.io.examples import example_file
-
     if name is None:
-        return show(_list(), json=json, csv=csv)
+        return tell(_list(), json=json, csv=csv)
     text = example_text(name)
     if out == STDIN:
         print_text(text)
@@ -55,44 +48,40 @@ def example(
     place = out or Path(example_file(name).name)
     check_new(place, force=force, field="OUT")
     write_text(place, text, "OUT")
-    return show(_copied(name, text, place), json=json, csv=csv)
+    return tell(_copied(name, text, place), json=json, csv=csv)
 
 
 def _list() -> Answer:
-    from cardan.io import example_names, example_text, mechanism_names, recording_names
-
-    from .answer import Answer, Column, Remark, Table
-
     names = (*example_names(), *mechanism_names(), *recording_names())
-    rows = [(name, about(example_text(name))) for name in names]
+    shows = [about(example_text(name)) for name in names]
+    brief = [text.partition(". ")[0].partition(": ")[0].rstrip(".") for text in shows]
     return Answer(
-        sentence=_("{count} examples to look at and to start from.").format(count=len(rows)),
-        tables=lambda: (
+        name="example",
+        title=_("Examples"),
+        sentence=_("{count} examples to look at and to start from.").format(count=len(names)),
+        tables=(
             Table(
+                name="examples",
+                records=True,
+                fixed=0,
                 columns=(
-                    Column(key="name", heading=_("example"), left=True),
-                    Column(key="shows", heading=_("what it shows"), left=True, wrap=True),
+                    Column(key="name", heading=_("example"), values=names),
+                    Column(key="", heading=_("what it shows"), values=brief, wrap=True),
+                    Column(key="shows", values=shows, depth="data"),
                 ),
-                rows=[(name, text.partition(". ")[0].partition(": ")[0].rstrip(".")) for name, text in rows],
             ),
         ),
-        csv=lambda: Table(columns=(Column(key="name"), Column(key="shows")), rows=rows),
         remarks=(
             Remark(
                 text=_("Copy one into this folder:"),
-                command=("cardan", "example", rows[0][0] if rows else ""),
+                command=("cardan", "example", names[0] if names else ""),
                 tone="next",
             ),
         ),
-        content=lambda: {"examples": [{"name": name, "shows": text} for name, text in rows]},
     )
 
 
 def _copied(name: str, text: str, place: Path) -> Answer:
-    from cardan.io import mechanism_names, recording_names
-
-    from .answer import Answer, Remark
-
     command = ["cardan", "mobility" if name in mechanism_names() else "report", str(place)]
     first = []
     if name in recording_names():
@@ -100,6 +89,8 @@ def _copied(name: str, text: str, place: Path) -> Answer:
         needed = ("cardan", "example", "truck-supports")
         first = [Remark(text=_("The drive that it is of:"), command=needed, tone="next")]
     return Answer(
+        name="example",
+        title=_("Examples"),
         sentence=_("{path}: example {name} copied.").format(path=place, name=name),
         tone="good",
         remarks=(
@@ -107,7 +98,7 @@ def _copied(name: str, text: str, place: Path) -> Answer:
             *first,
             Remark(text=_("Look at it:"), command=tuple(command), tone="next"),
         ),
-        content=lambda: {"example": name, "file": str(place), "shows": about(text)},
+        facts={"example": name, "file": str(place), "shows": about(text)},
     )
 
 

@@ -7,9 +7,14 @@ from typing import Annotated
 
 import typer
 
+from cardan.answers.answer import Answer, Remark
+from cardan.io import starter
 from cardan.texts import _
 
 from .options import AsJson
+from .output import check_new, print_text, write_text
+from .source import STDIN
+from .tell import tell
 
 
 def init(
@@ -21,29 +26,22 @@ def init(
     json: AsJson = False,
 ) -> int:
     """Write a commented drive file to start from."""
-    from .answer import Answer, Remark
-    from .output import check_new, write_text
-    from .show import print_text, show
-    from .source import STDIN
-
-    if file != STDIN:
-        check_new(file, force=force)
-
-    from cardan.io import starter
-
     if file == STDIN:
         print_text(starter())
         return 0
+    check_new(file, force=force)
     write_text(file, starter(), "FILE")
-    return show(
+    return tell(
         Answer(
+            name="init",
+            title=_("Drive file to start from"),
             sentence=_("{file}: a drive of two joints written, every line explained.").format(file=file),
             tone="good",
             remarks=(
                 Remark(text=_("Put your numbers in, then:"), command=("cardan", "report", str(file)), tone="next"),
                 Remark(text=_("Other starting points:"), command=("cardan", "example"), tone="next"),
             ),
-            content=lambda: {"file": str(file)},
+            facts={"file": str(file)},
         ),
         json=json,
     )

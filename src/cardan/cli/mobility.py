@@ -17,8 +17,8 @@ from cardan.texts import _
 from .asked import keys_of
 from .failure import about
 from .options import AsCsv, AsJson, Plot
+from .output import check_common
 from .progress import watching
-from .show import check_common
 from .source import STDIN, form_of, stdin_text
 from .tell import tell
 

@@ -1,8 +1,10 @@
-"""Files that a command writes: whole or not at all."""
+"""What a command writes: to standard output, and files, whole or not at all; refusals before any work is done."""
 
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Iterable
 from math import isfinite
 from pathlib import Path
 
@@ -10,6 +12,26 @@ from cardan.errors import refuse
 from cardan.texts import _
 
 FIGURE_SUFFIXES = (".svg", ".png", ".pdf", ".html")
+
+
+def check_common(*, json: bool, csv: bool, plot: Path | None = None) -> None:
+    """Refuse common options that contradict each other or that cannot be met, before any work is done."""
+    if json and csv:
+        raise refuse("--csv", _("choose --json or --csv, not both"))
+    if plot is not None:
+        check_figure_target(plot)
+
+
+def print_text(text: str) -> None:
+    """Write to standard output."""
+    print_lines((text,))
+
+
+def print_lines(texts: Iterable[str]) -> None:
+    """Write piece by piece to standard output."""
+    for text in texts:
+        sys.stdout.write(text)
+    sys.stdout.flush()
 
 
 def check_figure_target(path: Path) -> None:

@@ -22,8 +22,8 @@ from cardan.texts import _
 
 from .apply import check_copy, named, written
 from .options import AsCsv, AsJson, DriveFile, Force, Plot
+from .output import check_common
 from .progress import watching
-from .show import check_common
 from .source import read_with_text
 from .tell import tell
 

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import webbrowser
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from cardan.answers.answer import Answer, Remark
+from cardan.answers.quantity import Quantity, say
+from cardan.answers.reader import reader
+from cardan.io.drive_file import known_to
+from cardan.questions.motion.answer import sentence
+from cardan.questions.motion.swing import each_shaft
+from cardan.report.report import report as write
 from cardan.texts import _
-from cardan.units import thousands
+from cardan.units import rpm
 
 from .options import AsJson, DriveFile, SpeedRpm
+from .output import check_report_target, check_speed
+from .progress import watching
+from .source import STDIN, read_with_text
+from .tell import tell
 
 
 def report(
@@ -38,23 +51,10 @@ def report(
     json: AsJson = False,
 ) -> int:
     """Put everything on one page."""
-    from .output import check_report_target, check_speed
-    from .source import STDIN, read_with_text
-
     place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
     check_report_target(place, interactive=interactive)
     check_speed(speed_rpm)
     drive, text = read_with_text(file)
-
-    from dataclasses import replace
-
-    from cardan.answers.reader import reader
-    from cardan.io.drive_file import known_to
-    from cardan.report.report import report as write
-    from cardan.units import rpm
-
-    from .progress import watching
-
     if speed_rpm is not None:
         drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
     who = reader()
@@ -72,13 +72,6 @@ def report(
             decimal=who.decimal,
         )
 
-    from cardan.questions.motion.answer import sentence
-    from cardan.questions.motion.swing import each_shaft
-
-    from .answer import Answer, Remark
-    from .show import show
-    from .source import title
-
     opened = open_ and _opened(place)
     browsed = place.suffix.lower() in (".html", ".htm")
     hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path}, or print it.")
@@ -86,24 +79,23 @@ def report(
         hint = _("It is open: {path}.")
     if open_ and not opened:
         hint = _("No program answered; open {path} yourself.")
-    return show(
+    size = Quantity(place.stat().st_size / 1000.0, decimals=0)
+    return tell(
         Answer(
-            sentence=f"{title(drive, file)}: {sentence(drive, each_shaft(drive)).told(who)}",
+            name="report",
+            title=_("Report"),
+            sentence=sentence(drive, each_shaft(drive)),
             remarks=(
-                Remark(text=_("Report written: {path}, {size} kB.").format(path=place, size=_kilobytes(place))),
+                Remark(text=say(_("Report written: {path}, {size} kB."), path=str(place), size=size)),
                 Remark(text=hint.format(path=place), tone="next"),
             ),
-            content=lambda: {"question": "report", "drive": drive.name, "file": str(file), "report": str(place)},
+            facts={"report": str(place)},
         ),
+        file,
+        drive,
         json=json,
     )
 
 
-def _kilobytes(path: Path) -> str:
-    return thousands(path.stat().st_size / 1000)
-
-
 def _opened(path: Path) -> bool:
-    import webbrowser
-
     return webbrowser.open(path.resolve().as_uri())

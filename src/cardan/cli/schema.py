@@ -7,9 +7,15 @@ from typing import Annotated
 
 import typer
 
+from cardan.answers.answer import Answer
+from cardan.answers.data import as_json
+from cardan.io import mechanism_schema
+from cardan.io import schema as drive_schema
 from cardan.texts import _
 
 from .options import AsJson
+from .output import check_target, print_text, write_text
+from .tell import tell
 
 
 def schema(
@@ -23,16 +29,8 @@ def schema(
     json: AsJson = False,
 ) -> int:
     """Print the JSON Schema of the drive file."""
-    from .answer import Answer
-    from .output import check_target, write_text
-    from .show import as_json, print_text, show
-
     if out is not None:
         check_target(out, "--out")
-
-    from cardan.io import mechanism_schema
-    from cardan.io import schema as drive_schema
-
     text = as_json(mechanism_schema() if mechanism else drive_schema()) + "\n"
     if out is None:
         print_text(text)
@@ -43,4 +41,5 @@ def schema(
         if mechanism
         else _("{path}: schema of the drive file written.")
     )
-    return show(Answer(sentence=said.format(path=out)), json=json)
+    written = Answer(name="schema", title=_("JSON Schema"), sentence=said.format(path=out), facts={"file": str(out)})
+    return tell(written, json=json)

@@ -19,9 +19,8 @@ from cardan.texts import _
 from cardan.units import nearest, rpm
 
 from .options import AsCsv, AsJson, DriveFile, Force, Plot
-from .output import check_new
+from .output import check_common, check_new
 from .progress import watching
-from .show import check_common
 from .source import read
 from .tell import tell
 

@@ -69,8 +69,3 @@ def stdin_text() -> str:
         return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()
     except UnicodeDecodeError as error:
         raise refuse("", _("is not UTF-8 text (byte {byte})").format(byte=error.start)) from error
-
-
-def title(drive: Drive, path: Path) -> str:
-    """Return what to call a drive: its name, else that of its file."""
-    return drive.name or (_("the drive") if path == STDIN else path.stem)

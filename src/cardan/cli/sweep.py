@@ -87,7 +87,7 @@ def sweep(
 ) -> int:
     """Ask questions of a drive at every point of a plan."""
     from .failure import about
-    from .show import check_common
+    from .output import check_common
     from .tell import tell
     from .torsion_parts import ended, keeping
 

@@ -17,8 +17,7 @@ from cardan.io.sweep_export import export
 from cardan.texts import _
 
 from .options import AsCsv, AsJson, Plot
-from .output import check_target
-from .show import check_common
+from .output import check_common, check_target
 from .tell import tell
 
 KINDS = ("lines", "pareto", "map", "histogram", "tornado")

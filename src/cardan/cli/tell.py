@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from shlex import join
-from textwrap import wrap
+from textwrap import fill, wrap
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -20,11 +21,55 @@ from cardan.answers.reader import Reader, reader
 from cardan.figures import save
 from cardan.texts import _
 
-from .show import GAP, NARROWEST, SIGNS, WIDEST, _blocks, _filled, print_lines, print_text
+from .output import print_lines, print_text
 
 if TYPE_CHECKING:
     from cardan.drive.drive import Drive
     from cardan.mechanism.mechanism import Mechanism
+
+GAP = 2
+"""Blanks between columns."""
+
+NARROWEST = 14
+"""Prose in a table is not set narrower than this."""
+
+WIDEST = 100
+"""Sentences are not set wider than this, however wide the terminal."""
+
+UNITS = "|".join(
+    (
+        "mm",
+        "m",
+        "°",
+        "deg",
+        "rpm",
+        "rad/s",
+        "1/s",
+        "s",
+        "ms",
+        "h",
+        "Hz",
+        "k?N·m",
+        "k?N",
+        "MPa",
+        "GPa",
+        "kg",
+        "g",
+        "k?W",
+        "J",
+        "%",
+    )
+)
+"""What stays with the number before it at the end of a line, as a pattern."""
+
+SIGNS: dict[Tone, tuple[str, str]] = {
+    "plain": ("", ""),
+    "good": ("●", "green"),
+    "warning": ("▲", "yellow"),
+    "failed": ("✖", "red"),
+    "next": ("→", "cyan"),
+}
+"""Tone -> sign and colour; the sentence itself says it in words."""
 
 LONGEST = 28
 """Letters of a name at the head of a row."""
@@ -180,3 +225,29 @@ def _line(cells: Sequence[str], widths: Sequence[int], columns: Sequence[Any], b
     """Return one line of a table."""
     parts = [cells[k].ljust(widths[k]) if columns[k].left else cells[k].rjust(widths[k]) for k in block]
     return (" " * GAP + (" " * GAP).join(parts)).rstrip()
+
+
+def _blocks(widths: Sequence[int], fixed: int, room: int) -> Iterator[list[int]]:
+    """Yield the columns of each part of a table, so that no part is wider than the terminal."""
+    head = list(range(fixed))
+    start = sum(GAP + widths[k] for k in head)
+    block, used = list(head), start
+    for k in range(fixed, len(widths)):
+        if used + widths[k] + GAP > room and len(block) > fixed:
+            yield block
+            block, used = list(head), start
+        block.append(k)
+        used += widths[k] + GAP
+    yield block
+
+
+def _filled(text: str, width: int) -> str:
+    """Return a text in lines; a number, thin blanks within it, and its unit stay together.
+
+    Examples
+    --------
+    >>> _filled("shaft 2 carries 60.0 ± 173 N·m", 26).splitlines()
+    ['shaft 2 carries 60.0', '± 173 N·m']
+    """
+    held = re.sub(rf"(?<=[\d±]) (?=\d|(?:{UNITS})(?![\w/]))", "\u00a0", text)
+    return fill(held, width, break_on_hyphens=False, break_long_words=False).replace("\u00a0", " ")

@@ -1,0 +1,199 @@
+"""What is said of formulas: all of them, the keys of one, what one comes to, in the units of its keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from cardan.answers.answer import Answer, Column, Remark, Table
+from cardan.answers.quantity import Joined, Quantity, Text
+from cardan.texts import _
+
+from .calculation import Calculation, Given
+from .calculations import CALCULATIONS
+
+LONG = 32
+"""Forms of a key longer than this are told beside its meaning."""
+
+INLINE = 6
+"""A list longer than this is summed up for people."""
+
+WORDY = 60
+"""Where a text is longer than this, the values stand without their meanings, which `--list` tells."""
+
+
+def answer_of_all() -> Answer:
+    """Return the names of all formulas, each with what it answers and its source."""
+    every = CALCULATIONS.values()
+    return Answer(
+        name="calc",
+        title=_("Formulas"),
+        sentence=_("{count} formulas, each by name with unit keys.").format(count=len(every)),
+        tables=(
+            Table(
+                name="capabilities",
+                records=True,
+                fixed=0,
+                columns=(
+                    Column(key="capability", heading=_("formula"), values=list(CALCULATIONS)),
+                    Column(key="doc", heading=_("what it answers"), values=[_(item.doc) for item in every], wrap=True),
+                    Column(key="source", values=[_(item.source) for item in every], depth="data"),
+                ),
+            ),
+        ),
+        remarks=(
+            Remark(
+                text=_("The keys of one:"), command=("cardan", "calc", "--list", next(iter(CALCULATIONS))), tone="next"
+            ),
+        ),
+    )
+
+
+def answer_of_keys(item: Calculation) -> Answer:
+    """Return the keys that a formula takes and gives.
+
+    Parameters
+    ----------
+    item : Calculation
+    """
+    forms = [_form(one) for one in item.takes]
+    needed = [_("needed") if one.required else "" for one in item.takes]
+    takes = Table(
+        fixed=0,
+        columns=(
+            Column(key="", heading=_("takes"), values=[one.key for one in item.takes]),
+            Column(key="", values=[form for form, _doc in forms], left=True),
+            Column(key="", values=needed, left=True),
+            Column(key="", values=[doc for _form, doc in forms], wrap=True),
+        ),
+    )
+    gives = Table(
+        fixed=0,
+        columns=(
+            Column(key="", heading=_("gives"), values=[one.key for one in item.returns]),
+            Column(key="", values=[_(one.doc) for one in item.returns], wrap=True),
+        ),
+    )
+    none = [""] * len(item.returns)
+    every = Table(
+        columns=(
+            Column(key="way", values=["takes"] * len(item.takes) + ["gives"] * len(item.returns)),
+            Column(key="key", values=[one.key for one in item.takes] + [one.key for one in item.returns]),
+            Column(key="form", values=[form for form, _doc in forms] + none),
+            Column(key="needed", values=needed + none),
+            Column(key="doc", values=[doc for _form, doc in forms] + [_(one.doc) for one in item.returns]),
+        ),
+    )
+    return Answer(
+        name="calc",
+        title=_("Formulas"),
+        sentence=f"{item.name}: {_(item.doc)}",
+        tables=(takes, gives),
+        remarks=(_source(item),),
+        facts={
+            "capability": item.name,
+            "source": _(item.source),
+            "takes": [{"key": g.key, "form": g.shape, "required": g.required, "doc": g.doc} for g in item.takes],
+            "gives": [{"key": output.key, "doc": _(output.doc)} for output in item.returns],
+        },
+        full=lambda: every,
+    )
+
+
+def answer(item: Calculation, found: Mapping[str, Any]) -> Answer:
+    """Return what a formula comes to.
+
+    Parameters
+    ----------
+    item : Calculation
+    found : mapping
+        What it gave: values in the units of their keys.
+    """
+    docs = {output.key: _(output.doc) for output in item.returns}
+    wordy = any(isinstance(value, str) and len(value) > WORDY for value in found.values())
+    meanings = () if wordy else (Column(key="", values=[docs.get(key, "") for key in found], wrap=True),)
+    flat = [(key, value) for name, entry in found.items() for key, value in leaves(name, entry)]
+    return Answer(
+        name="calc",
+        title=_("Formulas"),
+        sentence=f"{item.name}: {_(item.doc)}",
+        tables=(
+            Table(
+                fixed=0,
+                columns=(
+                    Column(key="", heading=_("output"), values=list(found)),
+                    Column(
+                        key="",
+                        heading=_("value"),
+                        values=[_short(value) for value in found.values()],
+                        left=True,
+                        wrap=wordy,
+                    ),
+                    *meanings,
+                ),
+            ),
+        ),
+        remarks=(_source(item),),
+        facts={"capability": item.name, "source": _(item.source), "result": found},
+        full=lambda: Table(
+            columns=(
+                Column(key="key", values=[key for key, _value in flat]),
+                Column(key="value", values=[value for _key, value in flat]),
+            ),
+        ),
+    )
+
+
+def _source(item: Calculation) -> Remark:
+    return Remark(text=_("Source: {source}").format(source=_(item.source)))
+
+
+def _form(one: Given) -> tuple[str, str]:
+    """Return form and meaning of a key; what would make the form long goes to the meaning, which wraps."""
+    head, _with, columns = one.shape.partition(" with ")
+    if columns:
+        return head, f"{one.doc}: {columns}"
+    if len(one.shape) > LONG:
+        return _("a word"), f"{one.doc}: {one.shape}"
+    return one.shape, one.doc
+
+
+def leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the single values of nested lists and tables with their paths.
+
+    Parameters
+    ----------
+    name : str
+        Path of the value.
+    value : object
+        Number, word, list or table.
+
+    Examples
+    --------
+    >>> list(leaves("x", [[1, 2], 3]))
+    [('x[0][0]', 1), ('x[0][1]', 2), ('x[1]', 3)]
+    """
+    if isinstance(value, Mapping):
+        for key, entry in value.items():
+            yield from leaves(f"{name}.{key}", entry)
+    elif isinstance(value, list):
+        for k, entry in enumerate(value):
+            yield from leaves(f"{name}[{k}]", entry)
+    else:
+        yield name, value
+
+
+def _short(value: Any) -> Text:
+    """Return a value for people, in the unit of its key."""
+    if isinstance(value, list):
+        if len(value) > INLINE:
+            return _("{count} values, see --json").format(count=len(value))
+        return Joined(["[", Joined([_short(entry) for entry in value]), "]"], between="")
+    if isinstance(value, Mapping):
+        entries = [Joined([f"{key}:", _short(entry)], between=" ") for key, entry in value.items()]
+        return Joined(["{", Joined(entries), "}"], between="")
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return _("yes") if value else _("no")
+    return Quantity(value, digits=6) if isinstance(value, float) else str(value)
