@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterator
+from typing import Annotated, Any
 
 import typer
 
+from cardan import register
 from cardan.texts import _
 
 from .lazy import Entry, Group
@@ -301,10 +303,23 @@ COMMANDS = {
 """Name of a command -> what the help says of it; its code is the file of the same name."""
 
 
+def _registered() -> Iterator[tuple[str, Entry]]:
+    """Yield a command for every question of the register that none of the above asks."""
+    for question in register.QUESTIONS.values():
+        name = question.command or question.name
+        if name.split()[0] not in COMMANDS:
+            yield (
+                name,
+                Entry("asked", QUESTIONS, _(question.help), (f"cardan {name} truck.toml",), question=question.name),
+            )
+
+
 class Commands(Group):
     """All commands."""
 
-    entries = COMMANDS
+    def __init__(self, **settings: Any) -> None:
+        self.entries = {**COMMANDS, **dict(_registered())}
+        super().__init__(**settings)
 
 
 app = typer.Typer(
