@@ -85,7 +85,9 @@ def report(shown: Page) -> str:
 def workbook(shown: Page) -> list[str]:
     """Return the words in the cells of the page as a workbook."""
     book = load_workbook(io.BytesIO(exported(shown, "xlsx", title="drive").content), read_only=True)
-    return [cell for sheet in book for row in sheet.iter_rows(values_only=True) for cell in row if isinstance(cell, str)]
+    return [
+        cell for sheet in book for row in sheet.iter_rows(values_only=True) for cell in row if isinstance(cell, str)
+    ]
 
 
 def app(shown: Page) -> str:
