@@ -113,7 +113,7 @@ def test_a_universal_file_is_read(tmp_path):
 def test_universal_files_without_a_recording_are_refused(tmp_path):
     with pytest.raises(InputError, match="no function over time"):
         signal(universal(tmp_path / "frf.uff", kind=4))
-    with pytest.raises(InputError, match="'mm' is no unit of acceleration"):
+    with pytest.raises(InputError, match="'mm' is not a unit of acceleration"):
         signal(universal(tmp_path / "unit.uff", unit="mm"))
     whole = universal(tmp_path / "cut.uff").read_text()
     (tmp_path / "cut.uff").write_text(whole[:2000])

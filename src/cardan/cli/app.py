@@ -179,7 +179,7 @@ COMMANDS = {
             "stability": Entry(
                 "torsion_stability",
                 ASKED,
-                _("Whether vibration dies out, at a speed or over a map."),
+                _("Whether vibration decays, at a speed or over a map."),
                 (
                     "cardan torsion stability truck.toml",
                     "cardan torsion stability truck.toml --speeds 500:3000 --bends 2:25 --plot map.svg",
@@ -209,7 +209,7 @@ COMMANDS = {
     "check": Entry(
         "check",
         QUESTIONS,
-        _("Whether the drive keeps its limits, and what cures it where it does not."),
+        _("Whether the drive keeps its limits, and which changes help where it does not."),
         ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
     ),
     "diagnose": Entry(
@@ -286,7 +286,7 @@ COMMANDS = {
     "catalogue": Entry(
         "catalogue",
         DATA,
-        _("Materials, types and sizes of joints, norms: each row with its source."),
+        _("Materials, types and sizes of joints, standards: each row with its source."),
         (
             "cardan catalogue materials C45",
             "cardan catalogue joint_sizes --keys",

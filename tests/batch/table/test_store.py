@@ -156,9 +156,9 @@ def test_two_runs_in_one_folder_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("content", "told"),
     [
-        ("{", "is no manifest of a sweep"),
-        ("[]", "is no manifest of a sweep"),
-        ('{"format": 1}', "is no manifest of a sweep"),
+        ("{", "is not the manifest of a sweep"),
+        ("[]", "is not the manifest of a sweep"),
+        ('{"format": 1}', "is not the manifest of a sweep"),
         ('{"format": 2}', "was written by another version of cardan"),
         (None, "holds no sweep"),
     ],
