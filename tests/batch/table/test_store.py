@@ -177,8 +177,8 @@ def test_a_manifest_that_says_nothing_is_refused(content, told, tmp_path):
     [
         ("provenance", {"seed": 2}, "has been changed"),
         ("columns", [], "has been changed"),
-        ("chunk_rows", 0, "is no manifest"),
-        ("chunk_rows", "50", "is no manifest"),
+        ("chunk_rows", 0, "is not the manifest"),
+        ("chunk_rows", "50", "is not the manifest"),
         ("chunk_rows", 25, "not of this sweep"),
         ("size", 100, "another sweep"),
         ("rows", "none", "keeps no rows"),
