@@ -18,32 +18,38 @@ from cardan.answers.reader import Reader
 from cardan.app.parts.blocks import block_html
 from cardan.cli.tell import tell
 from cardan.drive.drive import Drive
+from cardan.errors import InputError
 from cardan.report import html
 from cardan.report.answers import page_of, subject
 from cardan.report.block import Block, Cell, Listing, Page, Picture
 from cardan.report.content import Excerpt
 from cardan.report.exports import exported
+from cardan.texts import language
 
 SILENT = ("name", "role", "roles", "dash", "side", "level", "tone", "source", "title", "full", "form", "amount", "keys")
 """Fields of a page that nobody reads as a sentence."""
+
+IN_WORDS = ("check", "strength")
+"""Questions whose results hold sentences in the language in which they were asked."""
 
 
 @dataclass(frozen=True)
 class Once(Question):
     """A question that is asked of a drive once, however often it is told."""
 
-    results: dict[int, Any] = field(default_factory=dict, compare=False)
+    results: dict[tuple[int, str], Any] = field(default_factory=dict, compare=False)
 
     def ask(self, drive: Drive, **given: Any) -> Any:
         """Return the result of the first time, or raise what it raised."""
-        if id(drive) not in self.results:
+        key = (id(drive), language() if self.name in IN_WORDS else "")
+        if key not in self.results:
             try:
-                self.results[id(drive)] = super().ask(drive, **given)
-            except Exception as error:
-                self.results[id(drive)] = error
-        if isinstance(self.results[id(drive)], Exception):
-            raise self.results[id(drive)]
-        return self.results[id(drive)]
+                self.results[key] = super().ask(drive, **given)
+            except InputError as error:
+                self.results[key] = error
+        if isinstance(self.results[key], InputError):
+            raise self.results[key]
+        return self.results[key]
 
 
 def once(question: Question) -> Once:

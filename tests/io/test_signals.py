@@ -172,12 +172,12 @@ BROKEN = {
     "wrong.csv": (b"time_s,acceleration_mm\n0,1\n1,1\n", "needs a unit of acceleration"),
     "ragged.csv": (b"time_s,front_g\n0,1\n1\n2,3\n3,4\n", "line 3 has not 2 cells"),
     "wave.csv": (b"RIFF....WAVE", "is a .wav file by its content"),
-    "text.wav": (b"hello", "no WAV that can be read"),
-    "short.wav": (b"RIFF\x24\0\0\0WAVEfmt ", "no WAV that can be read"),
-    "text.tdms": (b"hello world" * 9, "no TDMS file that can be read"),
+    "text.wav": (b"hello", "not a WAV file that can be read"),
+    "short.wav": (b"RIFF\x24\0\0\0WAVEfmt ", "not a WAV file that can be read"),
+    "text.tdms": (b"hello world" * 9, "not a TDMS file that can be read"),
     "text.uff": (b"hello world", "cut off|can be read"),
-    "run.mp3": (b"", "no format of recordings; known are .csv"),
-    "run": (b"", "no format of recordings"),
+    "run.mp3": (b"", "not a format of recordings; known are .csv"),
+    "run": (b"", "not a format of recordings"),
 }
 
 
