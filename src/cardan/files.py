@@ -47,7 +47,7 @@ class Enclosed:
         try:
             there = (self.path / name).resolve()
         except (OSError, RuntimeError, ValueError):  # links in a circle, a zero byte
-            raise refuse("name", _("{name} is no name of a file").format(name=repr(str(name)))) from None
+            raise refuse("name", _("{name} is not a file name").format(name=repr(str(name)))) from None
         if not there.is_relative_to(self.path.resolve()):
             raise refuse(str(name), _("leads out of the folder of the drive file"), "out_of_range")
         return there

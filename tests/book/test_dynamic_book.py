@@ -17,7 +17,7 @@ def test_half_trace_of_the_book_is_right_to_the_fourth_power_of_q(a, q, miss):
 
 
 def test_half_trace_of_the_book_has_no_pole():
-    """At a = 1 its fraction is 0/0, at a = 0 and below its root is no number; the limits are finite."""
+    """At a = 1 its fraction is 0/0, at a = 0 and below its root is not a number; the limits are finite."""
     for a in (1.0, 0.0, 0.25):
         left, middle, right = book_half_trace(a + np.asarray([-1e-7, 0.0, 1e-7]), 0.2)
         assert middle == pytest.approx(0.5 * (left + right), abs=1e-9)

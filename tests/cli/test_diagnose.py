@@ -225,7 +225,7 @@ def test_the_wrong_drive_is_doubted(cardan):
         ("torn.wav", b"RIFF\x00\x00", ""),
         ("none.tdms", b"TDSm" + bytes(40), ""),
         ("few.csv", b"time_s,tacho,a_g\n0,1,2\n0.1,0,3\n", ""),
-        ("run.xls", b"x", "is no format of recordings"),
+        ("run.xls", b"x", "is not a format of recordings"),
     ],
 )
 def test_files_that_are_no_recording_are_refused_by_name(cardan, tmp_path, name, content, words):

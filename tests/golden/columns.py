@@ -112,7 +112,7 @@ def in_si(stored: Any, size: float) -> Any:
 
 
 def number(stored: Any) -> float:
-    """Return a stored value, in which JSON's words stand for what is no number."""
+    """Return a stored value, in which JSON's words stand for what is not a number."""
     return math.nan if stored is None else WORDS[stored] if isinstance(stored, str) else float(stored)
 
 

@@ -45,12 +45,12 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
         pytest.param(
             POINTS.replace("[-300, 0, 0]", "[-300, nan, 0]").replace("[1900, 40, -260]", "[700, 0, -160]"),
             ["input.point_mm[1]", "joints[1].centre_mm"],
-            id="a fold beside a point that is no number",
+            id="a fold beside a point that is not a number",
         ),
         pytest.param(
             POINTS.replace("[-300, 0, 0]", "[-300, nan, 0]").replace("[1200, 0, -160]", "[0, 0, 0]"),
             ["input.point_mm[1]", "joints[1].centre_mm"],
-            id="coincident beside a point that is no number",
+            id="coincident beside a point that is not a number",
         ),
         pytest.param(POINTS.replace("[1200, 0, -160]", "[1e300, 0, 0]"), ["joints[1].centre_mm[0]"], id="overflow"),
         pytest.param(BENDS + "[duty]\nspeed_rpm = -1e300\n", ["duty.speed_rpm"], id="speed whose square overflows"),

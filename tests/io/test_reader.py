@@ -29,7 +29,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
         (HEAD + "joints = []", "joints", "at least one joint"),
         (HEAD + "joints = 3", "joints", "must be tables, each under [[joints]], not 3"),
         (TWO + "[duty]\nspeed = 3", "duty.speed", "needs a unit: write speed_rpm or speed_rad_s"),
-        (TWO + "[duty]\nspeed_mm = 3", "duty.speed_mm", "mm is no unit of this field"),
+        (TWO + "[duty]\nspeed_mm = 3", "duty.speed_mm", "mm is not a unit of this field"),
         (TWO + '[duty]\nspeed_rpm = "fast"', "duty.speed_rpm", "must be a number, not 'fast'"),
         (TWO + "[duty]\nspeed_rpm = true", "duty.speed_rpm", "must be a number, not true"),
         (TWO + "[duty]\nspeed_rpm = inf", "duty.speed_rpm", "a finite number"),
@@ -65,7 +65,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
         (
             TWO + '[[movements]]\nkind = "harmonic"\nmoves = ["joints[2]"]\nfrequency_Hz = 1\namplitude_mm = [0, 0, 1]',
             "movements[0].moves",
-            "'joints[2]' is no point of this drive",
+            "'joints[2]' is not a point of this drive",
         ),
         (
             TWO + '[[poses]]\nname = "a"\nset = { "joints[0].bend_dek" = 3 }',

@@ -113,7 +113,7 @@ def test_a_universal_file_is_read(tmp_path):
 def test_universal_files_without_a_recording_are_refused(tmp_path):
     with pytest.raises(InputError, match="no function over time"):
         signal(universal(tmp_path / "frf.uff", kind=4))
-    with pytest.raises(InputError, match="'mm' is no unit of acceleration"):
+    with pytest.raises(InputError, match="'mm' is not a unit of acceleration"):
         signal(universal(tmp_path / "unit.uff", unit="mm"))
     whole = universal(tmp_path / "cut.uff").read_text()
     (tmp_path / "cut.uff").write_text(whole[:2000])
@@ -172,12 +172,12 @@ BROKEN = {
     "wrong.csv": (b"time_s,acceleration_mm\n0,1\n1,1\n", "needs a unit of acceleration"),
     "ragged.csv": (b"time_s,front_g\n0,1\n1\n2,3\n3,4\n", "line 3 has not 2 cells"),
     "wave.csv": (b"RIFF....WAVE", "is a .wav file by its content"),
-    "text.wav": (b"hello", "no WAV that can be read"),
-    "short.wav": (b"RIFF\x24\0\0\0WAVEfmt ", "no WAV that can be read"),
-    "text.tdms": (b"hello world" * 9, "no TDMS file that can be read"),
+    "text.wav": (b"hello", "not a WAV file that can be read"),
+    "short.wav": (b"RIFF\x24\0\0\0WAVEfmt ", "not a WAV file that can be read"),
+    "text.tdms": (b"hello world" * 9, "not a TDMS file that can be read"),
     "text.uff": (b"hello world", "cut off|can be read"),
-    "run.mp3": (b"", "no format of recordings; known are .csv"),
-    "run": (b"", "no format of recordings"),
+    "run.mp3": (b"", "not a format of recordings; known are .csv"),
+    "run": (b"", "not a format of recordings"),
 }
 
 

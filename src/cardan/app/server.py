@@ -81,7 +81,7 @@ def start(how: Start) -> None:
     from .state.recordings import close_all
 
     if not how.folder.is_dir():
-        raise refuse(str(how.folder), _("is no folder"))
+        raise refuse(str(how.folder), _("is not a folder"))
     if how.file:
         Workspace(how.folder).read(how.file)
     port, token = _port(how), secrets.token_urlsafe(24) if how.shared else ""

@@ -197,7 +197,7 @@ def swinging_joint(
     acceleration: float = 0.0,
     start_phase: float = 0.0,
 ) -> VaryingBend:
-    """Return the motion of one joint whose bend swings harmonically, the plane of the shafts at rest.
+    """Return the motion of one joint whose bend oscillates harmonically, the plane of the shafts at rest.
 
     Parameters
     ----------

@@ -130,11 +130,11 @@ def _problems(item: Given, value: Any, key: str) -> Iterator[Problem]:
             yield from _word(item, word, f"{key}[{k}]")
     elif item.kind == "table":
         if not isinstance(value, Mapping):
-            yield Problem(key, _("{value} is no table from shaft number to value").format(value=repr(value)))
+            yield Problem(key, _("{value} is not a table from shaft number to value").format(value=repr(value)))
             return
         for name, entry in value.items():
             if not str(name).isdecimal():
-                yield Problem(f"{key}.{name}", _("{name} is no shaft number").format(name=repr(name)))
+                yield Problem(f"{key}.{name}", _("{name} is not a shaft number").format(name=repr(name)))
             yield from _number(item, entry, f"{key}.{name}", key)
     else:
         yield from _array(item, value, key)
@@ -171,7 +171,7 @@ def _array(item: Given, value: Any, key: str) -> Iterator[Problem]:
 
 def _number(item: Given, entry: Any, field: str, key: str) -> Iterator[Problem]:
     if isinstance(entry, bool) or not isinstance(entry, int | float):
-        yield Problem(field, _("{value} is no number").format(value=repr(entry)))
+        yield Problem(field, _("{value} is not a number").format(value=repr(entry)))
         return
     value = _scaled(entry, _factor(item, key))
     if not math.isfinite(value):

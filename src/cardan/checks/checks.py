@@ -135,5 +135,5 @@ def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:
 
 def _unknown(name: str) -> str:
     near = nearest(name, CHECKS)
-    text = _("{name} is no check; the checks are {known}").format(name=repr(name), known=", ".join(CHECKS))
+    text = _("unknown check {name}; the checks are {known}").format(name=repr(name), known=", ".join(CHECKS))
     return text + (_("; the nearest is {near}").format(near=near) if near else "")

@@ -128,7 +128,7 @@ def trade_off(
     k, path = shaft - 1, f"shafts[{shaft - 1}]"
     length = known_lengths(whole).get(shaft)
     if not 0 < k < len(whole.joints):
-        raise refuse("shaft", _("{number} is no shaft between two joints").format(number=shaft), "out_of_range")
+        raise refuse("shaft", _("{number} is not a shaft between two joints").format(number=shaft), "out_of_range")
     own = whole.shafts[k]
     if own.outer is None or length is None:
         field = "outer" if own.outer is None else "length"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterator
+from typing import Annotated, Any
 
 import typer
 
+from cardan import register
 from cardan.texts import _
 
 from .lazy import Entry, Group
@@ -177,7 +179,7 @@ COMMANDS = {
             "stability": Entry(
                 "torsion_stability",
                 ASKED,
-                _("Whether vibration dies out, at a speed or over a map."),
+                _("Whether vibration decays, at a speed or over a map."),
                 (
                     "cardan torsion stability truck.toml",
                     "cardan torsion stability truck.toml --speeds 500:3000 --bends 2:25 --plot map.svg",
@@ -207,7 +209,7 @@ COMMANDS = {
     "check": Entry(
         "check",
         QUESTIONS,
-        _("Whether the drive keeps its limits, and what cures it where it does not."),
+        _("Whether the drive keeps its limits, and which changes help where it does not."),
         ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
     ),
     "diagnose": Entry(
@@ -284,7 +286,7 @@ COMMANDS = {
     "catalogue": Entry(
         "catalogue",
         DATA,
-        _("Materials, types and sizes of joints, norms: each row with its source."),
+        _("Materials, types and sizes of joints, standards: each row with its source."),
         (
             "cardan catalogue materials C45",
             "cardan catalogue joint_sizes --keys",
@@ -301,10 +303,23 @@ COMMANDS = {
 """Name of a command -> what the help says of it; its code is the file of the same name."""
 
 
+def _registered() -> Iterator[tuple[str, Entry]]:
+    """Yield a command for every question of the register that none of the above asks."""
+    for question in register.QUESTIONS.values():
+        name = question.command or question.name
+        if name.split()[0] not in COMMANDS:
+            yield (
+                name,
+                Entry("asked", QUESTIONS, _(question.help), (f"cardan {name} truck.toml",), question=question.name),
+            )
+
+
 class Commands(Group):
     """All commands."""
 
-    entries = COMMANDS
+    def __init__(self, **settings: Any) -> None:
+        self.entries = {**COMMANDS, **dict(_registered())}
+        super().__init__(**settings)
 
 
 app = typer.Typer(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
@@ -12,6 +12,7 @@ import typer
 
 from cardan.texts import _
 
+from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
 from .output import check_common, check_speed
 
 if TYPE_CHECKING:
@@ -157,3 +158,44 @@ def key_of(field: str) -> str:
     from cardan.drive.fields.keys import spelled
 
     return spelled(field)
+
+
+def command_of(name: str) -> Callable[..., int]:
+    """Return the command of a question of the register that has no file of its own here.
+
+    Parameters
+    ----------
+    name : str
+        One of `cardan.register.QUESTIONS`.
+    """
+
+    def command(
+        file: DriveFile,
+        torque: TorqueNm = None,
+        speed_rpm: SpeedRpm = None,
+        json: AsJson = False,
+        csv: AsCsv = False,
+        plot: Plot = None,
+    ) -> int:
+        from cardan.errors import Problem, check
+        from cardan.register import QUESTIONS
+
+        from .output import print_text
+        from .progress import watching
+        from .source import read
+        from .tell import tell
+
+        question = QUESTIONS[name]
+        check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
+        drive = on_duty(read(file), speed_rpm, torque)
+        needed = _("missing; the question {name} needs it").format(name=name)
+        with keys_of(file):
+            check(Problem(_(" or ").join(map(key_of, some)), needed, "missing") for some in question.lacking(drive))
+            with watching(_(question.title)) as progress:
+                result = question.ask(drive, progress=progress)
+        if result is None:
+            print_text(question.home.otherwise(drive) + "\n")
+            return 0
+        return tell(question.answer(drive, result), file, drive, json=json, csv=csv, plot=plot)
+
+    return command

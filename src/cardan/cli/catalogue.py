@@ -72,7 +72,7 @@ def _named(table: str) -> str:
     if table in TABLES:
         return table
     near = nearest(table, TABLES)
-    text = _("{table} is no table; the tables are {known}").format(table=repr(table), known=", ".join(TABLES))
+    text = _("{table} is not a table; the tables are {known}").format(table=repr(table), known=", ".join(TABLES))
     raise refuse("TABLE", text + (_("; the nearest is {near}").format(near=near) if near else ""))
 
 

@@ -32,6 +32,8 @@ class Entry:
         Commands of a group; of a command with a module of its own, what else its first word may ask for.
     aliases : tuple of str
         Other names that ask it and that the help does not list.
+    question : str
+        Question of the register that it asks, where it has no file of its own.
     """
 
     module: str
@@ -40,6 +42,7 @@ class Entry:
     examples: tuple[str, ...] = ()
     entries: Mapping[str, Entry] = field(default_factory=dict)
     aliases: tuple[str, ...] = ()
+    question: str = ""
 
 
 @cache
@@ -158,7 +161,7 @@ def _epilog(entry: Entry) -> str | None:
 def load(name: str, entry: Entry) -> Any:
     """Import a command and build it."""
     module = import_module(f".{entry.module}", __package__)
-    run = getattr(module, entry.module)
+    run = module.command_of(entry.question) if entry.question else getattr(module, entry.module)
     single = typer.Typer(rich_markup_mode="rich", pretty_exceptions_enable=False, add_completion=False)
     single.command(name, cls=Command, help=entry.help, epilog=_epilog(entry), context_settings=HELP)(run)
     return typer.main.get_command(single)

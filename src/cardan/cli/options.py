@@ -40,7 +40,7 @@ MoreRows: TypeAlias = Annotated[
     typer.Option(
         "--catalogue",
         metavar="FILE",
-        help=_("Catalogue file with more sizes, types, grades or norms; may be repeated."),
+        help=_("Catalogue file with more sizes, types, grades or standards; may be repeated."),
         show_default=False,
     ),
 ]

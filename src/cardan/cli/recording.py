@@ -219,7 +219,7 @@ def _bad_places(recording: Signal, said: dict[str, str], drive: Drive) -> Iterat
             yield Problem("--place", error.problems[0].message, "unknown_key")
         place, sign, way = value.partition(":")
         if place and not _there(place, drive):
-            text = _("{place} is no part of the drive; it has {parts}")
+            text = _("{place} is not a part of the drive; it has {parts}")
             yield Problem("--place", text.format(place=repr(place), parts=_parts(drive)), "out_of_range")
         if sign and way not in DIRECTIONS[:-1]:
             text = _("{value} is none of {choices}")

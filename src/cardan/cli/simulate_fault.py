@@ -121,4 +121,4 @@ def _refused(fault: str | None, out: Path | None, seed: int, run_up: float) -> I
     if seed < 0:
         yield Problem("--seed", _("{value} is negative").format(value=seed), "negative")
     if run_up == 0.0:
-        yield Problem("--run-up-s", _("0 is no run-up; --steady-rpm keeps one speed"), "not_positive")
+        yield Problem("--run-up-s", _("0 is not a run-up; --steady-rpm keeps one speed"), "not_positive")

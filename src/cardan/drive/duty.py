@@ -11,9 +11,9 @@ from .machine import Engine, MachineTorque, RunUp
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Harmonic:
-    """Part of a torque that swings with the turning of the shaft where the torque is given."""
+    """Part of a torque that alternates with the turning of the shaft where the torque is given."""
 
-    order: float = plain(doc="swings in one turn of that shaft", above=0.0)
+    order: float = plain(doc="cycles in one turn of that shaft", above=0.0)
     torque: float = quantity("torque", doc="amplitude", low=0.0)
     phase: float = quantity("angle", 0.0, doc="phase of the cosine at the start position")
 

@@ -103,12 +103,12 @@ class AsynchronousMachine(MachineTorque):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HarmonicTorque(MachineTorque):
-    """Torque that swings with the angle of the station it acts on, without a mean."""
+    """Torque that alternates with the angle of the station it acts on, without a mean."""
 
     kind: ClassVar[str] = "harmonic"
 
     amplitude: float = quantity("torque", doc="amplitude", low=0.0)
-    order: float = plain(doc="swings in one turn of the station", above=0.0)
+    order: float = plain(doc="cycles in one turn of the station", above=0.0)
     phase: float = quantity("angle", 0.0, doc="phase of the sine at the start position")
 
 
@@ -133,9 +133,9 @@ def _table_problems(place: str, places: tuple[float, ...], name: str, values: tu
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class EngineHarmonic:
-    """Part of an engine's torque that swings with its crank."""
+    """Part of an engine's torque that alternates with its crank."""
 
-    order: float = plain(doc="swings in one turn of the crank; a four-stroke engine has halves", above=0.0)
+    order: float = plain(doc="cycles in one turn of the crank; a four-stroke engine has halves", above=0.0)
     torque: float = quantity("torque", doc="amplitude on the input shaft", low=0.0)
     phase: float = quantity("angle", 0.0, doc="phase of the sine at the start position")
 

@@ -36,7 +36,7 @@ class Movement:
 class Oscillation(Movement):
     """A movement that swings as a sine of time."""
 
-    frequency: float = quantity("frequency", doc="frequency of the swing", above=0.0)
+    frequency: float = quantity("frequency", doc="frequency of the oscillation", above=0.0)
     phase: float = quantity("angle", 0.0, doc="phase of the sine at time zero")
 
 
@@ -68,7 +68,7 @@ class Arm(Oscillation):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Parallel(Oscillation):
-    """Parallel guidance: the first moved point swings on an arm, the others shift by the same way without turning."""
+    """Parallel guidance: the first moved point turns on an arm, the others shift by the same way without turning."""
 
     kind: ClassVar[str] = "parallel"
 

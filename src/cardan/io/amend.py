@@ -69,7 +69,7 @@ def _amended(document: Any, path: str, value: Any) -> None:
         raise refuse(path, _("leads to a place in a list, not to a key"))
     known = spellings_of(kind_at(document, steps))
     if last not in known and last != "kind":
-        raise refuse(path, _("is no key of a drive file"))
+        raise refuse(path, _("is not a key of a drive file"))
     _put(document, steps, last, known, value)
 
 
@@ -124,7 +124,7 @@ def tables_only(path: str) -> Iterator[None]:
     try:
         yield
     except (AttributeError, IndexError, KeyError, TypeError):
-        raise refuse(path, _("is no table of a drive file")) from None
+        raise refuse(path, _("is not a table of a drive file")) from None
 
 
 def parsed(text: str) -> Any:
@@ -140,7 +140,7 @@ def parsed(text: str) -> Any:
     try:
         return tomlkit.parse(text)
     except (ValueError, RecursionError) as error:  # of the parser, of Python for thousands of digits, too deep
-        raise refuse("file", _("is no TOML: {why}").format(why=error)) from None
+        raise refuse("file", _("is not TOML: {why}").format(why=error)) from None
 
 
 def steps_of(path: str) -> tuple[Step, ...]:
@@ -155,7 +155,7 @@ def steps_of(path: str) -> tuple[Step, ...]:
     for word in path.split("."):
         match = _WORD.fullmatch(word)
         if match is None:
-            raise refuse(path, _("{word} is no step of a path").format(word=repr(word)))
+            raise refuse(path, _("{word} is not a step of a path").format(word=repr(word)))
         steps += [match[1], *(int(k) for k in re.findall(r"\d+", match[2]))]
     return tuple(steps)
 
@@ -174,7 +174,7 @@ def kind_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
             continue
         known = spellings_of(cls)
         if step not in known:
-            raise refuse(".".join(str(one) for one in steps), _("is no table of a drive file"))
+            raise refuse(".".join(str(one) for one in steps), _("is not a table of a drive file"))
         cls = fields_of(cls)[known[step][0]].type
         if get_origin(cls) is tuple:
             cls = get_args(cls)[0]

@@ -43,7 +43,7 @@ def read_rows(path: Path, columns: Sequence[tuple[str, str]], *, least: int) -> 
             raise refuse(str(path.name), _("is larger than {limit} MB; take fewer rows").format(limit=limit))
         rows = list(csv.reader(content.decode("utf-8-sig").splitlines()))
     except csv.Error as error:
-        raise refuse(str(path.name), _("is no CSV: {why}").format(why=error)) from None
+        raise refuse(str(path.name), _("is not CSV: {why}").format(why=error)) from None
     except OSError as error:
         raise refuse(str(path.name), _("cannot be read: {why}").format(why=refusal(error))) from None
     except UnicodeDecodeError:

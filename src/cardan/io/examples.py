@@ -73,7 +73,7 @@ def example_file(name: str) -> Path:
         hint = _("; the nearest is {near}").format(near=near) if near else ""
         raise refuse(
             "example",
-            _("{name} is no shipped example{hint}; there are {names}").format(
+            _("{name} is not a shipped example{hint}; there are {names}").format(
                 name=repr(name), hint=hint, names=", ".join(example_names())
             ),
         )

@@ -75,7 +75,7 @@ def unknown(cls: type, key: str) -> str:
         choices = _(" or ").join(f"{word}_{unit}" for unit in DIMENSIONS[dimension])
         if not unit:
             return _("needs a unit: write {choices}").format(choices=choices)
-        return _("{unit} is no unit of this field: write {choices}").format(unit=label(unit), choices=choices)
+        return _("{unit} is not a unit of this field: write {choices}").format(unit=label(unit), choices=choices)
     other = _other_word(cls, key)
     near = other or _near(cls, key, cutoff=CLOSE)
     owners = [] if other else _owners(cls, key)

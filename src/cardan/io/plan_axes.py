@@ -97,7 +97,7 @@ def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
         if isinstance(row, list) and len(row) == 3 and isinstance(row[2], int | float) and abs(row[2]) <= 1:
             correlations.append((str(row[0]), str(row[1]), float(row[2])))
         else:
-            one.refuse(f"correlations[{k}]", _('is no correlation; write ["one key", "another key", 0.5]'))
+            one.refuse(f"correlations[{k}]", _('is not a correlation; write ["one key", "another key", 0.5]'))
     if one.problems or not distributions:
         return None
     return Drawn(

@@ -76,7 +76,7 @@ def group(constraints: Sequence[int]) -> Group:
         raise refuse("constraints", text.format(count=len(constraints)), "out_of_range")
     for k, one in enumerate(constraints):
         if not 1 <= one <= MOST:
-            text = _("{value} is no number of constraints of a pair: 1 to {most}")
+            text = _("{value} is not a number of constraints of a pair: 1 to {most}")
             raise refuse(f"constraints[{k}]", text.format(value=one, most=MOST), "out_of_range")
     return Group(constraints=tuple(int(one) for one in constraints))
 

@@ -198,7 +198,7 @@ def _axis_problems(name: str, value: Point | None, wanted: bool, kind: Kind) -> 
     elif not all(map(math.isfinite, value)):
         yield Problem(name, _("{value} is not finite").format(value=list(value)), "not_finite")
     elif not LENGTHS[0] < math.hypot(*value) < LENGTHS[1]:
-        yield Problem(name, _("{value} is no direction").format(value=list(value)), "out_of_range")
+        yield Problem(name, _("{value} is not a direction").format(value=list(value)), "out_of_range")
 
 
 def _angle_problems(pair: Pair) -> Iterator[Problem]:

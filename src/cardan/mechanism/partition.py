@@ -122,7 +122,7 @@ def _problems(pairs: Sequence[Join], frame: str, input_link: str) -> Iterator[Pr
         return
     for k, pair in enumerate(pairs):
         if not 1 <= pair.constraints <= 5:
-            text = _("{value} is no number of constraints of a pair: 1 to {most}")
+            text = _("{value} is not a number of constraints of a pair: 1 to {most}")
             yield Problem(f"pairs[{k}].constraints", text.format(value=pair.constraints, most=5), "out_of_range")
         if pair.links[0] == pair.links[1]:
             text = _("joins {link} with itself").format(link=pair.links[0])

@@ -170,7 +170,7 @@ def test_a_scheduler_without_workers_is_told(outside):
     ("address", "told"),
     [
         ("tcp://127.0.0.1:9", "scheduler: no Dask scheduler answers at tcp://127.0.0.1:9"),
-        ("pigeon://a:1", "scheduler: pigeon://a:1 is no address of a Dask scheduler: "),
+        ("pigeon://a:1", "scheduler: pigeon://a:1 is not the address of a Dask scheduler: "),
     ],
 )
 def test_a_wrong_address_is_one_message(address, told, monkeypatch):

@@ -293,7 +293,7 @@ def test_columns_are_read_by_name(tmp_path):
     for sweep in (run(WORK, chunk=CHUNK, into=tmp_path), run(WORK, chunk=CHUNK)):
         assert list(sweep.table(["y", "k"])) == ["y", "k"]
         assert [start for start, _rows in sweep.parts()] == list(range(0, WORK.size, CHUNK))
-        with pytest.raises(InputError, match="z: is no column of the table"):
+        with pytest.raises(InputError, match="z: is not a column of the table"):
             sweep.table(["z"])
 
 

@@ -154,7 +154,7 @@ def test_folders_that_hold_no_sweep(tmp_path, folder):
     with pytest.raises(InputError, match="holds no sweep"):
         results(tmp_path)
     (tmp_path / "manifest.json").write_text("{}", encoding="utf-8")
-    with pytest.raises(InputError, match="is no manifest of a sweep"):
+    with pytest.raises(InputError, match="is not the manifest of a sweep"):
         results(tmp_path)
     summaries = run(Suspension(), into=tmp_path / "none", rows="none").folder
     with pytest.raises(InputError, match="summaries alone"):

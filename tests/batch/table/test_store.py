@@ -156,9 +156,9 @@ def test_two_runs_in_one_folder_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("content", "told"),
     [
-        ("{", "is no manifest of a sweep"),
-        ("[]", "is no manifest of a sweep"),
-        ('{"format": 1}', "is no manifest of a sweep"),
+        ("{", "is not the manifest of a sweep"),
+        ("[]", "is not the manifest of a sweep"),
+        ('{"format": 1}', "is not the manifest of a sweep"),
         ('{"format": 2}', "was written by another version of cardan"),
         (None, "holds no sweep"),
     ],
@@ -177,8 +177,8 @@ def test_a_manifest_that_says_nothing_is_refused(content, told, tmp_path):
     [
         ("provenance", {"seed": 2}, "has been changed"),
         ("columns", [], "has been changed"),
-        ("chunk_rows", 0, "is no manifest"),
-        ("chunk_rows", "50", "is no manifest"),
+        ("chunk_rows", 0, "is not the manifest"),
+        ("chunk_rows", "50", "is not the manifest"),
         ("chunk_rows", 25, "not of this sweep"),
         ("size", 100, "another sweep"),
         ("rows", "none", "keeps no rows"),

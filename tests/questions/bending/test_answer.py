@@ -97,7 +97,7 @@ def test_a_map_has_its_own_table_and_figure():
 def test_a_file_that_describes_half_of_it_is_told_what_lacks():
     support = replace(VAN.supports[0], radial=False, axial=True, stiffness=None)
     shown = page_of(QUESTIONS["bending"], subject(replace(VAN, supports=(support,))))
-    assert "can swing freely" in shown.blocks[0].text
+    assert "can pivot freely" in shown.blocks[0].text
     assert shown.alarms[0].tone == "warning"
 
 

@@ -252,12 +252,12 @@ def test_shafts_that_nothing_holds_are_named():
     drive = two_piece()
     loose = replace(drive, supports=())
     assert fields(loose) == ["supports"]
-    with pytest.raises(InputError, match="shafts 2 and 3 can swing freely"):
+    with pytest.raises(InputError, match="shafts 2 and 3 can pivot freely"):
         bending_speeds(loose)
     one = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (0.4, 0, 0)])
     body = (Segment(length=0.4, **TUBE),)
     one = replace(one, shafts=(Shaft(number=2, segments=body),), supports=(Support(shaft=2, position=0.0),))
-    with pytest.raises(InputError, match="shaft 2 can swing freely"):
+    with pytest.raises(InputError, match="shaft 2 can pivot freely"):
         bending_speeds(one)
 
 

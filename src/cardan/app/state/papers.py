@@ -83,7 +83,7 @@ def made(question: Question, known: Catalogue | None, progress: Progress | None 
     if question.name == COMPARE:
         variants = [Variant(name=name, drive=drive, known=known) for name, drive in how["variants"]]
         return compared(variants, progress)
-    raise refuse("question", _("{name} is no question").format(name=question.name))
+    raise refuse("question", _("{name} is not a question").format(name=question.name))
 
 
 def _report(drive: Drive, how: dict[str, Any], known: Catalogue | None, progress: Progress | None) -> Exported:

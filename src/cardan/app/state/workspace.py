@@ -72,5 +72,5 @@ class Workspace:
             The name is none, or leads out of the folder.
         """
         if not re.fullmatch(r"[^/\\\x00-\x1f:*?\"<>|.][^/\\\x00-\x1f:*?\"<>|]{0,120}", name):
-            raise refuse("name", _("{name} is no name of a file").format(name=repr(name)))
+            raise refuse("name", _("{name} is not a file name").format(name=repr(name)))
         return self.enclosed / name

@@ -169,7 +169,7 @@ DRIVE = (
         name="stability",
         doc=mark("whether a small torsional disturbance grows, and how fast"),
         told=lambda _drive: (
-            Told(name="growth_rate", text=mark("growth rate of the slowest disturbance to die out, 1/s")),
+            Told(name="growth_rate", text=mark("growth rate of the disturbance slowest to decay, 1/s")),
             Told(name="spectral_radius", text=mark("largest modulus of the Floquet multipliers")),
             Told(name="unstable", text=mark("1 where a disturbance grows, else 0")),
         ),

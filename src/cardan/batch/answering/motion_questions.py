@@ -76,7 +76,7 @@ MOTION = (
     ),
     Question(
         name="lead",
-        doc=mark("how far the output runs ahead of the input at most, about its mean"),
+        doc=mark("how far the output leads the input at most, about its mean"),
         told=lambda _drive: _single(
             Told(name="lead_deg", dimension="angle", unit="deg", text=mark("largest lead of the output"))
         ),

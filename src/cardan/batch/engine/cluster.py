@@ -320,7 +320,9 @@ def _nobody(address: str, error: Exception) -> str:
     told = str(error).strip()
     if isinstance(error, OSError):  # what Dask says then is long, and says no more
         return _("no Dask scheduler answers at {address}").format(address=address)
-    return _("{address} is no address of a Dask scheduler: {why}").format(address=address, why=told.splitlines()[0])
+    return _("{address} is not the address of a Dask scheduler: {why}").format(
+        address=address, why=told.splitlines()[0]
+    )
 
 
 def _lost(address: str, patience: float) -> str:

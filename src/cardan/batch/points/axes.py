@@ -177,7 +177,7 @@ class Listed:
                 text = _("{given} values given, {wanted} needed")
                 problems.append(Problem(f"{self.name}[{k}]", text.format(given=len(row), wanted=len(self.fields))))
             problems += [
-                Problem(f"{self.name}[{k}]", _("{value} is no number, flag or word").format(value=repr(one)[:40]))
+                Problem(f"{self.name}[{k}]", _("{value} is not a number, flag or word").format(value=repr(one)[:40]))
                 for one in row
                 if not _holds(one)
             ]

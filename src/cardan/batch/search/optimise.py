@@ -357,7 +357,7 @@ def check_bounds(ask: Evaluator, bounds: Bounds) -> list[Problem]:
     return [
         Problem(
             f"bounds: {column.name}",
-            _("{low} to {high} is no range: it needs two finite numbers, the lower one first").format(
+            _("{low} to {high} is not a range: it needs two finite numbers, the lower one first").format(
                 low=low, high=high
             ),
             "out_of_range",

@@ -197,7 +197,7 @@ def manifest_of(path: Path) -> dict[str, Any]:
     except OSError as error:
         raise refuse(str(path / MANIFEST), _("cannot be read: {why}").format(why=refusal(error))) from None
     except (ValueError, KeyError, TypeError):
-        raise refuse(str(path / MANIFEST), _("is no manifest of a sweep")) from None
+        raise refuse(str(path / MANIFEST), _("is not the manifest of a sweep")) from None
 
 
 def _manifest(path: Path, work: Work, keeps: bool, cut: Callable[[], int]) -> dict[str, Any]:

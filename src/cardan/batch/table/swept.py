@@ -81,7 +81,7 @@ class Sweep:
         wanted = [column.name for column in self.columns] if names is None else list(names)
         unknown = [name for name in wanted if name not in {column.name for column in self.columns}]
         if unknown:
-            raise refuse(unknown[0], _("is no column of the table"), "unknown_key")
+            raise refuse(unknown[0], _("is not a column of the table"), "unknown_key")
         if self.folder is not None:
             for name in names_in(self.folder):
                 yield int(name.partition("-")[0]), rows_of(self.folder / f"{name}{SUFFIX}", wanted)

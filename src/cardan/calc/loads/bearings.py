@@ -106,7 +106,7 @@ CALCULATIONS = (
             NEEDLES,
             NEEDLE_LENGTH,
             NEEDLE,
-            positive("cycles_per_min", mark("swings a minute; one for every turn of the shaft")),
+            positive("cycles_per_min", mark("oscillations a minute; one for every turn of the shaft")),
         ),
         returns=(gives("load_allow_N", mark("load allowed on one bearing"), "force"),),
         answer=_static,

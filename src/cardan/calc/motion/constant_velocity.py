@@ -151,7 +151,7 @@ ANGLE = given("phi1_deg", mark("input angle from the inner side of the plane of 
 CALCULATIONS = (
     Calculation(
         name="rzeppa_lever",
-        doc=mark("how far the dividing lever of a Rzeppa joint holds its cage off the bisecting plane"),
+        doc=mark("how far the pilot lever of a Rzeppa joint holds its cage off the bisecting plane"),
         source="Book (13), (14)",
         takes=(LEVER_BEND, DIVISION, LENGTH),
         returns=(
@@ -164,7 +164,7 @@ CALCULATIONS = (
     ),
     Calculation(
         name="rzeppa_lever_ratio",
-        doc=mark("length of the dividing lever that halves one bend exactly"),
+        doc=mark("length of the pilot lever that halves one bend exactly"),
         source="Book (15), (16)",
         takes=(LEVER_BEND, DIVISION),
         returns=(
@@ -174,7 +174,7 @@ CALCULATIONS = (
     ),
     Calculation(
         name="rzeppa_lever_optimum",
-        doc=mark("length of the dividing lever that errs least over a range of bends"),
+        doc=mark("length of the pilot lever that errs least over a range of bends"),
         source=mark("minimax of the exact error of Book (13)"),
         takes=(
             DIVISION,

@@ -181,14 +181,14 @@ def _vector(key: str, doc: str, dimension: str | None = None) -> Any:
 _POINTS = (
     given("points0_m", mark("middle positions of the points of the axis"), "length", axes=(2,), width=3),
     given("amplitude_m", mark("amplitude of each point [x, y, z]"), "length", axes=(2,), width=3),
-    given("omega_motion_rad_s", mark("angular frequency of the swing"), "angular_speed"),
+    given("omega_motion_rad_s", mark("angular frequency of the oscillation"), "angular_speed"),
     given("phase_rad", mark("phase of each point"), "angle", axes=(0, 1), default=0.0),
 )
 
 CALCULATIONS = (
     Calculation(
         name="moving_centres",
-        doc=mark("exact spin of every shaft, and lengths, while the joint centres swing along lines"),
+        doc=mark("exact spin of every shaft, and lengths, while the joint centres oscillate along lines"),
         source=mark("rigid crosses; contains Book (97)-(99)"),
         takes=(
             *_POINTS,

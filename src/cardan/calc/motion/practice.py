@@ -74,7 +74,7 @@ def _measures(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     own = [MEASURE[one] for one in MEASURES[part].values()]
     for item in MEASURE.values():
         if item not in own and values.get(item.name) is not None:
-            text = _("is no measure of a {part}; its measures are {known}")
+            text = _("is not a measure of a {part}; its measures are {known}")
             known = ", ".join(one.key for one in own)
             yield Problem(key(item.name), text.format(part=part, known=known), "unknown_key")
     if all(values.get(item.name, math.nan) is None for item in own):

@@ -83,7 +83,7 @@ def _random_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem
 CALCULATIONS = (
     Calculation(
         name="varying_angle_single",
-        doc=mark("one joint whose bend swings harmonically, the plane of the shafts at rest"),
+        doc=mark("one joint whose bend oscillates harmonically, the plane of the shafts at rest"),
         source="Book (96)-(98), completed",
         takes=(
             given("alpha_mean_deg", mark("mean bend"), "angle"),
@@ -108,7 +108,7 @@ CALCULATIONS = (
     ),
     Calculation(
         name="varying_angle_double",
-        doc=mark("planar double joint whose bends swing, one as a sine, the other as a cosine"),
+        doc=mark("planar double joint whose bends oscillate, one as a sine, the other as a cosine"),
         source="Book (99)",
         takes=(
             given("alpha12_mean_deg", mark("mean bend of joint 1"), "angle"),

@@ -112,12 +112,12 @@ CALCULATIONS = (
     Calculation(
         name="pendulum_absorber",
         doc=mark("order that a centrifugal pendulum absorbs, and what it weighs on the shaft at another one"),
-        source=mark("rotor and pendulum, small swings"),
+        source=mark("rotor and pendulum, small oscillations"),
         takes=(
             given("pendulum_mass_kg", mark("mass of one pendulum"), "mass", above=0.0),
             given("pivot_radius_m", mark("radius of its pivot on the shaft"), "length", above=0.0),
             given("pendulum_length_m", mark("length of its arm"), "length", above=0.0),
-            given("order", mark("order of the excitation, swings a turn"), low=0.0),
+            given("order", mark("order of the excitation, cycles a turn"), low=0.0),
             given("rotor_inertia_kgm2", mark("inertia of the shaft"), "inertia", low=0.0, default=None),
             given("count", mark("number of equal pendulums"), kind="whole", low=1, default=1),
         ),
@@ -125,7 +125,7 @@ CALCULATIONS = (
             gives("tuning_order", mark("order at which the shaft is held still")),
             gives("effective_inertia_kgm2", mark("inertia felt at the order; None at antiresonance"), "inertia"),
             gives("total_inertia_kgm2", mark("the same with that of the shaft"), "inertia"),
-            gives("swing_over_shaft", mark("swing of a pendulum over that of the shaft; None at antiresonance")),
+            gives("swing_over_shaft", mark("amplitude of a pendulum over that of the shaft; None at antiresonance")),
             gives("antiresonance", mark("whether the order is the tuned one: infinite inertia")),
         ),
         answer=_pendulum,

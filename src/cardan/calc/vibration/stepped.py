@@ -48,12 +48,12 @@ def _stepped_check(values: Values, key: Callable[[str], str]) -> Iterator[Proble
         if inside and node.get("end") is not None:
             yield Problem(key(f"nodes[{k}].end"), _("only the first and the last node are ends"), "inconsistent")
         if not inside and node.get("hinge") and node.get("end") == "fixed":
-            text = _("a fixed end holds the slope that a hinge lets go")
+            text = _("a fixed end holds the slope that a hinge releases")
             yield Problem(key(f"nodes[{k}].hinge"), text, "inconsistent")
     pinned = [node for node in nodes if node.get("pinned") or node.get("end") == "pinned"]
     other = [node for node in nodes if node.get("support_stiffness") or node.get("tilt_stiffness")]
     if len(pinned) == 1 and not other and not any(node.get("end") == "fixed" for node in nodes):
-        text = _("one support alone lets the shaft swing; give a second one, or a stiffness")
+        text = _("one support alone lets the shaft pivot; give a second one, or a stiffness")
         yield Problem(here, text, "singular")
 
 

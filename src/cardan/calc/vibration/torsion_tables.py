@@ -48,7 +48,7 @@ TORQUES = rows(
         "constant": (given("value_Nm", mark("torque"), "torque"),),
         "harmonic": (
             given("amplitude_Nm", mark("amplitude"), "torque"),
-            given("order", mark("swings in one turn of the station")),
+            given("order", mark("cycles in one turn of the station")),
             given("phase_deg", mark("phase of the sine at the start position"), "angle", default=0.0),
         ),
         "linear_speed": (

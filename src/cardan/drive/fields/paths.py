@@ -62,7 +62,7 @@ def place(drive: Drive, path: str) -> Place:
     for depth, word in enumerate(words):
         match = _STEP.fullmatch(word)
         if match is None:
-            raise _lost(path, _("{word} is no step of a path").format(word=repr(word)))
+            raise _lost(path, _("{word} is not a step of a path").format(word=repr(word)))
         name, indices = match[1], [int(k) for k in re.findall(r"\d+", match[2])]
         if not is_dataclass(here):
             raise _lost(path, _("it leads beyond a value"))
@@ -288,7 +288,7 @@ def _tables(value: Any, field: Field) -> bool:
 
 def _no_index(here: Any, k: int) -> str:
     if not isinstance(here, tuple):
-        return _("there is no index {k}; this is no list").format(k=k)
+        return _("there is no index {k}; this is not a list").format(k=k)
     if not here:
         return _("there is no index {k}; the list is empty").format(k=k)
     return _("there is no index {k}; the last one is {last}").format(k=k, last=len(here) - 1)

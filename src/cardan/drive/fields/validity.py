@@ -270,7 +270,7 @@ def movement_problems(movements: Sequence[Movement], n: int) -> Iterator[Problem
             if moved not in known:
                 yield Problem(
                     f"movements[{k}].moves",
-                    _("{moved} is no point of this drive; its points are {known}").format(
+                    _("{moved} is not a point of this drive; its points are {known}").format(
                         moved=repr(moved), known=", ".join(known)
                     ),
                 )

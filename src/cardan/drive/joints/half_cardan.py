@@ -88,7 +88,7 @@ class HalfCardan(Joint):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ElasticHalfCardan(Joint):
-    """Elastic half-cardan, of rubber or with a disc: even in the mean of its links, and soft against turning."""
+    """Elastic half-cardan, of rubber or with a disc: uniform on average over its links, and soft against turning."""
 
     kind: ClassVar[str] = "elastic_half_cardan"
     title: ClassVar[str] = mark("elastic half-cardan")

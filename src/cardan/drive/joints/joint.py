@@ -70,7 +70,7 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
         "articulation": mark("while its joint angle changes, only cross joints and exactly even ones are followed"),
         "forces": mark("it does not hold both shafts at its centre, so that they take forces besides its couple"),
         "moving forces": mark("while its joint angle changes, only the couple of a cross is known"),
-        "assembly": mark("how it gives way to a misfit is known of the pins of a cross only"),
+        "assembly": mark("how it gives way to a misalignment is known of the pins of a cross only"),
         "losses": mark("what rubs in it is not the journals of a cross"),
         "accuracy": mark("its errors are not those of a cross and its yokes"),
         "life": mark("it has no needle bearings on a cross"),

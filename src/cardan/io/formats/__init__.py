@@ -29,6 +29,7 @@ def write(result: Any, path: Path) -> None:
     if module is None:
         known = ", ".join(FORMATS)
         raise refuse(
-            str(path), _("{suffix} is no format of results; known are {known}").format(suffix=path.suffix, known=known)
+            str(path),
+            _("{suffix} is not a format of results; known are {known}").format(suffix=path.suffix, known=known),
         )
     write_bytes(path, module.content(result))

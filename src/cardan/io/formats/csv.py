@@ -41,7 +41,7 @@ def columns_of(result: Any) -> Mapping[str, Sequence[Any]]:
             return columns(result)
     if isinstance(result, Mapping):
         return result
-    raise refuse("result", _("{kind} is no table; save it as .json").format(kind=type(result).__name__))
+    raise refuse("result", _("{kind} is not a table; save it as .json").format(kind=type(result).__name__))
 
 
 def table(columns: Mapping[str, Sequence[Any]]) -> str:

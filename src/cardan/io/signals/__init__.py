@@ -123,7 +123,7 @@ def _module(where: Path) -> Any:
     """Return the module that reads a file; told by its suffix, checked by how it begins."""
     suffix = where.suffix.lower()
     if suffix not in SIGNAL_FORMATS:
-        text = _("{suffix} is no format of recordings; known are {known}")
+        text = _("{suffix} is not a format of recordings; known are {known}")
         raise refuse(where.name, text.format(suffix=suffix or "–", known=", ".join(SIGNAL_FORMATS)), "unknown_kind")
     try:
         with where.open("rb") as stream:
@@ -172,13 +172,13 @@ def _own_meaning(one: Column) -> Meaning:
     if one.unit and not suffix:
         if not one.quantity:
             return Meaning(name=one.title, quantity="other", factor=1.0, unit=one.unit, direction=one.direction)
-        text = _("{unit} is no unit of {quantity}; known are {known}")
+        text = _("{unit} is not a unit of {quantity}; known are {known}")
         known = ", ".join(UNITS[one.quantity])
         raise refuse(one.title, text.format(unit=repr(one.unit), quantity=one.quantity, known=known), "inconsistent")
     if not one.quantity:
         return meaning(f"{one.title.replace(' ', '_')}_{suffix}") if suffix else meaning(one.title)
     if suffix and suffix not in UNITS[one.quantity]:
-        text = _("{unit} is no unit of {quantity}; known are {known}")
+        text = _("{unit} is not a unit of {quantity}; known are {known}")
         known = ", ".join(UNITS[one.quantity])
         raise refuse(one.title, text.format(unit=repr(one.unit), quantity=one.quantity, known=known), "inconsistent")
     factor = UNITS[one.quantity].get(suffix, 1.0)

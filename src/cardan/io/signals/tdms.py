@@ -47,7 +47,7 @@ def read(path: Path, asked: Asked) -> Raw:
     except InputError:
         raise
     except Exception as error:  # a header of nonsense makes all sorts
-        raise refuse(name, _("is no TDMS file that can be read: {why}").format(why=error)) from None
+        raise refuse(name, _("is not a TDMS file that can be read: {why}").format(why=error)) from None
     cautions = [_("{name} is cut off: it holds less than it says.").format(name=name)] if cut else []
     columns = []
     for group, channel, values in rows:

@@ -61,7 +61,7 @@ def read(path: Path, asked: Asked) -> Raw:
             wanted = [k for k, kind in enumerate(kinds) if kind == 58]
             found = file.read_sets(wanted) if wanted else []
         except Exception as error:  # the library names no errors of its own
-            raise refuse(name, _("is no universal file that can be read: {why}").format(why=error)) from None
+            raise refuse(name, _("is not a universal file that can be read: {why}").format(why=error)) from None
     sets = found if isinstance(found, list) else [found]
     over_time = [one for one in sets if int(one.get("func_type") or 0) in TIME_RESPONSES and np.size(one["data"])]
     if not over_time:

@@ -39,7 +39,7 @@ def read(path: Path, asked: Asked) -> Raw:
         try:
             whole_rate, values = wavfile.read(io.BytesIO(found))
         except Exception as error:  # a header of nonsense makes all sorts
-            raise refuse(name, _("is no WAV that can be read: {why}").format(why=error)) from None
+            raise refuse(name, _("is not a WAV file that can be read: {why}").format(why=error)) from None
     if any("premature" in str(one.message) for one in told):
         cautions.append(_("{name} is cut off: it holds less than it says.").format(name=name))
     rate = float(whole_rate)

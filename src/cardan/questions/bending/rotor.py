@@ -162,7 +162,7 @@ def _mode(drive: Drive, shaft: int | None) -> tuple[CriticalSpeeds, Shaft, int]:
         for k, one in enumerate(found.part):
             if one.kind == "shaft" and one.number == chosen.number:
                 return found, chosen, k
-    text = _("shaft {number} does not bow in any of the lowest {count} modes")
+    text = _("shaft {number} does not bend in any of the lowest {count} modes")
     raise refuse("shaft", text.format(number=chosen.number, count=MODES[-1]), "out_of_range")
 
 

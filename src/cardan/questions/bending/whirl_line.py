@@ -305,8 +305,8 @@ def _check_held(drive: Drive, found: WhirlLine) -> None:
     moved[at.free] = np.max(np.abs(motion), axis=-1)
     node = moved[at.deflection] > 1e-9 * np.max(moved[at.deflection])
     loose = sorted({int(n) for n in found.shaft[node[:-1] | node[1:]]})
-    text = _("shaft {which} can swing freely: hold it by one more support")
+    text = _("shaft {which} can pivot freely: hold it by one more support")
     if len(loose) > 1:
-        text = _("shafts {which} can swing freely: hold one of them by a support, as a centre bearing does")
+        text = _("shafts {which} can pivot freely: hold one of them by a support, as a centre bearing does")
     message = text.format(which=_(" and ").join(str(number) for number in loose))
     check([Problem("supports", message if drive.supports else _("missing; {why}").format(why=message))])

@@ -228,7 +228,7 @@ def _unlimited(found: Life) -> Figure:
     return Figure(
         name="life",
         title=_("How long the joints last"),
-        sentence=_("No joint is damaged: none of them carries torque and swings."),
+        sentence=_("No joint is damaged: none of them carries torque and oscillates."),
         source=_("ISO 281"),
         rows=(
             Row(

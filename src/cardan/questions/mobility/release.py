@@ -89,7 +89,7 @@ def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Rele
         raise refuse("way", _("{value} is none of {choices}").format(value=repr(way), choices="rot, trans"))
     direction = np.asarray(axis, dtype=float)
     if direction.shape != (3,) or not LENGTHS[0] < math.hypot(*direction) < LENGTHS[1]:
-        raise refuse("axis", _("{value} is no direction").format(value=direction.tolist()), "out_of_range")
+        raise refuse("axis", _("{value} is not a direction").format(value=direction.tolist()), "out_of_range")
     system = constraints(mechanism)
     number = names.index(joint)
     unit = frames.unit(direction)

@@ -365,7 +365,7 @@ def _closing(drive: Drive, found: Phasing, *, closes: bool) -> str:
     if is_rounding(drive, found.irregularity_min):
         return _(
             "The longest side, joint {longest}, is as long as the others together but for the rounding of the figures "
-            "that describe the drive: what it leaves, {low}, is no fluctuation of the design."
+            "that describe the drive: what it leaves, {low}, is not a fluctuation of the design."
         )
     return _(
         "The longest side, joint {longest} with {long}, is longer than the others together, {others}: no yoke angles "

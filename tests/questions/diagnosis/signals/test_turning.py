@@ -83,5 +83,5 @@ def test_pulses_at_random_are_not_believed():
 def test_a_speed_in_the_wrong_unit_is_refused():
     with pytest.raises(InputError, match="no shaft turns so fast"):
         alone("angular_speed", np.full(1000, 2e5))
-    with pytest.raises(InputError, match="are no recording"):
+    with pytest.raises(InputError, match="are not a recording"):
         alone("angular_speed", np.full(1000, 1e5), rate=1e-3)

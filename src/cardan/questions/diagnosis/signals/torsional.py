@@ -234,7 +234,7 @@ def _told(channel: Channel, missing: int, level: float, jitter: float, turns: fl
         text = _("{name}: {missing} teeth gave no pulse; they were read between their neighbours.")
         told.append(text.format(name=channel.name, missing=missing))
     if level < 2.0 * jitter:
-        text = _("{name}: the swing is no larger than what the sampling rate leaves of doubt in each pulse.")
+        text = _("{name}: the oscillation is no larger than what the sampling rate leaves of doubt in each pulse.")
         told.append(text.format(name=channel.name))
     if turns < 4 * EVEN_TURNS:
         text = _("{name}: only {turns:.0f} turns; errors of teeth and vibration can hardly be told apart.")

@@ -189,7 +189,7 @@ def rotation(
         text = _("holds {given:.3g} turns of the shaft; at least {wanted:g} are needed")
         raise refuse(tacho.name, text.format(given=found.turns, wanted=LEAST_TURNS), "out_of_range")
     if found.turns > MOST_TURNS:
-        text = _("makes {given:.3g} turns; more than {most:g} are no recording: its unit or rate is wrong")
+        text = _("makes {given:.3g} turns; more than {most:g} are not a recording: its unit or rate is wrong")
         raise refuse(tacho.name, text.format(given=found.turns, most=MOST_TURNS), "out_of_range")
     if found.mean_speed > FASTEST:
         text = _("makes {given:.3g} rpm; no shaft turns so fast: its unit, its rate or the pulses per turn are wrong")

@@ -216,7 +216,7 @@ def _borne(result: Absorber) -> Iterator[Remark]:
     rows: Any = slice(None) if result.tuned_speed is None else result.speed == result.tuned_speed
     twist = float(np.nanmax(result.twist[rows]))
     text = {
-        "pendulum": _("The pendulums swing by ±{twist} at most and act on the shaft with ±{torque}."),
+        "pendulum": _("The pendulums oscillate by ±{twist} at most and act on the shaft with ±{torque}."),
         "tuned": _("There its spring twists by ±{twist} and carries ±{torque}."),
         "viscous": _("It slips by ±{twist} and transmits ±{torque} at most; its power loss is up to {loss}."),
     }.get(

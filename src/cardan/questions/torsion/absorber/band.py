@@ -275,7 +275,7 @@ def element_problems(line: Lines, elements: Sequence[int] | None) -> Iterator[Pr
 def check_swings(peak: float) -> None:
     """Refuse a drive whose torques do not swing in the band."""
     if not peak > STILL:
-        text = _("nothing swings in this band: the joints are straight, and no engine or torque has orders")
+        text = _("nothing oscillates in this band: the joints are straight, and no engine or torque has orders")
         raise refuse("duty.speed_range", text)
 
 

@@ -192,7 +192,7 @@ def torsion_modes(drive: Drive, duty: Duty | None = None, *, pieces: int = 1) ->
     train = torsional_train(drive, chosen, pieces=pieces, loaded=chosen.speed is not None)
     found = straight_modes(train.model, speed=chosen.speed or 0.0)
     if not len(found.omega) and train.model.elements:
-        text = _("too few of them have inertia: nothing swings against the rest; give the inertias of the machines")
+        text = _("too few of them have inertia: nothing oscillates against the rest; give the inertias of the machines")
         raise refuse("stations", text)
     if not len(found.omega):
         text = _("missing; every shaft counts as rigid, so nothing vibrates: give a body of known length, or stiffness")

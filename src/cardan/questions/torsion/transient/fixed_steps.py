@@ -160,7 +160,7 @@ def _longest(flat: TorsionalModel, method: FixedStep, angles: Array, rates: Arra
     swift, contact = float(np.max(fastest)), float(np.min(contact_period(flat, free, angles)))
     if method.step is not None:
         if method.step * swift > STABLE:
-            text = _("{given:.3g} s given; the fastest swing of these drives needs steps of at most {most:.3g} s")
+            text = _("{given:.3g} s given; the fastest oscillation of these drives needs steps of at most {most:.3g} s")
             raise refuse("step", text.format(given=method.step, most=STABLE / swift))
         return min(method.step, length)
     pace = max(float(np.max(living)), 0.5 * float(np.max(forced)), 1.0 / length)

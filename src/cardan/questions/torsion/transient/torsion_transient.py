@@ -247,6 +247,8 @@ def _endless(model: TorsionalModel, fastest: float, length: float) -> Iterator[P
     rate = max(abs(fastest), _slowest(model))
     turns = rate * length / (2.0 * np.pi)
     if turns > FOLLOWED:
-        text = _("{span:.6g} s are {turns:,.0f} turns or swings; at most {most:,} are followed, {longest:.3g} s here")
+        text = _(
+            "{span:.6g} s are {turns:,.0f} turns or oscillations; at most {most:,} are followed, {longest:.3g} s here"
+        )
         longest = FOLLOWED * 2.0 * np.pi / rate
         yield Problem("span", text.format(span=length, turns=turns, most=FOLLOWED, longest=longest), "too_large")

@@ -134,7 +134,7 @@ def simulate(
 
 def _span_problems(begin: float, end: float, samples: Array) -> Iterator[Problem]:
     if not (math.isfinite(begin) and math.isfinite(end) and end > begin):
-        yield Problem("span", _("from {begin:.6g} s to {end:.6g} s is no time").format(begin=begin, end=end))
+        yield Problem("span", _("from {begin:.6g} s to {end:.6g} s is not a span of time").format(begin=begin, end=end))
     elif samples.ndim != 1 or not np.all(np.diff(samples) > 0.0):
         yield Problem("times", _("need to rise"))
     elif len(samples) and not (begin <= samples[0] and samples[-1] <= end):

@@ -1,0 +1,62 @@
+"""The folders of the house: none too full, and none that needs what needs it."""
+
+import pytest
+
+from .imports import ROOT, between, circles, modules
+
+MOST = 25
+"""Modules of a folder, without its ``__init__``."""
+
+FULL = {"cli": 55, "report": 31}
+"""Folders that hold more yet, with what they hold: these numbers only go down."""
+
+ROUND = {
+    "app.state": [("papers", "work")],
+    "batch.answering": [("drive_questions", "motion_questions", "questions")],
+    "batch.table": [("kinds", "reductions")],
+    "checks.strength": [("left_out", "strength")],
+    "drive": [("body", "crack", "shaft"), ("drive", "fields", "line")],
+    "drive.fields": [("paths", "validity")],
+    "questions.diagnosis.signals": [("ridge", "turning")],
+    "questions.life": [("life", "life_cautions")],
+}
+"""Circles that are left among the modules of a folder, some by types alone: none comes to them."""
+
+
+def held():
+    """Return how many modules each folder holds."""
+    found = {}
+    for path in modules().values():
+        if path.name != "__init__.py":
+            name = path.parent.relative_to(ROOT).as_posix()
+            found[name] = found.get(name, 0) + 1
+    return found
+
+
+def folders():
+    """Return every folder of the package that holds folders or modules, by its dotted name."""
+    return sorted({name.rpartition(".")[0] for name in modules() if "." in name})
+
+
+def rooms(folder):
+    """Return the room within a folder for every module below it."""
+    start = f"{folder}."
+    return {name: name.removeprefix(start).split(".")[0] for name in modules() if name.startswith(start)}
+
+
+def test_no_folder_holds_more_modules_than_one_can_look_over():
+    assert {name: count for name, count in held().items() if count > MOST} == FULL
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("folder", folders())
+def test_no_circle_among_the_rooms_of_a_folder(folder):
+    """Neither among the top folders nor further down, imports for type checking and within functions included."""
+    assert circles(between(rooms(folder))) == ROUND.get(folder.removeprefix("cardan").lstrip("."), [])
+
+
+@pytest.mark.slow
+def test_a_circle_would_be_seen():
+    arrows = between({"cardan.report.page": "a", "cardan.report.block": "b"})
+    assert arrows["a"]["b"] == ("cardan.report.page", "cardan.report.block")
+    assert circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}) == [("a", "b", "c")]

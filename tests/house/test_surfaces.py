@@ -1,0 +1,121 @@
+"""Every question of the register is told on every surface, in both languages and in other units."""
+
+import re
+from functools import cache
+
+import pytest
+
+from cardan.answers.reader import Reader, reading
+from cardan.errors import InputError
+from cardan.io import example, example_names
+from cardan.register import QUESTIONS
+from cardan.report.block import Table
+from cardan.texts import speaking
+from cardan.units import DIMENSIONS, label
+
+from . import surfaces
+
+AMERICAN = Reader(
+    units={
+        "length": "in",
+        "angle": "rad",
+        "angular_speed": "rad_s",
+        "torque": "lbft",
+        "force": "lbf",
+        "stress": "psi",
+    },
+    decimal=",",
+)
+
+READERS = {"en": ("en", Reader()), "ru": ("ru", Reader()), "inches": ("en", AMERICAN)}
+"""Who reads: language, units and decimal sign."""
+
+FEW = ("single-20deg", "overconstrained-pump")
+"""Examples that are quick; the others are asked when there is time."""
+
+LEFT = "|".join(re.escape(label(next(iter(DIMENSIONS[one])))) for one in AMERICAN.units)
+USUAL = re.compile(rf"(?:\d ?|^|\[|  )(?:{LEFT})(?![\w²³·/])")
+"""A usual unit behind a number, alone or at the head of a column."""
+
+USUAL_KEY = re.compile(
+    rf"(?<!_per)(?<!_g)(?<!_rpm)_(?:{'|'.join(next(iter(DIMENSIONS[one])) for one in AMERICAN.units)})$"
+)
+"""A key of JSON with a usual unit; per degree, g·mm and rpm times degrees are units of their own."""
+
+OF_FILE = re.compile(r"[.\[]|^bend_deg$")
+"""A key of JSON that is a key of the drive file: an axis of a map, what was varied."""
+
+QUOTED = re.compile(r"Book \(|rating by|Hertz; 4000 MPa stands behind ISO 76|web articles on|A yoke 1° off|δ\(γ ± 1°\)")
+"""How words begin that say by what rule a limit or a rating is, in the units of that rule, or what a degree does."""
+
+POINT = re.compile(r"(?<![\w.])\d+\.\d+(?![\w.])")
+"""A number with a decimal point."""
+
+
+@cache
+def asked(name):
+    """Return an example and its questions, each of which computes once."""
+    return example(name), {one: surfaces.once(question) for one, question in QUESTIONS.items()}
+
+
+def answers(name):
+    """Yield every question that has an answer, with the result of it, for an example."""
+    drive, questions = asked(name)
+    for one, question in questions.items():
+        if question.lacking(drive):
+            continue
+        try:
+            result = question.ask(drive)
+        except InputError:
+            continue
+        if result is not None:
+            yield one, question, drive, result
+
+
+def examples(test):
+    """Ask for every example, most of them slow."""
+    every = [name if name in FEW else pytest.param(name, marks=pytest.mark.slow) for name in example_names()]
+    return pytest.mark.parametrize("name", every)(test)
+
+
+def heavy(name, one, who):
+    """Tell whether a page is written as a file too: for each reader in turn, so that all have had it in the end."""
+    turn = example_names().index(name) + list(QUESTIONS).index(one) + list(READERS).index(who)
+    return name in FEW or turn % 3 == 0
+
+
+@pytest.mark.parametrize("who", READERS)
+@examples
+def test_every_question_is_told_on_every_surface(name, who, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    language, reader = READERS[who]
+    found = 0
+    with speaking(language), reading(reader):
+        for one, question, drive, result in answers(name):
+            told = question.answer(drive, result)
+            page = surfaces.page(question, drive)
+            printed, tree = surfaces.terminal(told, drive), surfaces.as_data(told, reader)
+            assert printed, one
+            assert surfaces.csv(told, reader) or not told.tables, one
+            assert "<" in surfaces.app(page) or not page.blocks, one
+            said = list(surfaces.texts(page))
+            if heavy(name, one, who):
+                assert "<html" in surfaces.report(page), one
+                cells = surfaces.workbook(page)
+                assert page.title in cells, one
+                said += cells
+            assert [text for text in [*said, *printed.splitlines()] if "{" in text or "}" in text] == [], one
+            if who == "inches":
+                no_usual_unit_is_left(page, [*said, *printed.splitlines()], tree)
+            found += 1
+    assert found
+
+
+def no_usual_unit_is_left(page, said, tree):
+    assert [text for text in said if USUAL.search(text) and not QUOTED.search(text)] == []
+    tables = [block for block in page.blocks if isinstance(block, Table)]
+    assert [one.unit for block in tables for one in block.columns if USUAL.search(one.unit)] == []
+    numbers = [cell.text for block in tables for row in block.rows for cell in row if cell.amount is not None]
+    assert [text for text in (*numbers, page.answer) if POINT.search(text)] == []
+    keys = {key for key, _value in surfaces.leaves(tree)}
+    assert [key for key in keys if USUAL_KEY.search(key) and not OF_FILE.search(key)] == []
