@@ -46,7 +46,7 @@ def test_limits_are_inclusive() -> None:
 
 
 def test_a_measure_of_the_other_part_is_refused() -> None:
-    with pytest.raises(InputError, match="no measure of a cross"):
+    with pytest.raises(InputError, match="not a measure of a cross"):
         calc("accuracy_check", {"part": "cross", "coaxiality_mm": 0.05, "axis_offset_mm": 0.1})
 
 

@@ -47,7 +47,7 @@ def test_results_as_json(name: str, tmp_path: Path) -> None:
 def test_unknown_format_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"known are \.csv, \.json"):
         save(motion(example("single-20deg")), tmp_path / "a.xls")
-    with pytest.raises(InputError, match="no table"):
+    with pytest.raises(InputError, match="not a table"):
         save(equivalent_joint(example("single-20deg")), tmp_path / "a.csv")
     assert not list(tmp_path.iterdir())
 

@@ -77,7 +77,7 @@ def test_writes_what_it_reads() -> None:
         ("name", 3, "holds a text"),
         ("joints[1].centre_mm", 3, "does not fit"),
         ("joints[1].centre_mm[0]", [3], "does not fit"),
-        ("joints[1].centre_mm[0", 3, "no step of a path"),
+        ("joints[1].centre_mm[0", 3, "not a step of a path"),
         ("shafts[1].spline.teeth", 2.5, "does not fit"),
     ],
 )
