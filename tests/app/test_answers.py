@@ -154,7 +154,7 @@ def test_every_tab_answers_and_figures_are_taken_along_in_the_reader_s_units(pag
     page.click(mark("compare"))
     page.wait_for_function("() => document.querySelector('#taken').textContent === 'compare'")
     page.click("#inch")
-    page.wait_for_function("() => document.querySelector('.said').textContent.includes('20,049°')")
+    page.wait_for_function("() => document.querySelector('.said').textContent.includes('20,05°')")
 
 
 def test_a_failed_verdict_leads_to_its_field_and_its_cure_cures_it_and_a_broken_file_is_told(page):

@@ -35,9 +35,12 @@ def test_lengths_are_told_in_the_unit_asked_for(cardan, tmp_path):
     assert re.search(r"\d,\d+ ", asked)
     page = (tmp_path / "in.html").read_text()
     assert "centre_mm" in page  # the drive file as it stands
-    typed = [words(row) for row in ROW.findall(page) if "joints[0].centre_mm[1]" in words(row)]
+    assert cardan("report", TRUCK, "-o", "rad.html", "--unit", "angle=rad", "--decimal", ",").code == 0
+    page = (tmp_path / "rad.html").read_text()
+    typed = [words(row) for row in ROW.findall(page) if "shafts[3].yoke_angle_deg" in words(row)]
+    typed = [row for row in typed if "yoke angle" in row]
     assert typed
-    assert all(re.search(r"\d mm\b", row) for row in typed)
+    assert all(re.search(r"\s0\s+-\d\d\.\d", row) for row in typed)  # as the key of the file is typed
 
 
 def test_what_is_no_unit_is_refused_before_any_work(cardan, tmp_path):
