@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -115,7 +115,7 @@ def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table
     cells = [[cell(value, column, reader) for value in _plain(column.values)] for column in columns]
     rows = [list(row) for row in zip(*cells, strict=True)]
     if table.tones:
-        rows = [[_toned(row[0], tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
+        rows = [[replace(row[0], tone=tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
     return Table(
         columns=[
             Column(heading=told(one.heading, reader), unit=one.label(reader), left=one.words, wrap=one.wrap)
@@ -177,18 +177,6 @@ def framed(form: str, before: str, after: str = "") -> str:
     ('"≤ "0.0', '"("0.0")"', '')
     """
     return "".join((f'"{before}"' if before else "", form, f'"{after}"' if after else "")) if form else ""
-
-
-def _toned(one: Cell, tone: Tone) -> Cell:
-    return Cell(
-        text=one.text,
-        tone=tone,
-        full=one.full,
-        chip=one.chip,
-        formula=one.formula,
-        amount=one.amount,
-        form=one.form,
-    )
 
 
 def _plain(values: Any) -> Any:

@@ -15,10 +15,9 @@ from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from .balance import refused
 from .block import Page
 from .followed import asked_by_laws
-from .lacking import told
+from .lacking import refused, told
 from .page import page
 from .subject import Progress, Subject
 

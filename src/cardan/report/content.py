@@ -26,7 +26,6 @@ from cardan.questions.phases import answer as yokes
 from cardan.questions.phases.phases import Phasing
 from cardan.texts import _
 
-from .balance import refused
 from .block import Page, Table, Words
 from .description import description
 from .followed import (
@@ -39,6 +38,7 @@ from .followed import (
     warnings_by_laws,
 )
 from .key_figures import key_figures, key_table
+from .lacking import refused
 from .loaded import loaded
 from .method import method
 from .page import page

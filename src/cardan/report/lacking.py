@@ -1,15 +1,13 @@
-"""What a drive file lacks for a part of the report: each part asks here whether it can be told at all."""
+"""What a part of the report says where the drive file does not answer it: what is missing, or why it is refused."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypeAlias
-
+from cardan.answers.question import Lacking
 from cardan.drive.fields.keys import key_of
+from cardan.errors import InputError
 from cardan.texts import _
 
-Lacking: TypeAlias = tuple[tuple[str, ...], ...]
-"""Paths that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
+from .block import Page, Words
 
 
 def told(lacking: Lacking) -> str:
@@ -30,12 +28,17 @@ def told(lacking: Lacking) -> str:
     return _("This answer needs more in the drive file: {keys}.").format(keys=keys)
 
 
-def named(paths: Sequence[str]) -> Lacking:
-    """Return paths all of which are missing, each once.
-
-    Examples
-    --------
-    >>> named(["duty.torque", "duty.torque"])
-    (('duty.torque',),)
-    """
-    return tuple((path,) for path in dict.fromkeys(paths))
+def refused(name: str, title: str, error: InputError) -> Page:
+    """Return the page of a question that the drive file does not answer, with what is missing."""
+    left = [f"{one.field}: {one.message}" for one in error.problems]
+    alarm = _("{part} not calculated: {first}").format(part=title, first=left[0])
+    answer = _("Not calculated; the drive file leaves open:")
+    if all(one.code == "unknown_kind" for one in error.problems):
+        answer = _("Not calculated for joints of these kinds:")
+    return Page(
+        name=name,
+        title=title,
+        answer=answer,
+        blocks=[Words(text=text, tone="warning") for text in left],
+        alarms=[Words(text=alarm, tone="warning")],
+    )

@@ -10,8 +10,8 @@ from cardan.errors import InputError
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
-from .balance import refused
 from .block import Page
+from .lacking import refused
 from .page import page as page_for
 from .subject import Subject
 

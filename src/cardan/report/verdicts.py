@@ -9,8 +9,8 @@ from cardan.choices.check_answer import answer, ask, remedy_table, urgent
 from cardan.errors import InputError
 from cardan.texts import _, plural
 
-from .balance import refused
 from .block import Page, Table, table, verdict_columns
+from .lacking import refused
 from .page import page, row
 from .subject import Subject
 
