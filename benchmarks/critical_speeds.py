@@ -23,10 +23,10 @@ PEER = 1490.0
 """ROSS, on another machine: four forward critical speeds of forty elements, milliseconds, without 80 to build."""
 
 
-def beam(lead: tuple[int, ...] = (), elements: int = ELEMENTS) -> Line:
+def beam(outer: tuple[int, ...] = (), elements: int = ELEMENTS) -> Line:
     """Return a tube of 1.5 m on two stiff bearings in elements, or many with lengths a little apart."""
     tube = round_section(0.076, 0.072, 2.1e11, 7850.0, poisson=0.3)
-    spread = np.random.default_rng(1).uniform(0.9, 1.1, (*lead, 1)) if lead else 1.0
+    spread = np.random.default_rng(1).uniform(0.9, 1.1, (*outer, 1)) if outer else 1.0
     return line(
         spread * np.full(elements, 1.5 / elements),
         tube.bending,

@@ -30,7 +30,7 @@ def drive() -> TorsionalModel:
         [[1.0, 0.05], [0.03, 0.2, 0.03], [0.03, 0.4]],
         stiffness=[[4000.0], [6000.0, 6000.0], [5000.0]],
         damping=[[0.5], [0.5, 0.5], [0.5]],
-        bend=[0.3, 0.3],
+        joint_angle=[0.3, 0.3],
         phase=[0.0, 0.5],
         torques=[Torque(station=6, law=Constant(value=-60.0))],
         input_speed=50.0,
@@ -38,9 +38,9 @@ def drive() -> TorsionalModel:
 
 
 def over(points: int) -> TorsionalModel:
-    """Return the drive over bends and speeds."""
-    bends = np.linspace(0.0, 0.45, points)[:, None, None] * np.ones(2)
-    return replace(drive(), bend=bends, input_speed=np.linspace(15.0, 120.0, points))
+    """Return the drive over joint angles and speeds."""
+    joint_angles = np.linspace(0.0, 0.45, points)[:, None, None] * np.ones(2)
+    return replace(drive(), joint_angle=joint_angles, input_speed=np.linspace(15.0, 120.0, points))
 
 
 def by_scipy(speed: float) -> np.ndarray:

@@ -38,11 +38,11 @@ HEAVY = {
 
 def drives(count: int | None = None) -> Train:
     """Return the four-joint power unit with its supports, or many with points shifted by a few centimetres."""
-    lead = () if count is None else (count,)
+    outer = () if count is None else (count,)
     shift = 0.0 if count is None else np.random.default_rng(1).uniform(-0.03, 0.03, (count, 6, 3))
-    heavy = {k: v if k == "gravity" else np.broadcast_to(v, (*lead, *v.shape)) for k, v in HEAVY.items()}
-    position = np.broadcast_to([0.02, 0.08, 0.25, 0.2, 0.02, 0.09], (*lead, 6))
-    span = np.full((*lead, 4), 0.08)
+    heavy = {k: v if k == "gravity" else np.broadcast_to(v, (*outer, *v.shape)) for k, v in HEAVY.items()}
+    position = np.broadcast_to([0.02, 0.08, 0.25, 0.2, 0.02, 0.09], (*outer, 6))
+    span = np.full((*outer, 4), 0.08)
     return train_of_points(POINTS + shift, bearings=SUPPORTS, position=position, span=span, **heavy)
 
 

@@ -61,7 +61,7 @@ def fastest(jobs: Mapping[str, Callable[[], object]], *, rounds: int = 7) -> dic
 
 
 def random_drives(count: int, joints: int = 4) -> Drives:
-    """Return drives with bends below 25° and any yokes and planes, always the same ones."""
+    """Return drives with joint angles below 25° and any yokes and planes, always the same ones."""
     rng = np.random.default_rng(1)
     return Drives.from_angles(
         rng.uniform(0.0, 0.43, (count, joints)),

@@ -28,7 +28,7 @@ def drive(speed: float) -> TorsionalModel:
         [[1.0, 0.1, 0.05], [0.03, 0.2, 0.1], [0.1, 0.5]],
         stiffness=[[4000.0, 6000.0], [6000.0, 5000.0], [7000.0]],
         damping=[[1.0, 1.0], [1.0, 1.0], [1.0]],
-        bend=[0.3, 0.3],
+        joint_angle=[0.3, 0.3],
         phase=[0.0, 1.5],
         torques=[Torque(station=7, law=Constant(value=-60.0))],
         input_speed=speed,

@@ -22,13 +22,13 @@ import json, resource, sys, time
 from cardan import Drive, Spaced, sweep
 side = int(sys.argv[1])
 drive = Drive.from_angles([0.3, 0.2, 0.25, 0.1], yoke_angles=[0.1, 0.2, 0.3])
-ends = {"joints[0].bend_deg": 20, "joints[2].bend_deg": 20}
+ends = {"joints[0].joint_angle_deg": 20, "joints[2].joint_angle_deg": 20}
 ends |= {"shafts[1].yoke_angle_deg": 90, "shafts[2].yoke_angle_deg": 90}
 axes = [Spaced(field=field, start=0, stop=stop, count=side) for field, stop in ends.items()]
-told = ["max irregularity", "argmin irregularity", "mean alpha_eq_deg", "p99 irregularity"]
-told.append("share irregularity <= 0.02")
+told = ["max speed_fluctuation", "argmin speed fluctuation", "mean alpha_eq_deg", "p99 speed_fluctuation"]
+told.append("share speed_fluctuation <= 0.02")
 begin = time.perf_counter()
-found = sweep(drive, axes, ["irregularity", "alpha_eq"], reduce=told, rows="none")
+found = sweep(drive, axes, ["speed_fluctuation", "alpha_eq"], reduce=told, rows="none")
 seconds = time.perf_counter() - begin
 assert found.status == "done" and found.reductions["points"]["answered"] == side**4
 print(json.dumps([seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20]))
@@ -44,7 +44,7 @@ def figures(quick: bool) -> Iterator[Figure]:
     out = extremes(drives, method=Compiled())
     kernel = fastest({"kernel": lambda: extremes(drives, out=out, method=Compiled())}, rounds=3)["kernel"]
     each = 1e9 * kernel / drives.shape[0]
-    name = f"sweep of {count:.0e} points, irregularity and α_eq of four joints, five reductions"
+    name = f"sweep of {count:.0e} points, speed fluctuation and α_eq of four joints, five reductions"
     yield Figure(
         bench=name,
         value=seconds,

@@ -14,7 +14,7 @@ from .harness import Figure, fastest, random_drives
 from .single_drive import truck
 
 ONE, MANY, RESIDUAL = 50.0, 1.0, 1e-14
-"""Aims: microseconds a drive, seconds for 100,000 drives, irregularity left."""
+"""Aims: microseconds a drive, seconds for 100,000 drives, speed fluctuation left."""
 
 
 def figures(quick: bool) -> Iterator[Figure]:
@@ -40,11 +40,11 @@ def figures(quick: bool) -> Iterator[Figure]:
     )
     found = synchronous_yokes(many)
     again = Drives.from_angles(
-        many.chain.bend, plane_twist=many.chain.plane_twist, yoke_angle=found.yoke_angle, start_phase=0.0
+        many.chain.joint_angle, plane_twist=many.chain.plane_twist, yoke_angle=found.yoke_angle, start_phase=0.0
     )
-    left = float(np.max(extremes(again).irregularity[found.feasible]))
+    left = float(np.max(extremes(again).speed_fluctuation[found.feasible]))
     yield Figure(
-        bench=f"irregularity left in the worst of {int(found.feasible.sum())} drives that can be synchronous",
+        bench=f"speed fluctuation left in the worst of {int(found.feasible.sum())} drives that can be synchronous",
         value=left,
         unit="1",
         yardstick=f"{RESIDUAL:g}, aim ≤ 1",

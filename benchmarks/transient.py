@@ -28,7 +28,7 @@ ERROR = 1e-7
 
 SPEED, DRIVES = 1500.0 * rpm, 256
 FIRST, LAST, STIFFNESS, DAMPING, PUSH = 1.0, 0.5, 20_000.0, 2.0, 20.0
-BEND, PHASE = (20 * deg, 15 * deg), (0.3, 1.0)
+JOINT_ANGLE, PHASE = (20 * deg, 15 * deg), (0.3, 1.0)
 
 
 def drive() -> TorsionalModel:
@@ -41,7 +41,7 @@ def drive() -> TorsionalModel:
         [[FIRST], [0.0], [0.0, LAST]],
         stiffness=[[], [], [STIFFNESS]],
         damping=[[], [], [DAMPING]],
-        bend=BEND,
+        joint_angle=JOINT_ANGLE,
         phase=PHASE,
         torques=torques,
     )
@@ -51,12 +51,12 @@ def by_scipy(span: float, tolerance: float) -> np.ndarray:
     """Return the two angles at the end as a user of SciPy gets them: a function of plain numbers."""
     from scipy.integrate import solve_ivp
 
-    (a1, a2), (p1, p2) = BEND, PHASE
+    (a1, a2), (p1, p2) = JOINT_ANGLE, PHASE
 
-    def turned(theta: float, bend: float) -> tuple[float, float]:
-        tau = math.tan(0.5 * bend) ** 2
-        lead = math.atan2(tau * math.sin(2 * theta), 1.0 - tau * math.cos(2 * theta))
-        return theta + lead, math.cos(bend) / (1.0 - (math.sin(bend) * math.cos(theta)) ** 2)
+    def turned(theta: float, joint_angle: float) -> tuple[float, float]:
+        tau = math.tan(0.5 * joint_angle) ** 2
+        angle_error = math.atan2(tau * math.sin(2 * theta), 1.0 - tau * math.cos(2 * theta))
+        return theta + angle_error, math.cos(joint_angle) / (1.0 - (math.sin(joint_angle) * math.cos(theta)) ** 2)
 
     start1, start2 = turned(p1, a1)[0], turned(p2, a2)[0]
 
@@ -85,7 +85,7 @@ def figures(quick: bool) -> Iterator[Figure]:
         one for one in np.arange(7.0, 20.0, 0.5) if np.max(np.abs(_angles(drive(), short, float(one)) - exact)) <= ERROR
     )
     way, one = FixedStep(per_period=float(per_period)), drive()
-    many = replace(one, bend=one.bend + np.linspace(0.0, 0.05, DRIVES)[:, None])
+    many = replace(one, joint_angle=one.joint_angle + np.linspace(0.0, 0.05, DRIVES)[:, None])
     jobs = {
         "one drive": lambda: simulate(one, span=span, times=2, speed=SPEED, method=way),
         f"{DRIVES} drives": lambda: simulate(many, span=span, times=2, speed=SPEED, method=way),

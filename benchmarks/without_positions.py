@@ -1,4 +1,4 @@
-"""Extremes, irregularity and orders of many four-joint drives, without positions."""
+"""Extremes, speed fluctuation and orders of many four-joint drives, without positions."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def figures(quick: bool) -> Iterator[Figure]:
     best = fastest(
         {
             "extremes, plain form": lambda: extremes(few, method=Plain()),
-            "equivalent_joint, every shaft, plain form": lambda: equivalent_joint(few).irregularity,
+            "equivalent_joint, every shaft, plain form": lambda: equivalent_joint(few).speed_fluctuation,
         },
         rounds=3,
     )

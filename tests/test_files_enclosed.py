@@ -36,7 +36,7 @@ def test_no_name_leads_out_of_an_enclosed_folder(tmp_path: Path, name: str) -> N
 
 
 def test_catalogues_are_enclosed_too(tmp_path: Path) -> None:
-    text = 'format = 1\nsettings.catalogues = ["../own.toml"]\n[[joints]]\nbend_deg = 20\n'
+    text = 'format = 1\nsettings.catalogues = ["../own.toml"]\n[[joints]]\njoint_angle_deg = 20\n'
     with pytest.raises(InputError, match="leads out of the folder"):
         loads(text, folder=Enclosed(tmp_path))
 

@@ -44,7 +44,7 @@ TOY = """
 kind = "{kind}"
 name = "clever {{thing}}"
 centre_mm = {centre}
-rating = {{ max_torque_Nm = 900, max_bend_deg = 30 }}
+rating = {{ max_torque_Nm = 900, max_joint_angle_deg = 30 }}
 """
 
 MOVEMENT = """
@@ -81,7 +81,7 @@ speed_range_rpm = [600, 1200]
 life_h = 1000
 
 [limits]
-irregularity_percent = 5
+speed_fluctuation_percent = 5
 output_error_deg = 1
 
 [[supports]]
@@ -216,9 +216,9 @@ def test_the_keys_of_its_file_are_told(kind, cardan):  # noqa: F811
     listed = {one["kind"]: one for one in cardan("joint", "--json").content["kinds"]}
     assert [key["key"] for key in listed[kind]["keys"]]
     assert listed[kind]["types"] == []
-    (by_itself,) = cardan("joint", kind, "--json", "--bend-deg", "20").content["joints"]
+    (by_itself,) = cardan("joint", kind, "--json", "--joint-angle-deg", "20").content["joints"]
     assert by_itself["speed_fluctuation_percent"] > 0.0
-    assert kind in cardan("joint", kind, "hooke", "--bend-deg", "20").out
+    assert kind in cardan("joint", kind, "hooke", "--joint-angle-deg", "20").out
 
 
 @with_every_toy
@@ -233,4 +233,4 @@ def test_every_column_of_a_sweep_is_answered_or_refused(kind, where):
         else:
             assert len(next(iter(found.table().values()))) == 2
     assert all(refused.values())
-    assert {"irregularity", "ratio", "bend", "check", "critical_speed", "mass"}.isdisjoint(refused)
+    assert {"speed_fluctuation", "ratio", "joint_angle", "check", "critical_speed", "mass"}.isdisjoint(refused)

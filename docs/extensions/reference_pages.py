@@ -60,7 +60,7 @@ def mechanism_file() -> str:
 
 SHOWN = {
     "materials": ("id", "european", "american", "yield_strength_MPa", "ultimate_strength_MPa", "source", "confidence"),
-    "joint_types": ("id", "name", "synchronous", "max_bend_deg", "min_torque_Nm", "max_torque_Nm", "confidence"),
+    "joint_types": ("id", "name", "synchronous", "max_joint_angle_deg", "min_torque_Nm", "max_torque_Nm", "confidence"),
     "joint_sizes": (
         "id",
         "type",
@@ -103,10 +103,10 @@ def joint_types() -> str:
     for kind in JOINTS:
         for row in types_of(kind):
             torque = "–" if row.max_torque is None else f"{row.max_torque:,.10g} N·m".replace(",", "\u202f")
-            bend = "–" if row.max_bend is None else f"{row.max_bend / deg:.3g}°"
+            joint_angle = "–" if row.max_joint_angle is None else f"{row.max_joint_angle / deg:.3g}°"
             fast = "–" if row.max_speed_angle is None else f"{row.max_speed_angle / (rpm * deg):,.0f} rpm·°"
             even = "as a pair" if row.synchronous_as_pair else row.synchronous
-            cells = (f"`{kind}`", row.name, even, bend, torque, fast.replace(",", "\u202f"))
+            cells = (f"`{kind}`", row.name, even, joint_angle, torque, fast.replace(",", "\u202f"))
             lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
@@ -118,15 +118,15 @@ def faults() -> str:
 
     rows = catalogue().rows(Fault).values()
     signs = ["| id | fault | orders | with torque | noticed as | where it appears |", "|---|---|---|---|---|---|"]
-    cures = ["| id | how to make sure | what to do | source |", "|---|---|---|---|"]
+    remedies = ["| id | how to make sure | what to do | source |", "|---|---|---|---|"]
     torque = {True: "changes", False: "stays", None: "–"}
     for row in rows:
         orders = ", ".join(f"{one:g}×" for one in row.orders)
         words = [", ".join(f"`{one}`" for one in some) for some in (row.symptoms, row.flags)]
         cells = (row.id, row.fault, orders or "–", torque[row.torque_sensitive], *(one or "–" for one in words))
         signs.append("| " + " | ".join(cells) + " |")
-        cures.append(f"| {row.id} | {_cell(row.inspection)} | {_cell(row.repair)} | {_cell(row.source)} |")
-    return "\n".join(["## Signs", "", *signs, "", "## Inspection and repair", "", *cures]) + "\n"
+        remedies.append(f"| {row.id} | {_cell(row.inspection)} | {_cell(row.repair)} | {_cell(row.source)} |")
+    return "\n".join(["## Signs", "", *signs, "", "## Inspection and repair", "", *remedies]) + "\n"
 
 
 def _cell(value: Any) -> str:
@@ -149,7 +149,7 @@ def examples() -> str:
         drive, text = example(name), example_text(name)
         joint = equivalent_joint(drive)
         said = f"{len(drive.joints)} joints" if len(drive.joints) > 1 else "one joint"
-        uneven = float(joint.irregularity)
+        uneven = float(joint.speed_fluctuation)
         turns = "the output turns evenly" if uneven < SYNCHRONOUS else f"the output is {100 * uneven:.3g} % irregular"
         turns += " as drawn" if drive.movements else ""
         parts.append(f"## {name}\n\n![{drive.name}](/_build/pictures/example-{name}.svg)\n")

@@ -18,9 +18,9 @@ from .kit import ACCENT, INK, PALE, SERIES, bare, page
 FEEDER = """
 format = 1
 [[joints]]
-bend_deg = 14
+joint_angle_deg = 14
 [[joints]]
-bend_deg = 14
+joint_angle_deg = 14
 plane_twist_deg = 25
 [[shafts]]
 number = 2

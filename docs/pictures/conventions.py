@@ -21,7 +21,7 @@ Array = Any
 def pins(drive: Drive, angle: float = 0.0) -> tuple[Geometry, Array, Array]:
     """Return the geometry and, at an input angle, the pins u_i of the driving and v_{i+1} of the driven yokes."""
     place = geometry(drive)
-    theta = motion(drive, [angle]).joint_angle[:, 0]
+    theta = motion(drive, [angle]).yoke_rotation[:, 0]
     u, v = [], []
     for i, t in enumerate(theta):
         in_plane = np.cross(place.normal[i], place.axis[i])
@@ -74,7 +74,9 @@ def overview() -> Figure:
         point, before = place.points[k], place.axis[k - 1]
         scene.text(axes, point - 0.38 * up, f"joint {k}, $B_{k}$", size=12, weight="bold")
         scene.line(axes, point, point + 0.80 * before, color=PALE, lw=1.1, ls=(0, (5, 3)))
-        middle = scene.arc(axes, point, place.normal[k - 1], before, float(place.bend[k - 1]), 0.66, color=INK, lw=1.3)
+        middle = scene.arc(
+            axes, point, place.normal[k - 1], before, float(place.joint_angle[k - 1]), 0.66, color=INK, lw=1.3
+        )
         scene.text(axes, point + 0.80 * unit(middle - point), rf"$\alpha_{k}$", size=15)
     start = place.points[0] + 0.18 * place.axis[0]
     scene.arc(axes, start, place.axis[0], [0, -0.6, -0.8], np.deg2rad(250), 0.14, color="#a3004f", lw=2.0)
@@ -130,7 +132,7 @@ def swept(axes: Any, start: float, angle: float, radius: float, words: str, colo
     note(axes, (radius + 0.24) * towards(start + angle / 2), words, color=colour, size=15, zorder=9)
 
 
-def bend() -> Figure:
+def joint_angle() -> Figure:
     """Draw one joint with its plane, normal and in-plane directions, and the joint angle seen end on."""
     figure, (left, right) = page(10.5, 4.6, 1, 2, width_ratios=[1.7, 1])
     bare(left)
@@ -326,8 +328,8 @@ def arrangements() -> Figure:
         scene = Scene(swing=14, rise=14)
         solids(scene, shown, size=0.42, radius=0.055)
         scene.draw(each, 200)
-        delta = float(equivalent_joint(drive).irregularity)
-        verdict = "turns evenly" if delta < 1e-12 else f"irregularity {100 * delta:.1f} %"
+        delta = float(equivalent_joint(drive).speed_fluctuation)
+        verdict = "turns evenly" if delta < 1e-12 else f"speed fluctuation {100 * delta:.1f} %"
         each.set_title(f"{title}   →   {verdict}", size=12, color=INK if delta < 1e-12 else "#b00020", loc="left")
         middle = scene.flat((points[1] + points[2]) / 2)
         each.set_xlim(middle[0] - 1.95, middle[0] + 1.95)
@@ -361,7 +363,7 @@ def slopes() -> Figure:
 
 PICTURES = {
     "overview": overview,
-    "bend": bend,
+    "joint_angle": joint_angle,
     "plane-twist": plane_twist,
     "yoke-angle": yoke_angle,
     "start-phase": start_phase,

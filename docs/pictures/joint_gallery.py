@@ -35,32 +35,32 @@ Array = Any
 X, Y, Z = np.eye(3)
 
 
-def way(bend: float) -> Array:
+def way(joint_angle: float) -> Array:
     """Return the direction of the output shaft of a joint whose input shaft comes along x, bent downwards."""
-    return np.array([np.cos(bend), 0.0, -np.sin(bend)])
+    return np.array([np.cos(joint_angle), 0.0, -np.sin(joint_angle)])
 
 
-def arms(bend: float, angle: float) -> tuple[Array, Array, Array]:
+def arms(joint_angle: float, angle: float) -> tuple[Array, Array, Array]:
     """Return driving pin, driven pin and output direction of a Hooke joint at the origin."""
-    out = way(bend)
+    out = way(joint_angle)
     one = turn(Z, X, angle)
     return one, unit(np.cross(out, one)), out
 
 
-def beside(joint: Joint, bend: float, draw: Callable[[Axes], None], least: float = 0.1) -> Figure:
+def beside(joint: Joint, joint_angle: float, draw: Callable[[Axes], None], least: float = 0.1) -> Figure:
     """Draw a joint, and beside it how its output runs ahead over a turn [°]."""
     figure, (left, right) = page(9.6, 2.9, 1, 2, width_ratios=(1.15, 1.0))
     bare(left)
     draw(left)
-    found = joint_turn(joint, bend)
+    found = joint_turn(joint, joint_angle)
     right.axhline(0, color=PALE, lw=0.8)
-    right.plot(found.angle / deg, found.lead / deg, color=ACCENT, lw=2.2)
-    reach = max(1.15 * float(np.max(np.abs(found.lead))) / deg, least)
+    right.plot(found.angle / deg, found.angle_error / deg, color=ACCENT, lw=2.2)
+    reach = max(1.15 * float(np.max(np.abs(found.angle_error))) / deg, least)
     right.set_ylim(-reach, reach)
     right.set_xlim(0, 360)
     right.set_xticks(range(0, 361, 90))
     right.set_xlabel("input angle [°]")
-    right.set_ylabel(f"output ahead at {bend / deg:g}° [°]")
+    right.set_ylabel(f"output ahead at {joint_angle / deg:g}° [°]")
     return figure
 
 
@@ -93,8 +93,8 @@ def offset_cross() -> Figure:
     """Draw a cross whose pins stand apart, and the ball through which the output shaft slides."""
 
     def build(scene: Scene) -> None:
-        bend, e, reach = 28 * deg, 0.3, 1.35
-        one, other, out = arms(bend, 35 * deg)
+        joint_angle, e, reach = 28 * deg, 0.3, 1.35
+        one, other, out = arms(joint_angle, 35 * deg)
         foot = e * unit(np.cross(one, other))
         shaft = unit(reach * out - foot)
         scene.tube(-1.3 * X, -0.5 * X, 0.09)
@@ -131,9 +131,9 @@ def double_cardan() -> Figure:
     return beside(DoubleCardan(centring_ratio=0.5), 36 * deg, solid(build))
 
 
-def shafts(axes: Axes, bend: float, size: float = 2.0) -> tuple[Array, Array]:
+def shafts(axes: Axes, joint_angle: float, size: float = 2.0) -> tuple[Array, Array]:
     """Draw two shafts in their plane and return their directions from the crossing, away from the joint."""
-    ways = np.array([-1.0, 0.0]), np.array([np.cos(bend), -np.sin(bend)])
+    ways = np.array([-1.0, 0.0]), np.array([np.cos(joint_angle), -np.sin(joint_angle)])
     for one, colour in zip(ways, (DRIVING, DRIVEN), strict=True):
         axes.plot(*np.outer(one, [0.75 * size, 1.25 * size]), color=colour, lw=7, solid_capstyle="butt")
         axes.plot(*np.outer(one, [-0.2 * size, 1.35 * size]), color=PALE, lw=0.8, ls=(0, (8, 3, 2, 3)))
@@ -189,8 +189,8 @@ def weiss() -> Figure:
     """Draw the grooves of a Weiss joint crossing in its balls."""
 
     def draw(axes: Axes) -> None:
-        bend, c, radius = 36 * deg, 0.45, 1.15
-        one, two = shafts(axes, bend)
+        joint_angle, c, radius = 36 * deg, 0.45, 1.15
+        one, two = shafts(axes, joint_angle)
         t = np.linspace(-np.pi, np.pi, 400)
         for toward, colour in ((one, DRIVING), (two, DRIVEN)):
             ring = (c * toward)[:, None] + radius * np.stack([np.cos(t), np.sin(t)])
@@ -199,7 +199,7 @@ def weiss() -> Figure:
             axes.plot(*ring, color=colour, lw=3)
             axes.plot(*(c * toward), "+", color=colour, ms=10, mew=2)
         for angle in (0.0, np.pi):
-            height, out = (float(v) for v in offset_grooves.ball_centre(angle, bend, c, c, radius))
+            height, out = (float(v) for v in offset_grooves.ball_centre(angle, joint_angle, c, c, radius))
             ball = height * one + out * np.array([0.0, -np.cos(angle)])
             axes.fill(*(ball[:, None] + 0.2 * np.stack([np.cos(t), np.sin(t)])), color=STEEL, ec=INK, lw=1.2, zorder=4)
 
@@ -210,8 +210,8 @@ def tripod() -> Figure:
     """Draw a tripod: three rollers of the spider in the tracks of the housing."""
 
     def build(scene: Scene) -> None:
-        bend, radius = 22 * deg, 0.55
-        out = way(bend)
+        joint_angle, radius = 22 * deg, 0.55
+        out = way(joint_angle)
         for k in range(3):
             arm = turn(Z, X, 30 * deg + k * 120 * deg)
             track = radius * arm
@@ -280,11 +280,11 @@ def pins() -> Figure:
     """Draw two slanting pins that touch in the bisecting plane."""
 
     def build(scene: Scene) -> None:
-        bend, slant, a = 40 * deg, 42 * deg, 0.62
+        joint_angle, slant, a = 40 * deg, 42 * deg, 0.62
         phi = 115 * deg
-        away = np.array([-1.0, 0, 0]), way(bend)
-        found = pin_coupling.pin_contact(phi, bend, a, a, slant, slant)
-        inner = np.array([0.0, 0, -1]), -np.array([np.sin(bend), 0, np.cos(bend)])
+        away = np.array([-1.0, 0, 0]), way(joint_angle)
+        found = pin_coupling.pin_contact(phi, joint_angle, a, a, slant, slant)
+        inner = np.array([0.0, 0, -1]), -np.array([np.sin(joint_angle), 0, np.cos(joint_angle)])
         for axis, low, about, colour in zip(away, inner, (away[0], -away[1]), (DRIVING, DRIVEN), strict=True):
             pin = turn(-np.cos(slant) * axis + np.sin(slant) * low, about, phi)
             scene.tube(a * axis - 0.04 * axis, 1.9 * axis, 0.1, STEEL)
@@ -301,11 +301,11 @@ def clemens() -> Figure:
     """Draw the hinged arms of a Clemens coupling and the ball in which they meet."""
 
     def build(scene: Scene) -> None:
-        bend, phi = 36 * deg, 110 * deg
+        joint_angle, phi = 36 * deg, 110 * deg
         circle = profile_coupling.Circle(axial=0.85, radial=0.2, radius=1.05)
-        found = profile_coupling.profile_contact(phi, bend, circle, circle)
-        away = np.array([-1.0, 0, 0]), way(bend)
-        inner = np.array([0.0, 0, -1]), -np.array([np.sin(bend), 0, np.cos(bend)])
+        found = profile_coupling.profile_contact(phi, joint_angle, circle, circle)
+        away = np.array([-1.0, 0, 0]), way(joint_angle)
+        inner = np.array([0.0, 0, -1]), -np.array([np.sin(joint_angle), 0, np.cos(joint_angle)])
         for axis, low, about, colour in zip(away, inner, (away[0], -away[1]), (DRIVING, DRIVEN), strict=True):
             out = turn(low, about, phi)
             hinge = 0.85 * axis + 0.2 * out

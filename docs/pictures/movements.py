@@ -81,7 +81,7 @@ def movements() -> Figure:
 
 
 def frozen() -> Figure:
-    """Draw the speed of a joint whose bend changes fast, exact and with the bend frozen."""
+    """Draw the speed of a joint whose joint angle changes fast, exact and with the joint angle frozen."""
     figure, axes = page(9.0, 3.6)
     alpha, rate = np.deg2rad(5), 0.1
     phi = np.linspace(0, 2 * np.pi, 721)

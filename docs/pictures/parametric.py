@@ -67,22 +67,24 @@ def edge(drive: MathieuReduction, side: float) -> float:
 def zone() -> Figure:
     """Draw the principal zone of a drive with one joint over its bend: exact, with the right q, with the book's."""
     figure, axes = page(9.0, 4.2)
-    bends = np.linspace(0.0, 30.0, 61)
+    joint_angles = np.linspace(0.0, 30.0, 61)
 
-    def drive(bend: float) -> MathieuReduction:
+    def drive(joint_angle: float) -> MathieuReduction:
         return mathieu_reduction(
-            [bend * deg], [0.0], [1000.0, 4000.0], first_inertia=1.0, last_inertia=0.4, speed=np.sqrt(2800.0)
+            [joint_angle * deg], [0.0], [1000.0, 4000.0], first_inertia=1.0, last_inertia=0.4, speed=np.sqrt(2800.0)
         )
 
-    slope = np.asarray([drive(bend).q for bend in bends])
+    slope = np.asarray([drive(joint_angle).q for joint_angle in joint_angles])
     for share, colour, label in ((1.0, "#d7ece8", "by q"), (0.5, "#e2e5e9", "by the book's q")):
         # on the way of a drive through the chart q = slope a
         low, high = (1.0 / (1.0 + side * share * slope) for side in (1.0, -1.0))
-        axes.fill_betweenx(bends, 1.0 / np.sqrt(high), 1.0 / np.sqrt(low), color=colour, lw=0, label=label)
-    for bend in (6.0, 12.0, 18.0, 24.0, 30.0):
+        axes.fill_betweenx(joint_angles, 1.0 / np.sqrt(high), 1.0 / np.sqrt(low), color=colour, lw=0, label=label)
+    for joint_angle in (6.0, 12.0, 18.0, 24.0, 30.0):
         for side in (-1.0, 1.0):
-            label = "exact drive" if bend == 6.0 and side > 0 else None
-            axes.plot(1.0 / np.sqrt(edge(drive(bend), side)), bend, "o", color=SERIES[1], ms=5, label=label)
+            label = "exact drive" if joint_angle == 6.0 and side > 0 else None
+            axes.plot(
+                1.0 / np.sqrt(edge(drive(joint_angle), side)), joint_angle, "o", color=SERIES[1], ms=5, label=label
+            )
     axes.set_xlabel(r"speed over the natural frequency, $\omega_1/\omega_e$")
     axes.set_ylabel("bend [°]")
     axes.set_ylim(0.0, 31.0)

@@ -24,7 +24,7 @@ def line(damping: float = 0.05) -> TorsionalModel:
         [[1.0, 0.02], [0.02, 0.3, 0.2]],
         stiffness=[[1500.0], [2500.0, 1200.0]],
         damping=[[damping], [damping, damping]],
-        bend=[0.0],
+        joint_angle=[0.0],
         torques=[Torque(station=4, law=Constant(value=-20.0))],
         input_speed=1.0,
     )
@@ -33,15 +33,17 @@ def line(damping: float = 0.05) -> TorsionalModel:
 def tongues() -> Figure:
     """Draw the zones of a drive over speed and bend, by how fast vibration grows, with the names of the zones."""
     figure, axes = page(10.0, 4.8)
-    speeds, bends = np.linspace(25.0, 125.0, 321), np.linspace(0.0, 40.0, 81)
-    model = replace(line(), bend=(bends * deg)[:, None, None], input_speed=speeds)
+    speeds, joint_angles = np.linspace(25.0, 125.0, 321), np.linspace(0.0, 40.0, 81)
+    model = replace(line(), joint_angle=(joint_angles * deg)[:, None, None], input_speed=speeds)
     growth = floquet_map(model).floquet.growth_rate
     shown = np.where(growth > 0.0, growth, np.nan)
-    drawn = axes.pcolormesh(speeds / rpm, bends, shown, cmap="YlOrRd", vmin=0.0, shading="nearest", rasterized=True)
-    axes.contour(speeds / rpm, bends, growth, levels=[0.0], colors=INK, linewidths=0.8)
+    drawn = axes.pcolormesh(
+        speeds / rpm, joint_angles, shown, cmap="YlOrRd", vmin=0.0, shading="nearest", rasterized=True
+    )
+    axes.contour(speeds / rpm, joint_angles, growth, levels=[0.0], colors=INK, linewidths=0.8)
     figure.colorbar(drawn, ax=axes, label="growth [1/s]", pad=0.01)
-    lead = len(bends), len(speeds)
-    one, two, three = straight_frequencies(chosen(model, lead, np.zeros(1, dtype=int)))[0]
+    outer = len(joint_angles), len(speeds)
+    one, two, three = straight_frequencies(chosen(model, outer, np.zeros(1, dtype=int)))[0]
     for where, name, side in (
         (one, r"$\omega_1$", "left"),
         (two, r"$\omega_2$", "center"),
@@ -64,7 +66,7 @@ def swelling() -> Figure:
     speeds = np.linspace(12.0, 125.0, 400)
     push = Torque(station=1, law=Swinging(amplitude=4.0, frequency=1.0))
     model = line(damping=0.6)
-    model = replace(model, bend=np.asarray([18.0 * deg]), torques=(*model.torques, push))
+    model = replace(model, joint_angle=np.asarray([18.0 * deg]), torques=(*model.torques, push))
     found = speed_sweep(model, speeds)
     for order, colour in zip((1, 2, 3, 4), SERIES, strict=False):
         axes.semilogy(

@@ -39,12 +39,12 @@ def lines() -> Drawn:
     found = _table("tolerance-field")
     columns = [column for column in found.columns if column.role != "status"]
     rows = found.sample([column.name for column in columns], 500)
-    return Drawn(parallel_figure(columns, rows, goal=Goal(name="irregularity"), total=found.count()))
+    return Drawn(parallel_figure(columns, rows, goal=Goal(name="speed_fluctuation"), total=found.count()))
 
 
 def travel() -> Drawn:
-    """Draw the irregularity of a truck over travel and engine."""
-    found = map_of(_table("truck-suspension"), "travel_mm", "input.point_mm[2]", "irregularity")
+    """Draw the speed fluctuation of a truck over travel and engine."""
+    found = map_of(_table("truck-suspension"), "travel_mm", "input.point_mm[2]", "speed_fluctuation")
     how = "mean of the points of a cell"
     return Drawn(heat_figure(found.across, found.up, found.value, found.x, found.y, found.values, how=how))
 
@@ -57,7 +57,7 @@ def offers() -> Drawn:
 
 
 def shares() -> Drawn:
-    """Draw what the irregularity owes its spread to."""
+    """Draw what the speed fluctuation owes its spread to."""
     plan = read_plan(PLANS / "tolerance-field.toml")
     return Drawn(figures.for_result(design_of(plan, "sensitivity").run())[0])
 

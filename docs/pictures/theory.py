@@ -17,7 +17,7 @@ from .kit import ACCENT, INK, PALE, SERIES, bare, note, page
 Array = Any
 
 TRUCK = {
-    "bends": [11.5 * deg, (15 + 20 / 60) * deg, 15 * deg, 16.5 * deg],
+    "joint_angles": [11.5 * deg, (15 + 20 / 60) * deg, 15 * deg, 16.5 * deg],
     "plane_twists": [(1 + 54 / 60) * deg, -(22 + 56 / 60) * deg, (49 + 59 / 60) * deg],
 }
 """Printed angles of the four-joint truck power unit, Book section on synthesis."""
@@ -67,10 +67,10 @@ def kernel() -> Figure:
     """Draw the speed ratio of single joints."""
     figure, axes = page(9.0, 3.8)
     phi = np.linspace(0, 2 * np.pi, 721)
-    for colour, bend in zip(SERIES, (10, 20, 30, 40), strict=False):
-        ratio = motion(Drive.from_angles([bend * deg]), phi).ratio
+    for colour, joint_angle in zip(SERIES, (10, 20, 30, 40), strict=False):
+        ratio = motion(Drive.from_angles([joint_angle * deg]), phi).ratio
         axes.plot(np.rad2deg(phi), ratio, color=colour, lw=2)
-        axes.text(364, ratio[-1], f"{bend}°", color=colour, va="center", size=12)
+        axes.text(364, ratio[-1], f"{joint_angle}°", color=colour, va="center", size=12)
     axes.axhline(1, color=PALE, lw=0.8)
     axes.set_xlim(0, 360)
     axes.set_xticks(range(0, 361, 45))
@@ -124,7 +124,7 @@ def polygon() -> Figure:
     found = phases(truck(0, 0, 0), fixed={2: 90 * deg})
     built = equivalent_joint(truck(0, 0, 0))
     settings = found.settings[:2]
-    cases = [(built.vertex, f"as built: gap = {100 * float(built.irregularity):.1f} % irregularity")]
+    cases = [(built.vertex, f"as built: gap = {100 * float(built.speed_fluctuation):.1f} % speed fluctuation")]
     cases += [
         (setting.vertex, "closed: γ = " + ", ".join(f"{np.rad2deg(g):.1f}°" for g in setting.yoke_angle))
         for setting in settings
@@ -139,26 +139,26 @@ def polygon() -> Figure:
 def triangle() -> Figure:
     """Draw what three bends can and cannot close."""
     figure, axes = page(9.5, 2.6, 1, 2)
-    for each, bends in zip(axes, ((10, 15, 17), (10, 10, 25)), strict=True):
-        lengths = -np.log(np.cos(np.deg2rad(bends)))
+    for each, joint_angles in zip(axes, ((10, 15, 17), (10, 10, 25)), strict=True):
+        lengths = -np.log(np.cos(np.deg2rad(joint_angles)))
         longest = int(np.argmax(lengths))
         each.barh([1], [lengths[longest]], color=SERIES[1], height=0.5)
         x = 0.0
         for k, length in enumerate(lengths):
             if k != longest:
                 each.barh([0], [length], left=x, color=(SERIES[0], SERIES[5])[int(x > 0)], height=0.5)
-                note(each, (x + length / 2, 0), f"{bends[k]}°", halo=False, color="white", size=11)
+                note(each, (x + length / 2, 0), f"{joint_angles[k]}°", halo=False, color="white", size=11)
                 x += length
-        note(each, (lengths[longest] / 2, 1), f"{bends[longest]}°", halo=False, color="white", size=11)
+        note(each, (lengths[longest] / 2, 1), f"{joint_angles[longest]}°", halo=False, color="white", size=11)
         verdict = "closes: exactly even" if x >= lengths[longest] else "cannot close"
-        each.set_title(f"bends {', '.join(f'{b}°' for b in bends)}: {verdict}", size=12)
+        each.set_title(f"bends {', '.join(f'{b}°' for b in joint_angles)}: {verdict}", size=12)
         each.set_yticks([0, 1], ["the others", "the longest"])
         each.set_xlabel(r"$L = -\ln\cos\alpha$")
     return figure
 
 
 def errors() -> Figure:
-    """Draw how far the classical series are from the exact irregularity of one joint."""
+    """Draw how far the classical series are from the exact speed fluctuation of one joint."""
     figure, axes = page(9.0, 3.6)
     alpha = np.linspace(0.5, 45, 200)
     exact = np.sin(np.deg2rad(alpha)) * np.tan(np.deg2rad(alpha))
@@ -166,7 +166,7 @@ def errors() -> Figure:
     axes.plot(alpha, 100 * exact, color=SERIES[0], lw=2.2, label=r"exact: $\sin\alpha\,\tan\alpha$")
     axes.plot(alpha, 100 * first, color=SERIES[1], lw=2.2, ls="--", label=r"first order: $\alpha^2$")
     axes.set_xlabel("bend [°]")
-    axes.set_ylabel("irregularity [%]")
+    axes.set_ylabel("speed fluctuation [%]")
     axes.set_xlim(0, 45)
     axes.set_ylim(0, 72)
     axes.legend(loc="upper left")

@@ -25,12 +25,12 @@ def hang() -> Figure:
     axes.axhline(critical, color=PALE, lw=1.2, ls="--")
     axes.text(SPAN, critical + 14.0, "order 2 meets the natural frequency", size=10, ha="right", color=INK)
     push = Torque(station=0, law=Falling(standstill=PUSH, slope=PUSH / NO_LOAD))
-    for color, bend in zip(SERIES, (15.0, 34.0), strict=False):
+    for color, joint_angle in zip(SERIES, (15.0, 34.0), strict=False):
         line = torsional_line(
             [[0.5, 0.02], [0.02, 0.5]],
             stiffness=[[1000.0], [1000.0]],
             damping=[[0.3], [0.3]],
-            bend=[bend * deg],
+            joint_angle=[joint_angle * deg],
             torques=[push],
         )
         way = FixedStep(per_period=12, compute=Compiled(threads=1))
@@ -38,7 +38,7 @@ def hang() -> Figure:
         turned = found.coordinate[:, 0] / (2.0 * np.pi)
         edges = np.interp(np.arange(0.0, turned[-1], 1.0), turned, found.times)
         axes.plot(0.5 * (edges[1:] + edges[:-1]), 2.0 * np.pi / np.diff(edges) / rpm, color=color, lw=2)
-        axes.text(10.0, 600.0 if bend < 30 else 150.0, f"joint bent by {bend:.0f}°", color=color, size=11)
+        axes.text(10.0, 600.0 if joint_angle < 30 else 150.0, f"joint bent by {joint_angle:.0f}°", color=color, size=11)
         for one in hanging(line, found):
             axes.plot([one.start, one.end], [one.speed / rpm] * 2, color=ACCENT, lw=1.5, ls=":")
     axes.set_xlabel("time [s]")

@@ -22,7 +22,12 @@ RUNS = Runs(run_up=6.5, hold=2.5, rate=500.0)
 SEVERITY, SNR = 1.5, 12.0
 """How bad a fault is, over a plain one, and how far the vibration stands above the noise [dB]."""
 
-OTHERWISE = {"bends": (3.0, 12.0), "half_critical": (0.8, 20.0), "critical": (0.6, 20.0), "worn_joint": (2.0, 20.0)}
+OTHERWISE = {
+    "joint_angles": (3.0, 12.0),
+    "half_critical": (0.8, 20.0),
+    "critical": (0.6, 20.0),
+    "worn_joint": (2.0, 20.0),
+}
 """Faults that this drive shows less or more plainly than others."""
 
 LEFT_OUT = "input axial"
@@ -33,7 +38,7 @@ FAULTS = {
     "unbalance": (1, "an unbalance on its longest shaft"),
     "lost_weight": (1, "a balance weight lost"),
     "bent": (2, "a bent tube"),
-    "bends": (2, "joints that bend too much"),
+    "joint_angles": (2, "joints that bend too much"),
     "phase": (1, "a spline put together some teeth off, yokes out of phase"),
     "half_critical": (2, "a critical speed of which the joints hit the half"),
     "tight_joint": (1, "a tight joint"),

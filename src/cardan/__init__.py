@@ -91,9 +91,9 @@ _HOMES = {
     "release": "questions.mobility.release",
     "Repair": "questions.mobility.repair",
     "repairs": "questions.mobility.repair",
-    "JointBends": "questions.motion.joint_law",
+    "JointAngles": "questions.motion.joint_law",
     "JointTurn": "questions.motion.joint_law",
-    "joint_bends": "questions.motion.joint_law",
+    "joint_angles": "questions.motion.joint_law",
     "joint_turn": "questions.motion.joint_law",
     "CHECKS": "checks.checks",
     "Verdict": "checks.verdict",
@@ -123,10 +123,10 @@ _HOMES = {
     "torsional_vibration": "questions.diagnosis.signals.torsional",
     "TrackedOrders": "questions.diagnosis.signals.order_tracks",
     "tracked_orders": "questions.diagnosis.signals.order_tracks",
-    "Cure": "choices.change",
-    "cured": "choices.change",
-    "cures": "choices.cure",
-    "most_helpful": "choices.cure",
+    "Remedy": "choices.change",
+    "apply_remedy": "choices.change",
+    "remedies": "choices.remedy",
+    "most_helpful": "choices.remedy",
     "Absorber": "questions.torsion.absorber.absorber",
     "absorber": "questions.torsion.absorber.absorber",
     "Allocation": "questions.accuracy.allocation",
@@ -243,10 +243,10 @@ if TYPE_CHECKING:
     from .checks.strength.strength import Strength as Strength
     from .checks.strength.strength import strength as strength
     from .checks.verdict import Verdict as Verdict
-    from .choices.change import Cure as Cure
-    from .choices.change import cured as cured
-    from .choices.cure import cures as cures
-    from .choices.cure import most_helpful as most_helpful
+    from .choices.change import Remedy as Remedy
+    from .choices.change import apply_remedy as apply_remedy
+    from .choices.remedy import most_helpful as most_helpful
+    from .choices.remedy import remedies as remedies
     from .choices.selection import Candidate as Candidate
     from .choices.selection import Need as Need
     from .choices.selection import select_joint as select_joint
@@ -353,9 +353,9 @@ if TYPE_CHECKING:
     from .questions.motion.equivalence import equivalent_joint as equivalent_joint
     from .questions.motion.extremes import Extremes as Extremes
     from .questions.motion.extremes import extremes as extremes
-    from .questions.motion.joint_law import JointBends as JointBends
+    from .questions.motion.joint_law import JointAngles as JointAngles
     from .questions.motion.joint_law import JointTurn as JointTurn
-    from .questions.motion.joint_law import joint_bends as joint_bends
+    from .questions.motion.joint_law import joint_angles as joint_angles
     from .questions.motion.joint_law import joint_turn as joint_turn
     from .questions.motion.motion import Motion as Motion
     from .questions.motion.motion import motion as motion

@@ -63,8 +63,8 @@ class InputError(CardanError):
 
     Examples
     --------
-    >>> print(InputError([Problem("joints[0].bend", "94° is not below 90°")]))
-    joints[0].bend: 94° is not below 90°
+    >>> print(InputError([Problem("joints[0].joint_angle", "94° is not below 90°")]))
+    joints[0].joint_angle: 94° is not below 90°
     """
 
     def __init__(self, problems: Iterable[Problem], *, where: Any = None) -> None:
@@ -90,7 +90,7 @@ def _rebuilt(kind: type[InputError], problems: Iterable[Problem], where: Any) ->
     return kind(problems, where=where)
 
 
-class BendLimitError(InputError):
+class JointAngleLimitError(InputError):
     """A joint bends 90 degrees or more: no universal joint turns there."""
 
 

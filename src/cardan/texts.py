@@ -1,8 +1,9 @@
 """Every sentence a user reads passes through here, so that a translation is a file.
 
-Write ``_("joint {number} bends {bend}")`` with named places, then ``.format(number=..., bend=...)``: translators see
-the whole sentence. Keys of the drive file and field names are not translated. A sentence of a module, outside of every
-function, is written ``mark("...")`` and translated by ``_`` where it is shown: one process may speak several languages.
+Write ``_("joint {number} bends {joint_angle}")`` with named places, then ``.format(number=..., joint_angle=...)``:
+translators see the whole sentence. Keys of the drive file and field names are not translated. A sentence of a module,
+outside of every function, is written ``mark("...")`` and translated by ``_`` where it is shown: one process may speak
+several languages.
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ Python is SI and radians throughout. Only files, tables and axes carry units, in
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import MISSING, dataclass, field
 from difflib import get_close_matches
 from typing import Any
@@ -188,15 +189,25 @@ def spoken(printed: str) -> str:
 
 
 def nearest(word: str, known: Any) -> str | None:
-    """Return the known word most like ``word``, or None when none is near.
+    """Return the known word that ``word`` means: what an old name is called now, else the most alike; None if none is.
 
     Examples
     --------
-    >>> nearest("centre_mmm", ["centre_mm", "bend_deg"])
+    >>> nearest("bend_deg", ["centre_mm", "joint_angle_deg"])
+    'joint_angle_deg'
+    >>> nearest("centre_mmm", ["centre_mm", "joint_angle_deg"])
     'centre_mm'
     """
-    found = get_close_matches(word, list(known), n=1, cutoff=0.6)
+    names = list(known)
+    renamed = _OLD_WORD.sub(lambda found: _OLD_WORDS[found[0]], str(word))
+    if renamed != word and renamed in names:
+        return renamed
+    found = get_close_matches(word, names, n=1, cutoff=0.6)
     return found[0] if found else None
+
+
+_OLD_WORDS = {"bend": "joint_angle", "irregularity": "speed_fluctuation", "lead": "angle_error", "cures": "remedies"}
+_OLD_WORD = re.compile(rf"(?<![a-z])({'|'.join(_OLD_WORDS)})(?![a-z])")
 
 
 @dataclass(frozen=True, slots=True)

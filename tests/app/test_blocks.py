@@ -63,7 +63,7 @@ def test_what_a_user_wrote_is_words_and_nothing_else(block):
 
 
 def test_a_light_with_evil_words_is_harmless():
-    cure = Applicable(label=EVIL, effect=EVIL, values={"joints[0].bend_deg": 1.0})
+    remedy = Applicable(label=EVIL, effect=EVIL, values={"joints[0].joint_angle_deg": 1.0})
     one = Light(
         name=EVIL,
         title=EVIL,
@@ -76,13 +76,13 @@ def test_a_light_with_evil_words_is_harmless():
         source=EVIL,
         why=EVIL,
         path="joints[0]",
-        levers=(EVIL,),
-        cures=(cure,),
+        design_variables=(EVIL,),
+        remedies=(remedy,),
     )
     seen = Checked(lights_html([one], {EVIL}))
     assert not [tag for tag, _attributes in seen.tags if tag == "script"]
     assert ("details", {"class": "failed", "data-name": EVIL, "open": None}) in seen.tags
-    assert field_of(one) == "joints[0].bend_deg"
+    assert field_of(one) == "joints[0].joint_angle_deg"
 
 
 def test_numbers_are_told_in_full_and_tones_by_sign_too():

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from cardan.app.state.jobs import KEPT, Jobs
-from cardan.app.state.work import CURES, VERDICTS, Question, asked, result
+from cardan.app.state.work import REMEDIES, VERDICTS, Question, asked, result
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.report.block import Page
@@ -70,7 +70,7 @@ def test_an_answer_comes_in_the_language_of_the_question_and_is_that_made_here()
     jobs = Jobs(1)
     try:
         pages = [ended(jobs.ask(about("motion", language=code), code)).result for code in ("en", "ru")]
-        found = ended(jobs.ask(about(CURES, example("truck-power-unit")), 1)).result
+        found = ended(jobs.ask(about(REMEDIES, example("truck-power-unit")), 1)).result
     finally:
         jobs.close()
     assert all(isinstance(page, Page) for page in pages)
@@ -80,8 +80,8 @@ def test_an_answer_comes_in_the_language_of_the_question_and_is_that_made_here()
     assert here.blocks[1] == pages[0].blocks[1]
     plain = result(about(VERDICTS, example("truck-power-unit")))
     assert [light.title for light in found] == [light.title for light in plain]
-    assert any(light.cures for light in found)
-    assert not any(light.cures for light in plain)
+    assert any(light.remedies for light in found)
+    assert not any(light.remedies for light in plain)
 
 
 def test_questions_are_the_same_when_all_that_matters_is():

@@ -98,7 +98,7 @@ def test_synchronous_phases_are_applied_at_a_touch(page: Any) -> None:
     before = mark(page, "answer").first.inner_text()
     mark(page, "make-synchronous").click()
     changed(page, before)
-    assert float(equivalent_joint(loads(text_of(page))).irregularity) < 1e-9
+    assert float(equivalent_joint(loads(text_of(page))).speed_fluctuation) < 1e-9
 
 
 def test_every_tab_gives_an_answer(page: Any) -> None:

@@ -14,8 +14,8 @@ COLUMNS = (
     Column(name="joints[1].centre_mm[2]", unit="mm", role="point", text="height of joint 2"),
     Column(name="duty.speed_rpm", unit="rpm", role="point", text="input speed"),
     Column(name="supplier", unit="", role="point", text="supplier"),
-    Column(name="irregularity", unit="", role="answer", text="irregularity of the output"),
-    Column(name="bend_deg[1]", unit="deg", role="answer", text="bend of a joint"),
+    Column(name="speed_fluctuation", unit="", role="answer", text="speed fluctuation of the output"),
+    Column(name="joint_angle_deg[1]", unit="deg", role="answer", text="joint angle of a joint"),
     Column(name="status", unit="", role="status", text="how the point was answered"),
 )
 HEIGHTS, SPEEDS = 21, 10
@@ -41,8 +41,8 @@ class Suspension:
             "joints[1].centre_mm[2]": height,
             "duty.speed_rpm": speed,
             "supplier": np.where(index % 3 == 0, "Alpha", "Beta"),
-            "irregularity": np.where(there, 1e-6 * height**2 + 1e-3, np.nan),
-            "bend_deg[1]": np.where(there, 12.0 - 0.05 * height, np.nan),
+            "speed_fluctuation": np.where(there, 1e-6 * height**2 + 1e-3, np.nan),
+            "joint_angle_deg[1]": np.where(there, 12.0 - 0.05 * height, np.nan),
             "status": np.where(there, 0, 1).astype(np.int8),
         }
 

@@ -15,23 +15,23 @@ from cardan.io import loads
 
 DRIVE = Drive.from_angles([0.3, 0.2, 0.25], yoke_angles=[0.1, 0.2])
 AXES = (
-    Spaced(field="joints[0].bend_deg", start=0, stop=20, count=21),
+    Spaced(field="joints[0].joint_angle_deg", start=0, stop=20, count=21),
     Drawn(distributions={"shafts[1].yoke_angle_deg": Uniform(low=0, high=90)}, count=300, method="sobol", seed=4),
-    Listed(fields=("make", "joints[2].bend_deg"), rows=(("a", 10.0), ("b", 95.0)), name="make", facts=("make",)),
+    Listed(fields=("make", "joints[2].joint_angle_deg"), rows=(("a", 10.0), ("b", 95.0)), name="make", facts=("make",)),
 )
 
 
 def work(**settings):
     told = {
         "reduce": [
-            "max irregularity by joints[0].bend_deg",
+            "max speed_fluctuation by joints[0].joint_angle_deg",
             "p90 alpha_eq_deg",
-            "mean irregularity",
-            "argmax irregularity",
+            "mean speed_fluctuation",
+            "argmax speed fluctuation",
         ],
         "constraints": ["alpha_eq_deg <= 15"],
     }
-    return work_of(DRIVE, AXES, ["irregularity", "alpha_eq"], **(told | settings))
+    return work_of(DRIVE, AXES, ["speed_fluctuation", "alpha_eq"], **(told | settings))
 
 
 def test_it_is_what_engines_and_readers_agreed_on():
@@ -46,9 +46,11 @@ def test_rows_are_those_of_each_drive_made_anew():
     one = work()
     rows = one.evaluate(0, one.size)
     for row in (0, 8, 5_000, one.size - 2):
-        given = {name: rows[name][row] for name in ("joints[0].bend_deg", "shafts[1].yoke_angle_deg")}
-        drive = with_values(DRIVE, {**{k: float(v) for k, v in given.items()}, "joints[2].bend_deg": 10.0})
-        assert rows["irregularity"][row] == pytest.approx(float(equivalent_joint(drive).irregularity), rel=1e-9)
+        given = {name: rows[name][row] for name in ("joints[0].joint_angle_deg", "shafts[1].yoke_angle_deg")}
+        drive = with_values(DRIVE, {**{k: float(v) for k, v in given.items()}, "joints[2].joint_angle_deg": 10.0})
+        assert rows["speed_fluctuation"][row] == pytest.approx(
+            float(equivalent_joint(drive).speed_fluctuation), rel=1e-9
+        )
     bad = rows["make"] == "b"
     assert np.all(rows["status"][bad] == 1)
     assert not np.any(rows["feasible"][bad])
@@ -87,13 +89,13 @@ def test_points_are_counted_by_how_they_went():
     assert told["answered"] == told["no_drive"] == one.size // 2
     assert told["first"] == {"no_drive": 1}
     assert told["feasible"] == np.count_nonzero(one.evaluate(0, one.size)["feasible"])
-    assert one.why(1)[0].field == "joints[2].bend_deg"
+    assert one.why(1)[0].field == "joints[2].joint_angle_deg"
     assert one.why(0) == ()
 
 
 def test_the_name_tells_sweeps_apart_and_the_same_ones_alike():
     names = {work().name, work(constraints=[]).name, work(reduce=[]).name, work(title="other").name}
-    names |= {work_of(with_values(DRIVE, {"joints[1].bend_deg": 11.0}), AXES, ["irregularity"]).name}
+    names |= {work_of(with_values(DRIVE, {"joints[1].joint_angle_deg": 11.0}), AXES, ["speed_fluctuation"]).name}
     names |= {work(constraints=["alpha_eq_deg <= 15.0000001"]).name}
     assert len(names) == 6
     assert work().name == pickle.loads(pickle.dumps(work())).name
@@ -110,22 +112,22 @@ def test_the_provenance_holds_the_drive_and_goes_through_json():
 
 def test_vectors_vary_by_their_numbers():
     drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
-    found = sweep(drive, {"joints[0].centre_mm": [[300, 0, 0], [300, 0, 50]]}, ["bend"]).table()
+    found = sweep(drive, {"joints[0].centre_mm": [[300, 0, 0], [300, 0, 50]]}, ["joint_angle"]).table()
     assert found["joints[0].centre_mm[2]"].tolist() == [0, 50]
-    assert found["bend_deg[0]"][0] != found["bend_deg[0]"][1]
+    assert found["joint_angle_deg[0]"][0] != found["joint_angle_deg[0]"][1]
 
 
 def test_a_drive_as_it_is_is_one_point():
-    found = sweep(DRIVE, {}, ["irregularity"])
+    found = sweep(DRIVE, {}, ["speed_fluctuation"])
     assert found.size == 1
-    assert found.table()["irregularity"][0] == pytest.approx(float(equivalent_joint(DRIVE).irregularity))
+    assert found.table()["speed_fluctuation"][0] == pytest.approx(float(equivalent_joint(DRIVE).speed_fluctuation))
 
 
 def test_everything_wrong_is_told_at_once():
     with pytest.raises(InputError) as error:
         work_of(
             DRIVE,
-            {"joints[7].bend_deg": [1.0], "joints[0].bend_deg": 3, "joints[1].bend_deg": []},
+            {"joints[7].joint_angle_deg": [1.0], "joints[0].joint_angle_deg": 3, "joints[1].joint_angle_deg": []},
             ["iregularity"],
             reduce=["most x"],
             constraints=["x is 3"],
@@ -138,27 +140,29 @@ def test_everything_wrong_is_told_at_once():
 @pytest.mark.parametrize("values", [["steep", 2.0], [True, False]])
 def test_fields_of_numbers_take_numbers(values):
     with pytest.raises(InputError, match="holds a number"):
-        work_of(DRIVE, {"joints[1].bend_deg": values}, ["irregularity"])
+        work_of(DRIVE, {"joints[1].joint_angle_deg": values}, ["speed_fluctuation"])
 
 
-@pytest.mark.parametrize("fact", ["irregularity", "Status", "feasible"])
+@pytest.mark.parametrize("fact", ["speed_fluctuation", "Status", "feasible"])
 def test_no_two_columns_have_one_name(fact):
-    axes = [Listed(fields=(fact, "joints[2].bend_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
+    axes = [Listed(fields=(fact, "joints[2].joint_angle_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
     with pytest.raises(InputError, match="this name already"):
-        work_of(DRIVE, axes, ["irregularity"], constraints=["irregularity <= 1"])
+        work_of(DRIVE, axes, ["speed_fluctuation"], constraints=["speed_fluctuation <= 1"])
 
 
 def test_words_are_not_compared_with_numbers():
     with pytest.raises(InputError) as error:
-        work_of(DRIVE, AXES, ["irregularity"], constraints=["make <= 3"], reduce=["max make", "count make <= 2"])
+        work_of(DRIVE, AXES, ["speed_fluctuation"], constraints=["make <= 3"], reduce=["max make", "count make <= 2"])
     assert [one.field for one in error.value.problems] == ["constraints: make <= 3", "reduce[0]", "reduce[1]"]
 
 
 def test_the_order_of_columns_is_part_of_the_name():
-    pairs = (("joints[1].bend_deg", 5.0), ("joints[2].bend_deg", 10.0))
+    pairs = (("joints[1].joint_angle_deg", 5.0), ("joints[2].joint_angle_deg", 10.0))
     names = {
         work_of(
-            DRIVE, [Listed(fields=tuple(k for k, _v in two), rows=(tuple(v for _k, v in two),), name="two")], ["bend"]
+            DRIVE,
+            [Listed(fields=tuple(k for k, _v in two), rows=(tuple(v for _k, v in two),), name="two")],
+            ["joint_angle"],
         ).name
         for two in (pairs, pairs[::-1])
     }
@@ -166,5 +170,5 @@ def test_the_order_of_columns_is_part_of_the_name():
 
 
 def test_constraints_are_on_columns():
-    with pytest.raises(InputError, match="irregularity"):
-        work_of(DRIVE, AXES, ["irregularity"], constraints=["irregularit <= 3"])
+    with pytest.raises(InputError, match="speed_fluctuation"):
+        work_of(DRIVE, AXES, ["speed_fluctuation"], constraints=["irregularit <= 3"])

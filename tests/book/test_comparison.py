@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cardan import Drive, Drives, InputError, book_comparison, equivalent_joint, motion
-from cardan.book.comparison import book_series, collinear_bend, mean_phases, rule_of_practice
+from cardan.book.comparison import book_series, collinear_joint_angle, mean_phases, rule_of_practice
 from cardan.book.forms import arrangement_phase, blokh, blokh_coefficients, double_joint, double_joint_law
 from cardan.book.single_joint import book_coefficients, fourier, joint_extremes
 from cardan.units import arcmin, deg
@@ -25,7 +25,7 @@ TRUCK = Drive.from_angles(
 @given(plans())
 def test_blokh_is_exact_once_its_poles_are_gone(plan):
     exact, closed = motion(plan.drive, PHI), blokh(plan.drive, PHI)
-    assert np.allclose(closed.lead, exact.lead[-1], rtol=0, atol=3e-14)
+    assert np.allclose(closed.angle_error, exact.angle_error[-1], rtol=0, atol=3e-14)
     assert np.allclose(closed.ratio, exact.ratio, rtol=0, atol=3e-14)
     assert np.allclose(closed.slope, exact.slope, rtol=0, atol=1e-13)
 
@@ -39,12 +39,12 @@ def test_blokh_has_no_poles_at_quarter_turns(start):
 @given(plans(straight=False, most=4), st.floats(-1.5, 1.5))
 def test_blokh_as_printed_is_the_same_where_it_has_no_pole(plan, phi):
     """Book (35) with its tangents, for phases away from ±90°."""
-    from cardan.questions.motion.motion import phase_angles
+    from cardan.questions.motion.motion import initial_phases
 
-    psi = phase_angles(plan.drive)
+    psi = initial_phases(plan.drive)
     if np.any(np.abs(np.cos(psi)) < 0.05):
         return
-    alpha, t = np.asarray(plan.bends), np.tan(psi)
+    alpha, t = np.asarray(plan.joint_angles), np.tan(psi)
     a, b, c = np.cos(alpha) * (1 + t**2), np.sin(alpha) ** 2 * t, np.cos(alpha) ** 2 + t**2
     big_b = sum(np.prod(a[:k]) * b[k] * np.prod(c[k + 1 :]) for k in range(len(a)))
     mine = np.asarray(blokh_coefficients(plan.drive)) / np.prod(np.cos(psi) ** 2)
@@ -53,10 +53,10 @@ def test_blokh_as_printed_is_the_same_where_it_has_no_pole(plan, phi):
 
 def test_the_series_of_the_truck_gives_the_known_irregularities():
     seen = book_comparison(TRUCK)
-    assert seen.irregularity == pytest.approx(0.12512, abs=5e-6)
-    assert seen.irregularity_80 == pytest.approx(0.12333, abs=5e-6)
-    assert seen.irregularity_mean_phases == pytest.approx(0.12335, abs=5e-6)
-    assert seen.irregularity_without_theta == pytest.approx(0.12272, abs=5e-6)
+    assert seen.speed_fluctuation == pytest.approx(0.12512, abs=5e-6)
+    assert seen.speed_fluctuation_80 == pytest.approx(0.12333, abs=5e-6)
+    assert seen.speed_fluctuation_mean_phases == pytest.approx(0.12335, abs=5e-6)
+    assert seen.speed_fluctuation_without_theta == pytest.approx(0.12272, abs=5e-6)
 
 
 @pytest.mark.parametrize(
@@ -76,17 +76,17 @@ def test_the_series_err_as_much_as_measured_before(limit, first, second):
     assert second / 4 < seen.worst_second_order.max() < 2 * second
 
 
-@given(plans(bend=8 * deg, straight=False), st.floats(0.2, 0.5))
+@given(plans(joint_angle=8 * deg, straight=False), st.floats(0.2, 0.5))
 def test_the_orders_of_the_series_deserve_their_names(plan, share):
     """Bends smaller by k: the first order errs by k⁴ less, the second by k⁶."""
     small = Drive.from_angles(
-        [share * bend for bend in plan.bends],
+        [share * joint_angle for joint_angle in plan.joint_angles],
         plane_twists=plan.plane_twists,
         yoke_angles=plan.yoke_angles,
         start_phase=plan.start_phase,
     )
     one, two = book_comparison(plan.drive, TURN), book_comparison(small, TURN)
-    scale = sum(bend**2 for bend in plan.bends)
+    scale = sum(joint_angle**2 for joint_angle in plan.joint_angles)
     # Bounds with a constant of one: errors ≤ (Σα²)², (Σα²)³, at both sizes.
     for seen, size in ((one, scale), (two, share**2 * scale)):
         assert seen.worst_first_order <= size**2
@@ -97,8 +97,8 @@ def test_the_orders_of_the_series_deserve_their_names(plan, share):
 def test_ratio_and_slope_of_the_series_are_its_derivatives(plan):
     series = book_series(plan.drive, 2, amplitude="tau")
     h = 1e-4
-    lead = [series.lead(PHI + k * h) for k in (-2, -1, 1, 2)]
-    first = (lead[0] - 8 * lead[1] + 8 * lead[2] - lead[3]) / (12 * h)
+    angle_error = [series.angle_error(PHI + k * h) for k in (-2, -1, 1, 2)]
+    first = (angle_error[0] - 8 * angle_error[1] + 8 * angle_error[2] - angle_error[3]) / (12 * h)
     assert np.allclose(series.ratio(PHI), 1 + first, rtol=0, atol=1e-10)
     ratio = [series.ratio(PHI + k * h) for k in (-2, -1, 1, 2)]
     second = (ratio[0] - 8 * ratio[1] + 8 * ratio[2] - ratio[3]) / (12 * h)
@@ -108,19 +108,22 @@ def test_ratio_and_slope_of_the_series_are_its_derivatives(plan):
 @given(plans(), st.floats(-3, 3))
 def test_mean_phases_do_not_mind_the_start(plan, later):
     other = Drive.from_angles(
-        plan.bends, plane_twists=plan.plane_twists, yoke_angles=plan.yoke_angles, start_phase=plan.start_phase + later
+        plan.joint_angles,
+        plane_twists=plan.plane_twists,
+        yoke_angles=plan.yoke_angles,
+        start_phase=plan.start_phase + later,
     )
     one, two = (book_series(drive, phases="mean") for drive in (plan.drive, other))
-    assert one.irregularity == pytest.approx(two.irregularity, abs=1e-14)
-    assert one.lead([0.0])[0] == pytest.approx(0.0, abs=1e-15)
-    arms = np.sum(np.asarray(plan.bends) ** 2 / 4 * np.exp(2j * mean_phases(plan.drive)))
+    assert one.speed_fluctuation == pytest.approx(two.speed_fluctuation, abs=1e-14)
+    assert one.angle_error([0.0])[0] == pytest.approx(0.0, abs=1e-15)
+    arms = np.sum(np.asarray(plan.joint_angles) ** 2 / 4 * np.exp(2j * mean_phases(plan.drive)))
     assert one.amplitude == pytest.approx(abs(arms), abs=1e-15)
 
 
 def test_a_single_joint_in_the_series_is_its_first_harmonic():
     series = book_series(Drive.from_angles([0.2], start_phase=0.3))
     want = 0.01 * (np.sin(2 * (PHI + 0.3)) - math.sin(0.6))
-    assert np.allclose(series.lead(PHI), want, rtol=0, atol=1e-15)
+    assert np.allclose(series.angle_error(PHI), want, rtol=0, atol=1e-15)
     assert series.phase == pytest.approx(0.3)
 
 
@@ -130,7 +133,7 @@ def test_the_second_order_takes_exact_phases_only():
 
 
 @pytest.mark.parametrize(
-    ("bends", "sign", "exact", "rule"),
+    ("joint_angles", "sign", "exact", "rule"),
     [
         ([20, 15], [1, -1], 13.384, 13.229),
         ([12, 20], [1, -1], 16.119, 16.000),
@@ -139,19 +142,21 @@ def test_the_second_order_takes_exact_phases_only():
         ([20, 15], [1, 1], 24.814, 25.000),
     ],
 )
-def test_the_rule_of_practice_and_the_exact_one(bends, sign, exact, rule):
+def test_the_rule_of_practice_and_the_exact_one(joint_angles, sign, exact, rule):
     yokes = [0.0 if one != other else math.pi / 2 for one, other in pairwise(sign)]
-    drive = Drive.from_angles(np.radians(bends), yoke_angles=yokes)
+    drive = Drive.from_angles(np.radians(joint_angles), yoke_angles=yokes)
     assert np.degrees(rule_of_practice(drive)) == pytest.approx(rule, abs=6e-4)
-    assert np.degrees(collinear_bend(np.radians(bends), sign)) == pytest.approx(exact, abs=6e-4)
-    assert equivalent_joint(drive).bend == pytest.approx(float(collinear_bend(np.radians(bends), sign)), abs=1e-13)
+    assert np.degrees(collinear_joint_angle(np.radians(joint_angles), sign)) == pytest.approx(exact, abs=6e-4)
+    assert equivalent_joint(drive).joint_angle == pytest.approx(
+        float(collinear_joint_angle(np.radians(joint_angles), sign)), abs=1e-13
+    )
 
 
-BEND = st.floats(0.0, 60 * deg)
+JOINT_ANGLE = st.floats(0.0, 60 * deg)
 ANGLE = st.floats(-math.pi, math.pi)
 
 
-@given(BEND, BEND, ANGLE)
+@given(JOINT_ANGLE, JOINT_ANGLE, ANGLE)
 def test_the_double_joint_moves_as_its_chain(one, two, phase):
     drive = Drive.from_angles([one, two], yoke_angles=[math.pi / 2 - phase])
     exact, closed = motion(drive, PHI), double_joint(one, two, phase, PHI)
@@ -161,11 +166,11 @@ def test_the_double_joint_moves_as_its_chain(one, two, phase):
     law = double_joint_law(one, two, phase)
     whole = equivalent_joint(drive)
     # δ is differenced from the law of cosines without cancelling: rounding only. α_eq is a root of it.
-    assert law.irregularity == pytest.approx(float(whole.irregularity), abs=1e-14)
-    assert law.bend**2 == pytest.approx(float(whole.bend) ** 2, abs=1e-13)
+    assert law.speed_fluctuation == pytest.approx(float(whole.speed_fluctuation), abs=1e-14)
+    assert law.joint_angle**2 == pytest.approx(float(whole.joint_angle) ** 2, abs=1e-13)
 
 
-@given(BEND, BEND, st.floats(-1.5, 1.5))
+@given(JOINT_ANGLE, JOINT_ANGLE, st.floats(-1.5, 1.5))
 def test_worst_and_best_phase_have_book_tangents(one, two, phi):
     worst = np.arctan(np.tan(phi) / (np.cos(one) * np.cos(two)))
     best = np.arctan(np.cos(two) / np.cos(one) * np.tan(phi))
@@ -173,11 +178,11 @@ def test_worst_and_best_phase_have_book_tangents(one, two, phi):
     assert double_joint(one, two, math.pi / 2, [phi]).output_angle[0] == pytest.approx(best, abs=1e-14)
 
 
-@given(BEND, BEND)
+@given(JOINT_ANGLE, JOINT_ANGLE)
 def test_unequal_bends_leave_the_known_rest_at_the_best_phase(one, two):
     ratio = np.cos(two) / np.cos(one)
     law = double_joint_law(one, two, math.pi / 2)
-    assert np.cos(law.bend) == pytest.approx(min(ratio, 1 / ratio), abs=1e-15 * 4)
+    assert np.cos(law.joint_angle) == pytest.approx(min(ratio, 1 / ratio), abs=1e-15 * 4)
 
 
 def test_the_arrangements_have_their_phases():
@@ -218,43 +223,49 @@ def test_table_4_has_the_digits_of_the_book_but_for_its_slips():
         (45, 1.4142, 0.7071, 540 + 52.8, 0.707107, 0.7872003),
     ]
     table = joint_extremes(np.asarray([row[0] for row in rows]) * deg)
-    columns = (table.ratio_max, table.ratio_min, table.lead / arcmin, table.irregularity, table.acceleration)
+    columns = (
+        table.ratio_max,
+        table.ratio_min,
+        table.angle_error / arcmin,
+        table.speed_fluctuation,
+        table.acceleration,
+    )
     for k, tolerance in enumerate((5e-5, 5e-5, 0.05, 5e-7, 5e-8)):
         assert np.allclose(columns[k], [row[k + 1] for row in rows], rtol=0, atol=1.01 * tolerance)
 
 
 @given(st.floats(0.5 * deg, 85 * deg))
-def test_extremes_are_extreme(bend):
-    found = joint_extremes(np.asarray([bend]))
-    drive = Drive.from_angles([bend])
-    at = motion(drive, [0.0, math.pi / 2, found.angle_of_lead[0], found.angle_of_acceleration[0]])
+def test_extremes_are_extreme(joint_angle):
+    found = joint_extremes(np.asarray([joint_angle]))
+    drive = Drive.from_angles([joint_angle])
+    at = motion(drive, [0.0, math.pi / 2, found.angle_of_error[0], found.angle_of_acceleration[0]])
     assert at.ratio[0] == pytest.approx(found.ratio_max[0], rel=1e-12)
     assert at.ratio[1] == pytest.approx(found.ratio_min[0], rel=1e-12)
-    assert at.lead[1, 2] == pytest.approx(found.lead[0], rel=1e-12)
+    assert at.angle_error[1, 2] == pytest.approx(found.angle_error[0], rel=1e-12)
     assert at.slope[3] == pytest.approx(-found.acceleration[0], rel=1e-10)
     turn = motion(drive, np.arange(0, 180, 0.25) * deg)
     assert np.max(np.abs(turn.slope)) <= found.acceleration[0] * (1 + 1e-12)
-    assert np.max(np.abs(turn.lead[1])) <= found.lead[0] * (1 + 1e-12)
-    assert found.irregularity[0] == pytest.approx(
+    assert np.max(np.abs(turn.angle_error[1])) <= found.angle_error[0] * (1 + 1e-12)
+    assert found.speed_fluctuation[0] == pytest.approx(
         found.ratio_max[0] - found.ratio_min[0], abs=1e-14 * found.ratio_max[0]
     )
 
 
-@pytest.mark.parametrize("bend", [5.0, 20.0, 40.0, 60.0])
-def test_fourier_amplitudes_against_a_discrete_sum(bend):
+@pytest.mark.parametrize("joint_angle", [5.0, 20.0, 40.0, 60.0])
+def test_fourier_amplitudes_against_a_discrete_sum(joint_angle):
     count = 512
     phi = np.arange(count) * (2 * np.pi / count)
-    lead = motion(Drive.from_angles([bend * deg]), phi).lead[-1]
-    spectrum = np.fft.rfft(lead) / count * 2
+    angle_error = motion(Drive.from_angles([joint_angle * deg]), phi).angle_error[-1]
+    spectrum = np.fft.rfft(angle_error) / count * 2
     # Aliases are smaller than τ^250: nothing but rounding.
-    assert np.allclose(-spectrum.imag[2:12:2], fourier(np.asarray(bend * deg), 5), rtol=0, atol=2e-16 * 8)
+    assert np.allclose(-spectrum.imag[2:12:2], fourier(np.asarray(joint_angle * deg), 5), rtol=0, atol=2e-16 * 8)
     odd = np.abs(spectrum[1:20:2])
     assert np.all(odd < 1e-15)
 
 
-@pytest.mark.parametrize("bend", [5.0, 20.0, 40.0])
-def test_the_books_coefficients_are_the_first_terms_of_the_exact_ones(bend):
-    book = book_coefficients(np.asarray(bend * deg))
+@pytest.mark.parametrize("joint_angle", [5.0, 20.0, 40.0])
+def test_the_books_coefficients_are_the_first_terms_of_the_exact_ones(joint_angle):
+    book = book_coefficients(np.asarray(joint_angle * deg))
     with mpmath.workdps(30):
         # Coefficients of T^m in √(1+T)^-1-free form: the exact τ, τ²/2, τ³/3 times cos α, expanded in T = tan² α.
         def scaled(k):
@@ -265,11 +276,11 @@ def test_the_books_coefficients_are_the_first_terms_of_the_exact_ones(bend):
             return [float(x) for x in mpmath.taylor(of, mpmath.mpf("1e-12"), 3)]
 
         series = {k: scaled(k) for k in (1, 2, 3)}
-    t, c = math.tan(bend * deg) ** 2, math.cos(bend * deg)
+    t, c = math.tan(joint_angle * deg) ** 2, math.cos(joint_angle * deg)
     assert book.c11 == pytest.approx(sum(x * t**m for m, x in enumerate(series[1])) / c, rel=1e-9, abs=1e-10)
     assert book.c12 == pytest.approx(sum(x * t**m for m, x in enumerate(series[2])) / c, rel=1e-9, abs=1e-10)
     assert book.c13 == pytest.approx(sum(x * t**m for m, x in enumerate(series[3])) / c, rel=1e-9, abs=1e-10)
-    assert book.c11_quarter == (bend * deg) ** 2 / 4
+    assert book.c11_quarter == (joint_angle * deg) ** 2 / 4
 
 
 def test_the_constant_of_the_series_tends_to_one():

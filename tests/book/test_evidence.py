@@ -52,7 +52,7 @@ def test_ratio_of_vectors_has_the_extremes_of_one_joint():
 def test_settings_of_the_synthesis_leave_what_they_say(drive):
     for one in phases(drive).settings:
         # Sampled every degree: the swing seen falls short by the curvature of the peaks, at most 1.5e-4 of it.
-        assert swing_by_vectors(drive, one.yoke_angle) == pytest.approx(one.irregularity, rel=1e-3, abs=1e-13)
+        assert swing_by_vectors(drive, one.yoke_angle) == pytest.approx(one.speed_fluctuation, rel=1e-3, abs=1e-13)
 
 
 def test_closure_is_the_criterion_of_the_synthesis():
@@ -63,6 +63,6 @@ def test_closure_is_the_criterion_of_the_synthesis():
 def test_a_joint_bent_as_allowed_closes_exactly():
     found = closure(Drive.from_angles([0.1, 0.5, 0.2]))
     assert not found.closes
-    left = phases(Drive.from_angles([0.1, found.bend_allowed, 0.2]))
-    assert left.irregularity_min < 1e-14
-    assert not phases(Drive.from_angles([0.1, found.bend_allowed + 1e-6, 0.2])).feasible
+    left = phases(Drive.from_angles([0.1, found.joint_angle_allowed, 0.2]))
+    assert left.speed_fluctuation_min < 1e-14
+    assert not phases(Drive.from_angles([0.1, found.joint_angle_allowed + 1e-6, 0.2])).feasible

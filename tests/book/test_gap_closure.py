@@ -19,11 +19,11 @@ DENSE = np.arange(72000) * (np.pi / 36000)
 
 def test_a_single_joint_needs_what_the_largest_acceleration_takes() -> None:
     """Book (122) but for where it is largest: T = (M + J ε)/(n·e) keeps its sign when M exceeds the largest -J ε."""
-    bend = 30 * np.pi / 180
-    points = points_from_angles(np.asarray([bend]), np.zeros(0), np.ones(2))
+    joint_angle = 30 * np.pi / 180
+    points = points_from_angles(np.asarray([joint_angle]), np.zeros(0), np.ones(2))
     single = train_of_points(points, inertia=np.asarray([3.0, 0.05]))
     found = gap_closure(single, load=1.0, speed=150.0)
-    wanted = 0.05 * 150.0**2 * joint_extremes(np.asarray(bend)).acceleration
+    wanted = 0.05 * 150.0**2 * joint_extremes(np.asarray(joint_angle)).acceleration
     assert found.load_needed == pytest.approx(float(wanted), rel=1e-10)
 
 

@@ -13,8 +13,8 @@ TURNS = np.asarray([0.05, 0.08, 0.05, 0.2]) * deg
 
 def test_the_stack_is_that_of_loops_with_one_error_each():
     """Exact loops, one unit length at a time; one small angle at a time by differences."""
-    bend, phi = 0.6, np.asarray([0.3, 1.9, 4.0])
-    perfect = np.asarray([0.5 * np.pi] * 3 + [bend])
+    joint_angle, phi = 0.6, np.asarray([0.3, 1.9, 4.0])
+    perfect = np.asarray([0.5 * np.pi] * 3 + [joint_angle])
     slides, angles = [], []
     for k in range(5):
         one = np.eye(5)[k]
@@ -23,7 +23,7 @@ def test_the_stack_is_that_of_loops_with_one_error_each():
         step = 1e-5 * np.eye(4)[k]
         up, down = (loops.rccc(perfect + sign * step, phi).angle for sign in (1, -1))
         angles.append((up - down) / 2e-5 * TURNS[k])
-    found = joint_stack(bend, phi, ways=WAYS, turns=TURNS)
+    found = joint_stack(joint_angle, phi, ways=WAYS, turns=TURNS)
     assert found.worst_slide == pytest.approx(np.sum(np.abs(slides), axis=0), rel=1e-12)
     assert found.square_slide == pytest.approx(np.linalg.norm(slides, axis=0), rel=1e-12)
     # Differences with a step of 1e-5 leave 1e-10 of third derivatives and 1e-11 of rounding.
@@ -33,8 +33,8 @@ def test_the_stack_is_that_of_loops_with_one_error_each():
 
 
 def test_batches_of_bends_and_angles():
-    bend, phi = np.asarray([[0.1], [0.5]]), np.asarray([0.0, 1.0, 2.0])
-    found = joint_stack(bend, phi, ways=WAYS, turns=TURNS)
+    joint_angle, phi = np.asarray([[0.1], [0.5]]), np.asarray([0.0, 1.0, 2.0])
+    found = joint_stack(joint_angle, phi, ways=WAYS, turns=TURNS)
     assert found.worst_angle.shape == (2, 3, 3)
     assert found.share_slide.shape == (2, 3, 3, 5)
     alone = joint_stack(0.5, 2.0, ways=WAYS, turns=TURNS)
@@ -43,15 +43,15 @@ def test_batches_of_bends_and_angles():
     assert np.all(np.isnan(none.share_slide))
 
 
-@pytest.mark.parametrize("bend", [5, 30, 60])
-def test_known_peaks_over_a_turn(bend):
-    alpha = bend * deg
+@pytest.mark.parametrize("joint_angle", [5, 30, 60])
+def test_known_peaks_over_a_turn(joint_angle):
+    alpha = joint_angle * deg
 
     def largest(k):
         return stack_over_turn(alpha, ways=np.zeros(5), turns=np.eye(4)[k]).worst_angle
 
     # Pin B: sin α to 45°, then 1/(2 cos α); cross: 1/cos α; pin C: tan α; bend: ½ tan α.
-    assert largest(0) == pytest.approx(np.sin(alpha) if bend <= 45 else 0.5 / np.cos(alpha), rel=1e-10)
+    assert largest(0) == pytest.approx(np.sin(alpha) if joint_angle <= 45 else 0.5 / np.cos(alpha), rel=1e-10)
     assert largest(1) == pytest.approx(1 / np.cos(alpha), rel=1e-10)
     assert largest(2) == pytest.approx(np.tan(alpha), rel=1e-10)
     assert largest(3) == pytest.approx(0.5 * np.tan(alpha), rel=1e-10)

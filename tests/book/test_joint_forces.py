@@ -16,12 +16,12 @@ TURN = np.arange(720) * (np.pi / 360)
 SIZES = {"span": 0.1, "bearing_span": 0.3, "overhang": 0.08, "reach": 0.4}
 
 
-@pytest.mark.parametrize("bend", [5 * deg, 40 * deg, 45 * deg, 70 * deg])
+@pytest.mark.parametrize("joint_angle", [5 * deg, 40 * deg, 45 * deg, 70 * deg])
 @pytest.mark.parametrize("end", ["output", "input"])
-def test_peaks_of_a_single_joint_are_those_of_a_turn(bend: float, end: str) -> None:
-    found = single_joint_forces(bend, np.linspace(0, np.pi, 100001), 1.0, located=False, **SIZES)
+def test_peaks_of_a_single_joint_are_those_of_a_turn(joint_angle: float, end: str) -> None:
+    found = single_joint_forces(joint_angle, np.linspace(0, np.pi, 100001), 1.0, located=False, **SIZES)
     given = found.driving_torque if end == "input" else 1.0
-    peaks = single_joint_peaks(bend, torque_at=end)
+    peaks = single_joint_peaks(joint_angle, torque_at=end)
     assert np.max(found.driving_couple / given) == pytest.approx(float(peaks.driving_couple), rel=1e-8)
     assert np.max(found.driven_couple / given) == pytest.approx(float(peaks.driven_couple), rel=1e-8)
     load = found.journal[:-1] * 0.1 / (given[:-1] if end == "input" else 1.0)
@@ -46,13 +46,15 @@ def test_the_book_takes_twice_the_axial_load_of_a_located_cross() -> None:
     assert found.axial[0] == 0.0
 
 
-@pytest.mark.parametrize("bend", [10 * deg, 20 * deg, 30 * deg, 55 * deg])
-def test_the_book_forms_of_synchronous_double_joints(bend: float) -> None:
+@pytest.mark.parametrize("joint_angle", [10 * deg, 20 * deg, 30 * deg, 55 * deg])
+def test_the_book_forms_of_synchronous_double_joints(joint_angle: float) -> None:
     """Book (120) with β in place of its γ: S = M √2 sin α |cos φ| w √(1 + cos β), yokes set for an even output."""
-    w = np.sqrt(1 + np.tan(bend) ** 2 * np.sin(TURN) ** 2)
+    w = np.sqrt(1 + np.tan(joint_angle) ** 2 * np.sin(TURN) ** 2)
     for twist in (0.0, 1.1, np.pi):
-        found = double_joint_forces(bend, bend, TURN, plane_twist=twist, yoke_angle=-twist, torque=100.0, length=0.7)
-        wanted = 100 * np.sqrt(2) * np.sin(bend) * np.abs(np.cos(TURN)) * w * np.sqrt(1 + np.cos(twist))
+        found = double_joint_forces(
+            joint_angle, joint_angle, TURN, plane_twist=twist, yoke_angle=-twist, torque=100.0, length=0.7
+        )
+        wanted = 100 * np.sqrt(2) * np.sin(joint_angle) * np.abs(np.cos(TURN)) * w * np.sqrt(1 + np.cos(twist))
         np.testing.assert_allclose(found.middle_couple, wanted, atol=1e-9)
         np.testing.assert_allclose(found.driving_torque, 100.0, rtol=1e-12)
         np.testing.assert_allclose(np.hypot(found.along_arm, found.across_arm), found.pair_force, atol=1e-9)
@@ -72,28 +74,30 @@ def test_couples_on_the_middle_shaft_add_as_signed_vectors() -> None:
     np.testing.assert_allclose(found.across_arm * 0.9, two * np.abs(np.sin(gamma)), atol=1e-9)
 
 
-@pytest.mark.parametrize("bends", [(0.0, 0.4), (0.4, 0.0), (0.0, 0.0)])
-def test_a_straight_joint_of_a_double_joint_keeps_its_plane(bends: tuple[float, float]) -> None:
+@pytest.mark.parametrize("joint_angles", [(0.0, 0.4), (0.4, 0.0), (0.0, 0.0)])
+def test_a_straight_joint_of_a_double_joint_keeps_its_plane(joint_angles: tuple[float, float]) -> None:
     """θ_1 counts from the plane that the twist stands from: the limit of ever smaller bends."""
     angle = np.linspace(0.0, 3.0, 7)
     placed = {"plane_twist": 0.7, "yoke_angle": 0.3, "torque": 100.0, "length": 0.5}
-    found = double_joint_forces(*bends, angle, **placed)
-    near = double_joint_forces(*(bend or 1e-8 for bend in bends), angle, **placed)
+    found = double_joint_forces(*joint_angles, angle, **placed)
+    near = double_joint_forces(*(joint_angle or 1e-8 for joint_angle in joint_angles), angle, **placed)
     for name in ("driving_torque", "middle_couple", "pair_force", "last_couple", "last_axial"):
-        # a bend of 1e-8 shows to the first order in 100 N·m and in the forces at half a metre
+        # a joint angle of 1e-8 shows to the first order in 100 N·m and in the forces at half a metre
         np.testing.assert_allclose(getattr(found, name), getattr(near, name), rtol=0, atol=1e-5)
 
 
-@pytest.mark.parametrize("bend", [20 * deg, 44 * deg, 55 * deg])
-def test_largest_couple_of_the_v_arrangement(bend: float) -> None:
-    most, _at = largest_middle_couple(bend, bend, torque=50.0)
-    assert most == pytest.approx(100 * np.sin(bend) if bend <= 45 * deg else 50 / np.cos(bend), rel=1e-11)
+@pytest.mark.parametrize("joint_angle", [20 * deg, 44 * deg, 55 * deg])
+def test_largest_couple_of_the_v_arrangement(joint_angle: float) -> None:
+    most, _at = largest_middle_couple(joint_angle, joint_angle, torque=50.0)
+    assert most == pytest.approx(
+        100 * np.sin(joint_angle) if joint_angle <= 45 * deg else 50 / np.cos(joint_angle), rel=1e-11
+    )
 
 
 def test_thrust_of_a_spline_by_its_projections() -> None:
-    bend, c, s = 25 * deg, np.cos(25 * deg), np.sin(25 * deg)
+    joint_angle, c, s = 25 * deg, np.cos(25 * deg), np.sin(25 * deg)
     e2 = np.asarray([c, s, 0.0])
-    found = spline_thrust(bend, TURN, 800.0, 4.0)
+    found = spline_thrust(joint_angle, TURN, 800.0, 4.0)
     u = np.stack((0 * TURN, np.cos(TURN), np.sin(TURN)), axis=-1)
     v = np.cross(e2, u)
     v /= np.linalg.norm(v, axis=-1)[:, None]
@@ -106,14 +110,14 @@ def test_thrust_of_a_spline_by_its_projections() -> None:
 
 def test_closed_forms_take_any_array_library() -> None:
     angle = strict.asarray(TURN)
-    bend = strict.asarray(0.4)
+    joint_angle = strict.asarray(0.4)
     single = single_joint_forces(
-        bend, angle, strict.asarray(100.0), located=True, **{k: strict.asarray(v) for k, v in SIZES.items()}
+        joint_angle, angle, strict.asarray(100.0), located=True, **{k: strict.asarray(v) for k, v in SIZES.items()}
     )
     np.testing.assert_allclose(
         np.asarray(single.near), single_joint_forces(0.4, TURN, 100.0, located=True, **SIZES).near
     )
-    thrust = spline_thrust(bend, angle, strict.asarray(100.0), strict.asarray(3.0))
+    thrust = spline_thrust(joint_angle, angle, strict.asarray(100.0), strict.asarray(3.0))
     np.testing.assert_allclose(np.asarray(thrust.along_normal), spline_thrust(0.4, TURN, 100.0, 3.0).along_normal)
     peaks = single_joint_peaks(strict.asarray([0.4, 1.0]))
     np.testing.assert_allclose(np.asarray(peaks.journal_mean), single_joint_peaks(np.asarray([0.4, 1.0])).journal_mean)

@@ -20,9 +20,9 @@ def four_joints(**options):
     )
 
 
-def one_joint(bend, a, psi=0.0):
+def one_joint(joint_angle, a, psi=0.0):
     values = {"first_inertia": 1.0, "last_inertia": 0.4, "speed": np.sqrt(2800.0 / a)}
-    return mathieu_reduction([bend], [psi], [1000.0, 4000.0], **values)
+    return mathieu_reduction([joint_angle], [psi], [1000.0, 4000.0], **values)
 
 
 def driven(theta, alpha):
@@ -37,7 +37,7 @@ def energy(yokes, first, last, found):
     for k, spring in enumerate(found.springs):
         total += 0.5 * spring * (out - ends[k + 1]) ** 2
         if k < len(yokes):
-            psi, alpha = found.phase[k], found.bend[k]
+            psi, alpha = found.phase[k], found.joint_angle[k]
             theta = yokes[k] + psi
             out = driven(theta, alpha) - driven(psi, alpha)
     return total
@@ -75,10 +75,10 @@ def test_torques_and_stiffness_are_derivatives_of_the_energy():
 
 
 @pytest.mark.parametrize(
-    ("bend", "torque", "half_trace"), [(0.3, 0.0, -1.0006807319800233), (0.3, 40.0, -1.000681182608514)]
+    ("joint_angle", "torque", "half_trace"), [(0.3, 0.0, -1.0006807319800233), (0.3, 40.0, -1.000681182608514)]
 )
-def test_half_trace_is_that_of_the_reference(bend, torque, half_trace):
-    found = steady_twist(one_joint(bend, 1.0), torque)
+def test_half_trace_is_that_of_the_reference(joint_angle, torque, half_trace):
+    found = steady_twist(one_joint(joint_angle, 1.0), torque)
     # The reference integrates to about 1e-11.
     assert found.half_trace == pytest.approx(half_trace, abs=1e-10)
 
@@ -131,8 +131,8 @@ def test_the_zone_is_twice_as_wide_as_the_book_has_it(side):
 @pytest.mark.parametrize("torque", [0.0, 60.0])
 def test_at_the_middle_of_the_zone_mathieu_with_the_right_q_says_the_same(torque):
     """½ tr = -1 - (πq)²/8 there, an eighth of which the book's q would give too little by three quarters."""
-    for bend, psi in ((10 * deg, 0.0), (15 * deg, 0.9)):
-        red = one_joint(bend, 1.0, psi)
+    for joint_angle, psi in ((10 * deg, 0.0), (15 * deg, 0.9)):
+        red = one_joint(joint_angle, 1.0, psi)
         over = -1.0 - steady_twist(red, torque).half_trace
         right, book = (-1.0 - float(exponents(1.0, q).half_trace) for q in (red.q, red.q_book))
         # Left out: the static twist and the next order of tan²(α/2).

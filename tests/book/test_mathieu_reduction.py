@@ -8,22 +8,22 @@ from cardan.book.comparison import book_series
 from cardan.book.mathieu_reduction import mathieu_reduction
 from cardan.errors import InputError
 from cardan.maths.periodic.mathieu import exponents
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.units import deg, rpm
 
-BENDS = [11.5 * deg, 15.3 * deg, 15 * deg, 16.5 * deg]
+JOINT_ANGLES = [11.5 * deg, 15.3 * deg, 15 * deg, 16.5 * deg]
 PHASES = [0.0, 88.1 * deg, 20.1 * deg, 16.4 * deg]
 SPRINGS = [3000.0, 9000.0, 7000.0, 8000.0, 2500.0]
 
 
-def reduction(bends=BENDS, phases=PHASES, springs=SPRINGS, first=2.0, last=0.6, speed=860 * rpm):
-    return mathieu_reduction(bends, phases, springs, first_inertia=first, last_inertia=last, speed=speed)
+def reduction(joint_angles=JOINT_ANGLES, phases=PHASES, springs=SPRINGS, first=2.0, last=0.6, speed=860 * rpm):
+    return mathieu_reduction(joint_angles, phases, springs, first_inertia=first, last_inertia=last, speed=speed)
 
 
 def test_phasors_are_the_sums_that_the_book_writes_out():
     """D, F, X, Y and tan 2δ_0 of Book (195), (196), term by term."""
     found = reduction()
-    tau = np.tan(np.asarray(BENDS) / 2) ** 2
+    tau = np.tan(np.asarray(JOINT_ANGLES) / 2) ** 2
     bar, turned = [], 0.0
     for t, psi in zip(tau, PHASES, strict=True):
         bar.append(psi - turned)
@@ -52,8 +52,8 @@ def test_one_joint_gives_the_short_form():
 
 
 def test_the_forcing_is_the_first_order_of_the_drives_motion():
-    drive = Drive.from_angles(BENDS, yoke_angles=[0.3, 1.2, -0.4], start_phase=0.2)
-    found = reduction(phases=phase_angles(drive))
+    drive = Drive.from_angles(JOINT_ANGLES, yoke_angles=[0.3, 1.2, -0.4], start_phase=0.2)
+    found = reduction(phases=initial_phases(drive))
     series = book_series(drive, amplitude="tau")
     assert found.forcing == pytest.approx(complex(series.a1, series.b1), rel=1e-12)
     assert found.amplitude == pytest.approx(float(series.amplitude), rel=1e-12)
@@ -95,5 +95,5 @@ def test_a_straight_drive_has_no_zone():
 def test_what_is_wrong_is_told_all_at_once():
     with pytest.raises(InputError) as caught:
         mathieu_reduction([0.1, 1.6], [0.0], [1.0, -1.0], first_inertia=0.0, last_inertia=np.nan, speed=-1.0)
-    fields = ["phase", "springs", "bend[1]", "springs[1]", "first_inertia", "last_inertia", "speed"]
+    fields = ["phase", "springs", "joint_angle[1]", "springs[1]", "first_inertia", "last_inertia", "speed"]
     assert [problem.field for problem in caught.value.problems] == fields

@@ -7,18 +7,18 @@ import numpy as np
 from tests.builders.vector_model import VectorModel
 
 
-def irregularity(bends, plane_twists, yoke_angles):
+def speed_fluctuation(joint_angles, plane_twists, yoke_angles):
     """Return δ of drives, arrays (..., n) and (..., n-1), exactly, from three positions of the vector model.
 
     The inverse of the speed ratio is a constant and a sine of twice the input angle (u·u for an arm u that turns
     linearly); three positions fix both. Its extremes multiply to one, so δ is the double amplitude.
     """
-    bends, plane_twists, yoke_angles = np.broadcast_arrays(
-        bends, *(np.concatenate((x, np.zeros((*x.shape[:-1], 1))), axis=-1) for x in (plane_twists, yoke_angles))
+    joint_angles, plane_twists, yoke_angles = np.broadcast_arrays(
+        joint_angles, *(np.concatenate((x, np.zeros((*x.shape[:-1], 1))), axis=-1) for x in (plane_twists, yoke_angles))
     )
-    n = bends.shape[-1]
+    n = joint_angles.shape[-1]
     model = VectorModel.from_angles(
-        [bends[..., i] for i in range(n)],
+        [joint_angles[..., i] for i in range(n)],
         [plane_twists[..., i] for i in range(n - 1)],
         [yoke_angles[..., i] for i in range(n - 1)],
     )

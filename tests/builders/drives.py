@@ -18,7 +18,7 @@ ANGLES = st.floats(-np.pi, np.pi, allow_subnormal=False)
 class Plan:
     """Numbers of a spatial chain, to be made into whatever a test compares."""
 
-    bends: tuple[float, ...]
+    joint_angles: tuple[float, ...]
     plane_twists: tuple[float, ...]
     yoke_angles: tuple[float, ...]
     start_phase: float
@@ -26,21 +26,26 @@ class Plan:
     @property
     def drive(self) -> Drive:
         return Drive.from_angles(
-            self.bends, plane_twists=self.plane_twists, yoke_angles=self.yoke_angles, start_phase=self.start_phase
+            self.joint_angles,
+            plane_twists=self.plane_twists,
+            yoke_angles=self.yoke_angles,
+            start_phase=self.start_phase,
         )
 
     @property
     def vectors(self) -> VectorModel:
-        return VectorModel.from_angles(self.bends, self.plane_twists, self.yoke_angles, self.start_phase)
+        return VectorModel.from_angles(self.joint_angles, self.plane_twists, self.yoke_angles, self.start_phase)
 
 
 @st.composite
-def plans(draw: st.DrawFn, *, least: int = 1, most: int = 6, bend: float = 40 * deg, straight: bool = True) -> Plan:
-    """Draw a chain of ``least`` to ``most`` joints that bend up to ``bend``; some may be straight."""
+def plans(
+    draw: st.DrawFn, *, least: int = 1, most: int = 6, joint_angle: float = 40 * deg, straight: bool = True
+) -> Plan:
+    """Draw a chain of ``least`` to ``most`` joints that bend up to ``joint_angle``; some may be straight."""
     n = draw(st.integers(least, most))
-    bends = st.floats(0.0 if straight else 0.5 * deg, bend, allow_subnormal=False)
+    joint_angles = st.floats(0.0 if straight else 0.5 * deg, joint_angle, allow_subnormal=False)
     return Plan(
-        tuple(draw(bends) for _ in range(n)),
+        tuple(draw(joint_angles) for _ in range(n)),
         tuple(draw(ANGLES) for _ in range(n - 1)),
         tuple(draw(ANGLES) for _ in range(n - 1)),
         draw(ANGLES),

@@ -24,9 +24,9 @@ def pair(name, kind, links, point, axis=None, axis2=None, pitch=None):
     )
 
 
-def hooke(bend=0.5, phase=0.3, *, kinds="RRRR", cross=np.pi / 2):
+def hooke(joint_angle=0.5, phase=0.3, *, kinds="RRRR", cross=np.pi / 2):
     """A Hooke joint between two bearings: A(0-1), pins B(1-2), C(2-3), D(3-0); ``cross`` is the angle of its arms."""
-    first, second = np.array([0.0, 0, 1]), np.array([np.sin(bend), 0, np.cos(bend)])
+    first, second = np.array([0.0, 0, 1]), np.array([np.sin(joint_angle), 0, np.cos(joint_angle)])
     b = np.array([np.cos(phase), np.sin(phase), 0.0])
     c = np.cross(second, b)
     c = c / np.linalg.norm(c) if np.linalg.norm(c) > 1e-12 else first

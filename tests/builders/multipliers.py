@@ -13,13 +13,13 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 
-def law(theta: float, bend: float) -> tuple[float, float, float]:
+def law(theta: float, joint_angle: float) -> tuple[float, float, float]:
     """Return T, T' and T'' of tan T = tan θ/cos α."""
     turns = round(theta / np.pi)
-    whole = np.arctan(np.tan(theta) / np.cos(bend)) + np.pi * turns
-    below = 1.0 - np.sin(bend) ** 2 * np.cos(theta) ** 2
-    first = np.cos(bend) / below
-    return whole, first, -np.cos(bend) * np.sin(bend) ** 2 * np.sin(2.0 * theta) / below**2
+    whole = np.arctan(np.tan(theta) / np.cos(joint_angle)) + np.pi * turns
+    below = 1.0 - np.sin(joint_angle) ** 2 * np.cos(theta) ** 2
+    first = np.cos(joint_angle) / below
+    return whole, first, -np.cos(joint_angle) * np.sin(joint_angle) ** 2 * np.sin(2.0 * theta) / below**2
 
 
 @dataclass
@@ -29,7 +29,7 @@ class Chain:
     inertia: list[list[float]]
     stiffness: list[list[float]]
     damping: list[list[float]]
-    bend: list[float]
+    joint_angle: list[float]
     phase: list[float]
     gap: list[list[float]] | None = None
     ground: list[list[float]] | None = None
@@ -66,8 +66,8 @@ class Chain:
         for k, of in self.torques:
             acting[k] += of(time, angle[k], speed[k])
         rows, right = [], []
-        for (a, b), bend, phase in zip(self.pairs, self.bend, self.phase, strict=True):
-            _whole, first, second = law(angle[a] + phase, bend)
+        for (a, b), joint_angle, phase in zip(self.pairs, self.joint_angle, self.phase, strict=True):
+            _whole, first, second = law(angle[a] + phase, joint_angle)
             row = np.zeros(n)
             row[b], row[a] = 1.0, -first
             rows.append(row)
@@ -88,9 +88,9 @@ class Chain:
         q, v = np.zeros(len(self.mass)), np.full(len(self.mass), speed)
         for k, value in angle.items():
             q[k] = value
-        for (a, b), bend, phase in zip(self.pairs, self.bend, self.phase, strict=True):
-            q[b] = law(q[a] + phase, bend)[0] - law(phase, bend)[0]
-            v[b] = law(q[a] + phase, bend)[1] * v[a]
+        for (a, b), joint_angle, phase in zip(self.pairs, self.joint_angle, self.phase, strict=True):
+            q[b] = law(q[a] + phase, joint_angle)[0] - law(phase, joint_angle)[0]
+            v[b] = law(q[a] + phase, joint_angle)[1] * v[a]
         return np.concatenate((q, v))
 
     def follow(

@@ -10,14 +10,14 @@ import mpmath as mp
 DIGITS = 40
 
 
-def driven(theta: Any, bend: Any) -> Any:
+def driven(theta: Any, joint_angle: Any) -> Any:
     """Return the driven angle of a joint, unwrapped."""
-    c, cos, sin = mp.cos(bend), mp.cos(theta), mp.sin(theta)
+    c, cos, sin = mp.cos(joint_angle), mp.cos(theta), mp.sin(theta)
     return theta + mp.atan2((1 - c) * sin * cos, c * cos**2 + sin**2)
 
 
 def output(
-    bend: Sequence[float],
+    joint_angle: Sequence[float],
     plane_twist: Sequence[float],
     yoke_angle: Sequence[float],
     start_phase: float,
@@ -30,7 +30,7 @@ def output(
         turns = [mp.mpf(0)] + [mp.pi / 2 - mp.mpf(g) - mp.mpf(b) for g, b in zip(yoke_angle, plane_twist, strict=True)]
         at, rest = mp.mpf(start_phase) + mp.mpf(angle), mp.mpf(start_phase)
         omega, epsilon = mp.mpf(speed), mp.mpf(acceleration)
-        for alpha, turn in zip(map(mp.mpf, bend), turns, strict=True):
+        for alpha, turn in zip(map(mp.mpf, joint_angle), turns, strict=True):
             at, rest = at + turn, rest + turn
             c, s = mp.cos(alpha), mp.sin(alpha)
             ratio = c / (1 - (s * mp.cos(at)) ** 2)
@@ -40,7 +40,7 @@ def output(
         return float(at - rest), float(omega / mp.mpf(speed)), float(epsilon)
 
 
-def largest_ratio(bend: Sequence[float], plane_twist: Sequence[float], yoke_angle: Sequence[float]) -> Any:
+def largest_ratio(joint_angle: Sequence[float], plane_twist: Sequence[float], yoke_angle: Sequence[float]) -> Any:
     """Return the largest speed ratio of a chain, a number of many digits.
 
     Notes
@@ -49,7 +49,7 @@ def largest_ratio(bend: Sequence[float], plane_twist: Sequence[float], yoke_angl
     """
     with mp.workdps(DIGITS):
         whole = mp.eye(2)
-        for i, alpha in enumerate(map(mp.mpf, bend)):
+        for i, alpha in enumerate(map(mp.mpf, joint_angle)):
             mu = mp.pi / 2 - mp.mpf(yoke_angle[i - 1]) - mp.mpf(plane_twist[i - 1]) if i else mp.mpf(0)
             root = mp.sqrt(mp.cos(alpha))
             turned = mp.matrix([[mp.cos(mu), -mp.sin(mu)], [mp.sin(mu), mp.cos(mu)]])

@@ -24,8 +24,10 @@ def rubbing(drive, friction=0.1, **parts):
     return replace(drive, joints=joints, **parts)
 
 
-def single(bend=30 * deg, friction=0.1, **parts):
-    return rubbing(Drive.from_points([[-0.4, 0, 0], [0, 0, 0], [np.cos(bend), 0, -np.sin(bend)]]), friction, **parts)
+def single(joint_angle=30 * deg, friction=0.1, **parts):
+    return rubbing(
+        Drive.from_points([[-0.4, 0, 0], [0, 0, 0], [np.cos(joint_angle), 0, -np.sin(joint_angle)]]), friction, **parts
+    )
 
 
 def loaded(plan, seed):
@@ -47,13 +49,13 @@ def loaded(plan, seed):
     return rubbing(plan.drive, shafts=shafts), duty
 
 
-def book_layout(friction, bend=30 * deg):
+def book_layout(friction, joint_angle=30 * deg):
     """Both shafts in two bearings each, the cross free to slide along its journals: forces as in Book (106), (107)."""
     supports = tuple(
         Support(shaft=shaft, position=place, axial=place == -0.35, bore=40 * mm, friction=friction)
         for shaft, place in ((1, -0.05), (1, -0.35), (2, 0.1), (2, 0.4))
     )
-    free = single(bend, friction=0.0, supports=supports)
+    free = single(joint_angle, friction=0.0, supports=supports)
     joint = replace(free.joints[0], cross=replace(CROSS, slides=True))
     return replace(free, joints=(joint,))
 

@@ -14,7 +14,16 @@ from cardan.questions.torsion.model.torsional_model import Torque, TorsionalMode
 
 
 def drive(
-    speed=48.0, *, free=False, order=None, backlash=0.0, load=50.0, damping=1.0, bend=0.35, motor=False, table=False
+    speed=48.0,
+    *,
+    free=False,
+    order=None,
+    backlash=0.0,
+    load=50.0,
+    damping=1.0,
+    joint_angle=0.35,
+    motor=False,
+    table=False,
 ) -> TorsionalModel:
     """Return a drive of three shafts and two joints whose middle shaft has a station of its own."""
     torques = [
@@ -35,7 +44,7 @@ def drive(
         stiffness=[[3000.0], [5000.0, 5000.0], [4000.0]],
         damping=[[damping], [damping, damping], [damping]],
         backlash=[[backlash], [0.0, 0.0], [0.0]],
-        bend=[bend, 0.8 * bend],
+        joint_angle=[joint_angle, 0.8 * joint_angle],
         phase=[0.0, 1.2],
         torques=torques,
         input_speed=None if free else speed,
@@ -83,14 +92,14 @@ def _plain(model: TorsionalModel) -> Callable[[list[float], list[float]], tuple[
     """
     driven, of = model.driven, model.coordinate
     inertia, ground = model.inertia.tolist(), model.ground_damping.tolist()
-    joints = [(a, math.cos(a), math.sin(a) ** 2, math.tan(0.5 * a) ** 2) for a in model.bend.tolist()]
+    joints = [(a, math.cos(a), math.sin(a) ** 2, math.tan(0.5 * a) ** 2) for a in model.joint_angle.tolist()]
     phases = model.phase.tolist()
     springs = list(
         zip(model.elements, model.stiffness.tolist(), model.damping.tolist(), model.backlash.tolist(), strict=True)
     )
     still = np.zeros(())
 
-    def lead(theta: float, tau: float) -> float:
+    def angle_error(theta: float, tau: float) -> float:
         return theta + math.atan2(tau * math.sin(2.0 * theta), 1.0 - tau * math.cos(2.0 * theta))
 
     def found(q: list[float], rate: list[float]) -> tuple[list[float], list[float]]:
@@ -100,12 +109,12 @@ def _plain(model: TorsionalModel) -> Callable[[list[float], list[float]], tuple[
                 place.append((q[of[k]], 1.0, 0.0))
                 continue
             f, f1, f2 = place[source[0]]
-            _bend, cosine, square, tau = joints[source[1]]
+            _joint_angle, cosine, square, tau = joints[source[1]]
             theta = f + phases[source[1]]
             below = 1.0 - square * math.cos(theta) ** 2
             t1 = cosine / below
             t2 = -cosine * square * math.sin(2.0 * theta) / below**2
-            place.append((lead(theta, tau) - lead(phases[source[1]], tau), t1 * f1, t2 * f1**2 + t1 * f2))
+            place.append((angle_error(theta, tau) - angle_error(phases[source[1]], tau), t1 * f1, t2 * f1**2 + t1 * f2))
         speed = [one[1] * rate[r] for one, r in zip(place, of, strict=True)]
         acting = [-b * v for b, v in zip(ground, speed, strict=True)]
         for (a, b), stiffness, damping, play in springs:

@@ -20,38 +20,38 @@ def layout(n: int) -> tuple[tuple[int, tuple[str, ...]], ...]:
 def trains(
     random: np.random.Generator,
     n: int,
-    lead: tuple[int, ...] = (),
+    outer: tuple[int, ...] = (),
     *,
     heavy: bool = True,
     drag: float = 0.0,
     **parts: Any,
 ) -> Train:
-    """Return random spatial drives with bends to about 25°, with or without inertia, weight and friction."""
-    aside = random.uniform(-0.25, 0.25, (*lead, n + 1, 2))
-    steps = np.concatenate((np.ones((*lead, n + 1, 1)), aside), axis=-1) * random.uniform(0.3, 1.0, (*lead, n + 1, 1))
-    points = np.concatenate((np.zeros((*lead, 1, 3)), np.cumsum(steps, axis=-2)), axis=-2)
+    """Return random spatial drives with joint angles to about 25°, with or without inertia, weight and friction."""
+    aside = random.uniform(-0.25, 0.25, (*outer, n + 1, 2))
+    steps = np.concatenate((np.ones((*outer, n + 1, 1)), aside), axis=-1) * random.uniform(0.3, 1.0, (*outer, n + 1, 1))
+    points = np.concatenate((np.zeros((*outer, 1, 3)), np.cumsum(steps, axis=-2)), axis=-2)
     length = np.linalg.norm(steps, axis=-1)
     shares = [0.2, 0.7] + [0.45] * (n - 2) + ([0.6] if n == 1 else [0.3, 0.8])
     held = layout(n)
     own: dict[str, Any] = {
         "bearings": held,
         "position": np.stack([length[..., s] * share for (s, _h), share in zip(held, shares, strict=True)], axis=-1),
-        "span": np.full((*lead, n), 0.08),
+        "span": np.full((*outer, n), 0.08),
     }
     if heavy:
         own |= {
-            "inertia": random.uniform(0.0, 0.2, (*lead, n + 1)),
-            "mass": random.uniform(0.0, 9.0, (*lead, n + 1)),
-            "centre_of_mass": random.uniform(0.0, 1.0, (*lead, n + 1)),
-            "cross_inertia": random.uniform(0.001, 0.003, (*lead, n, 3)),
-            "cross_mass": random.uniform(0.0, 1.0, (*lead, n)),
-            "resisting_torque": random.uniform(-5.0, 5.0, (*lead, n + 1)),
+            "inertia": random.uniform(0.0, 0.2, (*outer, n + 1)),
+            "mass": random.uniform(0.0, 9.0, (*outer, n + 1)),
+            "centre_of_mass": random.uniform(0.0, 1.0, (*outer, n + 1)),
+            "cross_inertia": random.uniform(0.001, 0.003, (*outer, n, 3)),
+            "cross_mass": random.uniform(0.0, 1.0, (*outer, n)),
+            "resisting_torque": random.uniform(-5.0, 5.0, (*outer, n + 1)),
             "gravity": np.asarray([0.3, -0.2, -9.81]),
         }
     if drag:
-        own["drag"] = random.uniform(0.0, drag, (*lead, n))
-    yokes = random.uniform(-3.0, 3.0, (*lead, n - 1))
-    return train_of_points(points, yoke_angle=yokes, start_phase=random.uniform(-3.0, 3.0, lead), **(own | parts))
+        own["drag"] = random.uniform(0.0, drag, (*outer, n))
+    yokes = random.uniform(-3.0, 3.0, (*outer, n - 1))
+    return train_of_points(points, yoke_angle=yokes, start_phase=random.uniform(-3.0, 3.0, outer), **(own | parts))
 
 
 def one(train: Train, index: int) -> Train:

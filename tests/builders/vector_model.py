@@ -62,21 +62,21 @@ class VectorModel:
     @classmethod
     def from_angles(
         cls,
-        bends: Sequence[Any],
+        joint_angles: Sequence[Any],
         plane_twists: Sequence[Any] = (),
         yoke_angles: Sequence[Any] = (),
         start_phase: Any = 0,
         lib: Any = np,
     ) -> VectorModel:
         """Lay the axes out by turning the plane's normal about the shaft, then the shaft about the normal."""
-        zero = bends[0] * 0
+        zero = joint_angles[0] * 0
         axis: Vector = (zero + 1, zero, zero)
         first: Vector = (zero, zero + 1, zero)
         normal, axes = first, [axis]
-        for k, bend in enumerate(bends):
+        for k, joint_angle in enumerate(joint_angles):
             if k:
                 normal = turned(normal, axis, plane_twists[k - 1], lib)
-            axis = turned(axis, normal, bend, lib)
+            axis = turned(axis, normal, joint_angle, lib)
             axes.append(axis)
         return cls._starting(tuple(axes), first, yoke_angles, start_phase, lib)
 
@@ -127,10 +127,10 @@ class VectorModel:
             found.append(found[-1] * dot(before, after) / dot(across, across))
         return found
 
-    def irregularity(self, count: int = 1440) -> float:
+    def speed_fluctuation(self, count: int = 1440) -> float:
         """Return largest minus smallest output ratio, from samples with a parabola through each extreme one.
 
-        With 1440 samples of a turn the parabola misses a smooth extreme by less than 1e-9 for bends to 60°.
+        With 1440 samples of a turn the parabola misses a smooth extreme by less than 1e-9 for joint angles to 60°.
         """
         ratio = self.ratios(np.arange(count) * (2 * np.pi / count))[-1]
         ratio = np.broadcast_to(ratio, (count,))

@@ -239,8 +239,8 @@ def test_many_angles_equal_single_ones(capability):
 
 def test_many_bends_equal_single_ones():
     many = calc("single_joint_extremes", {"alpha_deg": [5.0, 45.0]})
-    for k, bend in enumerate((5.0, 45.0)):
-        one = calc("single_joint_extremes", {"alpha_deg": bend})
+    for k, joint_angle in enumerate((5.0, 45.0)):
+        one = calc("single_joint_extremes", {"alpha_deg": joint_angle})
         assert {key: value[k] for key, value in many.items()} == pytest.approx(one, rel=1e-14)
     both = calc("equivalent_joint", {"alpha_deg": [[10, 20], [5, 5]], "beta_deg": [30]})
     assert both["delta"][1] == pytest.approx(calc("equivalent_joint", {"alpha_deg": [5, 5], "beta_deg": [30]})["delta"])

@@ -61,13 +61,13 @@ def test_bad_joints_are_named(capability, good, changed, named):
 
 
 def test_the_tables_of_the_lever_come_out():
-    """Errors of the cage in degrees over bends, for the lengths read off the book's figure and for the best one."""
+    """Errors of the cage in degrees over joint angles, for lengths read off the book's figure and for the best one."""
     table = {0.72: [-0.005, 0.045, 0.282, 0.836], 0.70: [-0.028, -0.026, 0.156, 0.644]}
     table |= {0.6562: [-0.082, -0.193, -0.138, 0.199], 0.65: [-0.090, -0.217, -0.181, 0.133]}
     for c, row in table.items():
         found = [
-            math.degrees(calc("rzeppa_lever", LEVER | {"alpha12_deg": bend, "c_over_a": c})["plane_error_rad"])
-            for bend in (5, 15, 25, 35)
+            math.degrees(calc("rzeppa_lever", LEVER | {"alpha12_deg": joint_angle, "c_over_a": c})["plane_error_rad"])
+            for joint_angle in (5, 15, 25, 35)
         ]
         assert found == pytest.approx(row, abs=6e-4)  # printed with three decimals
 

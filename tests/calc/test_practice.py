@@ -17,7 +17,7 @@ from cardan.questions.motion.angle_limits import angle_limits
 
 def test_the_printed_table_of_angles_follows_its_law_to_one_digit() -> None:
     for row in catalogue().rows(AnglePair).values():
-        for first, printed in enumerate(row.second_bend):
+        for first, printed in enumerate(row.second_joint_angle):
             most = float(angle_limits(row.speed, math.radians(first), 0.0).most)
             # largest difference 0.063 degrees, the figure of the spec, plus half a digit
             assert math.degrees(most) == pytest.approx(math.degrees(printed), abs=0.064 + 1e-9)
@@ -51,7 +51,7 @@ def test_a_measure_of_the_other_part_is_refused() -> None:
 
 
 def test_every_type_is_judged_once_and_says_why() -> None:
-    need = Need(torque=2500.0, bend=math.radians(38.0), speed=73.0, synchronous=True)
+    need = Need(torque=2500.0, joint_angle=math.radians(38.0), speed=73.0, synchronous=True)
     found = select_joint(need, include_beyond=True)
     assert len(found) == len(catalogue().tables["joint_types"])
     assert all(bool(one.causes) == (one.state == "rejected") for one in found)
@@ -61,5 +61,5 @@ def test_every_type_is_judged_once_and_says_why() -> None:
 
 def test_a_need_that_cannot_be_names_every_fault() -> None:
     with pytest.raises(InputError) as caught:
-        Need(torque=0.0, bend=1.6, speed=-1.0, service_factor=0.0)
-    assert [one.field for one in caught.value.problems] == ["torque", "bend", "speed", "service_factor"]
+        Need(torque=0.0, joint_angle=1.6, speed=-1.0, service_factor=0.0)
+    assert [one.field for one in caught.value.problems] == ["torque", "joint_angle", "speed", "service_factor"]

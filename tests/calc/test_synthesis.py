@@ -6,39 +6,39 @@ from hypothesis import strategies as st
 from cardan import calc
 from tests.builders.vector_model import VectorModel
 
-BEND = st.floats(1.0, 40.0)
+JOINT_ANGLE = st.floats(1.0, 40.0)
 TWIST = st.floats(-180.0, 180.0)
 
 
-def left(bends, twists, yokes):
-    return VectorModel.from_angles(np.radians(bends), np.radians(twists), np.radians(yokes)).irregularity()
+def left(joint_angles, twists, yokes):
+    return VectorModel.from_angles(np.radians(joint_angles), np.radians(twists), np.radians(yokes)).speed_fluctuation()
 
 
 @st.composite
 def tables(draw, most=6):
     n = draw(st.integers(2, most))
-    return [draw(BEND) for _ in range(n)], [draw(TWIST) for _ in range(n - 1)]
+    return [draw(JOINT_ANGLE) for _ in range(n)], [draw(TWIST) for _ in range(n - 1)]
 
 
 @settings(max_examples=40)
 @given(tables())
 def test_every_set_returned_leaves_what_it_says_by_plain_vectors(table):
-    bends, twists = table
-    found = calc("synthesis_continuous", {"alpha_deg": bends, "beta_deg": twists})
+    joint_angles, twists = table
+    found = calc("synthesis_continuous", {"alpha_deg": joint_angles, "beta_deg": twists})
     for yokes in found["gamma_deg_sets"]:
         # The vector model samples and fits a parabola, good to 1e-9; at δ = 0 it is exact to rounding.
-        assert left(bends, twists, yokes) == pytest.approx(found["delta_min"], abs=1e-9)
+        assert left(joint_angles, twists, yokes) == pytest.approx(found["delta_min"], abs=1e-9)
     assert found["delta"] == pytest.approx(found["delta_min"], abs=1e-14)
 
 
 @settings(max_examples=25)
 @given(tables(), st.data())
 def test_no_random_yokes_do_better_or_worse_than_the_bounds(table, data):
-    bends, twists = table
-    found = calc("synthesis_continuous", {"alpha_deg": bends, "beta_deg": twists})
+    joint_angles, twists = table
+    found = calc("synthesis_continuous", {"alpha_deg": joint_angles, "beta_deg": twists})
     for _ in range(5):
         yokes = [data.draw(TWIST) for _ in twists]
-        delta = left(bends, twists, yokes)
+        delta = left(joint_angles, twists, yokes)
         assert found["delta_min"] - 1e-9 <= delta <= found["delta_max"] + 1e-9
 
 
@@ -46,24 +46,24 @@ def test_no_random_yokes_do_better_or_worse_than_the_bounds(table, data):
 @settings(max_examples=25)
 @given(tables(), TWIST)
 def test_held_yokes_stay_and_the_rest_does_what_it_can(table, held):
-    bends, twists = table
-    inputs = {"alpha_deg": bends, "beta_deg": twists, "fixed_gamma_deg": {"2": held}}
+    joint_angles, twists = table
+    inputs = {"alpha_deg": joint_angles, "beta_deg": twists, "fixed_gamma_deg": {"2": held}}
     found = calc("synthesis_continuous", inputs)
     for yokes in found["gamma_deg_sets"]:
         assert np.remainder(yokes[0] - held + 90, 180) == pytest.approx(90, abs=1e-9)
-        assert left(bends, twists, yokes) == pytest.approx(found["delta_min"], abs=1e-9)
-    free = calc("synthesis_continuous", {"alpha_deg": bends, "beta_deg": twists})
+        assert left(joint_angles, twists, yokes) == pytest.approx(found["delta_min"], abs=1e-9)
+    free = calc("synthesis_continuous", {"alpha_deg": joint_angles, "beta_deg": twists})
     assert free["delta_min"] <= found["delta_min"] + 1e-14
 
 
 @settings(max_examples=10)
 @given(tables(most=4), st.lists(st.integers(1, 12), min_size=3, max_size=3), st.lists(TWIST, min_size=3, max_size=3))
 def test_spline_teeth_are_all_looked_at(table, teeth, offsets):
-    bends, twists = table
+    joint_angles, twists = table
     teeth, offsets = teeth[: len(twists)], offsets[: len(twists)]
     found = calc(
         "synthesis_spline",
-        {"alpha_deg": bends, "beta_deg": twists, "spline_teeth": teeth, "gamma_offset_deg": offsets},
+        {"alpha_deg": joint_angles, "beta_deg": twists, "spline_teeth": teeth, "gamma_offset_deg": offsets},
     )
     grids = np.meshgrid(*([o + 360 / z * np.arange(z)] for o, z in zip(offsets, teeth, strict=True)), indexing="ij")
     rows = np.stack([grid.ravel() for grid in grids], axis=-1)
@@ -71,13 +71,13 @@ def test_spline_teeth_are_all_looked_at(table, teeth, offsets):
 
     delta = equivalent_joint(
         Drives.from_angles(
-            np.broadcast_to(np.radians(bends), (len(rows), len(bends))),
+            np.broadcast_to(np.radians(joint_angles), (len(rows), len(joint_angles))),
             plane_twist=np.radians(twists),
             yoke_angle=np.radians(rows),
         )
-    ).irregularity
+    ).speed_fluctuation
     assert found["delta_min"] == pytest.approx(delta.min(), abs=1e-13)
-    assert left(bends, twists, found["gamma_deg"]) == pytest.approx(found["delta_min"], abs=1e-9)
+    assert left(joint_angles, twists, found["gamma_deg"]) == pytest.approx(found["delta_min"], abs=1e-9)
     steps = (np.asarray(found["gamma_deg"]) - offsets) / (360 / np.asarray(teeth))
     halves = (np.asarray(found["gamma_deg"]) + 180 - offsets) / (360 / np.asarray(teeth))
     off = np.minimum(np.abs(steps - np.round(steps)), np.abs(halves - np.round(halves)))

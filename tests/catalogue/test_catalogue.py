@@ -46,8 +46,8 @@ def test_factor_tables_rise(name: str) -> None:
 def test_the_angle_table_falls_with_speed_and_rises_along_its_rows() -> None:
     rows = list(catalogue().rows(AnglePair).values())
     assert [row.speed for row in rows] == sorted(row.speed for row in rows)
-    assert all(np.all(np.diff(row.second_bend) >= 0.0) for row in rows)
-    first = [row.second_bend[0] for row in rows]
+    assert all(np.all(np.diff(row.second_joint_angle) >= 0.0) for row in rows)
+    first = [row.second_joint_angle[0] for row in rows]
     assert first == sorted(first, reverse=True)
 
 

@@ -81,7 +81,7 @@ def whole() -> Drive:
                     Block(torque=1100.0, speed=900 * rpm, share=0.3),
                 ),
             ),
-            limits=Limits(irregularity=0.02, output_error=1 * deg, spline_pressure=60e6, spline_overlap=50 * mm),
+            limits=Limits(speed_fluctuation=0.02, output_error=1 * deg, spline_pressure=60e6, spline_overlap=50 * mm),
         )
     )
 
@@ -108,14 +108,14 @@ def test_every_verdict_has_what_a_reader_needs():
 
 @pytest.mark.slow
 def test_varying_a_key_is_the_same_as_a_drive_with_that_key():
-    """Every lever of every verdict: the batch against drives made one by one."""
+    """Every design variable of every verdict: the batch against drives made one by one."""
     drive = whole()
     verdicts = check(drive)
-    levers = {path for v in verdicts for path in v.levers}
-    assert len(levers) > 60
-    for lever in sorted(levers):
-        moved = sorted({v.check for v in verdicts if lever in v.levers})
-        path = spelled(lever)
+    design_variables = {path for v in verdicts for path in v.design_variables}
+    assert len(design_variables) > 60
+    for design_variable in sorted(design_variables):
+        moved = sorted({v.check for v in verdicts if design_variable in v.design_variables})
+        path = spelled(design_variable)
         now = read(drive, path)
         values = [1.01 * now + 0.001, 0.99 * now] if isinstance(now, float) else [now + 1, now - 1]
         many = check(drive, only=moved, vary={path: values})
@@ -140,15 +140,17 @@ def test_varying_a_key_is_the_same_as_a_drive_with_that_key():
 @pytest.mark.slow
 def test_the_levers_move_what_they_are_said_to_move():
     drive = whole()
-    for lever in sorted({path for v in check(drive) for path in v.levers}):
+    for design_variable in sorted({path for v in check(drive) for path in v.design_variables}):
         # The worst part of the duty, joint, shaft or plane decides: the others move nothing until they do.
-        if any(word in lever for word in ("blocks", "torque", "speed", "centre", "point", "yoke_angle", "amount")):
+        if any(
+            word in design_variable for word in ("blocks", "torque", "speed", "centre", "point", "yoke_angle", "amount")
+        ):
             continue
-        path = spelled(lever)
+        path = spelled(design_variable)
         now = read(drive, path)
         values = [now, 1.05 * now + 1e-3 if isinstance(now, float) else now + 1]
         for v in check(drive, vary={path: values}):
-            if lever in v.levers:
+            if design_variable in v.design_variables:
                 used = np.broadcast_to(v.utilisation, 2)
                 assert used[0] != used[1], (path, v.title)
 
@@ -221,7 +223,9 @@ def test_the_rated_torque_is_that_which_lasts_the_life(convention):
         replace(drive, joints=(replace(joint, rating=rating), *drive.joints[1:]), duty=duty), only=["rated_torque"]
     )[0]
     rated = rating.torque if convention != "book" else rating.torque / 2.6
-    life = maker_life(rated, found.limit, speed=1500 * rpm, bend=design(drive).bend[0], convention=convention)
+    life = maker_life(
+        rated, found.limit, speed=1500 * rpm, joint_angle=design(drive).joint_angle[0], convention=convention
+    )
     assert float(life) == pytest.approx(3000 * HOUR, rel=1e-12)
     assert found.value == pytest.approx(1.2 * 800.0, rel=2e-2)  # the joints make the torque swing a little
 
@@ -246,8 +250,8 @@ def test_the_worst_part_of_the_duty_decides_and_is_named():
     drive = whole()
     found = check(drive, only=["joint_torque"])[0]
     assert "part 2" in found.note
-    steep = replace(drive.duty, blocks=(Block(torque=10.0, speed=100.0, share=1.0, bend=31 * deg),))
-    assert [v.state for v in check(drive, steep, only=["bend"])] == ["failed"] * 3
+    steep = replace(drive.duty, blocks=(Block(torque=10.0, speed=100.0, share=1.0, joint_angle=31 * deg),))
+    assert [v.state for v in check(drive, steep, only=["joint_angle"])] == ["failed"] * 3
 
 
 def test_a_critical_speed_goes_with_the_square_of_the_length():
@@ -321,21 +325,23 @@ def test_utilisation_is_at_most_one_exactly_when_the_limit_is_kept(sense):
 
 def test_the_worst_pose_counts_and_is_named():
     drive = example("rolling-mill-upper-spindle")
-    drive = replace(drive, limits=replace(drive.limits, bend=4 * deg))
-    found = check(drive, only=["bend"])[0]
-    steepest = max(float(geometry(one).bend[0]) for one in pose_drives(drive))
+    drive = replace(drive, limits=replace(drive.limits, joint_angle=4 * deg))
+    found = check(drive, only=["joint_angle"])[0]
+    steepest = max(float(geometry(one).joint_angle[0]) for one in pose_drives(drive))
     assert found.value == pytest.approx(steepest)
     assert "roll change" in found.note
-    assert check(replace(drive, poses=()), only=["bend"])[0].value < found.value
+    assert check(replace(drive, poses=()), only=["joint_angle"])[0].value < found.value
 
 
 def test_what_a_movement_makes_of_bends_and_splines_counts():
     drive = example("pto-hitch")
-    drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01))
+    drive = replace(drive, limits=replace(drive.limits, joint_angle=10 * deg, speed_fluctuation=0.01))
     moved = articulation(drive).envelope
-    bend, uneven, spline = (check(drive, only=[name])[0] for name in ("bend", "irregularity", "spline_overlap"))
-    assert bend.value == moved["bend"][1][0] > geometry(drive).bend[0]
-    assert uneven.value == moved["irregularity"][1]
+    joint_angle, uneven, spline = (
+        check(drive, only=[name])[0] for name in ("joint_angle", "speed_fluctuation", "spline_overlap")
+    )
+    assert joint_angle.value == moved["joint_angle"][1][0] > geometry(drive).joint_angle[0]
+    assert uneven.value == moved["speed_fluctuation"][1]
     assert spline.value == pytest.approx(articulation(drive).splines[0].engaged_min)
     assert spline.limit == pytest.approx(0.150)
 
@@ -363,15 +369,15 @@ def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
 
 def test_advice_on_bends_is_judged_while_the_drive_moves():
     drive = example("pto-hitch")
-    bends = articulation(drive).bend
-    assert np.max(geometry(drive).bend) == 0.0
-    found = check(drive, only=["angle_rule", "bend_at_speed", "angle_table"])
+    joint_angles = articulation(drive).joint_angle
+    assert np.max(geometry(drive).joint_angle) == 0.0
+    found = check(drive, only=["angle_rule", "joint_angle_at_speed", "angle_table"])
     largest, apart, table, at_speed = found
     assert {v.note for v in found} == {"while the drive moves"}
-    assert largest.value == at_speed.value == table.value == pytest.approx(np.max(bends), rel=1e-6)
-    assert apart.value == pytest.approx(np.max(np.abs(bends[:, 0] - bends[:, 1])), rel=1e-6)
+    assert largest.value == at_speed.value == table.value == pytest.approx(np.max(joint_angles), rel=1e-6)
+    assert apart.value == pytest.approx(np.max(np.abs(joint_angles[:, 0] - joint_angles[:, 1])), rel=1e-6)
     speed = drive.duty.speed
-    assert table.passed == (np.max(np.abs(bends[:, 0] ** 2 - bends[:, 1] ** 2)) * speed**2 <= 400.0)
+    assert table.passed == (np.max(np.abs(joint_angles[:, 0] ** 2 - joint_angles[:, 1] ** 2)) * speed**2 <= 400.0)
     quick = check(replace(drive, duty=replace(drive.duty, speed=30.0 * speed)), only=["angle_table"])[0]
     assert quick.state == "failed"
 
@@ -387,8 +393,8 @@ def test_the_table_of_angles_judges_a_moving_drive_alike_alone_and_among_others(
     many = check(drive, only=["angle_table"], vary={path: values})[0]
     for k, value in enumerate(values):
         alone = with_values(drive, {path: value})
-        single, bends = check(alone, only=["angle_table"])[0], articulation(alone).bend
-        high, apart = np.max(bends), np.max(np.abs(bends[:, 0] ** 2 - bends[:, 1] ** 2))
+        single, joint_angles = check(alone, only=["angle_table"])[0], articulation(alone).joint_angle
+        high, apart = np.max(joint_angles), np.max(np.abs(joint_angles[:, 0] ** 2 - joint_angles[:, 1] ** 2))
         limit = math.sqrt(max(high**2 - apart, 0.0) + 400.0 / drive.duty.speed**2)
         assert (many.value[k], many.limit[k]) == pytest.approx((high, limit), rel=1e-6)
         assert single.utilisation == pytest.approx(many.utilisation[k], rel=1e-12)
@@ -412,8 +418,18 @@ def test_a_value_at_its_limit_but_for_rounding_keeps_it():
 @pytest.mark.parametrize("name", ["truck-rear-axle", "pto-hitch"])
 def test_many_drives_that_move_and_have_poses_are_judged_as_one_by_one(name):
     drive = example(name)
-    drive = replace(drive, limits=replace(drive.limits, bend=10 * deg, irregularity=0.01, output_error=0.1 * deg))
-    only = ["bend", "irregularity", "output_error", "acceleration", "angle_rule", "angle_table", "bend_at_speed"]
+    drive = replace(
+        drive, limits=replace(drive.limits, joint_angle=10 * deg, speed_fluctuation=0.01, output_error=0.1 * deg)
+    )
+    only = [
+        "joint_angle",
+        "speed_fluctuation",
+        "output_error",
+        "acceleration",
+        "angle_rule",
+        "angle_table",
+        "joint_angle_at_speed",
+    ]
     for path, values in {"joints[0].centre_mm[2]": [-9.0, 6.0], "joints[1].centre_mm[2]": [-300.0, 20.0]}.items():
         many = check(drive, only=only, vary={path: values})
         for k, value in enumerate(values):
@@ -469,9 +485,9 @@ def test_what_bears_on_little_changes_a_batch_no_more_than_a_drive(path, values)
     """The first plane turns the whole drive and no joint against another."""
     drive = whole()
     if "plane_twist" in path:
-        bends = geometry(drive).bend
-        drive = replace(Drive.from_angles(list(bends), plane_twists=[0.3, 0.4]), duty=drive.duty)
-    only = ["irregularity", "output_error", "acceleration", "layout", "part_accuracy"]
+        joint_angles = geometry(drive).joint_angle
+        drive = replace(Drive.from_angles(list(joint_angles), plane_twists=[0.3, 0.4]), duty=drive.duty)
+    only = ["speed_fluctuation", "output_error", "acceleration", "layout", "part_accuracy"]
     many = check(drive, only=only, vary={path: values})
     for k, value in enumerate(values):
         for a, b in zip(many, check(with_values(drive, {path: value}), only=only), strict=True):
@@ -481,23 +497,26 @@ def test_what_bears_on_little_changes_a_batch_no_more_than_a_drive(path, values)
 
 
 def test_the_limit_of_the_bends_may_vary():
-    drive = replace(Drive.from_angles([0.1]), limits=Limits(bend=0.2))
-    assert list(check(drive, only=["bend"], vary={"limits.bend_deg": [5.0, 6.0]})[0].limit / deg) == [5.0, 6.0]
+    drive = replace(Drive.from_angles([0.1]), limits=Limits(joint_angle=0.2))
+    assert list(check(drive, only=["joint_angle"], vary={"limits.joint_angle_deg": [5.0, 6.0]})[0].limit / deg) == [
+        5.0,
+        6.0,
+    ]
 
 
 def test_a_joint_that_passes_a_right_angle_while_it_moves_is_seen():
     turn = replace(example("pto-hitch").movements[0], yaw=200 * deg)
     drive = replace(example("pto-hitch"), movements=(turn,))
-    drive = replace(drive, limits=replace(drive.limits, bend=45 * deg, irregularity=0.5))
-    bend, _other, uneven = check(drive, only=["bend", "irregularity"])
-    assert bend.value > 90 * deg
+    drive = replace(drive, limits=replace(drive.limits, joint_angle=45 * deg, speed_fluctuation=0.5))
+    joint_angle, _other, uneven = check(drive, only=["joint_angle", "speed_fluctuation"])
+    assert joint_angle.value > 90 * deg
     assert (uneven.value, uneven.state) == (math.inf, "failed")
 
 
 def test_a_drive_of_a_makers_own_series_is_judged_as_it_was_loaded(tmp_path):
     rows = '[[joint_sizes]]\nid = "own"\nsource = "s"\ncross = { span_mm = 60, journal_mm = 20 }\n'
     (tmp_path / "own.toml").write_text(rows, "utf-8")
-    text = 'format = 1\nsettings.catalogues = ["own.toml"]\n[[joints]]\nbend_deg = 5\nsize = "own"\n'
+    text = 'format = 1\nsettings.catalogues = ["own.toml"]\n[[joints]]\njoint_angle_deg = 5\nsize = "own"\n'
     (tmp_path / "drive.toml").write_text(text, "utf-8")
     drive = load(tmp_path / "drive.toml")
     assert drive.joints[0].cross.span == 0.060
@@ -515,8 +534,8 @@ def test_a_shipped_drive_that_fails_says_so_in_its_file(name):
 def test_inside_shafts_swing_hardest_where_the_movement_bends_most():
     drive = example("pto-hitch")
     output, in_drive, _coast = check(drive, only=["acceleration"])
-    bend = articulation(drive).envelope["bend"][1][0]
-    assert in_drive.value == pytest.approx(drive.duty.speed**2 * largest_acceleration(bend), rel=1e-12)
+    joint_angle = articulation(drive).envelope["joint_angle"][1][0]
+    assert in_drive.value == pytest.approx(drive.duty.speed**2 * largest_acceleration(joint_angle), rel=1e-12)
     assert in_drive.note == output.note == "while the drive moves"
 
 

@@ -22,9 +22,9 @@ from cardan.questions.forces.turn_loads import across, turn_loads
 
 DRIVE = Drive(
     joints=(
-        Hooke(bend=0.2, cross=Cross(span=0.08, journal=0.02), needles=Needles(capacity=20e3)),
-        Rzeppa(bend=0.4, plane_twist=0.3, rating=Rating(max_bend=0.3, max_torque=900.0)),
-        DoubleCardan(bend=0.5, centring_ratio=0.5),
+        Hooke(joint_angle=0.2, cross=Cross(span=0.08, journal=0.02), needles=Needles(capacity=20e3)),
+        Rzeppa(joint_angle=0.4, plane_twist=0.3, rating=Rating(max_joint_angle=0.3, max_torque=900.0)),
+        DoubleCardan(joint_angle=0.5, centring_ratio=0.5),
     ),
     shafts=(Shaft(number=2, yoke_angle=0.4, outer=0.06, wall=0.003, length=1.0),),
     input=Input(start_phase=0.2),
@@ -33,15 +33,15 @@ DRIVE = Drive(
 
 
 def test_a_constant_velocity_joint_bends_both_shafts_alike():
-    found = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(bend=0.6),))), 100.0)
+    found = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(joint_angle=0.6),))), 100.0)
     assert found.high == pytest.approx([100.0, 100.0])
     assert found.bending == pytest.approx([100.0 * np.tan(0.3)] * 2)
     assert found.couple == pytest.approx([100.0 / np.cos(0.3)])
 
 
 def test_the_law_of_any_kind_gives_the_couples_of_a_cross():
-    bend, theta = np.asarray([0.5]), np.linspace(0.0, 6.0, 40)[None]
-    _bend, _twist, _start, laws = alike((Hooke(),), bend, np.zeros(0))
+    joint_angle, theta = np.asarray([0.5]), np.linspace(0.0, 6.0, 40)[None]
+    _joint_angle, _twist, _start, laws = alike((Hooke(),), joint_angle, np.zeros(0))
     ratio = np.cos(0.5) / (1.0 - (np.sin(0.5) * np.cos(theta)) ** 2)
     driving, driven = across(laws, theta, ratio)
     assert np.abs(driving - np.tan(0.5) * np.abs(np.sin(theta))).max() < 1e-14
@@ -50,16 +50,16 @@ def test_the_law_of_any_kind_gives_the_couples_of_a_cross():
 
 
 def test_couples_of_a_double_joint_work_on_no_motion_that_it_allows():
-    """The law differentiated by the bend numerically: the couple's power is nought on every allowed motion."""
+    """The law differentiated by the joint angle numerically: the couple's power is nought on every allowed motion."""
     joint, alpha = DoubleCardan(centring_ratio=0.4), 0.5
     theta = np.linspace(0.1, 3.0, 9)
 
-    def law(bend):
-        return theta + joint.deviation(theta, np.asarray(bend))[0]
+    def law(joint_angle):
+        return theta + joint.deviation(theta, np.asarray(joint_angle))[0]
 
     step = 1e-6
     swept = (law(alpha + step) - law(alpha - step)) / (2.0 * step)
-    _lead, ratio, _slope = joint.deviation(theta, np.asarray(alpha))
+    _angle_error, ratio, _slope = joint.deviation(theta, np.asarray(alpha))
     one = np.asarray([1.0, 0.0, 0.0])
     two = np.asarray([np.cos(alpha), np.sin(alpha), 0.0])
     normal = np.asarray([0.0, 0.0, 1.0])
@@ -78,11 +78,11 @@ def test_checks_of_crosses_say_that_they_were_not_run():
     assert ("yoke_strength", "joints[0]") not in unfit
     assert all("rzeppa" in one.unfit for one in found if one.unfit and one.subject == "joints[1]")
     assert all(one.state == "not_run" and not one.missing for one in found if one.unfit)
-    assert {one.check for one in found if one.unfit and not one.subject} == {"angle_rule", "bend_at_speed"}
+    assert {one.check for one in found if one.unfit and not one.subject} == {"angle_rule", "joint_angle_at_speed"}
 
 
 def test_own_bends_are_judged_not_those_that_turn_alike():
-    found = {one.subject: one for one in check(DRIVE, only=["bend"])}
+    found = {one.subject: one for one in check(DRIVE, only=["joint_angle"])}
     assert found["joints[1]"].value == pytest.approx(0.4)
     assert found["joints[1]"].state == "failed"
     torque = {one.subject: one for one in check(DRIVE, only=["joint_torque"])}["joints[1]"]
@@ -90,16 +90,16 @@ def test_own_bends_are_judged_not_those_that_turn_alike():
 
 
 def test_many_bends_are_judged_as_one_by_one():
-    bends = [5.0, 25.0, 40.0]
-    many = design(DRIVE, vary={"joints[2].bend_deg": bends})
-    for k, bend in enumerate(bends):
-        joint = replace(DRIVE.joints[2], bend=np.radians(bend))
+    joint_angles = [5.0, 25.0, 40.0]
+    many = design(DRIVE, vary={"joints[2].joint_angle_deg": joint_angles})
+    for k, joint_angle in enumerate(joint_angles):
+        joint = replace(DRIVE.joints[2], joint_angle=np.radians(joint_angle))
         one = design(replace(DRIVE, joints=(*DRIVE.joints[:2], joint)))
-        assert many.chain.bend[k] == pytest.approx(one.chain.bend)
+        assert many.chain.joint_angle[k] == pytest.approx(one.chain.joint_angle)
         assert many.cases[0].end_bending[k] == pytest.approx(one.cases[0].end_bending, rel=1e-6)
-    lots = design(DRIVE, vary={"joints[2].bend_deg": np.linspace(1.0, 40.0, 700)})
+    lots = design(DRIVE, vary={"joints[2].joint_angle_deg": np.linspace(1.0, 40.0, 700)})
     assert lots.cases[0].end_bending[[0, -1]] == pytest.approx(
-        design(DRIVE, vary={"joints[2].bend_deg": [1.0, 40.0]}).cases[0].end_bending, rel=1e-5
+        design(DRIVE, vary={"joints[2].joint_angle_deg": [1.0, 40.0]}).cases[0].end_bending, rel=1e-5
     )
 
 
@@ -109,10 +109,10 @@ def test_sizes_of_a_law_are_not_varied():
 
 
 def test_blocks_bend_other_kinds_too():
-    duty = Duty(blocks=(Block(torque=100.0, speed=50.0, share=1.0, bend=0.3),))
-    case = design(Drive(joints=(ConstantVelocity(bend=0.6), Hooke(bend=0.1))), duty).cases[-1]
-    assert case.bend == pytest.approx([0.3, 0.3])
-    assert case.chain.bend == pytest.approx([0.0, 0.3])
+    duty = Duty(blocks=(Block(torque=100.0, speed=50.0, share=1.0, joint_angle=0.3),))
+    case = design(Drive(joints=(ConstantVelocity(joint_angle=0.6), Hooke(joint_angle=0.1))), duty).cases[-1]
+    assert case.joint_angle == pytest.approx([0.3, 0.3])
+    assert case.chain.joint_angle == pytest.approx([0.0, 0.3])
 
 
 def test_strength_counts_what_other_kinds_put_on_shafts():
@@ -123,41 +123,45 @@ def test_strength_counts_what_other_kinds_put_on_shafts():
 
 
 def test_a_straight_joint_of_any_kind_bends_nothing():
-    for joint in (ConstantVelocity(bend=0.0), Tripod(bend=0.0), DoubleCardan(bend=0.0, centring_ratio=0.5)):
+    for joint in (
+        ConstantVelocity(joint_angle=0.0),
+        Tripod(joint_angle=0.0),
+        DoubleCardan(joint_angle=0.0, centring_ratio=0.5),
+    ):
         assert turn_loads(turning_chain(Drive(joints=(joint,))), 1.0).bending == pytest.approx([0.0, 0.0])
 
 
 PINS = replace(
     DRIVE,
-    joints=(Hooke(bend=0.2), PinCoupling(bend=0.3, driving_distance=0.05, driven_distance=0.052)),
+    joints=(Hooke(joint_angle=0.2), PinCoupling(joint_angle=0.3, driving_distance=0.05, driven_distance=0.052)),
     shafts=DRIVE.shafts[1:2],
-    limits=Limits(irregularity=0.05, output_error=0.02),
+    limits=Limits(speed_fluctuation=0.05, output_error=0.02),
 )
 
 
 def test_laws_of_their_own_are_judged_by_what_they_do_over_a_turn():
-    found = {one.check: one for one in check(PINS, only=["irregularity", "output_error", "acceleration"])}
+    found = {one.check: one for one in check(PINS, only=["speed_fluctuation", "output_error", "acceleration"])}
     course = motion(PINS, np.linspace(0.0, 2.0 * np.pi, 3601))
-    assert found["irregularity"].value == pytest.approx(np.ptp(course.ratio), rel=1e-5)
-    assert found["output_error"].value == pytest.approx(0.5 * np.ptp(course.lead[-1]), rel=1e-5)
+    assert found["speed_fluctuation"].value == pytest.approx(np.ptp(course.ratio), rel=1e-5)
+    assert found["output_error"].value == pytest.approx(0.5 * np.ptp(course.angle_error[-1]), rel=1e-5)
     assert "pin_coupling" in found["acceleration"].unfit
-    many = check(PINS, only=["irregularity"], vary={"joints[0].bend_deg": [5.0, 10.0]})
+    many = check(PINS, only=["speed_fluctuation"], vary={"joints[0].joint_angle_deg": [5.0, 10.0]})
     assert many[0].unfit
 
 
 def test_the_nearest_map_has_the_second_order_of_the_law():
     joint = PinCoupling(driving_distance=0.05, driven_distance=0.052)
     theta = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
-    for bend in (0.2, 0.4):
-        a, b = (float(np.real(part)) for part in joint.near_pair(np.asarray(bend)))
-        wave = np.fft.rfft(joint.deviation(theta, np.asarray(bend))[0])[2]
+    for joint_angle in (0.2, 0.4):
+        a, b = (float(np.real(part)) for part in joint.near_pair(np.asarray(joint_angle)))
+        wave = np.fft.rfft(joint.deviation(theta, np.asarray(joint_angle))[0])[2]
         assert -b / a == pytest.approx(-2.0 * wave.imag / 1000, abs=1e-12)
         assert a * a - b * b == pytest.approx(1.0)
     assert joint.near_pair(np.asarray([0.2, 0.4]))[0].shape == (2,)
 
 
 def test_loads_of_links_that_share_the_torque_are_those_of_an_even_joint():
-    even = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(bend=0.1),))), 1.0)
-    drive = Drive(joints=(ElasticHalfCardan(bend=0.1, pairs=3),))
+    even = turn_loads(turning_chain(Drive(joints=(ConstantVelocity(joint_angle=0.1),))), 1.0)
+    drive = Drive(joints=(ElasticHalfCardan(joint_angle=0.1, pairs=3),))
     shared = turn_loads(turning(given_chain(drive), drive.joints, near=True), 1.0)
     assert shared.bending == pytest.approx(even.bending, rel=1e-9)

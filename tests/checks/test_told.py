@@ -1,4 +1,4 @@
-"""What verdicts tell of the speed, the band and the bend that they were reached with."""
+"""What verdicts tell of the speed, the band and the joint angle that they were reached with."""
 
 import json
 from dataclasses import replace
@@ -39,7 +39,7 @@ def test_a_range_of_speeds_is_held_against_half_the_critical_speed_itself(top, v
     assert bool(one.note) == (value == "half")
 
 
-@pytest.mark.parametrize("name", ["bend_at_speed", "angle_table"])
+@pytest.mark.parametrize("name", ["joint_angle_at_speed", "angle_table"])
 def test_no_rule_allows_more_than_a_joint_can_bend(name):
     drive = Drive.from_angles([0.02, 0.02], yoke_angles=[0.0])
     slow, quick = (check(drive, Duty(speed=speed * rpm), only=[name])[0] for speed in (10.0, 3000.0))
@@ -90,7 +90,9 @@ def test_all_that_is_missing_is_named_at_once(name):
     if material:
         shaft["material"] = {f"{name}_MPa": 400 for name in sorted(material)}
     duty = {key: 300 for key in ("torque_Nm", "speed_rpm") if f"duty.{key.partition('_')[0]}" in lacking}
-    text = json.dumps({"format": 1, "joints": [{"bend_deg": 5}, {"bend_deg": 9}], "shafts": [shaft], "duty": duty})
+    text = json.dumps(
+        {"format": 1, "joints": [{"joint_angle_deg": 5}, {"joint_angle_deg": 9}], "shafts": [shaft], "duty": duty}
+    )
     assert len(lacking) == len(duty) + len(material) + ("outer_mm" in shaft) + ("length_mm" in shaft)
     assert all(one.run for one in check(loads(text, form="json"), only=[name]))
 

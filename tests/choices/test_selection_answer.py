@@ -14,7 +14,7 @@ from cardan.io import example
 from cardan.texts import speaking
 from cardan.units import deg, rpm
 
-NEED = Need(torque=700.0, bend=10 * deg, speed=900 * rpm)
+NEED = Need(torque=700.0, joint_angle=10 * deg, speed=900 * rpm)
 POUNDS = Reader(units={"torque": "lbft", "length": "in"}, decimal=",")
 
 
@@ -41,7 +41,7 @@ def test_every_type_and_size_is_told_in_the_units_of_the_reader():
 
 def test_a_drive_asks_for_the_largest_of_its_joints_or_for_one():
     drive = example("car-propshaft")
-    assert ask(drive).need.bend >= ask(drive, joint=1).need.bend
+    assert ask(drive).need.joint_angle >= ask(drive, joint=1).need.joint_angle
     assert lacking(Drive.from_angles([0.1])) == (("duty.torque",), ("duty.speed",))
 
 

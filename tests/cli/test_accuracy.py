@@ -38,14 +38,14 @@ def test_the_old_name_asks_it_too(cardan):
 
 
 def test_known_errors_alone_are_answered(cardan, drive_file):
-    text = "format = 1\n[[joints]]\nbend_deg = 20\nerror = { alpha2_arcmin = 2 }\n"
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 20\nerror = { alpha2_arcmin = 2 }\n"
     done = cardan("accuracy", drive_file(text))
     assert done.code == 0
     assert "known errors make an angle error of up to" in plain(done.out)
 
 
 def test_errors_that_keep_a_joint_from_closing_are_told(cardan, drive_file):
-    text = "format = 1\n[[joints]]\nbend_deg = 20\nerror = { alpha2_deg = 80 }\n"
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 20\nerror = { alpha2_deg = 80 }\n"
     done = cardan("accuracy", drive_file(text), "--json")
     assert (done.code, done.content["closes"]) == (0, False)
 
@@ -188,8 +188,8 @@ def test_a_figure_is_drawn(cardan, tmp_path, options):
 
 
 def test_errors_beyond_first_order_are_told_to_be_so(cardan, drive_file):
-    # sin α/(2 cos α) of the bend multiplies a minute of alpha2 by 3 000 at 89.99°.
-    text = "format = 1\n[[joints]]\nbend_deg = 89.99\ntolerance = { alpha2_arcmin = 1 }\n"
+    # sin α/(2 cos α) of the joint angle multiplies a minute of alpha2 by 3 000 at 89.99°.
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 89.99\ntolerance = { alpha2_arcmin = 1 }\n"
     out = plain(cardan("accuracy", drive_file(text)).out)
     assert "▲ Warning: errors this large are beyond first order" in out
     assert "beyond first order" not in cardan("accuracy", INSTRUMENT).out

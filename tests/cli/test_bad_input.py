@@ -15,17 +15,26 @@ POINTS = "input.point_mm = [-100, 0, 0]\noutput.point_mm = [300, 0, 40]\n"
 FILES = {
     "empty": ("", ["format"]),
     "not TOML": ("format = \n", ["is not TOML", "line 1"]),
-    "other format": ("format = 7\n[[joints]]\nbend_deg = 5\n", ["format", "7"]),
-    "unknown key": ("format = 1\n[[joints]]\nbend_degg = 5\n", ["joints[0].bend_degg", "bend_deg"]),
-    "key to be obeyed": ('format = 1\n"\\u001b[31mred" = 1\n[[joints]]\nbend_deg = 5\n', ["\\x1b[31mred: unknown key"]),
-    "name to be obeyed": ('format = 1\nname = "\\u001b[2J"\n[[joints]]\nbend_deg = 5\n', ["name: holds", "\\x1b"]),
-    "missing unit": ("format = 1\n[[joints]]\nbend = 5\n", ["joints[0].bend", "bend_deg"]),
-    "wrong dimension": ("format = 1\n[[joints]]\nbend_mm = 5\n", ["joints[0].bend_mm"]),
-    "not a number": ("format = 1\n[[joints]]\nbend_deg = nan\n", ["joints[0].bend", "nan"]),
-    "infinite": ("format = 1\n[[joints]]\nbend_deg = inf\n", ["joints[0].bend", "inf"]),
-    "a word": ('format = 1\n[[joints]]\nbend_deg = "steep"\n', ["joints[0].bend_deg", "steep"]),
-    "bend of 90": ("format = 1\n[[joints]]\nbend_deg = 90\n", ["joints[0].bend", "90°"]),
-    "negative bend": ("format = 1\n[[joints]]\nbend_deg = -1\n", ["joints[0].bend", "-1", "at least 0°"]),
+    "other format": ("format = 7\n[[joints]]\njoint_angle_deg = 5\n", ["format", "7"]),
+    "unknown key": (
+        "format = 1\n[[joints]]\njoint_angle_degg = 5\n",
+        ["joints[0].joint_angle_degg", "joint_angle_deg"],
+    ),
+    "key to be obeyed": (
+        'format = 1\n"\\u001b[31mred" = 1\n[[joints]]\njoint_angle_deg = 5\n',
+        ["\\x1b[31mred: unknown key"],
+    ),
+    "name to be obeyed": (
+        'format = 1\nname = "\\u001b[2J"\n[[joints]]\njoint_angle_deg = 5\n',
+        ["name: holds", "\\x1b"],
+    ),
+    "missing unit": ("format = 1\n[[joints]]\nbend = 5\n", ["joints[0].joint_angle", "joint_angle_deg"]),
+    "wrong dimension": ("format = 1\n[[joints]]\njoint_angle_mm = 5\n", ["joints[0].joint_angle_mm"]),
+    "not a number": ("format = 1\n[[joints]]\njoint_angle_deg = nan\n", ["joints[0].joint_angle", "nan"]),
+    "infinite": ("format = 1\n[[joints]]\njoint_angle_deg = inf\n", ["joints[0].joint_angle", "inf"]),
+    "a word": ('format = 1\n[[joints]]\njoint_angle_deg = "steep"\n', ["joints[0].joint_angle_deg", "steep"]),
+    "joint angle of 90": ("format = 1\n[[joints]]\njoint_angle_deg = 90\n", ["joints[0].joint_angle", "90°"]),
+    "negative bend": ("format = 1\n[[joints]]\njoint_angle_deg = -1\n", ["joints[0].joint_angle", "-1", "at least 0°"]),
     "no joint": ("format = 1\n", ["joints"]),
     "one shaft only": (
         "format = 1\ninput.point_mm = [0, 0, 0]\noutput.point_mm = [9, 0, 0]\njoints = []\n",
@@ -41,10 +50,10 @@ FILES = {
         ["output.point"],
     ),
     "teeth not whole": (
-        f"format = 1\n{JOINT}bend_deg=5\n{JOINT}bend_deg=5\n[[shafts]]\nnumber=2\nspline.teeth = 1.5\n",
+        f"format = 1\n{JOINT}joint_angle_deg=5\n{JOINT}joint_angle_deg=5\n[[shafts]]\nnumber=2\nspline.teeth = 1.5\n",
         ["teeth", "1.5"],
     ),
-    "10,000 joints": ("format = 1\n" + f"{JOINT}bend_deg = 5\n" * 10_000, ["10000", "1000"]),
+    "10,000 joints": ("format = 1\n" + f"{JOINT}joint_angle_deg = 5\n" * 10_000, ["10000", "1000"]),
 }
 
 
@@ -68,8 +77,15 @@ def test_a_bad_drive_file_is_refused_by_every_command(cardan, drive_file, tmp_pa
 
 
 def test_all_problems_come_at_once(cardan, drive_file):
-    path = drive_file("format = 1\ncolour = 1\n[[joints]]\nbend = 5\n[[joints]]\nbend_deg = 95\nsize = 3\n")
-    refused(cardan("motion", path), "4 problems", "colour", "joints[0].bend", "joints[1].bend", "joints[1].size")
+    path = drive_file("format = 1\ncolour = 1\n[[joints]]\nbend = 5\n[[joints]]\njoint_angle_deg = 95\nsize = 3\n")
+    refused(
+        cardan("motion", path),
+        "4 problems",
+        "colour",
+        "joints[0].joint_angle",
+        "joints[1].joint_angle",
+        "joints[1].size",
+    )
     complaint = cardan("motion", path, "--json").complaint
     assert len(complaint["problems"]) == 4
     assert complaint["file"] == str(path)
@@ -183,7 +199,10 @@ def test_a_full_disk_leaves_nothing_behind(cardan, tmp_path, monkeypatch, comman
         (("calc", "chain", "alpha_deg"), ["alpha_deg=20"]),
         (("calc", "chain", "=3"), ["alpha_deg=20"]),
         (("calc", "single_joint", "alpha_deg=1", "alpha_deg=2"), ["twice"]),
-        (("calc", "single_joint", "alpha_deg=90", "bend=2"), ["3 problems", "alpha_deg", "bend", "phi1_deg"]),
+        (
+            ("calc", "single_joint", "alpha_deg=90", "joint_angle=2"),
+            ["3 problems", "alpha_deg", "joint_angle", "phi1_deg"],
+        ),
         (("calc", "single_joint", "alpha_deg=NaN", "phi1_deg=Infinity"), ["not finite"]),
         (("calc", "single_joint", "--input", "missing.json"), ["missing.json", "no such file"]),
         (("calc", "single_joint", "--input", TRUCK), ["is not JSON"]),

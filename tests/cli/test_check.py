@@ -54,9 +54,9 @@ def test_a_drive_that_fails_says_so_with_a_sign_a_word_and_code_1(cardan, car):
 
 def test_keys_that_checks_need_are_told_when_asked_for(cardan, car):
     brief, done = cardan("check", car), cardan("check", car, "--missing")
-    assert "limits.irregularity_percent" not in brief.out
+    assert "limits.speed_fluctuation_percent" not in brief.out
     assert "checks not run" in brief.out
-    assert "limits.irregularity_percent" in done.out
+    assert "limits.speed_fluctuation_percent" in done.out
     assert widest(done.out) <= 80
 
 
@@ -81,11 +81,11 @@ def test_json_holds_what_the_library_found(cardan, car):
 @pytest.mark.slow
 def test_a_remedy_written_into_the_file_makes_its_check_pass(cardan, car, drive_file):
     remedies = cardan("check", car, "--json").content["remedies"]
-    assert len({cure["title"] for cure in remedies}) > 2
-    for cure in remedies[::3]:
-        better = drive_file(edit(CAR, {cure["path"]: cure["value"]}), "better.toml")
-        rows = cardan("check", better, "--only", cure["check"], "--json").content["verdicts"]
-        assert next(row["state"] for row in rows if row["title"] == cure["title"]) in ("passed", "close")
+    assert len({remedy["title"] for remedy in remedies}) > 2
+    for remedy in remedies[::3]:
+        better = drive_file(edit(CAR, {remedy["path"]: remedy["value"]}), "better.toml")
+        rows = cardan("check", better, "--only", remedy["check"], "--json").content["verdicts"]
+        assert next(row["state"] for row in rows if row["title"] == remedy["title"]) in ("passed", "close")
 
 
 def test_a_drive_that_passes_ends_with_code_0(cardan, drive_file):
@@ -96,9 +96,9 @@ def test_a_drive_that_passes_ends_with_code_0(cardan, drive_file):
     assert "Corrective changes" not in done.out
 
 
-@pytest.mark.parametrize(("bend", "said"), [(20, "the only check failed"), (2, "the only check passed")])
-def test_a_single_check_is_not_counted(cardan, drive_file, bend, said):
-    path = drive_file(f"format = 1\n[[joints]]\nbend_deg = {bend}\n[duty]\nspeed_rpm = 1500\n")
+@pytest.mark.parametrize(("joint_angle", "said"), [(20, "the only check failed"), (2, "the only check passed")])
+def test_a_single_check_is_not_counted(cardan, drive_file, joint_angle, said):
+    path = drive_file(f"format = 1\n[[joints]]\njoint_angle_deg = {joint_angle}\n[duty]\nspeed_rpm = 1500\n")
     assert said in plain(cardan("check", path).out)
 
 
@@ -112,8 +112,8 @@ def test_csv_is_one_row_a_verdict(cardan, car):
 
 
 def test_only_some_checks(cardan, car):
-    said = cardan("check", car, "--only", "twist", "--only", "bend", "--json").content
-    assert {row["check"] for row in said["verdicts"]} == {"twist", "bend"}
+    said = cardan("check", car, "--only", "twist", "--only", "joint_angle", "--json").content
+    assert {row["check"] for row in said["verdicts"]} == {"twist", "joint_angle"}
     done = cardan("check", car, "--only", "twits")
     assert done.code == 2
     assert "the nearest is twist" in done.err
@@ -144,12 +144,12 @@ id = "own-80"
 type = "medium"
 cross = { span_mm = 60, journal_mm = 20, journal_length_mm = 18, material = "20Kh" }
 needles = { count = 28, diameter_mm = 2.5, length_mm = 14, capacity_N = 24000, static_capacity_N = 40000 }
-rating = { torque_Nm = 1400, max_torque_Nm = 2400, max_bend_deg = 30, max_speed_rpm = 5000 }
+rating = { torque_Nm = 1400, max_torque_Nm = 2400, max_joint_angle_deg = 30, max_speed_rpm = 5000 }
 source = "a test"
 """
     rows = drive_file(own, "own.toml")
     remedies = cardan("check", drive_file(CAR), "--catalogue", rows, "--json").content["remedies"]
-    assert "own-80" in {cure["value"] for cure in remedies}
+    assert "own-80" in {remedy["value"] for remedy in remedies}
     taken = drive_file(CAR.replace("example-75", "own-80"))
     assert cardan("check", taken).code == 2
     assert cardan("check", taken, "--catalogue", rows, "--only", "rated_torque").code == 0

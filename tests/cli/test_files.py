@@ -22,7 +22,7 @@ def test_a_report_is_one_file_named_after_the_drive_file(cardan, tmp_path):
     assert done.code == 0
     text = (tmp_path / "truck-printed-angles.html").read_text()
     assert "truck power unit" in text
-    assert html.escape("bend_arcmin = 920").strip() in text
+    assert html.escape("joint_angle_arcmin = 920").strip() in text
     assert [path.name for path in tmp_path.iterdir()] == ["truck-printed-angles.html"]
 
 
@@ -93,7 +93,7 @@ def test_a_drive_moves_alike_in_every_form(cardan, tmp_path, form, suffix):
     assert cardan("convert", source, f"out{suffix}", "--form", form).code == 0
     moved = files.load(tmp_path / f"out{suffix}")
     assert moved.form == form
-    before, after = (float(equivalent_joint(drive).irregularity) for drive in (files.load(source), moved))
+    before, after = (float(equivalent_joint(drive).speed_fluctuation) for drive in (files.load(source), moved))
     assert after == pytest.approx(before, rel=1e-12)
 
 

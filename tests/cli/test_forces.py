@@ -97,7 +97,7 @@ def test_torque_speed_and_angles_of_the_command_line_count(cardan):
 
 def test_one_joint_against_its_closed_form(cardan, drive_file):
     """Torque T/i with i from cos α to 1/cos α; couples T tan α on the input and T sin α on the output at most."""
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 20\n[duty]\ntorque_Nm = 100\n")
+    path = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 20\n[duty]\ntorque_Nm = 100\n")
     first, second = cardan("forces", path, "--json").content["shafts"]
     assert first["torque_min_Nm"] == pytest.approx(100 * np.cos(20 * deg), rel=1e-9)
     assert first["torque_max_Nm"] == pytest.approx(100 / np.cos(20 * deg), rel=1e-9)
@@ -111,7 +111,7 @@ def test_one_joint_against_its_closed_form(cardan, drive_file):
 
 
 def test_torque_at_the_input_tells_that_of_the_output(cardan, drive_file):
-    text = "format = 1\n[[joints]]\nbend_deg = 20\n[duty]\ntorque_Nm = 100\ntorque_at = 'input'\n"
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 20\n[duty]\ntorque_Nm = 100\ntorque_at = 'input'\n"
     out = plain(cardan("forces", drive_file(text)).out)
     assert "100.0 N·m at the input meet 93.97 to 106.4 N·m at the output" in out
 

@@ -12,7 +12,7 @@ from cardan.units import deg, mm
 from tests.cli.test_forces import plain, widest
 
 DOUBLE = ("double_cardan", "centring_ratio=0.5")
-SEVERAL = ("hooke", *DOUBLE, "tracta", "driving_distance_mm=20", "driven_distance_mm=21", "--bend-deg", 25)
+SEVERAL = ("hooke", *DOUBLE, "tracta", "driving_distance_mm=20", "driven_distance_mm=21", "--joint-angle-deg", 25)
 
 
 @pytest.mark.parametrize("words", [(), DOUBLE, (*SEVERAL, "--speed-rpm", 1000), ("weiss", "--speed-rpm", 900)])
@@ -40,13 +40,13 @@ def test_numbers_are_read_as_people_write_them(cardan, number):
 
 
 def test_json_is_the_law(cardan):
-    said = cardan("joint", *DOUBLE, "--bend-deg", 30, "--speed-rpm", 600, "--json").content
+    said = cardan("joint", *DOUBLE, "--joint-angle-deg", 30, "--speed-rpm", 600, "--json").content
     (one,) = said["joints"]
     found = joint_turn(DoubleCardan(centring_ratio=0.5), 30 * deg)
     np.testing.assert_allclose(one["turn"]["ratio"], found.ratio, rtol=1e-14)
     assert one["angle_error_deg"] == pytest.approx(found.error / deg)
     assert one["acceleration_rad_s2"] == pytest.approx(found.acceleration * (20 * np.pi) ** 2)
-    assert one["inside"]["driving_bend_deg"] + one["inside"]["driven_bend_deg"] == pytest.approx(30)
+    assert one["inside"]["driving_joint_angle_deg"] + one["inside"]["driven_joint_angle_deg"] == pytest.approx(30)
     assert one["types"] == ["double_centred", "double_frame"]
     assert one["sizes"] == {"centring_ratio": 0.5}
 
@@ -61,7 +61,7 @@ def test_csv_holds_the_curves_of_all(cardan):
 def test_tables_within_keys_are_read(cardan):
     words = [f"driving.{key}" for key in ("axial_mm=60", "radial_mm=10", "radius_mm=75")]
     words += [f"driven.{key}" for key in ("axial_mm=62", "radial_mm=11", "radius_mm=74")]
-    said = cardan("joint", "clemens", *words, "--bend-deg", 30, "--json").content
+    said = cardan("joint", "clemens", *words, "--joint-angle-deg", 30, "--json").content
     arms = [Profile(axial=h * mm, radial=r * mm, radius=rho * mm) for h, r, rho in ((60, 10, 75), (62, 11, 74))]
     found = joint_turn(Clemens(driving=arms[0], driven=arms[1]), 30 * deg)
     assert said["joints"][0]["angle_error_deg"] == pytest.approx(found.error / deg)
@@ -73,10 +73,10 @@ def test_joints_of_one_kind_are_told_apart(cardan):
 
 
 def test_bends_and_speeds_beyond_what_is_built_are_told(cardan):
-    out = plain(cardan("joint", "tripod", "track_radius_mm=20", "--bend-deg", 40).out)
+    out = plain(cardan("joint", "tripod", "track_radius_mm=20", "--joint-angle-deg", 40).out)
     assert "real joints of this kind work to 26.0° only" in out
     assert "✖ joint angle too large" in out
-    out = plain(cardan("joint", "weiss", "--bend-deg", 30, "--speed-rpm", 1500).out)
+    out = plain(cardan("joint", "weiss", "--joint-angle-deg", 30, "--speed-rpm", 1500).out)
     assert "✖ too fast at this joint angle" in out
 
 
@@ -91,10 +91,13 @@ def test_bends_and_speeds_beyond_what_is_built_are_told(cardan):
         (("rzeppa", "lever_b=0.35"), "rzeppa.lever_c: missing"),
         (("tripod", "track_radius=20"), "tripod.track_radius"),
         (("double_cardan", "centring_ratio=2"), "double_cardan.centring_ratio"),
-        (("hooke", "bend_deg=20"), "hooke.bend_deg: means nothing for a joint by itself"),
-        (("hooke", "--bend-deg", 90), "--bend-deg: 90° is not at least 0° and below 90°"),
-        (("hooke", "--bend-deg", "nan"), "--bend-deg: nan is not a finite number"),
-        (("pin_coupling", "driving_slant_deg=10", "--bend-deg", 45), "--bend-deg: a joint of kind pin_coupling"),
+        (("hooke", "joint_angle_deg=20"), "hooke.joint_angle_deg: means nothing for a joint by itself"),
+        (("hooke", "--joint-angle-deg", 90), "--joint-angle-deg: 90° is not at least 0° and below 90°"),
+        (("hooke", "--joint-angle-deg", "nan"), "--joint-angle-deg: nan is not a finite number"),
+        (
+            ("pin_coupling", "driving_slant_deg=10", "--joint-angle-deg", 45),
+            "--joint-angle-deg: a joint of kind pin_coupling",
+        ),
     ],
 )
 def test_what_is_refused_is_named(cardan, words, said):

@@ -124,12 +124,12 @@ def test_errors_speak_the_language(cardan, arguments, said):
 
 
 def test_all_problems_of_a_file_speak_the_language(cardan, drive_file):
-    path = drive_file('format = 1\ncolour = 3\n[[joints]]\nkind = "hooke"\nbend_deg = 95\n')
+    path = drive_file('format = 1\ncolour = 3\n[[joints]]\nkind = "hooke"\njoint_angle_deg = 95\n')
     done = cardan("check", path, "--lang", "ru", "--json")
     problems = json.loads(done.err)["error"]["problems"]
     assert len(problems) == 2
     assert all(CYRILLIC.search(one["message"]) for one in problems)
-    assert not any(LATIN_WORD.search(one["message"]) for one in problems if "bend" in one["field"])
+    assert not any(LATIN_WORD.search(one["message"]) for one in problems if "joint_angle" in one["field"])
 
 
 def test_numbers_and_keys_are_the_same_in_every_language(cardan):

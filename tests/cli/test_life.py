@@ -15,10 +15,10 @@ TEXT = """format = 1
 name = "truck"
 [[joints]]
 name = "gearbox"
-bend_deg = 7
+joint_angle_deg = 7
 size = "example-90"
 [[joints]]
-bend_deg = 4
+joint_angle_deg = 4
 size = "example-90"
 [duty]
 """
@@ -120,14 +120,14 @@ def test_what_cannot_be_asked_is_refused(cardan, cycle, options, text):
 
 
 def test_what_misses_is_named_by_its_key(cardan, drive_file):
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 5\n[duty]\n" + STEADY)
+    path = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 5\n[duty]\n" + STEADY)
     said = cardan("life", path, "--json").complaint
     named = [(one["field"], one["code"]) for one in said["problems"]]
     assert named == [("joints[0].cross.span_mm", "missing"), ("joints[0].needles.capacity_N", "missing")]
 
 
 def test_joints_without_figures_are_left_out_in_words(cardan, drive_file):
-    bare = TEXT.replace('bend_deg = 4\nsize = "example-90"\n', "bend_deg = 4\n")
+    bare = TEXT.replace('joint_angle_deg = 4\nsize = "example-90"\n', "joint_angle_deg = 4\n")
     done = cardan("life", drive_file(bare + STEADY))
     assert done.code == 0
     assert "the file lacks joints[1].cross.span_mm, joints[1].needles.capacity_N" in plain(done.out)

@@ -98,7 +98,7 @@ def test_a_drive_without_friction_is_told_every_key(cardan):
 
 
 def test_a_span_is_asked_for_with_its_unit(cardan, drive_file):
-    text = "format = 1\n[[joints]]\nbend_deg = 20\nfriction = 0.1\n[duty]\ntorque_Nm = 1\n"
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 20\nfriction = 0.1\n[duty]\ntorque_Nm = 1\n"
     done = cardan("losses", drive_file(text), "--json")
     fields = [problem["field"] for problem in done.complaint["problems"]]
     assert {"duty.speed_rpm", "joints[0].cross.span_mm"} <= set(fields)

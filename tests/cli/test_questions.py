@@ -45,7 +45,7 @@ def test_motion_as_json_is_the_motion(cardan, path):
     said = cardan("motion", path, "--json").content
     found = motion(drive)
     share = 0.01 * said["speed_fluctuation_percent"]
-    assert share == pytest.approx(float(equivalent_joint(drive).irregularity), rel=1e-12, abs=1e-15)
+    assert share == pytest.approx(float(equivalent_joint(drive).speed_fluctuation), rel=1e-12, abs=1e-15)
     np.testing.assert_allclose(np.asarray(said["motion"]["angle_deg"]) * deg, found.angle, **ROUND)
     for k in range(2, len(drive.shafts) + 1):
         np.testing.assert_allclose(said["motion"][f"shaft_{k}_ratio"], found.shaft_ratio[k - 1], **ROUND)
@@ -68,7 +68,7 @@ def test_angles_and_speed_of_the_command_line_count(cardan):
 
 
 def test_without_a_speed_acceleration_is_over_its_square(cardan, drive_file):
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 20\n")
+    path = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 20\n")
     done = cardan("motion", path)
     assert "ω₁²" in done.out
     assert "rad/s²" not in done.out.replace("accelerations in rad/s²", "")
@@ -141,7 +141,7 @@ def test_the_older_name_of_the_command_still_answers(cardan):
 
 
 def test_an_infeasible_drive_is_told_its_bound_and_its_joint(cardan, drive_file):
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 10\n[[joints]]\nbend_deg = 25\n[[joints]]\nbend_deg = 12\n")
+    path = drive_file("format = 1\n" + "".join(f"[[joints]]\njoint_angle_deg = {angle}\n" for angle in (10, 25, 12)))
     done = cardan("phasing", path)
     assert done.code == 0
     said = cardan("phasing", path, "--json").content
@@ -155,8 +155,8 @@ def test_an_infeasible_drive_is_told_its_bound_and_its_joint(cardan, drive_file)
 
 
 def test_a_joint_that_bends_a_little_too_much_is_told_so(cardan, drive_file):
-    """Two joints: the bend that closes is that of the other one."""
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 20.1\n[[joints]]\nbend_deg = 20\n")
+    """Two joints: the joint angle that closes is that of the other one."""
+    path = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 20.1\n[[joints]]\njoint_angle_deg = 20\n")
     said = " ".join(cardan("phasing", path).out.split())
     assert "The angle of joint 1 is a little too large for the other one: at 20.00° instead of 20.10°" in said
     assert "▲" not in said
@@ -202,14 +202,14 @@ def test_applying_a_setting_keeps_the_comments_and_makes_it_even(cardan, tmp_pat
         if "#" in line:
             assert line in text
     even = files.load(tmp_path / "better.toml")
-    assert float(equivalent_joint(even).irregularity) < 1e-13
+    assert float(equivalent_joint(even).speed_fluctuation) < 1e-13
     assert [round(shaft.yoke_angle / deg, 2) for shaft in even.shafts[1:-1]] == [90.0, 46.2, -2.81]
     assert "exactly uniformly" in " ".join(cardan("motion", "better.toml").out.split())
 
 
 def test_applying_to_json_and_from_standard_input(cardan, tmp_path, monkeypatch):
     assert cardan("phasing", TRUCK, "-o", "better.json").code == 0
-    assert float(equivalent_joint(files.load(tmp_path / "better.json")).irregularity) < 1e-13
+    assert float(equivalent_joint(files.load(tmp_path / "better.json")).speed_fluctuation) < 1e-13
     monkeypatch.setattr("sys.stdin", io.StringIO((tmp_path / "better.json").read_text()))
     assert cardan("phasing", "-", "--json").content["speed_fluctuation_as_specified_percent"] < 1e-11
 
@@ -217,7 +217,7 @@ def test_applying_to_json_and_from_standard_input(cardan, tmp_path, monkeypatch)
 def test_applying_over_the_file_itself(cardan, drive_file):
     path = drive_file(TRUCK.read_text())
     assert cardan("phasing", path, "-o", path).code == 0
-    assert float(equivalent_joint(files.load(path)).irregularity) < 1e-13
+    assert float(equivalent_joint(files.load(path)).speed_fluctuation) < 1e-13
 
 
 def test_applying_over_another_file_needs_force(cardan, tmp_path):
@@ -228,7 +228,7 @@ def test_applying_over_another_file_needs_force(cardan, tmp_path):
     assert done.complaint["problems"] == [{"field": "--out", "message": "other.toml exists; --force overwrites it"}]
     assert other.read_text() == "kept"
     assert cardan("phasing", TRUCK, "-o", "other.toml", "--force").code == 0
-    assert float(equivalent_joint(files.load(other)).irregularity) < 1e-13
+    assert float(equivalent_joint(files.load(other)).speed_fluctuation) < 1e-13
 
 
 def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
@@ -239,7 +239,7 @@ def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
     said = cardan("phasing", path, "--layout", "-o", "moved.toml", "--json").content
     assert max(said["joint_angle_deg"]) < max(said["joint_angle_before_deg"])
     moved = files.load(tmp_path / "moved.toml")
-    assert float(equivalent_joint(moved).irregularity) < 1e-12
+    assert float(equivalent_joint(moved).speed_fluctuation) < 1e-12
     np.testing.assert_allclose(moved.joints[2].centre, np.asarray(said["points_mm"][3]) * mm, rtol=1e-12)
     assert "# free to move" in (tmp_path / "moved.toml").read_text()
     done = cardan("phasing", path, "--layout", "--fix", "2=90")
@@ -248,7 +248,7 @@ def test_layout_moves_a_joint_within_its_box(cardan, drive_file, tmp_path):
 
 
 def test_settings_of_many_shafts_run_downwards(cardan, drive_file):
-    path = drive_file("format = 1\n" + "[[joints]]\nbend_deg = 9\n" * 13)
+    path = drive_file("format = 1\n" + "[[joints]]\njoint_angle_deg = 9\n" * 13)
     out = cardan("phasing", path).out
     assert widest(out) <= 80
     assert "yoke of shaft" in out
@@ -306,12 +306,12 @@ def test_figures_are_drawn(cardan, tmp_path, question, suffix):
 
 
 def test_a_steep_joint_is_warned_of(cardan, drive_file):
-    done = cardan("motion", drive_file("format = 1\n[[joints]]\nbend_deg = 50\n"))
+    done = cardan("motion", drive_file("format = 1\n[[joints]]\njoint_angle_deg = 50\n"))
     assert done.code == 0
     assert "Warning: joint 1 has a joint angle of 50.0°" in " ".join(done.out.split())
 
 
 def test_a_name_of_any_length_fits(cardan, drive_file):
-    path = drive_file(f'format = 1\nname = "{"long " * 60}"\n[[joints]]\nbend_deg = 5\nname = "{"x" * 200}"\n')
+    path = drive_file(f'format = 1\nname = "{"long " * 60}"\n[[joints]]\njoint_angle_deg = 5\nname = "{"x" * 200}"\n')
     for question in ("motion", "phasing"):
         assert widest(cardan(question, path).out) <= 80

@@ -22,13 +22,15 @@ def test_all_faults_are_listed(cardan):
 
 
 def test_what_should_show_is_that_of_the_library(cardan):
-    said = cardan("simulate-fault", DRIVE, "bends", "--severity", 1.5, "--json").content
-    found = expected_orders(load(DRIVE), "bends", severity=1.5)
+    said = cardan("simulate-fault", DRIVE, "joint_angles", "--severity", 1.5, "--json").content
+    found = expected_orders(load(DRIVE), "joint_angles", severity=1.5)
     assert [one["order"] for one in said["orders"]] == [one.order for one in found.orders]
     sizes = [abs(complex(found.value(one, found.speed[1], found.reference))) for one in found.orders]
     keys = ["amplitude_rad_s" if one.direction == "torsion" else "amplitude_m_s2" for one in found.orders]
     assert [one[key] for one, key in zip(said["orders"], keys, strict=True)] == pytest.approx(sizes)
-    rows = list(csv.DictReader(io.StringIO(cardan("simulate-fault", DRIVE, "bends", "--severity", 1.5, "--csv").out)))
+    rows = list(
+        csv.DictReader(io.StringIO(cardan("simulate-fault", DRIVE, "joint_angles", "--severity", 1.5, "--csv").out))
+    )
     assert len(rows) == len(found.orders)
     parts = [float(one["amplitude_m_s2"] or one["speed_amplitude_rad_s"]) for one in rows]
     assert parts == pytest.approx(sizes)

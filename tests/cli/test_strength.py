@@ -22,11 +22,11 @@ DRIVE = """format = 1
 name = "winch"
 
 [[joints]]
-bend_deg = 14  # as built
+joint_angle_deg = 14  # as built
 size = "example-90"
 
 [[joints]]
-bend_deg = 14
+joint_angle_deg = 14
 size = "example-90"
 
 [[shafts]]
@@ -50,7 +50,7 @@ source = "my maker, catalogue of 2024"
 type = "medium"
 cross = { span_mm = 60, journal_mm = 19, bending_arm_mm = 9, material = "20Kh" }
 needles = { capacity_N = 60000, static_capacity_N = 40000 }
-rating = { max_torque_Nm = 2500, max_bend_deg = 30, max_speed_rpm = 5000, outer_mm = 60 }
+rating = { max_torque_Nm = 2500, max_joint_angle_deg = 30, max_speed_rpm = 5000, outer_mm = 60 }
 """
 
 
@@ -147,7 +147,7 @@ def test_what_cannot_be_sized_is_refused(cardan, winch, arguments, words):
 
 
 def test_no_torque_is_named_with_its_option(cardan, drive_file):
-    bare = drive_file("format = 1\n[[joints]]\nbend_deg = 10\n")
+    bare = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 10\n")
     assert "--torque-Nm" in cardan("strength", bare).err
     done = cardan("strength", bare, "--torque-Nm", 10)
     assert done.code == 0
@@ -157,7 +157,16 @@ def test_no_torque_is_named_with_its_option(cardan, drive_file):
 def test_options_and_file_ask_for_the_same(cardan, winch):
     """Two joints of 14°, yokes in one plane: the middle shaft carries 500/cos 14°."""
     said = cardan("select", winch, "--json").content
-    same = ["--torque-Nm", said["need"]["torque_Nm"], "--bend-deg", 14, "--speed-rpm", 1500, "--service-factor", 1.2]
+    same = [
+        "--torque-Nm",
+        said["need"]["torque_Nm"],
+        "--joint-angle-deg",
+        14,
+        "--speed-rpm",
+        1500,
+        "--service-factor",
+        1.2,
+    ]
     own = cardan("select", *same, "--outer-mm", 90, "--json").content
     assert own["types"] == said["types"]
     assert own["need"] == pytest.approx(said["need"])
@@ -165,9 +174,9 @@ def test_options_and_file_ask_for_the_same(cardan, winch):
 
 def test_every_reason_says_its_limit_and_source(cardan):
     said = cardan(
-        "select", "--torque-Nm", 700, "--bend-deg", 30, "--speed-rpm", 2000, "--synchronous", "--json"
+        "select", "--torque-Nm", 700, "--joint-angle-deg", 30, "--speed-rpm", 2000, "--synchronous", "--json"
     ).content
-    found = select_joint(Need(torque=700.0, bend=30 * deg, speed=2000 * rpm, synchronous=True))
+    found = select_joint(Need(torque=700.0, joint_angle=30 * deg, speed=2000 * rpm, synchronous=True))
     assert [row["type"] for row in said["types"]] == [one.row.id for one in found]
     for row, one in zip(said["types"], found, strict=True):
         assert [reason["code"] for reason in row["reasons"]] == [*one.causes, *one.flags]
@@ -179,12 +188,14 @@ def test_every_reason_says_its_limit_and_source(cardan):
 
 
 def test_a_need_that_cannot_be_names_its_options(cardan):
-    done = cardan("select", "--torque-Nm", -1, "--bend-deg", 95, "--speed-rpm", 10)
+    done = cardan("select", "--torque-Nm", -1, "--joint-angle-deg", 95, "--speed-rpm", 10)
     assert done.code == 2
     assert "--torque-Nm: -1 given" in done.err
-    assert "--bend-deg: 95 given" in done.err
+    assert "--joint-angle-deg: 95 given" in done.err
     assert cardan("select", "--torque-Nm", 5).code == 2
-    assert "--bend-deg: nan" in cardan("select", "--torque-Nm", 5, "--speed-rpm", 2, "--bend-deg", "nan").err
+    assert (
+        "--joint-angle-deg: nan" in cardan("select", "--torque-Nm", 5, "--speed-rpm", 2, "--joint-angle-deg", "nan").err
+    )
 
 
 def test_the_need_of_one_joint(cardan, winch):

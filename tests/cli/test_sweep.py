@@ -13,9 +13,9 @@ PLAN = EXAMPLES / "sweeps" / "truck-suspension.toml"
 SMALL = """
 format = 1
 drive = "DRIVE"
-ask = ["irregularity", "alpha_eq"]
+ask = ["speed_fluctuation", "alpha_eq"]
 [[vary]]
-key = "joints[0].bend_deg"
+key = "joints[0].joint_angle_deg"
 values = [10, 20, 95]
 """
 
@@ -31,7 +31,7 @@ def test_a_plan_tells_what_was_asked_of_all_points(cardan):
     done = cardan("sweep", PLAN)
     assert done.code == 0
     assert done.out.startswith("suspension travel of a truck: all 1\u202f056 points are answered.")
-    assert "argmax irregularity" in done.out
+    assert "argmax speed fluctuation" in done.out
     assert "--into truck-suspension" in done.out
 
 
@@ -39,7 +39,7 @@ def test_without_reductions_the_first_rows_are_shown(cardan, small):
     done = cardan("sweep", small)
     assert done.code == 0
     assert "of 3 points 2 are answered" in done.out
-    assert "1 point makes no drive, row 2: joints[0].bend_deg" in " ".join(done.out.split())
+    assert "1 point makes no drive, row 2: joints[0].joint_angle_deg" in " ".join(done.out.split())
     assert "16.119" not in done.out
     assert "20.000" in done.out
 
@@ -50,7 +50,7 @@ def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
     assert content["table"]["status"] == [0, 0, 1]
     assert content["table"]["alpha_eq_deg"][:2] == pytest.approx([10.0, 20.0])
     assert content["reductions"]["points"]["no_drive"] == 1
-    assert content["provenance"]["drive"]["joints"][0]["bend_deg"] == 20
+    assert content["provenance"]["drive"]["joints"][0]["joint_angle_deg"] == 20
 
 
 def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monkeypatch):
@@ -62,7 +62,7 @@ def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monke
 
 def test_csv_holds_every_row(cardan, small):
     rows = list(csv.DictReader(io.StringIO(cardan("sweep", small, "--csv").out)))
-    assert [float(row["joints[0].bend_deg"]) for row in rows] == [10, 20, 95]
+    assert [float(row["joints[0].joint_angle_deg"]) for row in rows] == [10, 20, 95]
     assert rows[2]["status"] == "1"
 
 

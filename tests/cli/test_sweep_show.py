@@ -12,7 +12,7 @@ from tests.batch.tables import SIZE, stored, whole
 from tests.cli.test_forces import plain, widest
 
 TABLE = whole()
-GOALS = ("--pareto", "min irregularity", "--pareto", "min bend_deg[1]")
+GOALS = ("--pareto", "min speed_fluctuation", "--pareto", "min joint_angle_deg[1]")
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def show(cardan, folder, *options):
 
 
 @pytest.mark.parametrize(
-    "options", [(), ("--best", "min irregularity"), GOALS, ("--query", "SELECT count(*) AS n FROM sweep")]
+    "options", [(), ("--best", "min speed_fluctuation"), GOALS, ("--query", "SELECT count(*) AS n FROM sweep")]
 )
 def test_the_answer_stands_within_80_columns(cardan, folder, options):
     done = show(cardan, folder, *options)
@@ -37,21 +37,30 @@ def test_the_answer_stands_within_80_columns(cardan, folder, options):
 
 def test_the_table_is_told_by_its_spans(cardan, folder):
     done = show(cardan, folder)
-    assert "travel: 210 points; irregularity of the output lies between 0.001000 and" in done.out
+    assert "travel: 210 points; speed fluctuation of the output lies between 0.001000 and" in done.out
     said = show(cardan, folder, "--json").content
     assert said["count"] == SIZE
-    assert said["spans"]["irregularity"]["most"] == np.nanmax(TABLE["irregularity"])
+    assert said["spans"]["speed_fluctuation"]["most"] == np.nanmax(TABLE["speed_fluctuation"])
     assert said["provenance"]["seed"] == 3
-    assert said["columns"][4] == {"name": "bend_deg[1]", "unit": "deg", "role": "answer", "text": "bend of a joint"}
+    assert said["columns"][4] == {
+        "name": "joint_angle_deg[1]",
+        "unit": "deg",
+        "role": "answer",
+        "text": "joint angle of a joint",
+    }
 
 
 def test_the_best_points(cardan, folder):
-    said = show(cardan, folder, "--best", "max bend_deg[1]", "--limit", "irregularity <= 0.0075", "--json").content
+    said = show(
+        cardan, folder, "--best", "max joint_angle_deg[1]", "--limit", "speed_fluctuation <= 0.0075", "--json"
+    ).content
     assert said["count"] == 12
-    assert said["rows"]["bend_deg[1]"][0] == 16.0
-    done = show(cardan, folder, "--best", "max bend_deg[1]", "--where", "joints[1].centre_mm[2] > 0", "--count", "2")
-    assert "has bend_deg[1] 11.50°" in done.out
-    none = show(cardan, folder, "--best", "min irregularity", "--limit", "irregularity <= 0")
+    assert said["rows"]["joint_angle_deg[1]"][0] == 16.0
+    done = show(
+        cardan, folder, "--best", "max joint_angle_deg[1]", "--where", "joints[1].centre_mm[2] > 0", "--count", "2"
+    )
+    assert "has joint_angle_deg[1] 11.50°" in done.out
+    none = show(cardan, folder, "--best", "min speed_fluctuation", "--limit", "speed_fluctuation <= 0")
     assert "none of 210 points was answered and keeps the limits" in none.out
 
 
@@ -66,7 +75,7 @@ def test_a_table_without_any_answer(cardan, folder):
 
 def test_a_choice_between_goals(cardan, folder):
     said = show(cardan, folder, *GOALS, "--json").content
-    chosen = pareto(TABLE, [sweep_asked.Goal(name="irregularity"), sweep_asked.Goal(name="bend_deg[1]")])
+    chosen = pareto(TABLE, [sweep_asked.Goal(name="speed_fluctuation"), sweep_asked.Goal(name="joint_angle_deg[1]")])
     assert said["count"] == np.count_nonzero(chosen)
     assert "none is better in all goals" in plain(show(cardan, folder, *GOALS).out)
 
@@ -75,8 +84,8 @@ def test_csv_holds_all_that_was_told(cardan, folder):
     rows = list(csv.DictReader(io.StringIO(show(cardan, folder, "--csv").out)))
     assert len(rows) == SIZE
     assert [float(row["duty.speed_rpm"]) for row in rows] == TABLE["duty.speed_rpm"].tolist()
-    assert rows[-1]["irregularity"] == ""
-    best = list(csv.DictReader(io.StringIO(show(cardan, folder, "--best", "min irregularity", "--csv").out)))
+    assert rows[-1]["speed_fluctuation"] == ""
+    best = list(csv.DictReader(io.StringIO(show(cardan, folder, "--best", "min speed_fluctuation", "--csv").out)))
     assert len(best) == 12
     some = show(cardan, folder, "--query", "SELECT supplier, count(*) AS n FROM sweep GROUP BY supplier", "--csv")
     assert sorted(some.out.splitlines()[1:]) == ["Alpha,70", "Beta,140"]
@@ -95,9 +104,9 @@ def test_exports(cardan, folder, tmp_path, suffix):
 @pytest.mark.parametrize(
     ("options", "titles"),
     [
-        ((), ["Irregularity of the output over", "How often"]),
+        ((), ["SpeedFluctuation of the output over", "How often"]),
         (GOALS, ["Pareto front", "Every point as a line"]),
-        (("--kind", "tornado", "--of", "bend_deg[1]"), ["What it goes with: bend_deg[1]"]),
+        (("--kind", "tornado", "--of", "joint_angle_deg[1]"), ["What it goes with: joint_angle_deg[1]"]),
         (("--kind", "map", "--over", "supplier", "--over", "duty.speed_rpm"), ["over duty.speed_rpm and supplier"]),
         (("--kind", "histogram", "--kind", "lines", "--where", "status = 0"), ["How often", "Every point"]),
     ],
@@ -120,10 +129,10 @@ def test_a_table_of_many_fields_is_drawn_as_lines(cardan, folder, tmp_path, monk
     ("options", "said"),
     [
         (("--kind", "pie"), "'pie' is none of lines"),
-        (("--best", "min irregularity", *GOALS), "choose one of --best, --pareto"),
-        (("--pareto", "min irregularity"), "two goals or more"),
-        (("--best", "irregularity"), "not a goal"),
-        (("--best", "min iregularity"), "the nearest is irregularity"),
+        (("--best", "min speed_fluctuation", *GOALS), "choose one of --best, --pareto"),
+        (("--pareto", "min speed_fluctuation"), "two goals or more"),
+        (("--best", "speed_fluctuation"), "not a goal"),
+        (("--best", "min iregularity"), "the nearest is speed fluctuation"),
         (("--limit", "x"), "not a limit"),
         (("--where", "nothing > 1"), "cannot be answered"),
         (("--query", "DROP TABLE sweep"), "only one SELECT"),

@@ -18,9 +18,9 @@ from tests.cli.test_forces import plain, widest
 RIG = """format = 1
 name = "test rig"
 [[joints]]
-bend_deg = 12
+joint_angle_deg = 12
 [[joints]]
-bend_deg = 12
+joint_angle_deg = 12
 [[shafts]]
 number = 2
 length_mm = 1200
@@ -49,7 +49,7 @@ COMMANDS = [
     ("simulate", "--span-s", "0.1"),
     ("stability",),
     ("stability", "--speeds", "500:2500:7"),
-    ("stability", "--speeds", "2600:2900:6", "--bends", "4:20:5"),
+    ("stability", "--speeds", "2600:2900:6", "--joint-angles", "4:20:5"),
 ]
 
 
@@ -134,7 +134,7 @@ def test_stability_maps_what_the_library_maps(cardan, rig):
     assert said["stable"] == found.stable.tolist()
     assert said["over"]["shafts[1].loss_factor"] == over["shafts[1].loss_factor"].tolist()
     assert not all(said["stable"][2])  # 2720 rpm
-    out = cardan("torsion", "stability", rig, "--speeds", "2600:2900:6", "--bends", "4:40:5").out
+    out = cardan("torsion", "stability", rig, "--speeds", "2600:2900:6", "--joint-angles", "4:40:5").out
     assert "#" in out.split("\n\n")[1]
 
 
@@ -155,8 +155,8 @@ def test_simulation_is_that_of_the_library(cardan, rig):
         (("response", "--speeds", "0:500"), "--speeds"),
         (("response", "--speeds", "a:b"), "--speeds"),
         (("response", "--speeds", "1:2:1000000000"), "--speeds"),
-        (("stability", "--speeds", "1:2:40000", "--bends", "1:2:40000"), "over"),
-        (("stability", "--bends", "1:120"), "bend_deg"),
+        (("stability", "--speeds", "1:2:40000", "--joint-angles", "1:2:40000"), "over"),
+        (("stability", "--joint-angles", "1:120"), "joint_angle_deg"),
         (("stability", "--over", "shafts[1].outer_mm"), "--over"),
         (("stability", "--over", "shafts[1].oute_mm=1:2"), "shafts[1].oute_mm"),
         (("simulate", "--span-s", "-1"), "--span-s"),
@@ -171,13 +171,13 @@ def test_bad_options_are_named(cardan, rig, options, field):
 
 
 def test_a_map_of_a_thousand_million_points_is_refused_with_its_time(cardan, rig):
-    done = cardan("torsion", "stability", rig, "--speeds", "500:3000:31623", "--bends", "1:20:31623")
+    done = cardan("torsion", "stability", rig, "--speeds", "500:3000:31623", "--joint-angles", "1:20:31623")
     assert done.code == 2
     assert "would take about" in done.err
 
 
 def test_what_the_file_lacks_is_told_by_its_keys(cardan, drive_file):
-    path = drive_file("format = 1\n[[joints]]\nbend_deg = 10\n[[stations]]\nshaft = 1\ninertia_kg_m2 = 1\n")
+    path = drive_file("format = 1\n[[joints]]\njoint_angle_deg = 10\n[[stations]]\nshaft = 1\ninertia_kg_m2 = 1\n")
     done = cardan("torsion", "modes", path)
     assert done.code == 2
     assert "shafts[0].stiffness_Nm_per_rad: missing" in done.err
@@ -228,7 +228,7 @@ def test_a_second_ctrl_c_ends_it_at_once():
 @pytest.mark.slow
 def test_a_drive_that_finds_no_steady_motion_says_so(cardan, drive_file, tmp_path, recwarn):
     steep = drive_file(
-        'format = 1\nname = "steep"\njoints = [{ bend_deg = 89 }]\nshafts = [\n'
+        'format = 1\nname = "steep"\njoints = [{ joint_angle_deg = 89 }]\nshafts = [\n'
         "  { number = 1, stiffness_Nm_per_rad = 6000, damping_Nms_per_rad = 0.5 },\n"
         "  { number = 2, stiffness_Nm_per_rad = 60000, damping_Nms_per_rad = 0.5 },\n]\nstations = [\n"
         "  { shaft = 1, inertia_kg_m2 = 0.9 },\n  { shaft = 2, inertia_kg_m2 = 0.4 },\n]\n"
@@ -248,7 +248,7 @@ def test_a_drive_that_finds_no_steady_motion_says_so(cardan, drive_file, tmp_pat
 @pytest.mark.slow
 def test_a_map_marks_the_drive_and_names_its_zones(cardan, drive_file):
     path = drive_file(RIG.replace("0.02", "0.002").replace("speed_rpm = 1500", "speed_rpm = 2728"))
-    done = cardan("torsion", "stability", path, "--speeds", "2600:2900:13", "--bends", "6:20:8")
+    done = cardan("torsion", "stability", path, "--speeds", "2600:2900:13", "--joint-angles", "6:20:8")
     first = plain(done.out)
     assert "of the map is unstable: principal zone of mode 1." in first
     marked = [line for line in done.out.splitlines() if line.endswith(("·", "#")) and "O" in line]

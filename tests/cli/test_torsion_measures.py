@@ -21,9 +21,9 @@ from tests.cli.test_forces import plain, widest
 RIG = """format = 1
 name = "test rig"   # on the bench
 [[joints]]
-bend_deg = 12
+joint_angle_deg = 12
 [[joints]]
-bend_deg = 12
+joint_angle_deg = 12
 [[shafts]]
 number = 2
 stiffness_Nm_per_rad = 6000

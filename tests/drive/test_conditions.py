@@ -22,15 +22,15 @@ def test_a_drive_that_runs_one_way_has_one_condition():
 
 
 def test_poses_take_their_shares_and_leave_the_rest():
-    pose = Pose(name="full load", share=0.3, set=(("joints[1].bend_deg", 20.0),))
+    pose = Pose(name="full load", share=0.3, set=(("joints[1].joint_angle_deg", 20.0),))
     drawn, loaded = conditions(replace(DRIVE, poses=(pose,)))
     assert (drawn.pose, drawn.share) == ("", pytest.approx(0.7))
     assert (loaded.name, loaded.share) == ("pose full load", 0.3)
-    assert loaded.drive.joints[1].bend == pytest.approx(20 * deg)
+    assert loaded.drive.joints[1].joint_angle == pytest.approx(20 * deg)
 
 
 def test_a_pose_without_share_leaves_shares_open():
-    pose = Pose(name="turned", set=(("joints[1].bend_deg", 20.0),))
+    pose = Pose(name="turned", set=(("joints[1].joint_angle_deg", 20.0),))
     assert [one.share for one in conditions(replace(DRIVE, poses=(pose,)))] == [None, None]
     with pytest.raises(InputError, match="share"):
         gathered("mean", [1.0, 2.0], [None, None])
@@ -38,7 +38,7 @@ def test_a_pose_without_share_leaves_shares_open():
 
 def test_every_pose_runs_every_part():
     parts = (Block(torque=900.0, speed=300 * rpm, share=0.25), Block(torque=300.0, speed=900 * rpm, share=0.75))
-    pose = Pose(name="empty", share=0.4, set=(("joints[0].bend_deg", 5.0),))
+    pose = Pose(name="empty", share=0.4, set=(("joints[0].joint_angle_deg", 5.0),))
     found = conditions(replace(DRIVE, poses=(pose,), duty=Duty(blocks=parts)))
     assert [(one.pose, one.part) for one in found] == [("", 1), ("", 2), ("empty", 1), ("empty", 2)]
     assert sum(one.share for one in found) == pytest.approx(1.0)

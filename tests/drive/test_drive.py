@@ -62,10 +62,10 @@ def test_shafts_not_given_are_filled_in():
 
 BAD = {
     "no joint": (lambda: Drive(joints=()), ["joints"]),
-    "no bend": (lambda: Drive.from_angles([]), ["joints"]),
-    "a right angle": (lambda: Drive.from_angles([math.pi / 2]), ["joints[0].bend"]),
-    "a negative bend": (lambda: Drive.from_angles([0.1, -0.1]), ["joints[1].bend"]),
-    "two bad bends": (lambda: Drive.from_angles([2.0, math.nan]), ["joints[0].bend", "joints[1].bend"]),
+    "no joint angle": (lambda: Drive.from_angles([]), ["joints"]),
+    "a right angle": (lambda: Drive.from_angles([math.pi / 2]), ["joints[0].joint_angle"]),
+    "a negative bend": (lambda: Drive.from_angles([0.1, -0.1]), ["joints[1].joint_angle"]),
+    "two bad bends": (lambda: Drive.from_angles([2.0, math.nan]), ["joints[0].joint_angle", "joints[1].joint_angle"]),
     "too few twists": (lambda: Drive.from_angles([0.1] * 3, plane_twists=[0.1]), ["plane_twists"]),
     "too many yokes": (lambda: Drive.from_angles([0.1], yoke_angles=[0.1]), ["yoke_angles"]),
     "an infinite yoke": (lambda: Drive.from_angles([0.1] * 2, yoke_angles=[math.inf]), ["shafts[1].yoke_angle"]),
@@ -85,32 +85,34 @@ BAD = {
     ),
     "two geometries": (
         lambda: Drive(
-            input=Input(point=(0, 0, 0)), output=Output(point=(2, 0, 0)), joints=(Hooke(centre=(1, 0, 0), bend=0.1),)
+            input=Input(point=(0, 0, 0)),
+            output=Output(point=(2, 0, 0)),
+            joints=(Hooke(centre=(1, 0, 0), joint_angle=0.1),),
         ),
-        ["joints[0].bend"],
+        ["joints[0].joint_angle"],
     ),
     "a yoke angle on an end": (
-        lambda: Drive(joints=(Hooke(bend=0.1),), shafts=(Shaft(number=1, yoke_angle=0.1),)),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=1, yoke_angle=0.1),)),
         ["shafts[0].yoke_angle"],
     ),
     "a spline on an end": (
-        lambda: Drive(joints=(Hooke(bend=0.1),), shafts=(Shaft(number=2, spline=Spline(teeth=4)),)),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=2, spline=Spline(teeth=4)),)),
         ["shafts[1].spline"],
     ),
     "a shaft too many": (
-        lambda: Drive(joints=(Hooke(bend=0.1),), shafts=(Shaft(number=4),)),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=4),)),
         ["shafts[3].number"],
     ),
     "a shaft twice": (
-        lambda: Drive(joints=(Hooke(bend=0.1),), shafts=(Shaft(number=2), Shaft(number=2))),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),), shafts=(Shaft(number=2), Shaft(number=2))),
         ["shafts[1].number"],
     ),
     "no teeth": (
-        lambda: Drive(joints=(Hooke(bend=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=0)),)),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=0)),)),
         ["shafts[1].spline.teeth"],
     ),
     "half a tooth": (
-        lambda: Drive(joints=(Hooke(bend=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=16.5)),)),
+        lambda: Drive(joints=(Hooke(joint_angle=0.1),) * 2, shafts=(Shaft(number=2, spline=Spline(teeth=16.5)),)),
         ["shafts[1].spline.teeth"],
     ),
     "a length that the points give": (

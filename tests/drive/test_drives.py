@@ -3,14 +3,14 @@ import numpy as np
 import pytest
 
 from cardan import Drive, Drives, InputError, stack
-from cardan.errors import BendLimitError
+from cardan.errors import JointAngleLimitError
 
 
 def test_stacking_pads_with_straight_joints_that_turn_nothing():
     whole = stack([Drive.from_angles([0.1]), Drive.from_angles([0.1, 0.2, 0.3], yoke_angles=[0.5, 0.6])])
     assert whole.shape == (2,)
     assert whole.joints.tolist() == [1, 3]
-    assert whole.chain.bend.tolist() == [[0.1, 0.0, 0.0], [0.1, 0.2, 0.3]]
+    assert whole.chain.joint_angle.tolist() == [[0.1, 0.0, 0.0], [0.1, 0.2, 0.3]]
     assert whole.chain.turn_before[0].tolist() == [0.0, 0.0, 0.0]
 
 
@@ -21,7 +21,7 @@ def test_stacking_nothing_is_refused():
 
 def test_the_library_of_the_batch_may_be_chosen():
     whole = stack([Drive.from_angles([0.1]), Drive.from_angles([0.1, 0.2])], xp=strict)
-    assert type(whole.chain.bend).__module__.startswith("array_api_strict")
+    assert type(whole.chain.joint_angle).__module__.startswith("array_api_strict")
     assert whole.shape == (2,)
 
 
@@ -37,7 +37,7 @@ def test_drives_through_points_are_those_of_single_points():
     points = np.cumsum(rng.uniform([0.5, -0.2, -0.2], [1, 0.2, 0.2], (6, 5, 3)), axis=-2)
     whole = Drives.from_points(points, yoke_angle=[0.1, 0.4])
     one = stack([Drive.from_points(place, yoke_angles=[0.1, 0.4]) for place in points])
-    for name in ("bend", "plane_twist", "yoke_angle", "start_phase"):
+    for name in ("joint_angle", "plane_twist", "yoke_angle", "start_phase"):
         assert np.allclose(getattr(whole.chain, name), getattr(one.chain, name), rtol=0, atol=4e-16), name
 
 
@@ -70,25 +70,25 @@ def test_points_of_a_wrong_shape_are_refused(points):
         Drives.from_points(points)
 
 
-@pytest.mark.parametrize("bend", [-1e-9, np.pi / 2, np.nan, np.inf])
-def test_bad_bends_of_a_batch_are_masked(bend):
-    with pytest.raises(BendLimitError) as caught:
-        Drives.from_angles([[0.1, 0.2], [0.3, bend]])
+@pytest.mark.parametrize("joint_angle", [-1e-9, np.pi / 2, np.nan, np.inf])
+def test_bad_bends_of_a_batch_are_masked(joint_angle):
+    with pytest.raises(JointAngleLimitError) as caught:
+        Drives.from_angles([[0.1, 0.2], [0.3, joint_angle]])
     assert caught.value.where.tolist() == [[False, False], [False, True]]
 
 
 @pytest.mark.parametrize(
     ("given", "field"),
     [
-        ({"bend": 0.3}, "bend"),
-        ({"bend": np.zeros((3, 0))}, "bend"),
-        ({"bend": [0.1, 0.2], "yoke_angle": [0.1, 0.2]}, "yoke_angle"),
-        ({"bend": [0.1, 0.2], "plane_twist": []}, "plane_twist"),
+        ({"joint_angle": 0.3}, "joint_angle"),
+        ({"joint_angle": np.zeros((3, 0))}, "joint_angle"),
+        ({"joint_angle": [0.1, 0.2], "yoke_angle": [0.1, 0.2]}, "yoke_angle"),
+        ({"joint_angle": [0.1, 0.2], "plane_twist": []}, "plane_twist"),
     ],
 )
 def test_wrong_counts_are_named(given, field):
     with pytest.raises(InputError) as caught:
-        Drives.from_angles(given.pop("bend"), **given)
+        Drives.from_angles(given.pop("joint_angle"), **given)
     assert caught.value.field == field
 
 
@@ -97,7 +97,7 @@ def test_wrong_counts_are_named(given, field):
     [("plane_twist", np.zeros((3, 1))), ("yoke_angle", np.zeros((1, 2, 1))), ("start_phase", [0.0] * 3)],
 )
 def test_arrays_that_do_not_fit_the_batch_are_named(field, value):
-    with pytest.raises(InputError, match="does not fit the bends") as caught:
+    with pytest.raises(InputError, match="does not fit the joint angles") as caught:
         Drives.from_angles(np.full((2, 2), 0.1), **{field: value})
     assert caught.value.field == field
 

@@ -112,7 +112,7 @@ def test_what_counts_only_on_a_shaft_that_twists_is_refused_on_a_rigid_one(shaft
 
 
 def test_play_of_a_joint_needs_a_shaft_that_twists_beside_it() -> None:
-    joints = (Hooke(bend=0.1, backlash=0.01), Hooke(bend=0.1))
+    joints = (Hooke(joint_angle=0.1, backlash=0.01), Hooke(joint_angle=0.1))
     assert fields(joints=joints) == ["joints[0].backlash"]
     assert replace(DRIVE, joints=joints, shafts=(Shaft(number=2, stiffness=1.0),)).joints[0].backlash == 0.01
 

@@ -160,7 +160,7 @@ def test_motion_figure_shows_the_curves_themselves():
     curves = [[item for item in panel.series if isinstance(item, Curve)] for panel in panels]
     for k in range(7):
         np.testing.assert_array_equal(curves[0][k].y, found.shaft_ratio[k])
-        np.testing.assert_allclose(curves[1][k].y, np.degrees(found.lead[k]), rtol=1e-15, atol=1e-300)
+        np.testing.assert_allclose(curves[1][k].y, np.degrees(found.angle_error[k]), rtol=1e-15, atol=1e-300)
         np.testing.assert_array_equal(curves[2][k].y, found.shaft_acceleration[k])
 
 
@@ -172,18 +172,18 @@ def test_each_phase_polygon_starts_in_the_middle_and_ends_at_its_irregularity():
         assert len(sides) == 4
         assert np.hypot(sides[0].x[0], sides[0].y[0]) == 0.0
         radius = np.hypot(sides[-1].x[-1], sides[-1].y[-1])
-        # The ring a corner lies on is its irregularity; rounding of the arc's construction is some 1e-16.
-        assert 4.0 * radius / (1.0 - radius**2) == pytest.approx(one.irregularity, abs=1e-14)
+        # The ring a corner lies on is its speed fluctuation; rounding of the arc's construction is some 1e-16.
+        assert 4.0 * radius / (1.0 - radius**2) == pytest.approx(one.speed_fluctuation, abs=1e-14)
 
 
 def test_sides_of_the_polygon_are_hyperbolic_lines_of_the_joints_lengths():
     from cardan.drive.models.chain import chain
 
     found = phases(SIX)
-    bend = chain(SIX).bend
+    joint_angle = chain(SIX).joint_angle
     figure = figures.for_result(found)[0]
     sides = [item for item in figure.panels[0].series if isinstance(item, Curve) and item.width > 1.0]
-    for side, alpha in zip(sides, bend, strict=True):
+    for side, alpha in zip(sides, joint_angle, strict=True):
         z = np.asarray(side.x) + 1j * np.asarray(side.y)
         # Distances in the disk of curvature -1 are 2 artanh; the joints' lengths are -ln cos α = 2 artanh τ.
         legs = 2.0 * np.arctanh(np.abs((z[1:] - z[:-1]) / (1.0 - np.conj(z[:-1]) * z[1:])))
@@ -205,8 +205,8 @@ def test_a_layout_shows_bends_before_and_after():
     drive = DRIVES["truck-printed-coordinates"]
     found = layout(replace(drive, joints=(*drive.joints[:2], boxed, drive.joints[3])))
     bars = figures.for_result(found)[0].panels[0].series
-    np.testing.assert_allclose(bars[0].size, np.degrees(found.bend_before))
-    np.testing.assert_allclose(bars[1].size, np.degrees(found.bend))
+    np.testing.assert_allclose(bars[0].size, np.degrees(found.joint_angle_before))
+    np.testing.assert_allclose(bars[1].size, np.degrees(found.joint_angle))
     for figure in figures.for_result(found):
         figure = for_reader(figure, USUAL)
         ElementTree.fromstring(inline_svg(figure))

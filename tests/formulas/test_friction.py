@@ -16,19 +16,20 @@ from cardan.units import deg
 from tests.builders.friction_model import over_a_turn, torques
 from tests.builders.vector_model import VectorModel
 
-BENDS = [0.5, 5.0, 20.0, 45.0, 70.0]
+JOINT_ANGLES = [0.5, 5.0, 20.0, 45.0, 70.0]
 TURN = over_a_turn()
 
 
 @pytest.mark.parametrize("at", ["output", "input"])
-@pytest.mark.parametrize("bend", BENDS)
-def test_the_work_of_a_turn_is_load_times_sliding(bend, at):
+@pytest.mark.parametrize("joint_angle", JOINT_ANGLES)
+def test_the_work_of_a_turn_is_load_times_sliding(joint_angle, at):
     """A hair's breadth of friction does not act on itself: the plain model's losses over κ are then the first order."""
     tiny = 1e-9
-    found = joint_friction(bend * deg, 0.02, torque_at=at)
-    plain = torques(VectorModel.from_angles([bend * deg]), TURN, [tiny], at=at)
+    found = joint_friction(joint_angle * deg, 0.02, torque_at=at)
+    plain = torques(VectorModel.from_angles([joint_angle * deg]), TURN, [tiny], at=at)
     for work, power in ((found.driving_pin_work, plain.lost_driving), (found.driven_pin_work, plain.lost_driven)):
-        # The mean over 20,000 places misses kinks of |sin|, |cos| by 2 π²/(12·20,000²), steep bends count some times.
+        # The mean over 20,000 places misses kinks of |sin|, |cos| by 2 π²/(12·20,000²), steep joint angles count some
+        # times.
         assert float(work) == pytest.approx(2 * np.pi * np.mean(power[0]) / tiny * 0.02, rel=3e-7)
     assert float(found.pin_work) == pytest.approx(float(found.driving_pin_work + found.driven_pin_work), rel=1e-15)
 
@@ -51,27 +52,29 @@ def test_bearings_take_load_times_turning(at):
 
 
 @pytest.mark.parametrize("at", ["output", "input"])
-@pytest.mark.parametrize("bend", BENDS)
-def test_mean_pin_load_is_the_mean_of_the_couple(bend, at):
+@pytest.mark.parametrize("joint_angle", JOINT_ANGLES)
+def test_mean_pin_load_is_the_mean_of_the_couple(joint_angle, at):
     def couple(theta):
-        w = np.sqrt(1 + (np.tan(bend * deg) * np.sin(theta)) ** 2)
-        return 1 / (w * np.cos(bend * deg)) if at == "output" else w
+        w = np.sqrt(1 + (np.tan(joint_angle * deg) * np.sin(theta)) ** 2)
+        return 1 / (w * np.cos(joint_angle * deg)) if at == "output" else w
 
     want, _error = quad(couple, 0, np.pi / 2, epsabs=0, epsrel=1e-13)
-    assert float(joint_friction(bend * deg, 0.0, torque_at=at).mean_pin_load) == pytest.approx(
+    assert float(joint_friction(joint_angle * deg, 0.0, torque_at=at).mean_pin_load) == pytest.approx(
         2 / np.pi * want, rel=1e-13
     )
 
 
 @pytest.mark.parametrize("at", ["output", "input"])
-@pytest.mark.parametrize("bend", BENDS)
-def test_friction_acting_on_itself_agrees_with_couples_of_plain_vectors(bend, at):
+@pytest.mark.parametrize("joint_angle", JOINT_ANGLES)
+def test_friction_acting_on_itself_agrees_with_couples_of_plain_vectors(joint_angle, at):
     drag = 0.08
-    plain = torques(VectorModel.from_angles([bend * deg]), TURN, [drag], at=at)
+    plain = torques(VectorModel.from_angles([joint_angle * deg]), TURN, [drag], at=at)
     into, out = (np.mean(plain.shaft[k] * plain.speed[k]) for k in (0, 1))
     lost = np.mean(plain.lost_driving[0] + plain.lost_driven[0])
     assert into - out == pytest.approx(lost, rel=1e-6)
-    assert float(joint_friction(bend * deg, drag, torque_at=at).exact) == pytest.approx(out / into, abs=2e-7 * lost)
+    assert float(joint_friction(joint_angle * deg, drag, torque_at=at).exact) == pytest.approx(
+        out / into, abs=2e-7 * lost
+    )
 
 
 def test_the_instant_is_the_ratio_of_powers():
@@ -87,8 +90,8 @@ def test_the_instant_is_the_ratio_of_powers():
 
 
 def test_the_small_angle_rule_is_the_limit_and_low_by_the_known_factor():
-    bend = np.asarray([1e-4, 5 * deg, 10 * deg, 15 * deg, 20 * deg, 30 * deg, 40 * deg])
-    found = joint_friction(bend, 1e-3, torque_at="input")
+    joint_angle = np.asarray([1e-4, 5 * deg, 10 * deg, 15 * deg, 20 * deg, 30 * deg, 40 * deg])
+    found = joint_friction(joint_angle, 1e-3, torque_at="input")
     factor = (1 - found.first_order) / (1 - found.small_angle)
     # Losses of 1e-3 lose three digits to the one they are counted from; the printed factors have four decimals.
     assert np.allclose(factor, [1.0, 1.0019, 1.0077, 1.0176, 1.0318, 1.0759, 1.1474], rtol=0, atol=6e-5)
@@ -112,12 +115,12 @@ def test_a_straight_joint_loses_nothing_and_a_stiff_one_locks_without_sinking_th
 
 
 def test_locking_is_where_the_instant_reaches_zero():
-    bend = 50 * deg
-    limit = 1 / np.tan(bend)
+    joint_angle = 50 * deg
+    limit = 1 / np.tan(joint_angle)
     for backwards, place in ((False, 0.0), (True, 0.5 * np.pi)):
-        at = efficiency_at(np.asarray(place), np.asarray(bend), np.asarray(limit), backwards=backwards)
+        at = efficiency_at(np.asarray(place), np.asarray(joint_angle), np.asarray(limit), backwards=backwards)
         assert float(at) == pytest.approx(0.0, abs=1e-15)
-    status = joint_friction(bend, np.asarray([limit * (1 - 1e-12), limit * (1 + 1e-12)])).status
+    status = joint_friction(joint_angle, np.asarray([limit * (1 - 1e-12), limit * (1 + 1e-12)])).status
     assert list(status) == [Turning.FREE, Turning.LOCKED]
 
 
@@ -150,9 +153,9 @@ def test_branches_keep_the_balance_of_work():
 
 
 def test_any_array_library_computes_them():
-    bend = strict.asarray([0.3, 0.5], dtype=strict.float64)
+    joint_angle = strict.asarray([0.3, 0.5], dtype=strict.float64)
     drag = strict.asarray([0.01, 3.0], dtype=strict.float64)
-    found = joint_friction(bend, drag)
+    found = joint_friction(joint_angle, drag)
     plain = joint_friction(np.asarray([0.3, 0.5]), np.asarray([0.01, 3.0]))
     assert np.array_equal(np.asarray(found.exact), plain.exact, equal_nan=True)
     assert np.array_equal(np.asarray(found.first_order), plain.first_order)

@@ -10,7 +10,7 @@ from cardan.formulas.joint_rating import (
     book_life,
     life_factor,
     nominal_torque,
-    rated_bend,
+    rated_joint_angle,
     rated_torque,
     speed_angle_factor,
 )
@@ -49,17 +49,19 @@ def test_by_hand():
     """
     nominal = nominal_torque(20e3, 0.040)
     assert nominal == pytest.approx(2080.0)
-    found = rated_torque(nominal, speed=1000 * rpm, bend=6 * deg, life=2000 * HOUR, shock=1.38)
+    found = rated_torque(nominal, speed=1000 * rpm, joint_angle=6 * deg, life=2000 * HOUR, shock=1.38)
     assert found == pytest.approx(582.3, abs=0.05)
 
 
 def test_life_and_rating_undo_each_other():
     n, alpha, shock = np.asarray([33.3, 900.0, 4000.0]) * rpm, np.asarray([0.5, 7.0, 25.0]) * deg, 1.2
-    torque = rated_torque(1500.0, speed=n, bend=alpha, life=3000 * HOUR, shock=shock)
-    np.testing.assert_allclose(book_life(1500.0, torque, speed=-n, bend=alpha, shock=shock), 3000 * HOUR, rtol=1e-12)
+    torque = rated_torque(1500.0, speed=n, joint_angle=alpha, life=3000 * HOUR, shock=shock)
+    np.testing.assert_allclose(
+        book_life(1500.0, torque, speed=-n, joint_angle=alpha, shock=shock), 3000 * HOUR, rtol=1e-12
+    )
 
 
 def test_small_bends_count_as_three_degrees_and_nothing_wears_without_torque():
-    np.testing.assert_allclose(rated_bend(np.asarray([0.0, 3.0, 9.0]) * deg) / deg, [3.0, 3.0, 9.0])
-    assert book_life(1000.0, 0.0, speed=1.0, bend=0.1) == np.inf
-    assert book_life(1000.0, -50.0, speed=1.0, bend=0.1) == book_life(1000.0, 50.0, speed=1.0, bend=0.1)
+    np.testing.assert_allclose(rated_joint_angle(np.asarray([0.0, 3.0, 9.0]) * deg) / deg, [3.0, 3.0, 9.0])
+    assert book_life(1000.0, 0.0, speed=1.0, joint_angle=0.1) == np.inf
+    assert book_life(1000.0, -50.0, speed=1.0, joint_angle=0.1) == book_life(1000.0, 50.0, speed=1.0, joint_angle=0.1)

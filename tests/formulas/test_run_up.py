@@ -79,9 +79,9 @@ def test_a_search_can_be_stopped():
     assert found.peak > 0.5
 
 
-def integrated(bend, stiffness, inertia, acceleration, end, damping, times):
+def integrated(joint_angle, stiffness, inertia, acceleration, end, damping, times):
     """Return the torque at some times from the absolute angle of the driven inertia, by DOP853."""
-    cosine, square = math.cos(bend), math.sin(bend) ** 2
+    cosine, square = math.cos(joint_angle), math.sin(joint_angle) ** 2
 
     def joint(t):
         theta = 0.5 * acceleration * t * t
@@ -107,13 +107,13 @@ def integrated(bend, stiffness, inertia, acceleration, end, damping, times):
 
 
 @pytest.mark.parametrize(
-    ("bend", "acceleration", "damping"), [(20, 20.0, 0.5), (45, 60.0, 0.0), (0, 20.0, 0.5), (20, 20.0, 90.0)]
+    ("joint_angle", "acceleration", "damping"), [(20, 20.0, 0.5), (45, 60.0, 0.0), (0, 20.0, 0.5), (20, 20.0, 90.0)]
 )
-def test_the_torque_behind_a_joint_agrees_with_direct_integration(bend, acceleration, damping):
+def test_the_torque_behind_a_joint_agrees_with_direct_integration(joint_angle, acceleration, damping):
     end = 2.2
     times = np.linspace(0.0, end, 301)
-    wanted = integrated(bend * deg, 2000.0, 0.5, acceleration, end, damping, times)
-    found = joint_run_up(bend * deg, 2000.0, 0.5, acceleration, end, damping=damping, time=times)
+    wanted = integrated(joint_angle * deg, 2000.0, 0.5, acceleration, end, damping, times)
+    found = joint_run_up(joint_angle * deg, 2000.0, 0.5, acceleration, end, damping=damping, time=times)
     np.testing.assert_array_equal(found.time, times)
     # Integration leaves 1e-11 of angles up to 150 rad, times the stiffness.
     np.testing.assert_allclose(found.torque, wanted, atol=1e-5)
@@ -127,8 +127,8 @@ def test_the_torque_behind_a_joint_agrees_with_direct_integration(bend, accelera
 
 
 def test_steep_joints_and_critical_damping_are_followed_too():
-    for bend, damping in ((80, 0.5), (89, 0.5), (20, 700.0)):
-        assert joint_run_up(bend * deg, 2000.0, 0.5, 20.0, 2.0, damping=damping).residual < 1e-11
+    for joint_angle, damping in ((80, 0.5), (89, 0.5), (20, 700.0)):
+        assert joint_run_up(joint_angle * deg, 2000.0, 0.5, 20.0, 2.0, damping=damping).residual < 1e-11
     # At ζ = 1 the closed form that checks stands 1e-8 beside it.
     assert joint_run_up(20 * deg, 2000.0, 0.5, 20.0, 2.0, damping=2 * math.sqrt(1000.0)).residual < 1e-7
 
@@ -161,7 +161,7 @@ def test_a_run_behind_a_joint_can_be_stopped():
     [
         (lambda: run_up(0.0, 1.0, -1.0, 0.0), ["natural_frequency", "acceleration", "end", "damping_ratio"]),
         (lambda: run_up(1.0, 0.1, 1.0, 1.0, time=[-1.0]), ["time"]),
-        (lambda: joint_run_up(0.5 * math.pi, 1.0, 1.0, 1.0, 1.0, damping=-1.0), ["bend", "damping"]),
+        (lambda: joint_run_up(0.5 * math.pi, 1.0, 1.0, 1.0, 1.0, damping=-1.0), ["joint_angle", "damping"]),
         (lambda: joint_run_up(0.1, 0.0, 0.0, 0.0, math.inf), ["stiffness", "inertia", "acceleration", "end"]),
         (lambda: joint_run_up(0.1, 1.0, 1.0, 1.0, 1.0, time=[0.5, 2.0]), ["time"]),
         (lambda: joint_run_up(0.1, 1.0, 1.0, 1.0, 1e5), ["end"]),

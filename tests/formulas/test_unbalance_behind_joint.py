@@ -10,14 +10,14 @@ from cardan.formulas.unbalance_behind_joint import unbalance_behind_joint
 from cardan.units import deg
 
 
-@pytest.mark.parametrize(("bend", "phase"), [(6 * deg, 0.0), (30 * deg, 0.5), (60 * deg, -2.0)])
-def test_the_orders_add_up_to_the_force(bend, phase):
-    found = unbalance_behind_joint(bend, phase, reach=121)
+@pytest.mark.parametrize(("joint_angle", "phase"), [(6 * deg, 0.0), (30 * deg, 0.5), (60 * deg, -2.0)])
+def test_the_orders_add_up_to_the_force(joint_angle, phase):
+    found = unbalance_behind_joint(joint_angle, phase, reach=121)
     angle = np.linspace(0.0, 2.0 * np.pi, 50)
 
     def vector(turned):
-        behind = np.arctan2(np.sin(turned + phase), np.cos(bend) * np.cos(turned + phase))
-        start = math.atan2(math.sin(phase), math.cos(bend) * math.cos(phase))
+        behind = np.arctan2(np.sin(turned + phase), np.cos(joint_angle) * np.cos(turned + phase))
+        start = math.atan2(math.sin(phase), math.cos(joint_angle) * math.cos(phase))
         return np.exp(1j * (behind - start))
 
     h = 1e-3
@@ -39,4 +39,4 @@ def test_first_order_and_batches():
 def test_what_makes_no_joint_is_named():
     with pytest.raises(InputError) as caught:
         unbalance_behind_joint(90 * deg, np.inf, reach=0)
-    assert [problem.field for problem in caught.value.problems] == ["bend", "phase", "reach"]
+    assert [problem.field for problem in caught.value.problems] == ["joint_angle", "phase", "reach"]

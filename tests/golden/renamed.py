@@ -9,6 +9,10 @@ from __future__ import annotations
 COMMAND_LINES: tuple[tuple[str, str], ...] = (
     (r"^tolerance ", "accuracy "),
     (r"^torsion calm ", "torsion optimise "),
+    (r"--bend-deg", "--joint-angle-deg"),
+    (r"--bends(?= )", "--joint-angles"),
+    (r"--bend(?= )", "--joint-angle"),
+    (r"^(?!calc )(.*)\bbend_deg", r"\1joint_angle_deg"),
 )
 """Pattern in a whole command line -> what stands there now: ``(r"^simulate-fault ", "fault ")``."""
 

@@ -42,7 +42,7 @@ USUAL_KEY = re.compile(
 )
 """A key of JSON with a usual unit; per degree, g·mm and rpm times degrees are units of their own."""
 
-OF_FILE = re.compile(r"[.\[]|^bend_deg$")
+OF_FILE = re.compile(r"[.\[]|^joint_angle_deg$")
 """A key of JSON that is a key of the drive file: an axis of a map, what was varied."""
 
 QUOTED = re.compile(r"Book \(|rating by|Hertz; 4000 MPa stands behind ISO 76|web articles on|A yoke 1° off|δ\(γ ± 1°\)")

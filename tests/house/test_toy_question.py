@@ -15,10 +15,10 @@ FILE = """format = 1
 name = "with a toy"
 
 [[joints]]
-bend_deg = 20
+joint_angle_deg = 20
 
 [[joints]]
-bend_deg = 10
+joint_angle_deg = 10
 
 [duty]
 torque_Nm = 100

@@ -133,7 +133,7 @@ def test_joints_change_places_but_the_line_stays() -> None:
 )
 def test_a_file_with_something_else_for_its_joints_is_refused_in_words(text: str) -> None:
     for change in (
-        lambda: amend(text, {"joints[0].bend_deg": 5}),
+        lambda: amend(text, {"joints[0].joint_angle_deg": 5}),
         lambda: amend(text, {"joints[0].cross.span_mm": 5}),
         lambda: with_joint(text, 0),
         lambda: without_joint(text, 0),
@@ -144,7 +144,7 @@ def test_a_file_with_something_else_for_its_joints_is_refused_in_words(text: str
 
 
 def test_a_file_with_something_else_for_other_tables_is_refused_in_words() -> None:
-    joints = "\n[[joints]]\nbend_deg = 10\n[[joints]]\nbend_deg = 10\n"
+    joints = "\n[[joints]]\njoint_angle_deg = 10\n[[joints]]\njoint_angle_deg = 10\n"
     for line in ("supports = 5", "shafts = [1]", "poses = [1]", "movements = [[1]]"):
         with pytest.raises(InputError):
             with_joint(line + joints, 1)

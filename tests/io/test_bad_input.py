@@ -21,7 +21,7 @@ centre_mm = [0, 0, 0]
 [[joints]]
 centre_mm = [1200, 0, -160]
 """
-BENDS = "format = 1\n[[joints]]\nbend_deg = 20\n[[joints]]\nbend_deg = 25\n"
+JOINT_ANGLES = "format = 1\n[[joints]]\njoint_angle_deg = 20\n[[joints]]\njoint_angle_deg = 25\n"
 ARM = POINTS + '[[movements]]\nkind = "arm"\nmoves = ["joints[1]"]\npivot_mm = [0, 0, 0]\naxis = [0, 1, 0]\n'
 
 
@@ -35,8 +35,10 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
     ("text", "fields"),
     [
         pytest.param(POINTS.replace("centre_mm", "centre"), ["joints[0].centre", "joints[1].centre"], id="no unit"),
-        pytest.param(BENDS.replace("[[joints]]", "[[joint]]"), ["joint"], id="table misspelt"),
-        pytest.param(BENDS.replace("20", "20\nbend_rad = 1"), ["joints[0].bend_rad"], id="given twice"),
+        pytest.param(JOINT_ANGLES.replace("[[joints]]", "[[joint]]"), ["joint"], id="table misspelt"),
+        pytest.param(
+            JOINT_ANGLES.replace("20", "20\njoint_angle_rad = 1"), ["joints[0].joint_angle_rad"], id="given twice"
+        ),
         pytest.param(
             POINTS.replace("[1200, 0, -160]", "[0, 0, 0]").replace("[1900, 40, -260]", "[0, 0, 0]"),
             ["joints[1].centre_mm", "output.point_mm"],
@@ -53,9 +55,15 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
             id="coincident beside a point that is not a number",
         ),
         pytest.param(POINTS.replace("[1200, 0, -160]", "[1e300, 0, 0]"), ["joints[1].centre_mm[0]"], id="overflow"),
-        pytest.param(BENDS + "[duty]\nspeed_rpm = -1e300\n", ["duty.speed_rpm"], id="speed whose square overflows"),
-        pytest.param(BENDS.replace("20", "1" + "0" * 400), ["joints[0].bend_deg"], id="a whole number beyond floats"),
-        pytest.param(BENDS.replace("20", "2020-01-01"), ["joints[0].bend_deg"], id="a date"),
+        pytest.param(
+            JOINT_ANGLES + "[duty]\nspeed_rpm = -1e300\n", ["duty.speed_rpm"], id="speed whose square overflows"
+        ),
+        pytest.param(
+            JOINT_ANGLES.replace("20", "1" + "0" * 400),
+            ["joints[0].joint_angle_deg"],
+            id="a whole number beyond floats",
+        ),
+        pytest.param(JOINT_ANGLES.replace("20", "2020-01-01"), ["joints[0].joint_angle_deg"], id="a date"),
         pytest.param(
             "format = 1\ninput.point_mm = [0, 0, 0]\noutput.point_mm = [1, 0, 0]\n[[joints]]\n",
             ["joints[0].centre_mm"],
@@ -68,9 +76,13 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
             id="slopes that fold",
         ),
         pytest.param(
-            BENDS + "[[shafts]]\nnumber = 2\nplan_slope_deg = 3\n", ["shafts[1].plan_slope_deg"], id="slope of bends"
+            JOINT_ANGLES + "[[shafts]]\nnumber = 2\nplan_slope_deg = 3\n",
+            ["shafts[1].plan_slope_deg"],
+            id="slope of joint angles",
         ),
-        pytest.param(BENDS + "[limits]\nspline_overlap_mm = 3\n", ["limits.spline_overlap_mm"], id="no such spline"),
+        pytest.param(
+            JOINT_ANGLES + "[limits]\nspline_overlap_mm = 3\n", ["limits.spline_overlap_mm"], id="no such spline"
+        ),
         pytest.param(
             ARM + "yaw_deg = 3\n", ["movements[0].yaw_deg", "movements[0].frequency_Hz", "movements[0].amplitude_deg"]
         ),
@@ -80,7 +92,8 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
             id="unknown kind, unknown key",
         ),
         pytest.param(
-            BENDS + '[[movements]]\nkind = "random"\nmoves = ["joints[3]"]\naxis = [0, 0, 0]\ndeviation_mm = -1\n'
+            JOINT_ANGLES
+            + '[[movements]]\nkind = "random"\nmoves = ["joints[3]"]\naxis = [0, 0, 0]\ndeviation_mm = -1\n'
             "duration_s = 3\nspectrum = { frequency_Hz = [2, 1], density = [0, 0, 1] }\n",
             [
                 "movements[0].moves",
@@ -118,7 +131,7 @@ def problems(text: str, form: str = "toml") -> dict[str, str]:
             POINTS + '[[poses]]\nname = "x"\nset.duty.speed_rpm = 3\n', ["poses[0].set"], id="path without quotes"
         ),
         pytest.param(
-            BENDS + "[[shafts]]\nnumber = 2\nmaterial = 'C22'\n[duty]\nlife = 3\n",
+            JOINT_ANGLES + "[[shafts]]\nnumber = 2\nmaterial = 'C22'\n[duty]\nlife = 3\n",
             ["shafts[1].material", "duty.life"],
             id="keys of later questions",
         ),
@@ -131,24 +144,28 @@ def test_finds_exactly_these(text: str, fields: list[str]) -> None:
 @pytest.mark.parametrize(
     ("text", "field", "words"),
     [
-        (BENDS + "alpha_deg = 3\n", "joints[1].alpha_deg", "the nearest known one is bend_deg"),
-        (BENDS + "gamma_rad = 3\n", "joints[1].gamma_rad", "unknown key"),
+        (JOINT_ANGLES + "alpha_deg = 3\n", "joints[1].alpha_deg", "the nearest known one is joint_angle_deg"),
+        (JOINT_ANGLES + "gamma_rad = 3\n", "joints[1].gamma_rad", "unknown key"),
         (
-            BENDS + "[[shafts]]\nnumber = 2\ngamma_rad = 3\n",
+            JOINT_ANGLES + "[[shafts]]\nnumber = 2\ngamma_rad = 3\n",
             "shafts[1].gamma_rad",
             "nearest known one is yoke_angle_rad",
         ),
-        (BENDS + "[duty]\nspeed_RPM = 3\n", "duty.speed_RPM", "the nearest known one is speed_rpm"),
-        (BENDS + "speed_rpm = 3\n", "joints[1].speed_rpm", "it belongs to [duty]"),
+        (JOINT_ANGLES + "[duty]\nspeed_RPM = 3\n", "duty.speed_RPM", "the nearest known one is speed_rpm"),
+        (JOINT_ANGLES + "speed_rpm = 3\n", "joints[1].speed_rpm", "it belongs to [duty]"),
         (
             ARM + "yaw_deg = 3\n",
             "movements[0].yaw_deg",
             "belongs to [[movements]] kind = 'hitch' or [[movements]] kind",
         ),
         (ARM.replace('"arm"', '"arms"'), "movements[0].kind", "the nearest is arm"),
-        (BENDS.replace("bend_deg = 20", "bend_rad = 1.6"), "joints[0].bend_rad", "less than 1.5708 rad"),
-        (BENDS + "[[shafts]]\nnumber = 2\nyoke_lead_deg = nan\n", "shafts[1].yoke_lead_deg", "a finite number"),
-        (BENDS + "name_mm = 3\n", "joints[1].name_mm", "takes no unit: write name"),
+        (
+            JOINT_ANGLES.replace("joint_angle_deg = 20", "joint_angle_rad = 1.6"),
+            "joints[0].joint_angle_rad",
+            "less than 1.5708 rad",
+        ),
+        (JOINT_ANGLES + "[[shafts]]\nnumber = 2\nyoke_lead_deg = nan\n", "shafts[1].yoke_lead_deg", "a finite number"),
+        (JOINT_ANGLES + "name_mm = 3\n", "joints[1].name_mm", "takes no unit: write name"),
     ],
 )
 def test_says_what_was_meant(text: str, field: str, words: str) -> None:
@@ -170,8 +187,10 @@ def test_texts_that_are_no_tables(text: str, form: str, words: str) -> None:
 
 
 def test_json_has_numbers_that_are_none() -> None:
-    text = json.dumps({"format": 1, "joints": [{"bend_deg": float("nan"), "name": "\ud800"}, {"bend_deg": None}]})
-    assert set(problems(text, "json")) == {"joints[0].bend_deg", "joints[0].name", "joints[1].bend_deg"}
+    text = json.dumps(
+        {"format": 1, "joints": [{"joint_angle_deg": float("nan"), "name": "\ud800"}, {"joint_angle_deg": None}]}
+    )
+    assert set(problems(text, "json")) == {"joints[0].joint_angle_deg", "joints[0].name", "joints[1].joint_angle_deg"}
 
 
 def test_devices_without_end_are_refused() -> None:
@@ -231,7 +250,8 @@ values = st.recursive(
 )
 KEYS = [
     "joints", "shafts", "input", "output", "duty", "limits", "movements", "poses", "name", "note", "kind", "number",
-    "centre_mm", "bend_deg", "point_mm", "spline", "teeth", "moves", "axis", "spectrum", "set", "share_percent", "file",
+    "centre_mm", "joint_angle_deg", "point_mm", "spline", "teeth", "moves", "axis", "spectrum", "set", "share_percent",
+    "file",
 ]  # fmt: skip
 tables = st.recursive(
     st.dictionaries(st.sampled_from(KEYS), values, max_size=4),
@@ -262,3 +282,10 @@ def test_a_table_movement_takes_its_rows_along_and_overwrites_none(tmp_path: Pat
         save(drive, tmp_path / "c" / "drive.toml")
     assert caught.value.field == "movements[0].file"
     assert [path.name for path in (tmp_path / "c").iterdir()] == ["way.csv"]
+
+
+def test_an_old_key_is_met_by_the_new_one():
+    with pytest.raises(
+        InputError, match=r"bend_deg: unknown key; the nearest known one is joint_angle_deg"
+    ):
+        loads("format = 1\n[[joints]]\nbend_deg = 12")

@@ -34,8 +34,10 @@ def test_a_number_is_written_so_that_it_reads_back_to_the_last_bit(value: float,
     st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=20),
     st.floats(-4, 4),
 )
-def test_round_trip_by_angles(bends: list[float], name: str, phase: float) -> None:
-    drive = Drive.from_angles(bends, yoke_angles=[b - 0.7 for b in bends[1:]], start_phase=phase, name=name)
+def test_round_trip_by_angles(joint_angles: list[float], name: str, phase: float) -> None:
+    drive = Drive.from_angles(
+        joint_angles, yoke_angles=[b - 0.7 for b in joint_angles[1:]], start_phase=phase, name=name
+    )
     assert loads(dumps(drive)) == drive
     assert loads(dumps(drive, form="json"), form="json") == drive
 
@@ -56,15 +58,15 @@ def test_round_trip_of_examples(name: str, suffix: str, tmp_path: Path) -> None:
 
 
 def test_examples_are_what_they_say() -> None:
-    irregularity = {name: float(equivalent_joint(example(name)).irregularity) for name in example_names()}
+    speed_fluctuation = {name: float(equivalent_joint(example(name)).speed_fluctuation) for name in example_names()}
     # spec figures: Table 4; section 8 (coordinates, printed angles, the book's yoke angles)
-    assert irregularity["single-20deg"] == pytest.approx(0.124485, abs=5e-7)
-    assert irregularity["truck-printed-coordinates"] == pytest.approx(0.09471, abs=5e-6)
-    assert irregularity["truck-printed-angles"] == pytest.approx(0.12512, abs=5e-6)
-    assert irregularity["truck-wrong-yokes"] == pytest.approx(0.1140, abs=5e-5)
-    assert irregularity["truck-exact-yokes"] < 1e-7
-    assert irregularity["w-arrangement"] < 1e-15
-    assert irregularity["z-arrangement"] < 1e-15
+    assert speed_fluctuation["single-20deg"] == pytest.approx(0.124485, abs=5e-7)
+    assert speed_fluctuation["truck-printed-coordinates"] == pytest.approx(0.09471, abs=5e-6)
+    assert speed_fluctuation["truck-printed-angles"] == pytest.approx(0.12512, abs=5e-6)
+    assert speed_fluctuation["truck-wrong-yokes"] == pytest.approx(0.1140, abs=5e-5)
+    assert speed_fluctuation["truck-exact-yokes"] < 1e-7
+    assert speed_fluctuation["w-arrangement"] < 1e-15
+    assert speed_fluctuation["z-arrangement"] < 1e-15
     assert all(example_text(name).startswith("# ") for name in example_names())
 
 
@@ -77,14 +79,14 @@ def test_edit_keeps_comments_and_changes_only_what_was_asked() -> None:
 
 
 def test_edit_replaces_a_field_given_otherwise_and_adds_missing_tables() -> None:
-    text = "format = 1\n[[joints]]\nbend_deg = 3\n[[joints]]\nbend_rad = 0.1 # here\n"
-    changed = edit(text, {"joints[1].bend_deg": 5, "shafts[1].yoke_angle_deg": 7, "duty.speed_rpm": 10})
+    text = "format = 1\n[[joints]]\njoint_angle_deg = 3\n[[joints]]\njoint_angle_rad = 0.1 # here\n"
+    changed = edit(text, {"joints[1].joint_angle_deg": 5, "shafts[1].yoke_angle_deg": 7, "duty.speed_rpm": 10})
     drive = loads(changed)
-    assert drive.joints[1].bend == pytest.approx(math.radians(5))
+    assert drive.joints[1].joint_angle == pytest.approx(math.radians(5))
     assert drive.shafts[1].yoke_angle == pytest.approx(math.radians(7))
     assert drive.duty.speed == pytest.approx(math.pi / 3)
-    lead = edit(text + "[[shafts]]\nnumber = 2\nyoke_lead_deg = 3\n", {"shafts[1].yoke_angle_deg": 7})
-    assert "yoke_lead" not in lead
+    angle_error = edit(text + "[[shafts]]\nnumber = 2\nyoke_lead_deg = 3\n", {"shafts[1].yoke_angle_deg": 7})
+    assert "yoke_lead" not in angle_error
 
 
 def test_edit_changes_one_coordinate() -> None:
@@ -95,12 +97,12 @@ def test_edit_changes_one_coordinate() -> None:
 
 def test_edit_refuses_what_makes_no_drive() -> None:
     with pytest.raises(InputError, match="joints\\[0\\]"):
-        edit(example_text("single-20deg"), {"joints[0].bend_deg": 95})
+        edit(example_text("single-20deg"), {"joints[0].joint_angle_deg": 95})
 
 
 def test_starter_shows_every_form() -> None:
     assert loads(starter()).form == "points"
-    assert all(word in starter() for word in ("bend_deg", "side_slope_deg", "[[movements]]", "[[poses]]"))
+    assert all(word in starter() for word in ("joint_angle_deg", "side_slope_deg", "[[movements]]", "[[poses]]"))
 
 
 @pytest.mark.parametrize("code", LANGUAGES)

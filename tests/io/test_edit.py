@@ -14,14 +14,14 @@ from cardan.io import edit, example_names, example_text, loads
 FORMS = """format = 1
 # above
 [[joints]]
-bend_deg = 20 # first
+joint_angle_deg = 20 # first
 [[joints]]
-bend_rad = 0.3 # second
+joint_angle_rad = 0.3 # second
 plane_twist_deg = 3
 """
 
 INLINE = """format = 1
-joints = [{bend_deg = 3}, {bend_deg = 4}] # in one line
+joints = [{joint_angle_deg = 3}, {joint_angle_deg = 4}] # in one line
 shafts = [{number = 2, yoke_angle_deg = 3}]
 """
 
@@ -43,10 +43,10 @@ move_within_mm = [[1200, 1400], [0, 0], [-350, -300]]
 @pytest.mark.parametrize(
     ("text", "values"),
     [
-        (FORMS, {"name": "new", "joints[1].bend_deg": 11, "duty.speed_rpm": 10.5, "input.start_phase_deg": 3}),
+        (FORMS, {"name": "new", "joints[1].joint_angle_deg": 11, "duty.speed_rpm": 10.5, "input.start_phase_deg": 3}),
         (FORMS, {"shafts[1].spline.teeth": 16, "shafts[1].yoke_lead_deg": 3, "shafts[0].length_mm": 70}),
         (FORMS, {"shafts[1].yoke_fixed": True, "shafts[1].name": "tube", "shafts[1].weight": 2}),
-        (INLINE, {"joints[0].bend_deg": 5, "shafts[1].spline.teeth": 7, "shafts[2].name": "x"}),
+        (INLINE, {"joints[0].joint_angle_deg": 5, "shafts[1].spline.teeth": 7, "shafts[2].name": "x"}),
         (INLINE, {"shafts[1].yoke_lead_arcmin": 5}),
         (SPREAD, {"joints[1].centre_mm[0]": 1310, "joints[1].centre_mm[2]": -330}),
         (SPREAD, {"joints[1].centre_m[1]": 0.01, "joints[1].move_within_in[2][1]": -12, "output.point_mm[0]": 1800}),
@@ -68,9 +68,9 @@ def test_changes_a_single_line_of_an_example(name: str) -> None:
 
 
 def test_keeps_the_comment_of_a_value_given_in_another_unit() -> None:
-    changed = edit(FORMS, {"joints[1].bend_deg": 11, "joints[0].bend_deg": 12})
-    assert "bend_deg = 11 # second" in changed
-    assert "bend_deg = 12 # first" in changed
+    changed = edit(FORMS, {"joints[1].joint_angle_deg": 11, "joints[0].joint_angle_deg": 12})
+    assert "joint_angle_deg = 11 # second" in changed
+    assert "joint_angle_deg = 12 # first" in changed
 
 
 def test_keeps_comments_inside_a_list_of_which_one_number_changes() -> None:
@@ -89,7 +89,12 @@ def test_reads_files_beside_the_drive_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "values",
-    [{"joints[0].bend_deg": 90}, {"joints[5].bend_deg": 3}, {"colour": 3}, {"shafts[0].yoke_angle_deg": 3}],
+    [
+        {"joints[0].joint_angle_deg": 90},
+        {"joints[5].joint_angle_deg": 3},
+        {"colour": 3},
+        {"shafts[0].yoke_angle_deg": 3},
+    ],
 )
 def test_refuses_what_makes_no_drive(values: dict[str, Any]) -> None:
     with pytest.raises(InputError):

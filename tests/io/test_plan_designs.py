@@ -13,7 +13,7 @@ from cardan.io.plan_file import plan_of, read_plan
 from tests.cli.conftest import EXAMPLES
 
 SWEEPS = EXAMPLES / "sweeps"
-HEAD = 'format = 1\ndrive = "single-20deg.toml"\nask = ["irregularity", "greatest_bend"]\n'
+HEAD = 'format = 1\ndrive = "single-20deg.toml"\nask = ["speed_fluctuation", "greatest_joint_angle"]\n'
 
 
 def read(text, name):
@@ -24,15 +24,15 @@ def read(text, name):
 
 def test_words_have_no_range_to_search():
     with pytest.raises(InputError) as error:
-        read('[search]\ngoals = ["min irregularity"]\nbetween = { "joints[0].size" = [0, 1] }\n', "search")
+        read('[search]\ngoals = ["min speed_fluctuation"]\nbetween = { "joints[0].size" = [0, 1] }\n', "search")
     assert [one.field for one in error.value.problems] == ['search.between."joints[0].size"']
 
 
 def test_a_search_for_one_goal():
     """A single joint is as even as it is straight; the constraint keeps it from that."""
     design = read(
-        'constraints = ["greatest_bend_deg >= 5"]\n[search]\ngoals = ["min irregularity"]\n'
-        'between = { "joints[0].bend_deg" = [0, 30] }\n',
+        'constraints = ["greatest_joint_angle_deg >= 5"]\n[search]\ngoals = ["min speed_fluctuation"]\n'
+        'between = { "joints[0].joint_angle_deg" = [0, 30] }\n',
         "search",
     )
     assert design.start == (20.0,)
@@ -40,14 +40,14 @@ def test_a_search_for_one_goal():
     assert isinstance(found, Optimum)
     assert found.point == pytest.approx(5.0, abs=1e-3)
     other = read(
-        '[search]\ngoals = ["max irregularity"]\nmethod = "global"\ngenerations = 5\nseed = 4\nlimits = []\n'
-        'between = { "joints[0].bend_deg" = [25, 30] }\n',
+        '[search]\ngoals = ["max speed_fluctuation"]\nmethod = "global"\ngenerations = 5\nseed = 4\nlimits = []\n'
+        'between = { "joints[0].joint_angle_deg" = [25, 30] }\n',
         "search",
     )
     assert other.run().point == pytest.approx(30.0, abs=1e-4)
     start = read(
-        '[search]\ngoals = ["min irregularity"]\nstart = { "joints[0].bend_deg" = 3 }\n'
-        'between = { "joints[0].bend_deg" = [1, 30] }\n',
+        '[search]\ngoals = ["min speed_fluctuation"]\nstart = { "joints[0].joint_angle_deg" = 3 }\n'
+        'between = { "joints[0].joint_angle_deg" = [1, 30] }\n',
         "search",
     )
     assert start.start == (3.0,)
@@ -55,33 +55,34 @@ def test_a_search_for_one_goal():
 
 def test_a_search_for_several_goals():
     found = read(
-        '[search]\ngoals = ["min irregularity", "max greatest_bend_deg"]\npopulation = 8\ngenerations = 3\n'
-        'between = { "joints[0].bend_deg" = [0, 30] }\n',
+        '[search]\ngoals = ["min speed_fluctuation", "max greatest_joint_angle_deg"]\npopulation = 8\ngenerations = 3\n'
+        'between = { "joints[0].joint_angle_deg" = [0, 30] }\n',
         "search",
     ).run()
     assert isinstance(found, ParetoSet)
-    # The more bent, the more uneven: every bend is a choice.
+    # The more bent, the more uneven: every joint angle is a choice.
     assert len(found.points) == len(np.unique(found.points))
 
 
 def test_a_boundary_of_a_single_joint():
     """δ = sin α tan α = 0.1 at 18.03°, whatever the speed."""
     found = read(
-        '[boundary]\nlimits = ["irregularity <= 0.1"]\ncoarse = [4, 2]\nhalvings = 1\n'
-        'between = { "joints[0].bend_deg" = [5, 30], "duty.speed_rpm" = [500, 1000] }\n',
+        '[boundary]\nlimits = ["speed_fluctuation <= 0.1"]\ncoarse = [4, 2]\nhalvings = 1\n'
+        'between = { "joints[0].joint_angle_deg" = [5, 30], "duty.speed_rpm" = [500, 1000] }\n',
         "boundary",
     ).run()
     assert isinstance(found, Boundary)
     (line,) = found.lines
-    bend = np.radians(line[:, 0])
-    np.testing.assert_allclose(np.sin(bend) * np.tan(bend), 0.1, rtol=2e-3)
+    joint_angle = np.radians(line[:, 0])
+    np.testing.assert_allclose(np.sin(joint_angle) * np.tan(joint_angle), 0.1, rtol=2e-3)
 
 
 def test_a_sensitivity_takes_the_distributions_that_are_drawn():
     design = read(
-        '[[vary]]\ndesign = "lhs"\ncount = 10\nfields = [{ key = "joints[0].bend_deg", distribution = "uniform", '
+        '[[vary]]\ndesign = "lhs"\ncount = 10\n'
+        'fields = [{ key = "joints[0].joint_angle_deg", distribution = "uniform", '
         'plus_minus = 1 }, { key = "duty.speed_rpm", distribution = "uniform", low = 500, high = 900 }]\n'
-        '[sensitivity]\nsamples = 64\nanswers = ["irregularity"]\n',
+        '[sensitivity]\nsamples = 64\nanswers = ["speed_fluctuation"]\n',
         "sensitivity",
     )
     found = design.run()
@@ -94,11 +95,11 @@ def test_a_sensitivity_takes_the_distributions_that_are_drawn():
     [
         ("[search]\n", "search", ["search.goals: missing", "search.between: missing"]),
         (
-            '[search]\ngoals = ["irregularity"]\nlimits = ["x"]\nmethod = "swarm"\nbetwen = 1\n'
-            'between = { "joints[0].bend_deg" = [3, 1] }\n',
+            '[search]\ngoals = ["speed_fluctuation"]\nlimits = ["x"]\nmethod = "swarm"\nbetwen = 1\n'
+            'between = { "joints[0].joint_angle_deg" = [3, 1] }\n',
             "search",
             [
-                "search.goals[0]: not a goal: 'irregularity'",
+                "search.goals[0]: not a goal: 'speed_fluctuation'",
                 "search.limits[0]: not a limit: 'x'",
                 "search.method: 'swarm'",
                 "search.betwen: unknown key; the nearest is between",
@@ -111,13 +112,13 @@ def test_a_sensitivity_takes_the_distributions_that_are_drawn():
             ["joints[0].bent_deg: there is no such field"],
         ),
         (
-            '[search]\ngoals = ["min life_h"]\nbetween = { "joints[0].bend_deg" = [1, 3] }\n',
+            '[search]\ngoals = ["min life_h"]\nbetween = { "joints[0].joint_angle_deg" = [1, 3] }\n',
             "search",
             ["search: goals: min life_h: there is no such column"],
         ),
         ("[sensitivity]\n", "sensitivity", ["needs a [[vary]] with design"]),
         (
-            '[boundary]\ncoarse = [2]\nbetween = { "joints[0].bend_deg" = [1, 3] }\n',
+            '[boundary]\ncoarse = [2]\nbetween = { "joints[0].joint_angle_deg" = [1, 3] }\n',
             "boundary",
             ["boundary.coarse: two whole numbers", "boundary.between: a boundary lies over two fields"],
         ),

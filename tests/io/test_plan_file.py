@@ -12,7 +12,7 @@ from cardan.io.plan_file import plan_of, read_plan
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
-HEAD = 'format = 1\ndrive = "truck-rear-axle.toml"\nask = ["irregularity"]\n'
+HEAD = 'format = 1\ndrive = "truck-rear-axle.toml"\nask = ["speed_fluctuation"]\n'
 
 
 def read(text):
@@ -81,10 +81,10 @@ def test_what_is_told_of_all_points_arrives():
     plan = read(
         HEAD
         + """
-constraints = ["irregularity <= 0.01"]
+constraints = ["speed_fluctuation <= 0.01"]
 rows = "none"
 title = "a title"
-reduce = ["max irregularity", { kind = "histogram", of = "irregularity", bins = 5, low = 0, high = 1 }]
+reduce = ["max speed_fluctuation", { kind = "histogram", of = "speed_fluctuation", bins = 5, low = 0, high = 1 }]
 [engine]
 kind = "processes"
 workers = 3
@@ -92,16 +92,21 @@ chunk_rows = 100
 """
     )
     assert plan.reduce == (
-        Reduce(kind="max", of="irregularity"),
-        Reduce(kind="histogram", of="irregularity", bins=5, low=0.0, high=1.0),
+        Reduce(kind="max", of="speed_fluctuation"),
+        Reduce(kind="histogram", of="speed_fluctuation", bins=5, low=0.0, high=1.0),
     )
     assert (plan.engine, plan.workers, plan.chunk, plan.rows, plan.title) == ("processes", 3, 100, "none", "a title")
-    assert plan.constraints == ("irregularity <= 0.01",)
+    assert plan.constraints == ("speed_fluctuation <= 0.01",)
 
 
 def test_axes_written_as_the_plan_file_has_them_read_alike():
     given = read_plan(EXAMPLES / "sweeps" / "truck-suspension.toml")
-    tree = {"format": 1, "drive": "truck-rear-axle.toml", "ask": ["bend"], "vary": [axis.told() for axis in given.axes]}
+    tree = {
+        "format": 1,
+        "drive": "truck-rear-axle.toml",
+        "ask": ["joint_angle"],
+        "vary": [axis.told() for axis in given.axes],
+    }
     tree["reduce"] = [one.told() for one in given.reduce]
     again = plan_of(json.dumps(tree), folder=EXAMPLES, form="json")
     assert (again.axes, again.reduce) == (given.axes, given.reduce)
@@ -115,8 +120,8 @@ drive = "truck-rear-axle.toml"
 ask = []
 sead = 3
 rows = "some"
-constraints = ["irregularity about 3"]
-reduce = ["most irregularity", 3]
+constraints = ["speed fluctuation about 3"]
+reduce = ["most speed fluctuation", 3]
 [[vary]]
 key = "duty.speed_rpm"
 from = 1000
@@ -163,7 +168,7 @@ def test_rows_give_the_same_keys():
 
 
 def test_what_is_wrong_with_the_drive_file_is_told():
-    found = wrong('format = 1\ndrive = "no-such.toml"\nask = ["irregularity"]\n')
+    found = wrong('format = 1\ndrive = "no-such.toml"\nask = ["speed_fluctuation"]\n')
     assert any(field.startswith("drive") for field in found)
 
 
@@ -171,7 +176,7 @@ def test_questions_and_paths_are_held_against_the_drive():
     text = HEAD.replace('"irregularity"', '"irregularty"')
     found = wrong(text + '[[vary]]\nkey = "joints[5].centre_mm[0]"\nfrom = 0\nto = 1\ncount = 2\n')
     assert "no index 5" in found["vary[0]: joints[5].centre_mm[0]"]
-    assert "irregularity" in found["ask"]
+    assert "speed_fluctuation" in found["ask"]
 
 
 def test_what_constraints_need_is_told_when_the_plan_becomes_work():

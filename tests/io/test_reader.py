@@ -10,7 +10,7 @@ from cardan import InputError
 from cardan.io import loads
 
 HEAD = "format = 1\n"
-TWO = HEAD + "[[joints]]\nbend_deg = 10\n[[joints]]\nbend_deg = 12\n"
+TWO = HEAD + "[[joints]]\njoint_angle_deg = 10\n[[joints]]\njoint_angle_deg = 12\n"
 
 
 def problems(text: str, **how: str) -> dict[str, str]:
@@ -22,9 +22,9 @@ def problems(text: str, **how: str) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("text", "field", "words"),
     [
-        ("[[joints]]\nbend_deg = 10", "format", "missing"),
-        ("format = 2\n[[joints]]\nbend_deg = 10", "format", "this version reads format = 1"),
-        ("format = true\n[[joints]]\nbend_deg = 10", "format", "not known"),
+        ("[[joints]]\njoint_angle_deg = 10", "format", "missing"),
+        ("format = 2\n[[joints]]\njoint_angle_deg = 10", "format", "this version reads format = 1"),
+        ("format = true\n[[joints]]\njoint_angle_deg = 10", "format", "not known"),
         (HEAD, "joints", "missing"),
         (HEAD + "joints = []", "joints", "at least one joint"),
         (HEAD + "joints = 3", "joints", "must be tables, each under [[joints]], not 3"),
@@ -38,10 +38,10 @@ def problems(text: str, **how: str) -> dict[str, str]:
         (TWO + "[duty]\nyoke_fixed = true", "duty.yoke_fixed", "it belongs to [[shafts]]"),
         (TWO + "[duty]\nteeth = 3", "duty.teeth", "it belongs to [[shafts]] spline"),
         (TWO + "duty = 3", "joints[1].duty", "unknown here; it belongs to the head of the file"),
-        (HEAD + "[[joints]]\nbend_deg = 90", "joints[0].bend_deg", "less than 90°"),
-        (HEAD + "[[joints]]\nbend_deg = -1", "joints[0].bend_deg", "at least 0°"),
-        (HEAD + "[[joints]]\nbend_deg = nan", "joints[0].bend_deg", "nan is not allowed"),
-        (HEAD + '[[joints]]\nkind = "hook"\nbend_deg = 1', "joints[0].kind", "none of hooke"),
+        (HEAD + "[[joints]]\njoint_angle_deg = 90", "joints[0].joint_angle_deg", "less than 90°"),
+        (HEAD + "[[joints]]\njoint_angle_deg = -1", "joints[0].joint_angle_deg", "at least 0°"),
+        (HEAD + "[[joints]]\njoint_angle_deg = nan", "joints[0].joint_angle_deg", "nan is not allowed"),
+        (HEAD + '[[joints]]\nkind = "hook"\njoint_angle_deg = 1', "joints[0].kind", "none of hooke"),
         (TWO + "[[shafts]]\nyoke_angle_deg = 3", "shafts[0].number", "missing"),
         (TWO + "[[shafts]]\nnumber = 2.5", "shafts[0].number", "must be a whole number"),
         (TWO + "[[shafts]]\nnumber = 4", "shafts[3].number", "2 joints make shafts 1 to 3"),
@@ -56,7 +56,7 @@ def problems(text: str, **how: str) -> dict[str, str]:
         (TWO + "[[shafts]]\nnumber = 2\nyoke_fixed_deg = 1", "shafts[1].yoke_fixed_deg", "takes no unit"),
         (TWO + "input.point_mm = [0, 0, 0]", "joints[1].input", "belongs to the head"),
         (
-            HEAD + "input.point_mm = [0, 0, 0]\n[[joints]]\nbend_deg = 3",
+            HEAD + "input.point_mm = [0, 0, 0]\n[[joints]]\njoint_angle_deg = 3",
             "input.point_mm",
             "given by angles; this field belongs to another form",
         ),
@@ -68,11 +68,15 @@ def problems(text: str, **how: str) -> dict[str, str]:
             "'joints[2]' is not a point of this drive",
         ),
         (
-            TWO + '[[poses]]\nname = "a"\nset = { "joints[0].bend_dek" = 3 }',
-            "poses[0].set: joints[0].bend_dek",
+            TWO + '[[poses]]\nname = "a"\nset = { "joints[0].joint_angle_dek" = 3 }',
+            "poses[0].set: joints[0].joint_angle_dek",
             "nearest",
         ),
-        (TWO + '[[poses]]\nname = "a"\nset = { "joints[0].bend_deg" = 90 }', "poses[0].set: joints[0].bend_deg", "90°"),
+        (
+            TWO + '[[poses]]\nname = "a"\nset = { "joints[0].joint_angle_deg" = 90 }',
+            "poses[0].set: joints[0].joint_angle_deg",
+            "90°",
+        ),
     ],
 )
 def test_names_field_value_and_what_is_allowed(text: str, field: str, words: str) -> None:
@@ -112,7 +116,9 @@ number = 7
 
 
 def test_reports_nothing_that_only_follows_from_another_problem() -> None:
-    assert list(problems(HEAD + "[[joints]]\nbend_deg = 91\n[[joints]]\nbend_deg = 3")) == ["joints[0].bend_deg"]
+    assert list(problems(HEAD + "[[joints]]\njoint_angle_deg = 91\n[[joints]]\njoint_angle_deg = 3")) == [
+        "joints[0].joint_angle_deg"
+    ]
 
 
 @pytest.mark.parametrize("points", ["[0, 0, 0]", "[100, 0, 0]"])
@@ -131,13 +137,13 @@ def test_one_shaft_only() -> None:
 
 def test_ten_thousand_joints_are_refused_with_the_limit() -> None:
     start = time.process_time()
-    found = problems(HEAD + "[[joints]]\nbend_deg = 1\n" * 10_000)
+    found = problems(HEAD + "[[joints]]\njoint_angle_deg = 1\n" * 10_000)
     assert found == {"joints": "10000 joints given; the limit is 1000"}
     assert time.process_time() - start < 60.0
 
 
 def test_a_thousand_joints_load() -> None:
-    assert len(loads(HEAD + "[[joints]]\nbend_deg = 0.1\n" * 1000).joints) == 1000
+    assert len(loads(HEAD + "[[joints]]\njoint_angle_deg = 0.1\n" * 1000).joints) == 1000
 
 
 def test_not_toml_says_where() -> None:
@@ -152,13 +158,15 @@ def test_not_json() -> None:
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("bend_deg = 20", 20), ("bend_rad = 0.3490658503988659", 20), ("bend_arcmin = 1200", 20)],
+    [("joint_angle_deg = 20", 20), ("joint_angle_rad = 0.3490658503988659", 20), ("joint_angle_arcmin = 1200", 20)],
 )
 def test_any_unit_of_the_dimension(key: str, value: float) -> None:
-    assert loads(HEAD + f"[[joints]]\n{key}").joints[0].bend == pytest.approx(value * 0.017453292519943295, rel=1e-15)
+    assert loads(HEAD + f"[[joints]]\n{key}").joints[0].joint_angle == pytest.approx(
+        value * 0.017453292519943295, rel=1e-15
+    )
 
 
 def test_yoke_lead_is_the_yoke_angle_with_the_opposite_sign() -> None:
-    lead = loads(TWO + "[[shafts]]\nnumber = 2\nyoke_lead_deg = 30")
+    angle_error = loads(TWO + "[[shafts]]\nnumber = 2\nyoke_lead_deg = 30")
     angle = loads(TWO + "[[shafts]]\nnumber = 2\nyoke_angle_deg = -30")
-    assert lead == angle
+    assert angle_error == angle

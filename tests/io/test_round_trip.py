@@ -206,7 +206,7 @@ crosses = things(Cross, span=st.just(0.08), journal=st.just(0.018))
 ratings = things(Rating, torque=st.floats(1.0, 1e5)) | things(Rating, torque=st.none(), convention=st.just("Tc"))
 hookes = things(
     Hooke,
-    bend=st.just(0.2),
+    joint_angle=st.just(0.2),
     plane_twist=st.none(),
     centre=st.none(),
     move_within=st.none(),

@@ -17,7 +17,7 @@ VALIDATOR = jsonschema.Draft202012Validator(schema())
 
 
 def tree(**changes: Any) -> dict[str, Any]:
-    return {"format": 1, "joints": [{"bend_deg": 10}, {"bend_deg": 12}], **changes}
+    return {"format": 1, "joints": [{"joint_angle_deg": 10}, {"joint_angle_deg": 12}], **changes}
 
 
 @pytest.mark.slow
@@ -37,11 +37,11 @@ def test_accepts_examples(text: str) -> None:
         tree(format=2),
         tree(colour="red"),
         {"format": 1},
-        tree(joints=[{"bend": 10}]),
-        tree(joints=[{"bend_deg": 90}]),
-        tree(joints=[{"bend_deg": 1, "bend_rad": 0.1}]),
+        tree(joints=[{"joint_angle": 10}]),
+        tree(joints=[{"joint_angle_deg": 90}]),
+        tree(joints=[{"joint_angle_deg": 1, "joint_angle_rad": 0.1}]),
         tree(joints=[{"centre_mm": [1, 2]}]),
-        tree(joints=[{"kind": "hook", "bend_deg": 1}]),
+        tree(joints=[{"kind": "hook", "joint_angle_deg": 1}]),
         tree(shafts=[{"yoke_angle_deg": 3}]),
         tree(shafts=[{"number": 2, "yoke_angle_deg": 3, "yoke_lead_deg": 3}]),
         tree(shafts=[{"number": 2, "spline": {"teeth": 2.5}}]),

@@ -33,7 +33,7 @@ def test_every_station_of_an_example_takes_it(name: str, thing: Absorber | Pendu
 
 
 def test_tables_in_one_line_take_it_too() -> None:
-    text = "format = 1\nstations = [{ shaft = 2, inertia_kg_m2 = 0.5 }]  # one\n[[joints]]\nbend_deg = 10\n"
+    text = "format = 1\nstations = [{ shaft = 2, inertia_kg_m2 = 0.5 }]  # one\n[[joints]]\njoint_angle_deg = 10\n"
     drive = loads(text)
     one = replace(drive, stations=(replace(drive.stations[0], absorber=THINGS[0]),))
     assert loads(put_station(text, one, 0)) == one

@@ -53,7 +53,7 @@ def test_parquet_with_its_provenance(found, tmp_path):
     same(table.to_pydict(), {name: column[picked] for name, column in TABLE.items()})
     about = json.loads(pq.read_metadata(tmp_path / "it's.parquet").metadata[b"cardan"])
     assert about["provenance"]["drive"] == {"name": "truck"}
-    assert about["columns"]["bend_deg[1]"] == "deg"
+    assert about["columns"]["joint_angle_deg[1]"] == "deg"
 
 
 def test_a_workbook_has_numbers_and_a_sheet_on_where_they_come_from(found, tmp_path):
@@ -65,14 +65,14 @@ def test_a_workbook_has_numbers_and_a_sheet_on_where_they_come_from(found, tmp_p
     same({name: [row[k] for row in rows] for k, name in enumerate(NAMES)}, TABLE, within=1e-15)
     assert isinstance(rows[0][0], int | float)
     about = {row[0]: row[1] for row in book["provenance"].iter_rows(values_only=True)}
-    assert about["bend_deg[1]"] == "°"
+    assert about["joint_angle_deg[1]"] == "°"
     assert about["drive.name"] == "truck"
     assert about["seed"] == 3
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet", ".xlsx"])
 def test_chosen_rows(found, tmp_path, suffix):
-    best = found.best(Goal(name="irregularity"), count=5)
+    best = found.best(Goal(name="speed_fluctuation"), count=5)
     assert export(found, tmp_path / f"best{suffix}", rows=best) == 5
     if suffix == ".parquet":
         same(pq.read_table(tmp_path / "best.parquet").to_pydict(), best)

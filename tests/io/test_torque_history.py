@@ -12,7 +12,7 @@ from cardan.drive.machine import TorqueHistory
 
 TEXT = """format = 1
 [[joints]]
-bend_deg = 10
+joint_angle_deg = 10
 [duty]
 speed_rpm = 600
 load = { kind = "time_history", file = "load.csv" }

@@ -16,7 +16,7 @@ from cardan.questions.torsion.transient.transient import Adaptive, simulate
 
 mujoco = pytest.importorskip("mujoco")
 
-BEND, SPEED, SPAN, STEP = 0.6, 40.0, 0.08, 1e-5
+JOINT_ANGLE, SPEED, SPAN, STEP = 0.6, 40.0, 0.08, 1e-5
 INERTIA, STIFFNESS, DAMPING, CROSS = (0.5, 0.04, 0.03, 0.3), (900.0, 700.0), (0.4, 0.3), 1e-6
 
 
@@ -24,9 +24,9 @@ def text(vector: object) -> str:
     return " ".join(repr(float(x)) for x in np.atleast_1d(vector))
 
 
-def bodies(bend: float) -> object:
+def bodies(joint_angle: float) -> object:
     """Return the mechanism: shaft 1 along x, the driving yoke's arm along y, normal to the plane of the shafts."""
-    second = np.asarray([np.cos(bend), 0.0, np.sin(bend)])
+    second = np.asarray([np.cos(joint_angle), 0.0, np.sin(joint_angle)])
     # At the start the driven arm is normal to both the driving arm and the driven shaft.
     arm = np.cross(second, [0.0, 1.0, 0.0])
 
@@ -49,15 +49,15 @@ def bodies(bend: float) -> object:
     )
 
 
-def followed(bend: float) -> np.ndarray:
+def followed(joint_angle: float) -> np.ndarray:
     """Return the angles of wheel, yoke, yoke and wheel over the span in time."""
-    model = bodies(bend)
+    model = bodies(joint_angle)
     data = mujoco.MjData(model)
     at = {name: model.joint(name).qposadr[0] for name in ("wheel1", "yoke1", "yoke2", "wheel2")}
     # The driving arm stands across the plane of the shafts: the driven yoke turns slower by cos α, the cross rests.
     data.qvel[at["wheel1"]] = SPEED
-    data.qvel[at["yoke2"]] = SPEED * np.cos(bend)
-    data.qvel[at["wheel2"]] = SPEED * (1.0 - np.cos(bend))
+    data.qvel[at["yoke2"]] = SPEED * np.cos(joint_angle)
+    data.qvel[at["wheel2"]] = SPEED * (1.0 - np.cos(joint_angle))
     found = []
     for _step in range(round(SPAN / STEP)):
         mujoco.mj_step(model, data)
@@ -68,20 +68,20 @@ def followed(bend: float) -> np.ndarray:
     return np.asarray(found)
 
 
-def line(bend: float) -> TorsionalModel:
+def line(joint_angle: float) -> TorsionalModel:
     return torsional_line(
         [INERTIA[:2], INERTIA[2:]],
         stiffness=[[STIFFNESS[0]], [STIFFNESS[1]]],
         damping=[[DAMPING[0]], [DAMPING[1]]],
-        bend=[bend],
+        joint_angle=[joint_angle],
         phase=[0.5 * np.pi],
     )
 
 
 def test_two_flywheels_swing_through_a_joint_as_mujocos_do() -> None:
-    theirs = followed(BEND)
+    theirs = followed(JOINT_ANGLE)
     times = STEP * np.arange(1, len(theirs) + 1)
-    mine = simulate(line(BEND), span=SPAN, times=times, speed=SPEED, method=Adaptive(rtol=1e-8, atol=1e-9))
+    mine = simulate(line(JOINT_ANGLE), span=SPAN, times=times, speed=SPEED, method=Adaptive(rtol=1e-8, atol=1e-9))
     twist = theirs[:, 0] - theirs[:, 1]
     assert np.ptp(twist) > 0.05, "the springs must be twisted"
     swing = np.max(np.abs(theirs - SPEED * times[:, None]))
@@ -89,7 +89,9 @@ def test_two_flywheels_swing_through_a_joint_as_mujocos_do() -> None:
 
 
 def test_the_oracle_would_notice_a_joint_of_another_bend() -> None:
-    theirs = followed(BEND)
-    mine = simulate(line(BEND + 0.02), span=SPAN, times=np.asarray([SPAN]), speed=SPEED, method=Adaptive(rtol=1e-8))
+    theirs = followed(JOINT_ANGLE)
+    mine = simulate(
+        line(JOINT_ANGLE + 0.02), span=SPAN, times=np.asarray([SPAN]), speed=SPEED, method=Adaptive(rtol=1e-8)
+    )
     swing = np.max(np.abs(theirs[-1] - SPEED * SPAN))
     assert np.max(np.abs(mine.angle[-1] - theirs[-1])) > 1e-2 * swing

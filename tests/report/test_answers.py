@@ -17,7 +17,7 @@ from cardan.report.answers import answered, subject
 from cardan.report.applying import Applicable, settings, synchronous
 from cardan.report.content import moved
 from cardan.report.lacking import told
-from cardan.report.lights import lights, sentence, with_cures
+from cardan.report.lights import lights, sentence, with_remedies
 from cardan.report.loaded import loaded
 from cardan.report.subject import Subject
 from cardan.units import deg
@@ -131,11 +131,11 @@ def test_why_a_drive_cannot_be_made_even():
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "truck-power-unit"])
 def test_every_cure_cures_when_it_is_written_into_the_file(name):
     text = example_text(name)
-    shown = with_cures(subject(loads(text)))
+    shown = with_remedies(subject(loads(text)))
     tried = 0
     for one in shown:
-        for cure in one.cures[:1]:
-            after = {other.name: other for other in lights(subject(loads(edit(text, cure.values))))}
+        for remedy in one.remedies[:1]:
+            after = {other.name: other for other in lights(subject(loads(edit(text, remedy.values))))}
             assert one.name not in after or after[one.name].tone != "failed"
             tried += 1
     assert tried

@@ -1,4 +1,4 @@
-"""The largest bend among the key figures: held against the same limit as on the page on limits."""
+"""The largest joint angle among the key figures: held against the same limit as on the page on limits."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ def row(drive):
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "pto-drive"])
 def test_the_rating_of_the_joint_is_the_limit_in_both_places(name):
     drive = example(name)
-    worst = max((one for one in check(drive, only=["bend"]) if one.run), key=lambda one: one.utilisation)
+    worst = max((one for one in check(drive, only=["joint_angle"]) if one.run), key=lambda one: one.utilisation)
     shown = row(drive)
     assert float(shown[3].full) == pytest.approx(worst.limit / deg)
     assert float(shown[4].full) == pytest.approx(worst.utilisation)
@@ -36,7 +36,7 @@ def test_a_joint_without_a_rating_passes_nothing_but_nears_the_utmost_of_its_kin
 
 def test_a_bend_while_moving_says_so():
     drive = example("truck-rear-axle")
-    drive = replace(drive, limits=replace(drive.limits, bend=12 * deg))
+    drive = replace(drive, limits=replace(drive.limits, joint_angle=12 * deg))
     shown = row(drive)
     assert shown[0].text == "largest joint angle, joint 2, while the drive moves; in the pose empty"
     assert shown[3].text == "≤ 12"

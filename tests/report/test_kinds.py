@@ -151,4 +151,4 @@ def test_steep_joints_are_judged_by_their_kind() -> None:
     assert not too_steep(JOINTS["rzeppa"](), 1, 46 * deg)
     assert "Rzeppa" in too_steep(JOINTS["rzeppa"](), 1, 48 * deg)
     assert "cross joint" in too_steep(Hooke(), 1, 46 * deg)
-    assert "joints[0].kind" not in page(Drive(joints=(JOINTS["constant_velocity"](bend=0.3),)))
+    assert "joints[0].kind" not in page(Drive(joints=(JOINTS["constant_velocity"](joint_angle=0.3),)))

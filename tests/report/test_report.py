@@ -80,7 +80,7 @@ def test_the_report_of_every_example_is_whole(name):
     words = "".join(seen.words)
     assert len(seen.ids) == len(set(seen.ids))
     assert {link.removeprefix("#") for link in seen.links} <= set(seen.ids)
-    assert percent(float(equivalent_joint(drive).irregularity)) in words
+    assert percent(float(equivalent_joint(drive).speed_fluctuation)) in words
     assert drive.name in words
     assert source.strip().splitlines()[-1] in words
     assert "nan" not in re.findall(r"[a-z]+", words.lower())
@@ -122,7 +122,7 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
 
 
 def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
-    """Its two bends of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
+    """Its two joint angles of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
     from cardan.report.key_figures import key_figures, key_table
     from cardan.report.subject import asked
     from cardan.report.summary import uniformity
@@ -254,9 +254,9 @@ def test_bends_beyond_joints_and_beyond_digits_are_warned_of():
     assert "rounding costs digits" in "".join(parsed(page(Drive.from_angles([85 * deg, 10 * deg]))).words)
 
 
-@pytest.mark.parametrize("bends", [[0.0], [0.2], [0.0, 0.2, 0.2], [0.1] * 12, [0.0, 0.0]])
-def test_any_number_of_joints_and_straight_ones_give_a_report(bends):
-    seen = parsed(page(Drive.from_angles(bends)))
+@pytest.mark.parametrize("joint_angles", [[0.0], [0.2], [0.0, 0.2, 0.2], [0.1] * 12, [0.0, 0.0]])
+def test_any_number_of_joints_and_straight_ones_give_a_report(joint_angles):
+    seen = parsed(page(Drive.from_angles(joint_angles)))
     assert "nan" not in re.findall(r"[a-z]+", "".join(seen.words).lower())
 
 

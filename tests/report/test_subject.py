@@ -18,10 +18,10 @@ from cardan.report.summary import uniformity
 SMALL = math.radians(0.05)
 
 
-@pytest.mark.parametrize("bends", [[SMALL], [0.0, SMALL], [0.3 * SMALL, SMALL]])
-def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(bends):
-    on = Subject(drive=Drive.from_angles(bends))
-    assert 1e-8 < float(on.whole.irregularity) < SPECK
+@pytest.mark.parametrize("joint_angles", [[SMALL], [0.0, SMALL], [0.3 * SMALL, SMALL]])
+def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(joint_angles):
+    on = Subject(drive=Drive.from_angles(joint_angles))
+    assert 1e-8 < float(on.whole.speed_fluctuation) < SPECK
     assert not on.rounded
     assert not on.curable
     said = [uniformity(on).text]
@@ -39,12 +39,12 @@ def test_a_small_bend_that_the_file_gives_by_itself_is_no_rounding(bends):
 def test_a_speck_is_rounding_unless_the_user_asks_for_less(drive):
     on = Subject(drive=drive)
     assert on.rounded
-    limit = 0.5 * float(on.whole.irregularity)
-    asked = Subject(drive=replace(drive, limits=Limits(irregularity=limit)))
+    limit = 0.5 * float(on.whole.speed_fluctuation)
+    asked = Subject(drive=replace(drive, limits=Limits(speed_fluctuation=limit)))
     assert not asked.rounded
     assert not asked.curable
     assert [uniformity(one).tone for one in (on, asked)] == ["good", "warning"]
-    assert Subject(drive=replace(drive, limits=Limits(irregularity=4.0 * limit))).rounded
+    assert Subject(drive=replace(drive, limits=Limits(speed_fluctuation=4.0 * limit))).rounded
 
 
 def test_yokes_that_leave_a_speck_cure_a_drive_whose_joints_undo_each_other():
@@ -53,11 +53,11 @@ def test_yokes_that_leave_a_speck_cure_a_drive_whose_joints_undo_each_other():
     assert Subject(drive=replace(drive, shafts=(drive.shafts[0], turned, *drive.shafts[2:]))).curable
 
 
-@pytest.mark.parametrize("bends", [[SMALL], [0.0, SMALL]])
-def test_a_small_acceleration_is_told(bends):
+@pytest.mark.parametrize("joint_angles", [[SMALL], [0.0, SMALL]])
+def test_a_small_acceleration_is_told(joint_angles):
     (row,) = [
         row
-        for row in key_table(key_figures(Subject(drive=Drive.from_angles(bends)))).rows
+        for row in key_table(key_figures(Subject(drive=Drive.from_angles(joint_angles)))).rows
         if "acceleration" in row[0].text
     ]
     assert row[1].text == "7.615·10⁻⁷"

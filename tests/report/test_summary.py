@@ -9,9 +9,9 @@ from cardan.report.subject import Subject
 from cardan.report.summary import changes, uniformity
 
 
-def posed(bends: tuple[float, float], pose: str, yoke: float = 0.0) -> Subject:
-    """Return a drive of two joints with these bends [°], and a pose of it."""
-    joints = "".join(f"[[joints]]\nbend_deg = {bend}\n" for bend in bends)
+def posed(joint_angles: tuple[float, float], pose: str, yoke: float = 0.0) -> Subject:
+    """Return a drive of two joints with these joint angles [°], and a pose of it."""
+    joints = "".join(f"[[joints]]\njoint_angle_deg = {joint_angle}\n" for joint_angle in joint_angles)
     shafts = f"[[shafts]]\nnumber = 2\nyoke_angle_deg = {yoke}\n"
     return Subject(
         drive=loads(f'format = 1\nname = "D"\n{joints}{shafts}[[poses]]\nname = "low"\nset = {{ {pose} }}\n')
@@ -25,7 +25,7 @@ def told(on: Subject) -> str:
 
 
 def test_a_drive_that_is_even_only_as_drawn_is_not_called_even_in_its_poses():
-    on = posed((10.0, 10.0), '"joints[0].bend_deg" = 20')
+    on = posed((10.0, 10.0), '"joints[0].joint_angle_deg" = 20')
     said = uniformity(on)
     # One joint of 20° against one of 10°, by hand: cos 20°/cos 10° = cos α, δ = 1/cos α - cos α = 9.38 %.
     assert said.text == "D is uniform as drawn. In the pose low the speed fluctuation is 9.38 %."
@@ -34,7 +34,7 @@ def test_a_drive_that_is_even_only_as_drawn_is_not_called_even_in_its_poses():
 
 
 def test_yokes_that_would_suit_the_poses_are_named():
-    on = posed((0.0, 0.0), '"joints[0].bend_deg" = 20, "joints[1].bend_deg" = 20', yoke=90.0)
+    on = posed((0.0, 0.0), '"joints[0].joint_angle_deg" = 20, "joints[1].joint_angle_deg" = 20', yoke=90.0)
     assert "“least in the worst pose” leaves 0 % in the worst pose" in told(on)
 
 

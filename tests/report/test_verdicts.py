@@ -96,19 +96,19 @@ def test_one_change_that_cures_all_stands_first_in_words_and_with_its_key():
     assert found.changes is not None
     first, second = ([cell.text for cell in row] for row in found.changes.rows)
     assert first == [KEY, "input speed", "855", "560", "torsional acceleration of the output and 2 others"]
-    assert second[:3] == ["joints[1].bend_deg", "joint 2: joint angle", "15.3333"]
+    assert second[:3] == ["joints[1].joint_angle_deg", "joint 2: joint angle", "15.3333"]
     assert found.changes.note.startswith("Keys count from 0")
 
 
 def test_a_change_is_listed_once_and_marked_where_it_breaks_something():
     found = judged(asked(example("truck-duty-cycle"), None, None))
     assert found.page is not None
-    cures = next(
+    remedies = next(
         one for one in found.page.blocks if isinstance(one, Table) and one.title.startswith("Corrective changes")
     )
-    told = [(row[0].text, row[3].text) for row in cures.rows]
+    told = [(row[0].text, row[3].text) for row in remedies.rows]
     assert len(set(told)) == len(told)
-    assert {row[-1].tone for row in cures.rows if "then fails" in row[-1].text} == {"warning"}
+    assert {row[-1].tone for row in remedies.rows if "then fails" in row[-1].text} == {"warning"}
     assert sum(key == "joints[2].centre_mm[2]" for key, _value in told) == 1, "hardly more of it cures both"
 
 
@@ -133,7 +133,7 @@ def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
     page = judged(asked(example("six-joints"), None, None)).page
     assert page is not None
     rows = next(one.rows for one in page.blocks if isinstance(one, Table) and one.title.startswith("Checks not run"))
-    assert [row[1].text for row in rows if "rating.max_bend" in row[0].text] == [
+    assert [row[1].text for row in rows if "rating.max_joint_angle" in row[0].text] == [
         "joint angle of joint 1 (and 2, 3, 4, 5, 6)"
     ]
     assert len(rows) < 25
@@ -169,8 +169,8 @@ def test_the_colour_of_the_first_sentence_has_a_reason_in_words():
 
 def test_a_limit_nearly_used_up_makes_the_first_sentence_amber():
     drive = example("composite-propshaft")
-    bends = [float(one.value) for one in check(drive, only=["bend"])]
-    near = replace(drive, limits=replace(drive.limits, bend=max(bends) / 0.95))
+    joint_angles = [float(one.value) for one in check(drive, only=["joint_angle"])]
+    near = replace(drive, limits=replace(drive.limits, joint_angle=max(joint_angles) / 0.95))
     on = asked(near, None, None)
     page = judged(on).page
     assert page is not None

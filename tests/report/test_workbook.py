@@ -117,7 +117,7 @@ def read(text: str) -> float | None:
 
 def tables(told: Content) -> Iterator[tuple[int, Table]]:
     """Yield the tables of a report with the number of their sheet."""
-    for table in (told.lights, told.cures, told.figures, told.changes):
+    for table in (told.lights, told.remedies, told.figures, told.changes):
         if isinstance(table, Table):
             yield 0, table
     for k, page in enumerate(told.pages, start=1):

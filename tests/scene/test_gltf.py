@@ -45,7 +45,7 @@ def read(data):
 
 DRIVES = {
     "truck": example("truck-supports"),
-    "tripod": Drive(joints=(kinds.Tripod(bend=0.3), kinds.Rzeppa(bend=0.4))),
+    "tripod": Drive(joints=(kinds.Tripod(joint_angle=0.3), kinds.Rzeppa(joint_angle=0.4))),
 }
 
 

@@ -60,8 +60,8 @@ def test_every_example_has_a_sound_and_light_scene(name):
 @pytest.mark.parametrize("kind", kinds.JOINTS.values())
 def test_joints_of_every_kind_can_be_described(kind):
     sizes = {kinds.OffsetCross: {"offset": 0.02, "reach": 0.4}}.get(kind, {})
-    joint = kind(bend=min(0.3, 0.9 * kind.steepest), **sizes)
-    drive = Drive(joints=(kinds.Hooke(bend=0.1), joint, kinds.Hooke(bend=0.1)))
+    joint = kind(joint_angle=min(0.3, 0.9 * kind.steepest), **sizes)
+    drive = Drive(joints=(kinds.Hooke(joint_angle=0.1), joint, kinds.Hooke(joint_angle=0.1)))
     json.dumps(scene(drive, frames=12, with_forces=True, with_modes=True).described(), allow_nan=False)
 
 
@@ -230,7 +230,7 @@ def test_poses_and_movements_move_the_drive_and_leave_its_parts_as_long_as_they_
 
 
 def test_joints_that_do_not_turn_are_said_so():
-    stuck = Drive(joints=(kinds.PinCoupling(bend=1.2, driving_slant=0.2),))
+    stuck = Drive(joints=(kinds.PinCoupling(joint_angle=1.2, driving_slant=0.2),))
     shown = scene(stuck, frames=8)
     assert shown.missing["motion"].startswith("joint 1 does not turn")
     json.dumps(shown.described(), allow_nan=False)

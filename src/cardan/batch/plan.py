@@ -190,9 +190,9 @@ def work_of(
     ask : sequence of str
         Names of questions, see `questions`.
     reduce : sequence of str or Reduce
-        ``"max irregularity by duty.speed_rpm"`` and the like.
+        ``"max speed_fluctuation by duty.speed_rpm"`` and the like.
     constraints : sequence of str or Limit
-        ``"irregularity <= 0.02"``: what a point has to keep to be feasible.
+        ``"speed_fluctuation <= 0.02"``: what a point has to keep to be feasible.
     known : Catalogue, optional
         Where sizes and grades are looked up; the shipped one when not given.
     device : {"cpu", "gpu"}
@@ -207,10 +207,11 @@ def work_of(
     Examples
     --------
     >>> pair = Drive.from_angles([0.3, 0.3])
-    >>> work = work_of(pair, {"joints[1].bend_deg": [10.0, 20.0]}, ["irregularity"], constraints=["irregularity <= 1"])
+    >>> angles = {"joints[1].joint_angle_deg": [10.0, 20.0]}
+    >>> work = work_of(pair, angles, ["speed_fluctuation"], constraints=["speed_fluctuation <= 1"])
     >>> rows = work.evaluate(0, 2)
     >>> list(rows), rows["feasible"]
-    (['joints[1].bend_deg', 'irregularity', 'status', 'feasible'], array([ True,  True]))
+    (['joints[1].joint_angle_deg', 'speed_fluctuation', 'status', 'feasible'], array([ True,  True]))
     """
     problems: list[Problem] = []
     axes: list[Axis] = []

@@ -43,11 +43,11 @@ def sweep(
         Path with unit, as in the drive file, -> its values; or axes: `Spaced`, `Listed`, `Drawn`. Every combination is
         a point.
     ask : sequence of str
-        Names of questions: ``"irregularity"``, ``"life"``.
+        Names of questions: ``"speed_fluctuation"``, ``"life"``.
     reduce : sequence of str or Reduce
-        What to tell of all points: ``"max irregularity by duty.speed_rpm"``.
+        What to tell of all points: ``"max speed_fluctuation by duty.speed_rpm"``.
     constraints : sequence of str or Limit
-        What a point has to keep to be feasible: ``"irregularity <= 0.02"``.
+        What a point has to keep to be feasible: ``"speed_fluctuation <= 0.02"``.
     engine : InProcess, Processes or Cluster
         Where it is worked on; the rows are the same.
     into : path, optional
@@ -83,8 +83,9 @@ def sweep(
     Examples
     --------
     >>> pair = Drive.from_angles([0.3, 0.3])
-    >>> found = sweep(pair, {"joints[1].bend_deg": [10.0, 17.2, 95.0]}, ["irregularity"], reduce=["min irregularity"])
-    >>> found.table()["irregularity"], found.table()["status"]
+    >>> angles = {"joints[1].joint_angle_deg": [10.0, 17.2, 95.0]}
+    >>> found = sweep(pair, angles, ["speed_fluctuation"], reduce=["min speed_fluctuation"])
+    >>> found.table()["speed_fluctuation"], found.table()["status"]
     (array([0.060775  , 0.00012169,        nan]), array([0, 0, 1], dtype=int8))
     """
     work = work_of(drive, vary, ask, reduce=reduce, constraints=constraints, known=known, device=device)

@@ -24,7 +24,7 @@ class Status(IntEnum):
 
     ANSWERED = 0
     NO_DRIVE = 1
-    """The values of the point make no drive: a bend of 90° or more, a range that is left."""
+    """The values of the point make no drive: a joint angle of 90° or more, a range that is left."""
     NO_ANSWER = 2
     """The drive exists; a question has no answer there."""
 

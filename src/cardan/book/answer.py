@@ -54,33 +54,33 @@ def differ(result: BookComparison) -> bool:
     >>> [differ(book_comparison(Drive.from_angles([angle * deg]))) for angle in (0.5, 20.0)]
     [False, True]
     """
-    exact = float(result.irregularity)
-    told = (result.irregularity_80, result.irregularity_mean_phases, result.irregularity_without_theta)
+    exact = float(result.speed_fluctuation)
+    told = (result.speed_fluctuation_80, result.speed_fluctuation_mean_phases, result.speed_fluctuation_without_theta)
     return any(abs(float(one) - exact) > ALIKE * exact for one in told)
 
 
 def answer(drive: Drive, result: BookComparison) -> Answer:
     """Return what there is to say of the classical approximations."""
-    exact = float(result.irregularity)
+    exact = float(result.speed_fluctuation)
     rows = (
         (_("exact"), _("matrix product"), exact),
-        (_("series, first order"), _("Book (80), exact phase angles"), float(result.irregularity_80)),
+        (_("series, first order"), _("Book (80), exact phase angles"), float(result.speed_fluctuation_80)),
         (
             _("series, mean phases"),
             _("first order, start position left out"),
-            float(result.irregularity_mean_phases),
+            float(result.speed_fluctuation_mean_phases),
         ),
-        (_("series without Θ"), _("as calculated in Book (90)"), float(result.irregularity_without_theta)),
+        (_("series without Θ"), _("as calculated in Book (90)"), float(result.speed_fluctuation_without_theta)),
     )
     shares = [share for _name, _source, share in rows]
-    bend = 0.0 if exact < SYNCHRONOUS else float(result.bend)
+    joint_angle = 0.0 if exact < SYNCHRONOUS else float(result.joint_angle)
     return Answer(
         name="classical",
         title=_("Classical approximations"),
         sentence=say(
             _("The rule of practice √|Σ ±α²| gives an equivalent joint angle of {rule}, exact is {exact}."),
             rule=Quantity(float(result.rule_of_practice), "angle", decimals=3),
-            exact=Quantity(bend, "angle", decimals=3),
+            exact=Quantity(joint_angle, "angle", decimals=3),
         ),
         figures=lambda: (book_figure(result),),
         tables=(

@@ -13,7 +13,7 @@ from cardan.drive.drives import Drives, kinematics
 from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.motion.motion import TURN, motion, phase_angles
+from cardan.questions.motion.motion import TURN, initial_phases, motion
 
 Amplitude: TypeAlias = Literal["quarter", "tau"]
 """Amplitude c_i1 of a joint: book's α²/4, or the exact tan²(α/2)."""
@@ -57,11 +57,11 @@ class BookSeries:
         return 0.5 * xp.atan2(self.b1, self.a1)
 
     @property
-    def irregularity(self) -> Array:
+    def speed_fluctuation(self) -> Array:
         """δ ≈ 4 s_n1, array (...); Book (80)."""
         return 4.0 * self.amplitude
 
-    def lead(self, angle: ArrayLike) -> Array:
+    def angle_error(self, angle: ArrayLike) -> Array:
         """Return φ_{n+1} - φ_1 at input angles (p,) [rad], array (..., p) [rad]; Book (59), (63), (69), (71)."""
         one, two, phi, xp = self._waves(angle)
         return -self.constant[..., None] + sum(
@@ -124,15 +124,15 @@ def book_series(
     --------
     >>> from cardan.units import deg
     >>> series = book_series(Drive.from_angles([12 * deg, 20 * deg]))
-    >>> round(float(series.irregularity), 6)
+    >>> round(float(series.speed_fluctuation), 6)
     0.077982
     """
     if order == 2 and phases != "exact":
         raise ValueError("the second order takes exact phases")
     chain = kinematics(drive)
-    xp = namespace(chain.bend)
-    psi = mean_phases(chain) if phases == "mean" else phase_angles(chain)
-    c = 0.25 * chain.bend**2 if amplitude == "quarter" else xp.tan(0.5 * chain.bend) ** 2
+    xp = namespace(chain.joint_angle)
+    psi = mean_phases(chain) if phases == "mean" else initial_phases(chain)
+    c = 0.25 * chain.joint_angle**2 if amplitude == "quarter" else xp.tan(0.5 * chain.joint_angle) ** 2
     zero = 0.0 * c[..., 0]
     theta, a1, b1, a2, b2 = zero, zero, zero, zero, zero
     for i in range(chain.joints):
@@ -175,17 +175,17 @@ def rule_of_practice(drive: Drive | Drives | Chain) -> Array:
     16.0
     """
     chain = kinematics(drive)
-    xp = namespace(chain.bend)
-    arms = chain.bend**2 * unit_complex(2.0 * mean_phases(chain))
+    xp = namespace(chain.joint_angle)
+    arms = chain.joint_angle**2 * unit_complex(2.0 * mean_phases(chain))
     return xp.sqrt(xp.abs(xp.sum(arms, axis=-1)))
 
 
-def collinear_bend(bend: ArrayLike, sign: ArrayLike) -> Array:
+def collinear_joint_angle(joint_angle: ArrayLike, sign: ArrayLike) -> Array:
     """Return the exact equivalent angle of joints with collinear phases, array (...) [rad].
 
     Parameters
     ----------
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_i.
     sign : array (..., n)
         +1 where a joint works like the first one, -1 where it works against it.
@@ -198,11 +198,11 @@ def collinear_bend(bend: ArrayLike, sign: ArrayLike) -> Array:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> round(float(collinear_bend([10 * deg, 20 * deg, 30 * deg], [1, -1, 1]) / deg), 3)
+    >>> round(float(collinear_joint_angle([10 * deg, 20 * deg, 30 * deg], [1, -1, 1]) / deg), 3)
     24.824
     """
-    xp = namespace(bend, sign)
-    length = xp.abs(xp.sum(real(sign, xp) * xp.log(xp.cos(real(bend, xp))), axis=-1))
+    xp = namespace(joint_angle, sign)
+    length = xp.abs(xp.sum(real(sign, xp) * xp.log(xp.cos(real(joint_angle, xp))), axis=-1))
     return 2.0 * xp.atan(xp.sqrt(xp.tanh(0.5 * length)))
 
 
@@ -216,15 +216,15 @@ class BookComparison:
         Input angle φ_1.
     exact, first_order, second_order : array (..., p) [rad]
         Angle error φ_{n+1} - φ_1: exact; Book (59) with c = α²/4; Book (63) with c = tan²(α/2).
-    irregularity : array (...)
+    speed_fluctuation : array (...)
         δ, exact.
-    irregularity_80 : array (...)
+    speed_fluctuation_80 : array (...)
         δ ≈ 4 s_n1 by Book (80), exact phase angles.
-    irregularity_mean_phases : array (...)
+    speed_fluctuation_mean_phases : array (...)
         The same with mean phases, independent of the start position.
-    irregularity_without_theta : array (...)
+    speed_fluctuation_without_theta : array (...)
         The same without Θ, as the book works in (90).
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Equivalent angle, exact.
     rule_of_practice : array (...) [rad]
         Equivalent angle √|Σ ±α_i²|.
@@ -234,11 +234,11 @@ class BookComparison:
     exact: Array
     first_order: Array
     second_order: Array
-    irregularity: Array
-    irregularity_80: Array
-    irregularity_mean_phases: Array
-    irregularity_without_theta: Array
-    bend: Array
+    speed_fluctuation: Array
+    speed_fluctuation_80: Array
+    speed_fluctuation_mean_phases: Array
+    speed_fluctuation_without_theta: Array
+    joint_angle: Array
     rule_of_practice: Array
 
     @property
@@ -255,7 +255,7 @@ class BookComparison:
 
 
 def book_comparison(drive: Drive | Drives | Chain, angle: ArrayLike | None = None) -> BookComparison:
-    """Return the exact angle error of the output beside the book's series, and what each says of the irregularity.
+    """Return the exact angle error of the output beside the book's series, and what each says of the speed fluctuation.
 
     Parameters
     ----------
@@ -282,20 +282,20 @@ def book_comparison(drive: Drive | Drives | Chain, angle: ArrayLike | None = Non
     True
     """
     chain = kinematics(drive)
-    xp = namespace(chain.bend, angle)
+    xp = namespace(chain.joint_angle, angle)
     phi = xp.linspace(0.0, 2.0 * xp.pi, TURN, dtype=xp.float64) if angle is None else real(angle, xp)
     phi = phi if phi.ndim else phi[None]
     first = book_series(chain)
     joint = equivalent_joint(chain)
     return BookComparison(
         angle=phi,
-        exact=motion(chain, phi).lead[..., -1, :],
-        first_order=first.lead(phi),
-        second_order=book_series(chain, 2, amplitude="tau").lead(phi),
-        irregularity=joint.irregularity,
-        irregularity_80=first.irregularity,
-        irregularity_mean_phases=book_series(chain, phases="mean").irregularity,
-        irregularity_without_theta=book_series(chain, phases="without_theta").irregularity,
-        bend=joint.bend,
+        exact=motion(chain, phi).angle_error[..., -1, :],
+        first_order=first.angle_error(phi),
+        second_order=book_series(chain, 2, amplitude="tau").angle_error(phi),
+        speed_fluctuation=joint.speed_fluctuation,
+        speed_fluctuation_80=first.speed_fluctuation,
+        speed_fluctuation_mean_phases=book_series(chain, phases="mean").speed_fluctuation,
+        speed_fluctuation_without_theta=book_series(chain, phases="without_theta").speed_fluctuation,
+        joint_angle=joint.joint_angle,
         rule_of_practice=rule_of_practice(chain),
     )

@@ -157,10 +157,15 @@ def _state(
 ) -> tuple[Stand, Couples]:
     one, two, twist, gamma = (real(x, np) for x in (first, second, plane_twist, yoke_angle))
     one, two, twist, gamma = np.broadcast_arrays(one, two, twist, gamma)
-    bend = np.stack((one, two), axis=-1)
-    lengths = np.ones((*bend.shape[:-1], 3))
-    points = points_from_angles(bend, twist[..., None], lengths)
-    chain = Chain(bend=bend, plane_twist=twist[..., None], yoke_angle=gamma[..., None], start_phase=np.zeros(one.shape))
+    joint_angle = np.stack((one, two), axis=-1)
+    lengths = np.ones((*joint_angle.shape[:-1], 3))
+    points = points_from_angles(joint_angle, twist[..., None], lengths)
+    chain = Chain(
+        joint_angle=joint_angle,
+        plane_twist=twist[..., None],
+        yoke_angle=gamma[..., None],
+        start_phase=np.zeros(one.shape),
+    )
     place = geometry_from_points(points)
     train = Train(points=points, chain=chain)
     phi = np.atleast_1d(real(angle, np))

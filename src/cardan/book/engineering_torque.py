@@ -190,11 +190,11 @@ def torque_course(reduction: MathieuReduction, angle: ArrayLike, mean: float) ->
     phi = np.asarray(angle, dtype=float)
     c, a, s = reduction.stiffness, reduction.a, reduction.amplitude
     constant = -mean / (reduction.inertia * reduction.speed**2)
-    shift, lead = reduction.wave_phase, reduction.forcing_phase
+    shift, angle_error = reduction.wave_phase, reduction.forcing_phase
     sway = (reduction.forcing * np.exp(2j * phi)).imag
 
     def twist(q: float) -> Array:
-        phases = [0.5 * np.pi, 2.0 * (lead - shift)]
+        phases = [0.5 * np.pi, 2.0 * (angle_error - shift)]
         found = forced(a, q, order=[0.0, 2.0], amplitude=[constant, a * s], phase=phases)
         return found.at(phi + shift)
 

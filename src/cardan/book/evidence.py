@@ -84,8 +84,8 @@ def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
     steep = max(float(np.max(found.shaft_ratio)), float(joint.ratio_max), 1.0)
     allowed = ROUNDING * whole.joints * steep**4
     straight = ratio_by_vectors(geometry(drive), whole, angle)
-    steps = np.sin(found.joint_angle) ** 2 + (np.cos(whole.bend)[:, None] * np.cos(found.joint_angle)) ** 2
-    chained = np.cumprod(np.cos(whole.bend)[:, None] / steps, axis=0)
+    steps = np.sin(found.yoke_rotation) ** 2 + (np.cos(whole.joint_angle)[:, None] * np.cos(found.yoke_rotation)) ** 2
+    chained = np.cumprod(np.cos(whole.joint_angle)[:, None] / steps, axis=0)
     closed = blokh(whole, angle)
     return (
         SelfCheck(
@@ -103,7 +103,7 @@ def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
         SelfCheck(
             name=_("angle of the output"),
             way=_("Blokh's closed form, Book (35)–(37), freed of its poles"),
-            residual=_largest(found.lead[-1] - closed.lead),
+            residual=_largest(found.angle_error[-1] - closed.angle_error),
             allowed=allowed,
         ),
         SelfCheck(
@@ -173,7 +173,7 @@ def swing_by_vectors(drive: Drive, yoke_angle: ArrayLike) -> float:
     """
     built = chain(drive)
     train = Chain(
-        bend=built.bend,
+        joint_angle=built.joint_angle,
         plane_twist=built.plane_twist,
         yoke_angle=np.asarray(yoke_angle, dtype=float),
         start_phase=built.start_phase,
@@ -197,7 +197,7 @@ def _harmonics(whole: Chain, exact: Array) -> float:
     while count < 65536 and tau ** (count // 2) > 1e-18:
         count *= 2
     angle = np.pi * np.arange(count) / count
-    wave = np.fft.rfft(motion(whole, angle).lead[-1]) * 2.0 / count
+    wave = np.fft.rfft(motion(whole, angle).angle_error[-1]) * 2.0 / count
     return _largest(np.abs(wave[1 : len(exact) + 1]) - exact)
 
 

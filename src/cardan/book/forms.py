@@ -10,7 +10,7 @@ from cardan.drive.drives import Drives, kinematics
 from cardan.drive.models.chain import Chain
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.texts import _
 
 Arrangement: TypeAlias = Literal["a", "b", "c", "d"]
@@ -25,7 +25,7 @@ class OutputMotion:
     ----------
     angle : array (p,) [rad]
         φ_1.
-    lead : array (..., p) [rad]
+    angle_error : array (..., p) [rad]
         φ_{n+1} - φ_1, continuous over any number of turns.
     ratio : array (..., p)
         ω_{n+1}/ω_1.
@@ -34,14 +34,14 @@ class OutputMotion:
     """
 
     angle: Array
-    lead: Array
+    angle_error: Array
     ratio: Array
     slope: Array
 
     @property
     def output_angle(self) -> Array:
         """φ_{n+1}, array (..., p) [rad]."""
-        return self.angle + self.lead
+        return self.angle + self.angle_error
 
 
 def blokh(drive: Drive | Drives | Chain, angle: ArrayLike) -> OutputMotion:
@@ -57,7 +57,7 @@ def blokh(drive: Drive | Drives | Chain, angle: ArrayLike) -> OutputMotion:
     Returns
     -------
     OutputMotion
-        lead, ratio, slope : arrays (..., p).
+        angle_error, ratio, slope : arrays (..., p).
 
     Notes
     -----
@@ -72,7 +72,7 @@ def blokh(drive: Drive | Drives | Chain, angle: ArrayLike) -> OutputMotion:
     array([1.15470054, 0.8660254 ])
     """
     chain = kinematics(drive)
-    xp = namespace(chain.bend, angle)
+    xp = namespace(chain.joint_angle, angle)
     phi = real(angle, xp)
     big_a, big_b, big_c = blokh_coefficients(chain)
     return _of_tangent(phi, big_a[..., None], big_b[..., None], big_c[..., None])
@@ -81,11 +81,11 @@ def blokh(drive: Drive | Drives | Chain, angle: ArrayLike) -> OutputMotion:
 def blokh_coefficients(drive: Drive | Drives | Chain) -> tuple[Array, Array, Array]:
     """Return A, B, C of tan φ_{n+1} = A sin φ_1/(B sin φ_1 + C cos φ_1), arrays (...); Book (35) without poles."""
     chain = kinematics(drive)
-    xp = namespace(chain.bend)
-    psi = phase_angles(chain)
+    xp = namespace(chain.joint_angle)
+    psi = initial_phases(chain)
     cosine, sine = xp.cos(psi), xp.sin(psi)
-    a = xp.cos(chain.bend)
-    b = xp.sin(chain.bend) ** 2 * sine * cosine
+    a = xp.cos(chain.joint_angle)
+    b = xp.sin(chain.joint_angle) ** 2 * sine * cosine
     c = (a * cosine) ** 2 + sine**2
     big_a, big_b, big_c = a[..., 0], b[..., 0], c[..., 0]
     for i in range(1, chain.joints):
@@ -106,7 +106,7 @@ def _of_tangent(phi: Array, big_a: Array, big_b: Array, big_c: Array) -> OutputM
     change = (big_a**2 + big_b**2 - big_c**2) * xp.sin(twice) + 2.0 * big_b * big_c * xp.cos(twice)
     return OutputMotion(
         angle=phi,
-        lead=xp.atan2(up * cosine - along * sine, along * cosine + up * sine),
+        angle_error=xp.atan2(up * cosine - along * sine, along * cosine + up * sine),
         ratio=big_a * big_c / square,
         slope=-big_a * big_c * change / square**2,
     )
@@ -169,7 +169,7 @@ def double_joint(first: ArrayLike, second: ArrayLike, phase: ArrayLike, angle: A
     Returns
     -------
     OutputMotion
-        lead, ratio, slope : arrays (..., p).
+        angle_error, ratio, slope : arrays (..., p).
 
     Notes
     -----
@@ -206,13 +206,13 @@ class DoubleJoint:
     length: Array
 
     @property
-    def irregularity(self) -> Array:
+    def speed_fluctuation(self) -> Array:
         """δ = 2 sinh L_eq, array (...)."""
         xp = namespace(self.length)
         return 2.0 * xp.sinh(self.length)
 
     @property
-    def bend(self) -> Array:
+    def joint_angle(self) -> Array:
         """Equivalent angle α_eq, array (...) [rad], accurate for small ones."""
         xp = namespace(self.length)
         return 2.0 * xp.atan(xp.sqrt(xp.tanh(0.5 * self.length)))
@@ -242,7 +242,7 @@ def double_joint_law(first: ArrayLike, second: ArrayLike, phase: ArrayLike) -> D
     --------
     >>> import numpy as np
     >>> law = double_joint_law(0.2, 0.3, np.pi / 2)
-    >>> print(f"{np.cos(law.bend):.6f} {np.cos(0.3) / np.cos(0.2):.6f}")
+    >>> print(f"{np.cos(law.joint_angle):.6f} {np.cos(0.3) / np.cos(0.2):.6f}")
     0.974767 0.974767
     """
     xp = namespace(first, second, phase)

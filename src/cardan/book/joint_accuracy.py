@@ -45,12 +45,12 @@ class Stack:
     share_slide: Array
 
 
-def joint_stack(bend: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, turns: ArrayLike) -> Stack:
+def joint_stack(joint_angle: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, turns: ArrayLike) -> Stack:
     """Return worst case and root of the sum of squares of one joint's tolerances.
 
     Parameters
     ----------
-    bend, angle : array (...) [rad]
+    joint_angle, angle : array (...) [rad]
         α and φ_1 from the plane of the shafts.
     ways : array (..., 5) [m]
         Tolerances of s_1, a_1 … a_4.
@@ -67,8 +67,8 @@ def joint_stack(bend: ArrayLike, angle: ArrayLike, *, ways: ArrayLike, turns: Ar
     >>> stack.worst_angle.round(3), stack.worst_slide.round(3)
     (array([6.197, 0.   , 5.604]), array([0.546, 0.   , 1.139]))
     """
-    xp = namespace(bend, angle, ways, turns)
-    table = loops.influence(bend, angle)
+    xp = namespace(joint_angle, angle, ways, turns)
+    table = loops.influence(joint_angle, angle)
     slides = xp.abs(table * real(ways, xp)[..., None, :])
     angles = xp.abs(table[..., 1:] * real(turns, xp)[..., None, :])
 
@@ -110,12 +110,12 @@ class StackOverTurn:
     equal_ways: Array
 
 
-def stack_over_turn(bend: float, *, ways: ArrayLike, turns: ArrayLike) -> StackOverTurn:
+def stack_over_turn(joint_angle: float, *, ways: ArrayLike, turns: ArrayLike) -> StackOverTurn:
     """Return the largest stack of one joint's tolerances over a turn.
 
     Parameters
     ----------
-    bend : float [rad]
+    joint_angle : float [rad]
         α.
     ways : array (5,) [m]
         Tolerances of s_1, a_1 … a_4.
@@ -135,12 +135,12 @@ def stack_over_turn(bend: float, *, ways: ArrayLike, turns: ArrayLike) -> StackO
     places = one_turn()
 
     def curves(angle: Array) -> Array:
-        stack = joint_stack(bend, angle, ways=ways, turns=turns)
+        stack = joint_stack(joint_angle, angle, ways=ways, turns=turns)
         rows = (stack.worst_angle, stack.square_angle, stack.worst_slide, stack.square_slide)
         return np.stack([row[..., 2] for row in rows])
 
     def sizes(angle: Array) -> Array:
-        found: Array = np.abs(loops.influence(bend, angle)[..., 2, :]).T
+        found: Array = np.abs(loops.influence(joint_angle, angle)[..., 2, :]).T
         return found
 
     largest = peaks(curves, places, curves(places))[1]
@@ -183,7 +183,7 @@ class JointSample:
 
 
 def joint_samples(
-    bend: float,
+    joint_angle: float,
     angle: float,
     *,
     ways: ArrayLike,
@@ -195,7 +195,7 @@ def joint_samples(
 
     Parameters
     ----------
-    bend, angle : float [rad]
+    joint_angle, angle : float [rad]
         α and φ_1 from the plane of the shafts.
     ways : array (5,) [m]
         Tolerances of s_1, a_1 … a_4.
@@ -219,7 +219,7 @@ def joint_samples(
     """
     limits = np.concatenate((np.asarray(ways, dtype=float), np.asarray(turns, dtype=float)))
     right = 0.5 * np.pi
-    perfect = np.asarray([right, right, right, bend])
+    perfect = np.asarray([right, right, right, joint_angle])
     begin = loops.rccc(perfect, angle).angle
     found: list[Array] = []
     count = 0

@@ -30,8 +30,8 @@ CLOSED = 1e-11
 """How far the ends of a steady motion may be apart [rad]."""
 
 LEAST_STEP = 1 / 32
-"""Smallest step of the bend by which a steady motion is followed up, or of the twist by which a balance is, a share of
-the whole."""
+"""Smallest step of the joint angle by which a steady motion is followed up, or of the twist by which a balance is, a
+share of the whole."""
 
 FAR = 0.5
 """A motion further than this from where it is looked for is another one [rad, or a share of the speed]."""
@@ -65,7 +65,7 @@ class Balance:
 _Held: TypeAlias = tuple[list[float], list[tuple[float, float, float]], list[float], list[float], list[float]]
 
 
-def _lead(theta: float, tau: float) -> float:
+def _angle_error(theta: float, tau: float) -> float:
     return theta + math.atan2(tau * math.sin(2.0 * theta), 1.0 - tau * math.cos(2.0 * theta))
 
 
@@ -74,7 +74,7 @@ def _law(angle: float, joint: tuple[float, float, float, float, float]) -> tuple
     tau, cos, sin2, psi, start = joint
     theta = angle + psi
     under = 1.0 - sin2 * math.cos(theta) ** 2
-    return _lead(theta, tau) - start, cos / under, -cos * sin2 * math.sin(2.0 * theta) / under**2
+    return _angle_error(theta, tau) - start, cos / under, -cos * sin2 * math.sin(2.0 * theta) / under**2
 
 
 def _solved(pivots: list[float], beside: list[float], right: list[float]) -> list[float]:
@@ -112,8 +112,8 @@ class MasslessDrive:
     def _joints(self) -> tuple[tuple[float, float, float, float, float], ...]:
         """Return τ, cos α, sin²α, ψ and the lead at the start of each joint, as plain numbers."""
         found = []
-        for alpha, psi, tau in zip(self.reduction.bend, self.reduction.phase, self.reduction.tau, strict=True):
-            start = _lead(float(psi), float(tau))
+        for alpha, psi, tau in zip(self.reduction.joint_angle, self.reduction.phase, self.reduction.tau, strict=True):
+            start = _angle_error(float(psi), float(tau))
             found.append((float(tau), math.cos(alpha), math.sin(alpha) ** 2, float(psi), start))
         return tuple(found)
 
@@ -275,8 +275,8 @@ def steady_twist(reduction: MathieuReduction, torque: float = 0.0) -> SteadyTwis
     Notes
     -----
     Shooting over half a turn with Newton's method; derivatives by the variational equations, integrated beside the
-    motion (Dormand and Prince, order 8). Where the first try fails the bend is raised from nought, then the speed
-    changed from one well off.
+    motion (Dormand and Prince, order 8). Where the first try fails the joint angle is raised from nought, then the
+    speed changed from one well off.
 
     Examples
     --------
@@ -300,7 +300,7 @@ _Way: TypeAlias = Callable[[MathieuReduction, float], MathieuReduction]
 
 
 def _bent(reduction: MathieuReduction, share: float) -> MathieuReduction:
-    return replace(reduction, bend=2.0 * np.arctan(np.sqrt(share * reduction.tau)))
+    return replace(reduction, joint_angle=2.0 * np.arctan(np.sqrt(share * reduction.tau)))
 
 
 def _slowed(reduction: MathieuReduction, share: float) -> MathieuReduction:

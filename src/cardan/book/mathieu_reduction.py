@@ -26,7 +26,7 @@ class MathieuReduction:
 
     Attributes
     ----------
-    bend, phase : array (n,) [rad]
+    joint_angle, phase : array (n,) [rad]
         α_k and ψ_k of the joints.
     springs : array (n + 1,) [N·m/rad]
         c_1 … c_(n+1), before, between and behind the joints.
@@ -36,7 +36,7 @@ class MathieuReduction:
         Mean speed ω_1.
     """
 
-    bend: Array
+    joint_angle: Array
     phase: Array
     springs: Array
     first_inertia: float
@@ -46,7 +46,7 @@ class MathieuReduction:
     @property
     def tau(self) -> Array:
         """c_k1 = tan²(α_k/2), array (n,)."""
-        return np.tan(0.5 * self.bend) ** 2
+        return np.tan(0.5 * self.joint_angle) ** 2
 
     @property
     def arms(self) -> Array:
@@ -155,7 +155,7 @@ class MathieuReduction:
 
 
 def mathieu_reduction(
-    bend: ArrayLike,
+    joint_angle: ArrayLike,
     phase: ArrayLike,
     springs: ArrayLike,
     *,
@@ -167,7 +167,7 @@ def mathieu_reduction(
 
     Parameters
     ----------
-    bend, phase : arrays (n,) [rad]
+    joint_angle, phase : arrays (n,) [rad]
         α_k and ψ_k of the joints.
     springs : array (n + 1,) [N·m/rad]
         c_1 … c_(n+1).
@@ -200,13 +200,15 @@ def mathieu_reduction(
     >>> print(f"{found.a:.4f} {found.q_book:.5f} {found.q:.5f} {found.off_node}")
     1.0213 0.01633 0.03266 [0.51428571]
     """
-    alpha, psi, springs = (np.atleast_1d(np.asarray(value, dtype=float)) for value in (bend, phase, springs))
+    alpha, psi, springs = (np.atleast_1d(np.asarray(value, dtype=float)) for value in (joint_angle, phase, springs))
     check(
         [
-            *([] if alpha.size else [Problem("bend", _("an empty list has no joint"))]),
+            *([] if alpha.size else [Problem("joint_angle", _("an empty list has no joint"))]),
             *_fits("phase", psi.size, alpha.size),
             *_fits("springs", springs.size, alpha.size + 1),
-            *_within("bend", alpha, (alpha >= 0.0) & (alpha < 0.5 * np.pi), _("a bend lies in [0°, 90°)")),
+            *_within(
+                "joint_angle", alpha, (alpha >= 0.0) & (alpha < 0.5 * np.pi), _("a joint angle lies in [0°, 90°)")
+            ),
             *_within("phase", psi, np.isfinite(psi), _("needs to be finite")),
             *_within("springs", springs, (springs > 0.0) & np.isfinite(springs), _("needs to be positive")),
             *(
@@ -217,7 +219,7 @@ def mathieu_reduction(
         ]
     )
     return MathieuReduction(
-        bend=alpha,
+        joint_angle=alpha,
         phase=psi,
         springs=springs,
         first_inertia=float(first_inertia),

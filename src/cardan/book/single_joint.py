@@ -8,24 +8,24 @@ from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import (
     angle_of_largest_acceleration,
-    angle_of_largest_lead,
+    angle_of_largest_error,
     largest_acceleration,
 )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointExtremes:
-    """One row of Book Table 4 for each bend, and the angles at which the extremes stand.
+    """One row of Book Table 4 for each joint angle, and the angles at which the extremes stand.
 
     Attributes
     ----------
     ratio_max, ratio_min : array (...)
         Largest and smallest speed ratio.
-    irregularity : array (...)
+    speed_fluctuation : array (...)
         δ = sin α tan α.
-    lead : array (...) [rad]
+    angle_error : array (...) [rad]
         Largest lead of the driven shaft when the driving yoke starts in the plane of the joint.
-    angle_of_lead : array (...) [rad]
+    angle_of_error : array (...) [rad]
         First joint angle θ of that lead.
     acceleration : array (...)
         Largest |ε_2|/ω_1² at uniform input.
@@ -35,20 +35,20 @@ class JointExtremes:
 
     ratio_max: Array
     ratio_min: Array
-    irregularity: Array
-    lead: Array
-    angle_of_lead: Array
+    speed_fluctuation: Array
+    angle_error: Array
+    angle_of_error: Array
     acceleration: Array
     angle_of_acceleration: Array
 
 
-def joint_extremes(bend: Array) -> JointExtremes:
+def joint_extremes(joint_angle: Array) -> JointExtremes:
     """Return the extremes of single joints, exactly.
 
     Parameters
     ----------
-    bend : array (...) [rad]
-        Bend angles α in [0, π/2).
+    joint_angle : array (...) [rad]
+        Joint angles α in [0, π/2).
 
     Returns
     -------
@@ -66,25 +66,25 @@ def joint_extremes(bend: Array) -> JointExtremes:
     >>> joint_extremes(np.asarray([20 * deg])).acceleration
     array([0.12496558])
     """
-    xp = namespace(bend)
+    xp = namespace(joint_angle)
     return JointExtremes(
-        ratio_max=1.0 / xp.cos(bend),
-        ratio_min=xp.cos(bend),
-        irregularity=xp.sin(bend) * xp.tan(bend),
-        lead=xp.asin(mobius.tau(mobius.hooke(bend))),
-        angle_of_lead=angle_of_largest_lead(bend),
-        acceleration=largest_acceleration(bend),
-        angle_of_acceleration=angle_of_largest_acceleration(bend),
+        ratio_max=1.0 / xp.cos(joint_angle),
+        ratio_min=xp.cos(joint_angle),
+        speed_fluctuation=xp.sin(joint_angle) * xp.tan(joint_angle),
+        angle_error=xp.asin(mobius.tau(mobius.hooke(joint_angle))),
+        angle_of_error=angle_of_largest_error(joint_angle),
+        acceleration=largest_acceleration(joint_angle),
+        angle_of_acceleration=angle_of_largest_acceleration(joint_angle),
     )
 
 
-def fourier(bend: Array, count: int) -> Array:
+def fourier(joint_angle: Array, count: int) -> Array:
     """Return the exact Fourier amplitudes of the angle error of single joints.
 
     Parameters
     ----------
-    bend : array (...) [rad]
-        Bend angles α in [0, π/2).
+    joint_angle : array (...) [rad]
+        Joint angles α in [0, π/2).
     count : int
         How many, of orders 2, 4 … 2·count of the input turn.
 
@@ -95,7 +95,7 @@ def fourier(bend: Array, count: int) -> Array:
     Notes
     -----
     φ_2 - φ_1 = Σ_k (τ^k/k) (sin 2kθ - sin 2kψ_1), τ = tan²(α/2). Where the book expands in tan² α, Book (39)-(46),
-    this is closed, and converges for every bend below 90°.
+    this is closed, and converges for every joint angle below 90°.
 
     Examples
     --------
@@ -104,9 +104,9 @@ def fourier(bend: Array, count: int) -> Array:
     >>> fourier(np.asarray(20 * deg), 2)
     array([0.0310912 , 0.00048333])
     """
-    xp = namespace(bend)
+    xp = namespace(joint_angle)
     k = xp.arange(1, count + 1, dtype=xp.float64)
-    return (xp.tan(0.5 * bend) ** 2)[..., None] ** k / k
+    return (xp.tan(0.5 * joint_angle) ** 2)[..., None] ** k / k
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -130,13 +130,13 @@ class BookCoefficients:
     constant: Array
 
 
-def book_coefficients(bend: Array) -> BookCoefficients:
+def book_coefficients(joint_angle: Array) -> BookCoefficients:
     """Return book's truncated series for the Fourier amplitudes of single joints.
 
     Parameters
     ----------
-    bend : array (...) [rad]
-        Bend angles α in [0, π/2); the series themselves converge below 45° only.
+    joint_angle : array (...) [rad]
+        Joint angles α in [0, π/2); the series themselves converge below 45° only.
 
     Returns
     -------
@@ -155,11 +155,11 @@ def book_coefficients(bend: Array) -> BookCoefficients:
     >>> book_coefficients(np.asarray([20 * deg])).c11
     array([0.03115498])
     """
-    xp = namespace(bend)
-    t = xp.tan(bend) ** 2
-    c = xp.cos(bend)
+    xp = namespace(joint_angle)
+    t = xp.tan(joint_angle) ** 2
+    c = xp.cos(joint_angle)
     return BookCoefficients(
-        c11_quarter=0.25 * bend * bend,
+        c11_quarter=0.25 * joint_angle * joint_angle,
         c11=t * (0.25 - t * (0.25 - t * (15.0 / 64.0))) / c,
         c12=t * t * (1.0 / 32.0 - t * (3.0 / 64.0)) / c,
         c13=t * t * t / 192.0 / c,

@@ -90,13 +90,13 @@ class CrossLoads:
 
 
 def cross_loads(
-    bend: ArrayLike, angle: ArrayLike, torque: ArrayLike, *, span: ArrayLike, torque_at: str = "input"
+    joint_angle: ArrayLike, angle: ArrayLike, torque: ArrayLike, *, span: ArrayLike, torque_at: str = "input"
 ) -> CrossLoads:
     """Return the load of the journals and the secondary couples of one joint, the torque constant on either shaft.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     angle : array (p,) [rad]
         θ, angle of the driving yoke from the plane of the joint.
@@ -119,8 +119,8 @@ def cross_loads(
     >>> print(found.journal.round(3), f"{found.driving_couple_max:.3f}")
     [22222.222 22718.68 ] 425.113
     """
-    xp = namespace(bend, angle, torque, span)
-    alpha, theta, load, d = (real(x, xp) for x in (bend, angle, torque, span))
+    xp = namespace(joint_angle, angle, torque, span)
+    alpha, theta, load, d = (real(x, xp) for x in (joint_angle, angle, torque, span))
     most = single_joint_peaks(alpha, torque_at=torque_at)
     whole = xp.abs(load)
     wide = alpha[..., None]
@@ -156,12 +156,12 @@ class CoupleFrames:
     double: Array
 
 
-def couple_frames(bend: ArrayLike, torque: ArrayLike) -> CoupleFrames:
+def couple_frames(joint_angle: ArrayLike, torque: ArrayLike) -> CoupleFrames:
     """Return the secondary couple of one joint in the frame of its shaft and in that of the housing.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     torque : array (...) [N·m]
         M, constant on this shaft.
@@ -177,13 +177,13 @@ def couple_frames(bend: ArrayLike, torque: ArrayLike) -> CoupleFrames:
     >>> print(f"{found.rotating:.1f}, {found.standing:.1f} and {found.double:.1f} N·m")
     425.1, 212.6 and 212.6 N·m
     """
-    xp = namespace(bend, torque)
-    rotating = xp.abs(real(torque, xp)) * xp.tan(real(bend, xp))
+    xp = namespace(joint_angle, torque)
+    rotating = xp.abs(real(torque, xp)) * xp.tan(real(joint_angle, xp))
     return CoupleFrames(rotating=rotating, standing=0.5 * rotating, double=0.5 * rotating)
 
 
 def single_joint_forces(
-    bend: ArrayLike,
+    joint_angle: ArrayLike,
     angle: ArrayLike,
     torque: ArrayLike,
     *,
@@ -197,7 +197,7 @@ def single_joint_forces(
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
     angle : array (...) [rad]
         θ, angle of the driving yoke from the plane of the joint.
@@ -229,8 +229,10 @@ def single_joint_forces(
     >>> print(f"{found.near:.3f} {found.axial:.3f}")
     1766.737 357.380
     """
-    xp = namespace(bend, angle, torque, span, bearing_span, overhang, reach)
-    alpha, theta, load, d, a, c, b = (real(x, xp) for x in (bend, angle, torque, span, bearing_span, overhang, reach))
+    xp = namespace(joint_angle, angle, torque, span, bearing_span, overhang, reach)
+    alpha, theta, load, d, a, c, b = (
+        real(x, xp) for x in (joint_angle, angle, torque, span, bearing_span, overhang, reach)
+    )
     load = xp.abs(load)
     cosine, t = xp.cos(alpha), xp.tan(alpha)
     sin, cos = xp.abs(xp.sin(theta)), xp.abs(xp.cos(theta))
@@ -261,12 +263,12 @@ def single_joint_forces(
     )
 
 
-def single_joint_peaks(bend: ArrayLike, *, torque_at: str = "output") -> SingleJointPeaks:
+def single_joint_peaks(joint_angle: ArrayLike, *, torque_at: str = "output") -> SingleJointPeaks:
     """Return the largest secondary couples and journal loads over a turn, per unit of the constant torque.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     torque_at : str
         Where the torque is constant, ``output`` or ``input``.
@@ -283,8 +285,8 @@ def single_joint_peaks(bend: ArrayLike, *, torque_at: str = "output") -> SingleJ
     >>> print(f"{found.driving_couple:.6f} {found.driven_couple:.6f} {found.journal_mean:.6f}")
     0.500000 0.577350 1.073182
     """
-    xp = namespace(bend)
-    alpha = real(bend, xp)
+    xp = namespace(joint_angle)
+    alpha = real(joint_angle, xp)
     cosine = xp.cos(alpha)
     steep = xp.where(alpha > 0.25 * xp.pi, 0.5 / cosine, xp.sin(alpha))
     tangent = xp.tan(alpha)

@@ -29,12 +29,12 @@ class SplineThrust:
     along_normal: Array
 
 
-def spline_thrust(bend: ArrayLike, angle: ArrayLike, torque: ArrayLike, grip: ArrayLike) -> SplineThrust:
+def spline_thrust(joint_angle: ArrayLike, angle: ArrayLike, torque: ArrayLike, grip: ArrayLike) -> SplineThrust:
     """Return the friction thrust of the spline of the driven shaft, and what of it goes where.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
     angle : array (...) [rad]
         θ, angle of the driving yoke from the plane of the joint.
@@ -55,8 +55,8 @@ def spline_thrust(bend: ArrayLike, angle: ArrayLike, torque: ArrayLike, grip: Ar
     >>> print(f"{found.thrust:.3f} {found.along_driving_arm:.3f}")
     3200.000 1035.982
     """
-    xp = namespace(bend, angle, torque, grip)
-    alpha, theta, moment, over = (real(x, xp) for x in (bend, angle, torque, grip))
+    xp = namespace(joint_angle, angle, torque, grip)
+    alpha, theta, moment, over = (real(x, xp) for x in (joint_angle, angle, torque, grip))
     push = over * xp.abs(moment)
     sine = xp.sin(alpha)
     along = sine * xp.cos(theta)

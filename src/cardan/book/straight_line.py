@@ -1,7 +1,7 @@
 """How does a straight line of shafts vibrate in torsion? Natural frequencies, the speeds they fall on, forced response.
 
-Without bends a drive is a chain of stations joined by elements, and linear. With bends this is where to begin: joints
-swing twice a turn, and the line shows at which speeds that meets a natural frequency.
+Without bends a drive is a chain of stations joined by elements, and linear. With joint angles this is where to begin:
+joints swing twice a turn, and the line shows at which speeds that meets a natural frequency.
 """
 
 from __future__ import annotations
@@ -83,8 +83,8 @@ def line_modes(inertia: ArrayLike, stiffness: ArrayLike, *, ground: ArrayLike = 
 
     Notes
     -----
-    (K - ω²J) x = 0, spec of torsion with all bends 0: ratio 1 at every joint. ω keeps full relative accuracy, see
-    `cardan.maths.linear.tridiagonal.modes`.
+    (K - ω²J) x = 0, spec of torsion with all joint angles 0: ratio 1 at every joint. ω keeps full relative accuracy,
+    see `cardan.maths.linear.tridiagonal.modes`.
 
     Examples
     --------

@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 PYTHON = {
-    "bend": ("alpha",),
+    "joint_angle": ("alpha",),
     "plane_twist": ("beta", "beta2"),
     "yoke_angle": ("gamma", "gamma2"),
     "angle": ("phi1",),

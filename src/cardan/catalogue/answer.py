@@ -20,13 +20,13 @@ HIDDEN = ("confidence", "names", "russian", "uses", "parts", "family", "pair_mob
 
 SHOWN = {
     "materials": ("european", "american", "yield_strength_MPa", "ultimate_strength_MPa"),
-    "joint_types": ("synchronous", "max_bend_deg", "min_torque_Nm", "max_torque_Nm", "max_speed_angle_rpm_deg"),
+    "joint_types": ("synchronous", "max_joint_angle_deg", "min_torque_Nm", "max_torque_Nm", "max_speed_angle_rpm_deg"),
     "joint_sizes": (
         "rating.outer_mm",
         "mass_kg",
         "rating.torque_Nm",
         "rating.max_torque_Nm",
-        "rating.max_bend_deg",
+        "rating.max_joint_angle_deg",
         "rating.max_speed_rpm",
     ),
     "faults": ("orders", "torque_sensitive", "flags"),

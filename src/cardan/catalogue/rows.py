@@ -73,7 +73,7 @@ class JointType(Row):
     synchronous: str = plain(doc="whether it turns evenly", choices=("yes", "approx", "no"))
     synchronous_as_pair: bool = plain(False, doc="whether two of them, set right, turn evenly")
     pair_mobility: int | None = plain(None, doc="freedoms between its two shafts", low=1)
-    max_bend: float | None = quantity("angle", None, doc="largest bend angle", above=0.0)
+    max_joint_angle: float | None = quantity("angle", None, doc="largest joint angle", above=0.0)
     min_torque: float | None = quantity("torque", None, doc="smallest torque it is made for", low=0.0)
     max_torque: float | None = quantity("torque", None, doc="largest torque it is made for", above=0.0)
     max_speed_angle: float | None = quantity(
@@ -120,11 +120,11 @@ class SpeedAngleLimit(Row):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class MaxBend(Row):
-    """Largest bend of one joint at a speed."""
+class MaxJointAngle(Row):
+    """Largest joint angle of one joint at a speed."""
 
     speed: float = quantity("angular_speed", doc="speed", above=0.0)
-    max_bend: float = quantity("angle", doc="largest bend angle", above=0.0)
+    max_joint_angle: float = quantity("angle", doc="largest joint angle", above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -132,7 +132,7 @@ class AnglePair(Row):
     """Largest second bend beside first bends of 0°, 1°, 2° … at a speed, as printed."""
 
     speed: float = quantity("angular_speed", doc="speed", above=0.0)
-    second_bend: tuple[float, ...] = quantity("angle", doc="largest second bend for each first one", above=0.0)
+    second_joint_angle: tuple[float, ...] = quantity("angle", doc="largest second bend for each first one", above=0.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -200,7 +200,7 @@ TABLES: dict[str, type[Row]] = {
     "joint_sizes": JointSize,
     "angle_norms": AngleNorm,
     "speed_angle_limits": SpeedAngleLimit,
-    "max_bends": MaxBend,
+    "max_joint_angles": MaxJointAngle,
     "angle_pairs": AnglePair,
     "balance_norms": BalanceNorm,
     "balance_grades": BalanceGrade,

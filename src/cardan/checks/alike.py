@@ -43,9 +43,9 @@ def title_of(group: Sequence[Verdict]) -> str:
 
     Examples
     --------
-    >>> one, two = (Verdict(check="bend", title=f"bend of joint {k}", subject=f"joints[{k - 1}]") for k in (1, 2))
+    >>> one, two = (Verdict(check="angle", title=f"angle of joint {k}", subject=f"joints[{k - 1}]") for k in (1, 2))
     >>> title_of([one, two])
-    'bend of joint 1 (and 2)'
+    'angle of joint 1 (and 2)'
     """
     numbers = [one.number for one in group[1:] if one.number]
     if not numbers:

@@ -28,8 +28,8 @@ TOGETHER = 50_000
 """Drives times instants looked at together."""
 
 
-def largest_bends(points: Array, movements: Sequence[Movement]) -> Array:
-    """Return the largest bend of every joint over the instants of a movement, array (..., n) [rad].
+def largest_joint_angles(points: Array, movements: Sequence[Movement]) -> Array:
+    """Return the largest joint angle of every joint over the instants of a movement, array (..., n) [rad].
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def largest_bends(points: Array, movements: Sequence[Movement]) -> Array:
     -----
     Where a movement carries points is an affine function of where they are.
     """
-    found = [np.max(_bends(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
+    found = [np.max(_joint_angles(moved)[0], axis=-2) for _part, moved in _moved(points, movements)]
     return np.concatenate(found).reshape(*points.shape[:-2], -1)
 
 
@@ -71,19 +71,22 @@ def largest_of(
     array (..., k)
         Infinite where a joint bends 90° or more at an instant.
     """
-    lead, between = points.shape[:-2], kinematic.joints - 1
-    yokes = np.broadcast_to(kinematic.yoke_angle, (*lead, between)).reshape(math.prod(lead), 1, between)
-    phase = np.broadcast_to(kinematic.start_phase, lead).reshape(-1, 1)
+    outer, between = points.shape[:-2], kinematic.joints - 1
+    yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, between)).reshape(math.prod(outer), 1, between)
+    phase = np.broadcast_to(kinematic.start_phase, outer).reshape(-1, 1)
     found = []
     for part, moved in _moved(points, movements):
-        possible = np.all(_bends(moved)[1] > 1e-15, axis=-1)
+        possible = np.all(_joint_angles(moved)[1] > 1e-15, axis=-1)
         straight = np.arange(moved.shape[-2])[:, None] * np.asarray((1.0, 0.0, 0.0))
         frozen = geometry_from_points(np.where(possible[..., None, None], moved, straight))
         turned = Chain(
-            bend=frozen.bend, plane_twist=frozen.plane_twist, yoke_angle=yokes[part], start_phase=phase[part]
+            joint_angle=frozen.joint_angle,
+            plane_twist=frozen.plane_twist,
+            yoke_angle=yokes[part],
+            start_phase=phase[part],
         )
         found.append(np.max(np.where(possible[..., None], ask(turning(turned, joints)), np.inf), axis=-2))
-    return np.concatenate(found).reshape(*lead, -1)
+    return np.concatenate(found).reshape(*outer, -1)
 
 
 def extreme_lengths(points: Array, movements: Sequence[Movement]) -> tuple[Array, Array]:
@@ -167,8 +170,8 @@ def _carried(movements: tuple[Movement, ...], count: int, every: int) -> tuple[A
     return still, np.stack([moving_points(unit, movements, times)[0].ravel() - still for unit in units])
 
 
-def _bends(points: Array) -> tuple[Array, Array]:
-    """Return the bends of points (..., n+2, 3) and their cosines, arrays (..., n); a bend may be 90° and more."""
+def _joint_angles(points: Array) -> tuple[Array, Array]:
+    """Return the joint angles of points (..., n+2, 3) and their cosines, arrays (..., n); one may be 90° and more."""
     along = np.diff(points, axis=-2)
     length = frames.norm(along)
     axis = along / np.where(length > 0.0, length, 1.0)[..., None]

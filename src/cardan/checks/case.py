@@ -62,13 +62,13 @@ class Case:
     scale: Array | float = 0.0
 
     @cached_property
-    def bend(self) -> Array:
-        """Bend of every joint, array (..., n) [rad]."""
-        return self.chain.bend if self.chain.laws is None else self.chain.laws.bend
+    def joint_angle(self) -> Array:
+        """Joint angle of every joint, array (..., n) [rad]."""
+        return self.chain.joint_angle if self.chain.laws is None else self.chain.laws.joint_angle
 
     def between(self, first: int, last: int) -> mobius.Pair:
         """Return the Möbius pair of the joints from ``first`` on, counted from 0, up to before ``last``."""
-        part = mobius.partial_products(self.chain.bend[..., first:last], self.chain.turn_before[..., first:last])
+        part = mobius.partial_products(self.chain.joint_angle[..., first:last], self.chain.turn_before[..., first:last])
         return part[-1]
 
     @property
@@ -122,19 +122,19 @@ class Case:
 
 def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
     """Return the loads that a torque of 1 makes, of many drives block by block."""
-    lead, joints = chain.bend.shape[:-1], chain.joints
-    count = math.prod(lead)
+    outer, joints = chain.joint_angle.shape[:-1], chain.joints
+    count = math.prod(outer)
     if count <= BLOCK:
         return turn_loads(chain, 1.0, torque_at=torque_at)
     flat = {
-        "bend": np.broadcast_to(chain.bend, (*lead, joints)).reshape(count, joints),
-        "plane_twist": np.broadcast_to(chain.plane_twist, (*lead, joints - 1)).reshape(count, joints - 1),
-        "yoke_angle": np.broadcast_to(chain.yoke_angle, (*lead, joints - 1)).reshape(count, joints - 1),
-        "start_phase": np.broadcast_to(chain.start_phase, lead).reshape(count),
+        "joint_angle": np.broadcast_to(chain.joint_angle, (*outer, joints)).reshape(count, joints),
+        "plane_twist": np.broadcast_to(chain.plane_twist, (*outer, joints - 1)).reshape(count, joints - 1),
+        "yoke_angle": np.broadcast_to(chain.yoke_angle, (*outer, joints - 1)).reshape(count, joints - 1),
+        "start_phase": np.broadcast_to(chain.start_phase, outer).reshape(count),
     }
     laws = chain.laws
     tables = {} if laws is None else {k: v for k, v in vars(laws).items() if k != "own"}
-    tables = {name: np.broadcast_to(value, (*lead, joints)).reshape(count, joints) for name, value in tables.items()}
+    tables = {name: np.broadcast_to(value, (*outer, joints)).reshape(count, joints) for name, value in tables.items()}
     parts = []
     for start in range(0, count, BLOCK):
         rows = slice(start, start + BLOCK)
@@ -142,7 +142,7 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
         part = replace(chain, laws=own, **{name: values[rows] for name, values in flat.items()})
         parts.append(vars(turn_loads(part, 1.0, torque_at=torque_at, look=MANY)))
     whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    return TurnLoads(**{name: values.reshape(*lead, values.shape[-1]) for name, values in whole.items()})
+    return TurnLoads(**{name: values.reshape(*outer, values.shape[-1]) for name, values in whole.items()})
 
 
 def largest(values: Sequence[Array | float]) -> Array:

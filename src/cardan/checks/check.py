@@ -105,4 +105,4 @@ def _ruled(joint: Joint) -> str:
 
 def _unfit(one: Verdict, kind: str) -> Verdict:
     why = _("judges Hooke joints, not a joint of kind {kind}").format(kind=kind)
-    return replace(one, value=float("nan"), limit=float("nan"), missing=(), levers=(), note="", unfit=why)
+    return replace(one, value=float("nan"), limit=float("nan"), missing=(), design_variables=(), note="", unfit=why)

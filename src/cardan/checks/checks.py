@@ -13,7 +13,16 @@ from cardan.maths.arrays import ArrayLike
 from cardan.texts import _
 from cardan.units import nearest
 
-from .angles import acceleration, angle_rule, angle_table, bend, bend_at_speed, irregularity, output_error, speed_angle
+from .angles import (
+    acceleration,
+    angle_rule,
+    angle_table,
+    joint_angle,
+    joint_angle_at_speed,
+    output_error,
+    speed_angle,
+    speed_fluctuation,
+)
 from .check import Check
 from .design import Design, design
 from .moving import posed, worst_of_poses
@@ -41,9 +50,9 @@ from .verdict import Verdict
 CHECKS: dict[str, Check] = {
     module.CHECK.name: module.CHECK
     for module in (
-        bend,
+        joint_angle,
         acceleration,
-        irregularity,
+        speed_fluctuation,
         output_error,
         bearing_life,
         rated_torque,
@@ -69,7 +78,7 @@ CHECKS: dict[str, Check] = {
         lubrication,
         angle_rule,
         angle_table,
-        bend_at_speed,
+        joint_angle_at_speed,
         contact_pressure,
         small_oscillation,
         runout,
@@ -117,8 +126,8 @@ def check(
     --------
     >>> from dataclasses import replace
     >>> from cardan.drive.duty import Limits
-    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(bend=0.4))
-    >>> [verdict.state for verdict in check(drive, only=["bend"])]
+    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=0.4))
+    >>> [verdict.state for verdict in check(drive, only=["joint_angle"])]
     ['passed', 'failed']
     """
     unknown = [name for name in only if name not in CHECKS]

@@ -22,17 +22,17 @@ from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost
-from cardan.questions.forces.turn_loads import TurnLoads, at_bend
+from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _
 
-from .carried import largest_bends, largest_of
+from .carried import largest_joint_angles, largest_of
 from .case import Case, largest
 from .varied import over, row_of, varied_points
 
 _STEP = re.compile(r"([a-z_][a-z0-9_]*)((?:\[\d+\])*)$")
 _GEOMETRY = re.compile(
-    r"joints\[\d+\]\.(centre|bend|plane_twist)|shafts\[\d+\]\.(yoke_angle|side_slope|plan_slope|length)|input\.|output\."
+    r"joints\[\d+\]\.(centre|joint_angle|plane_twist)|shafts\[\d+\]\.(yoke_angle|side_slope|plan_slope|length)|input\.|output\."
 )
 
 
@@ -69,7 +69,7 @@ class Design:
 
         Examples
         --------
-        >>> Design(drive=Drive.from_angles([0.1]), duty=Duty()).value("joints[0].bend")
+        >>> Design(drive=Drive.from_angles([0.1]), duty=Duty()).value("joints[0].joint_angle")
         0.1
         """
         if path in self.varied:
@@ -89,7 +89,7 @@ class Design:
         """Return those of the paths at which nothing stands."""
         return tuple(path for path in paths if path not in self.varied and self.value(path) in (None, "", ()))
 
-    def levers(self, *paths: str) -> tuple[str, ...]:
+    def design_variables(self, *paths: str) -> tuple[str, ...]:
         """Return those of the paths at which something stands that can be changed."""
         return tuple(dict.fromkeys(path for path in paths if not self.missing(path)))
 
@@ -110,16 +110,16 @@ class Design:
 
     @cached_property
     def given(self) -> Chain:
-        """Bends, planes and yokes of the drives as they are."""
+        """Joint angles, planes and yokes of the drives as they are."""
         base, moved = given_chain(self.drive), self.replaced
         if not moved:
             return base
-        bend, twist = base.bend, base.plane_twist
+        joint_angle, twist = base.joint_angle, base.plane_twist
         if self.drive.form != "angles":
             found = geometry_from_points(self.points)
-            bend, twist = found.bend, found.plane_twist
+            joint_angle, twist = found.joint_angle, found.plane_twist
         return Chain(
-            bend=over(self.shape, bend, moved, r"joints\[(\d+)\]\.bend$", 0),
+            joint_angle=over(self.shape, joint_angle, moved, r"joints\[(\d+)\]\.joint_angle$", 0),
             plane_twist=over(self.shape, twist, moved, r"joints\[(\d+)\]\.plane_twist$", 1),
             yoke_angle=over(self.shape, base.yoke_angle, moved, r"shafts\[(\d+)\]\.yoke_angle$", 1),
             start_phase=np.broadcast_to(np.asarray(moved.get("input.start_phase", base.start_phase)), self.shape),
@@ -137,9 +137,9 @@ class Design:
         return varied_points(self.drive, self.replaced, self.shape, angles)
 
     @cached_property
-    def moving_bend(self) -> Array:
-        """Largest bend of every joint over the movements of the drive, array (..., n) [rad]."""
-        return largest_bends(self.points, self.drive.movements)
+    def moving_joint_angle(self) -> Array:
+        """Largest joint angle of every joint over the movements of the drive, array (..., n) [rad]."""
+        return largest_joint_angles(self.points, self.drive.movements)
 
     def while_moving(self, ask: Callable[[Chain], Array]) -> Array | None:
         """Return the largest answers over the movements of the drive (..., k); None where nothing moves."""
@@ -148,9 +148,9 @@ class Design:
         return largest_of(ask, self.given, self.points, self.drive.movements, self.drive.joints)
 
     @property
-    def bend(self) -> Array:
-        """Bend of every joint, array (..., n) [rad]."""
-        return self.given.bend
+    def joint_angle(self) -> Array:
+        """Joint angle of every joint, array (..., n) [rad]."""
+        return self.given.joint_angle
 
     def length(self, k: int) -> Array | float | None:
         """Return the length of a shaft between two joints, counted from 0 [m]; None where the drive does not say it."""
@@ -185,14 +185,14 @@ class Design:
         for k, block in enumerate(duty.blocks):
             path = f"duty.blocks[{k}]"
             whole = self.chain
-            bend = self.value(f"{path}.bend")
-            if bend is not None:
-                flat = np.asarray(bend, dtype=float)[..., None] + np.zeros(self.joints)
-                whole = at_bend(self.given, flat, self.drive.joints)
+            joint_angle = self.value(f"{path}.joint_angle")
+            if joint_angle is not None:
+                flat = np.asarray(joint_angle, dtype=float)[..., None] + np.zeros(self.joints)
+                whole = at_joint_angle(self.given, flat, self.drive.joints)
             cases.append(
                 Case(
                     chain=whole,
-                    unit=unit if bend is None else {},
+                    unit=unit if joint_angle is None else {},
                     name=_("part {number} of the duty cycle").format(number=k + 1),
                     torque=self.value(f"{path}.torque"),
                     speed=self.value(f"{path}.speed"),
@@ -260,37 +260,39 @@ class Design:
         return self.value("duty.shock_factor")
 
     @property
-    def bend_levers(self) -> tuple[str, ...]:
-        """Paths that move the bends of the joints."""
-        return tuple(dict.fromkeys(path for i in range(self.joints) for path in self.bends_of(i)))
+    def joint_angle_design_variables(self) -> tuple[str, ...]:
+        """Paths that move the joint angles of the joints."""
+        return tuple(dict.fromkeys(path for i in range(self.joints) for path in self.joint_angles_of(i)))
 
-    def bends_of(self, i: int) -> tuple[str, ...]:
-        """Return the paths that move the bend of a joint, counted from 0."""
+    def joint_angles_of(self, i: int) -> tuple[str, ...]:
+        """Return the paths that move the joint angle of a joint, counted from 0."""
         if self.drive.form == "angles":
-            return (f"joints[{i}].bend",)
+            return (f"joints[{i}].joint_angle",)
         if self.drive.form == "slopes":
-            return self.levers(*(f"shafts[{k}].{name}" for k in (i, i + 1) for name in ("side_slope", "plan_slope")))
+            return self.design_variables(
+                *(f"shafts[{k}].{name}" for k in (i, i + 1) for name in ("side_slope", "plan_slope"))
+            )
         rows = ["input.point", *(f"joints[{k}].centre" for k in range(self.joints)), "output.point"]
         around = [rows[i + 1], rows[i], rows[i + 2]]
-        return self.levers(*(f"{row}[{axis}]" for row in around for axis in (2, 1)))
+        return self.design_variables(*(f"{row}[{axis}]" for row in around for axis in (2, 1)))
 
     @property
-    def yoke_levers(self) -> tuple[str, ...]:
+    def yoke_design_variables(self) -> tuple[str, ...]:
         """Paths of the yoke angles that may be changed."""
         return tuple(f"shafts[{k}].yoke_angle" for k in range(1, self.joints) if not self.drive.shafts[k].yoke_fixed)
 
     @property
-    def torque_levers(self) -> tuple[str, ...]:
+    def torque_design_variables(self) -> tuple[str, ...]:
         """Paths of the torques of the duty."""
         blocks = (f"duty.blocks[{k}].torque" for k in range(len(self.duty.blocks)))
-        return self.levers("duty.torque", *blocks)
+        return self.design_variables("duty.torque", *blocks)
 
     @property
-    def speed_levers(self) -> tuple[str, ...]:
+    def speed_design_variables(self) -> tuple[str, ...]:
         """Paths of the speeds of the duty."""
         blocks = (f"duty.blocks[{k}].speed" for k in range(len(self.duty.blocks)))
         top = ("duty.speed_range[1]",) if self.duty.speed_range is not None else ()
-        return self.levers("duty.speed", *top, *blocks)
+        return self.design_variables("duty.speed", *top, *blocks)
 
 
 def _size(value: Any) -> Any:
@@ -324,8 +326,8 @@ def design(
 
     Examples
     --------
-    >>> many = design(Drive.from_angles([0.1, 0.2]), vary={"joints[0].bend_deg": [0.0, 10.0, 20.0]})
-    >>> many.bend.shape
+    >>> many = design(Drive.from_angles([0.1, 0.2]), vary={"joints[0].joint_angle_deg": [0.0, 10.0, 20.0]})
+    >>> many.joint_angle.shape
     (3, 2)
     """
     rows = known or catalogue()

@@ -23,13 +23,13 @@ NOISE = 1e-12
 """Share of a limit that comes from rounding alone."""
 
 
-def largest_bend(design: Design, i: int) -> Array | float:
-    """Return the largest bend of a joint while the drive moves, counted from 0 (...) [rad]; 0 where nothing moves."""
-    return design.moving_bend[..., i] if design.drive.movements else 0.0
+def largest_joint_angle(design: Design, i: int) -> Array | float:
+    """Return the largest angle of a joint while the drive moves, counted from 0 (...) [rad]; 0 where nothing moves."""
+    return design.moving_joint_angle[..., i] if design.drive.movements else 0.0
 
 
 def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, str]:
-    """Return the largest answers on the bends, as drawn and while the drive moves (..., k), and a word where it moves.
+    """Return the largest answers on the joint angles, as drawn and moving (..., k), and a word where it moves.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, s
     ask : function
         From bends (..., n) [rad] to answers (..., k).
     """
-    drawn = ask(design.bend)
-    moved = design.while_moving(lambda chain: ask(chain.bend))
+    drawn = ask(design.joint_angle)
+    moved = design.while_moving(lambda chain: ask(chain.joint_angle))
     if moved is None:
         return drawn, ""
     return np.maximum(drawn, moved), _("while the drive moves") if np.all(moved > drawn * WORSE) else ""

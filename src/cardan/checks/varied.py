@@ -29,18 +29,18 @@ def varied_points(
     given : Chain, optional
         Bends and planes of a drive that is given by angles.
     """
-    lead = shape if replaced else ()
+    outer = shape if replaced else ()
     place_of = geometry(drive)
     base = np.asarray(place_of.points, dtype=float)
     if given is not None:
         twist = np.asarray(replaced.get("joints[0].plane_twist", drive.joints[0].plane_twist or 0.0))
-        length = over(lead, place_of.length, replaced, r"shafts\[(\d+)\]\.length$", 0)
-        return points_from_angles(given.bend, given.plane_twist, length, first_twist=twist)
+        length = over(outer, place_of.length, replaced, r"shafts\[(\d+)\]\.length$", 0)
+        return points_from_angles(given.joint_angle, given.plane_twist, length, first_twist=twist)
     if drive.form == "slopes":
-        length = over(lead, place_of.length, replaced, r"shafts\[(\d+)\]\.length$", 0)
+        length = over(outer, place_of.length, replaced, r"shafts\[(\d+)\]\.length$", 0)
         slopes = [
             over(
-                lead,
+                outer,
                 np.asarray([getattr(one, name) or 0.0 for one in drive.shafts]),
                 replaced,
                 rf"shafts\[(\d+)\]\.{name}$",
@@ -52,7 +52,7 @@ def varied_points(
         steps = length[..., None] * axis
         after = np.cumsum(steps[..., 1:, :], axis=-2)
         return np.concatenate((-steps[..., :1, :], 0.0 * steps[..., :1, :], after), axis=-2)
-    points = np.broadcast_to(base, (*lead, *base.shape)).copy()
+    points = np.broadcast_to(base, (*outer, *base.shape)).copy()
     for path, values in replaced.items():
         row = row_of(path, len(drive.joints))
         if row is not None:

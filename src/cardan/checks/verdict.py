@@ -47,7 +47,7 @@ class Verdict:
         Unit that people read it in.
     source : Text
         Where limit and formula come from.
-    levers : tuple of str
+    design_variables : tuple of str
         Paths of the drive file whose change moves the value.
     missing : tuple of str
         Paths that the check needs and the drive does not give; then there is no value.
@@ -74,7 +74,7 @@ class Verdict:
     dimension: str = ""
     unit: str = ""
     source: Text = ""
-    levers: tuple[str, ...] = ()
+    design_variables: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
     unfit: str = ""
     note: Text = ""

@@ -17,7 +17,7 @@ from .verdict import State, Verdict
 
 TONES: dict[State, Tone] = {"passed": "good", "close": "warning", "failed": "failed", "not_run": "plain"}
 
-CONDITIONS = frozenset(("acceleration", "irregularity", "bend", "spline_overlap"))
+CONDITIONS = frozenset(("acceleration", "speed_fluctuation", "joint_angle", "spline_overlap"))
 """Checks whose note says at which speed, in which pose or when the value is reached: it belongs to what is judged."""
 
 MOST = 1000.0
@@ -171,7 +171,7 @@ def verdict_records(
     """
     ends = [_ends(one) for one in verdicts]
     keys = [[key_of(path) for path in one.missing] for one in verdicts]
-    levers = [[key_of(path) for path in one.levers] for one in verdicts]
+    design_variables = [[key_of(path) for path in one.design_variables] for one in verdicts]
     told: dict[str, Any] = {
         "check": [one.check for one in verdicts],
         "subject": [one.subject for one in verdicts],
@@ -193,7 +193,11 @@ def verdict_records(
     if torque is not None:
         columns.append(replace(_limit_torque(verdicts, torque), key="limit_torque", depth="data"))
     last: dict[str, Any] = {"source": [one.source for one in verdicts]}
-    last |= {"missing": [" ".join(one) for one in keys]} if flat else {"levers": levers, "missing": keys}
+    last |= (
+        {"missing": [" ".join(one) for one in keys]}
+        if flat
+        else {"design_variables": design_variables, "missing": keys}
+    )
     last |= {"unfit": [one.unfit for one in verdicts], "note": [one.note for one in verdicts]}
     columns += [Column(key=key, values=values, depth="data") for key, values in last.items()]
     return Table(name=name, columns=columns, records=True, depth="data")

@@ -15,7 +15,7 @@ _SIZE = re.compile(r"joints\[(\d+)\]\.size")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cure:
+class Remedy:
     """A change of one key that makes a check pass.
 
     Attributes
@@ -79,13 +79,13 @@ def typed(value: float | int | str) -> str:
     return f"{value:.6g}" if abs(value) < 1e6 else f"{value:.10g}"
 
 
-def cured(drive: Drive, cure: Cure, *, known: Catalogue | None = None) -> Drive:
+def apply_remedy(drive: Drive, remedy: Remedy, *, known: Catalogue | None = None) -> Drive:
     """Return a drive with a change put in.
 
     Parameters
     ----------
     drive : Drive
-    cure : Cure
+    remedy : Cure
     known : Catalogue, optional
         The shipped one when not given.
 
@@ -96,17 +96,18 @@ def cured(drive: Drive, cure: Cure, *, known: Catalogue | None = None) -> Drive:
 
     Examples
     --------
-    >>> straighter = Cure(check="bend", subject="", title="", path="joints[0].bend_deg", now=20.0, value=10.0)
-    >>> round(cured(Drive.from_angles([0.35]), straighter).joints[0].bend, 4)
+    >>> path = "joints[0].joint_angle_deg"
+    >>> straighter = Remedy(check="joint_angle", subject="", title="", path=path, now=20.0, value=10.0)
+    >>> round(apply_remedy(Drive.from_angles([0.35]), straighter).joints[0].joint_angle, 4)
     0.1745
     """
     rows = known or catalogue()
-    match = _SIZE.fullmatch(cure.path)
+    match = _SIZE.fullmatch(remedy.path)
     if match is not None:
-        return sized(drive, int(match[1]), str(cure.value), rows)
-    if cure.path.endswith(".material.grade"):
-        return made_of(completed(drive, rows), cure.path.removesuffix(".grade"), str(cure.value), rows)
-    return with_values(completed(drive, rows), {cure.path: cure.value})
+        return sized(drive, int(match[1]), str(remedy.value), rows)
+    if remedy.path.endswith(".material.grade"):
+        return made_of(completed(drive, rows), remedy.path.removesuffix(".grade"), str(remedy.value), rows)
+    return with_values(completed(drive, rows), {remedy.path: remedy.value})
 
 
 def made_of(drive: Drive, path: str, grade: str, known: Catalogue) -> Drive:

@@ -20,8 +20,8 @@ from cardan.drive.fields.paths import bare_path
 from cardan.drive.fields.words import in_words
 from cardan.texts import _, plural
 
-from .change import Cure, typed
-from .cure import cures, most_helpful
+from .change import Remedy, typed
+from .remedy import most_helpful, remedies
 
 REMEDIES = 3
 """Remedies shown of each failed verdict; programs get all."""
@@ -45,7 +45,7 @@ class Checked:
     """
 
     verdicts: tuple[Verdict, ...]
-    remedies: tuple[Cure, ...] = ()
+    remedies: tuple[Remedy, ...] = ()
 
     @property
     def binding(self) -> list[Verdict]:
@@ -92,7 +92,7 @@ def checked(
         Called with the share done; answering "stop" ends the search for remedies.
     """
     verdicts = check(drive, only=only, known=known)
-    return Checked(verdicts=verdicts, remedies=cures(drive, verdicts, known=known, progress=progress))
+    return Checked(verdicts=verdicts, remedies=remedies(drive, verdicts, known=known, progress=progress))
 
 
 def ask(drive: Drive, *, known: Catalogue | None = None) -> Checked | None:
@@ -222,7 +222,7 @@ def remedy_table(drive: Drive, result: Checked, *, helpful: bool = False) -> Tab
     )
 
 
-def _others(found: Sequence[Cure], best: Sequence[Cure]) -> Iterator[Cure]:
+def _others(found: Sequence[Remedy], best: Sequence[Remedy]) -> Iterator[Remedy]:
     """Yield the remedies beside the best: each change once, so many of each verdict, none outdone by another."""
     told: dict[str, int] = {}
     seen = {(one.path, one.value) for one in best}
@@ -235,14 +235,14 @@ def _others(found: Sequence[Cure], best: Sequence[Cure]) -> Iterator[Cure]:
             yield one
 
 
-def _outdone(one: Cure, other: Cure) -> bool:
+def _outdone(one: Remedy, other: Remedy) -> bool:
     """Tell whether hardly more of the same change makes more verdicts pass."""
     if one.path != other.path or other.change > NEAR * one.change or len(other.breaks) > len(one.breaks):
         return False
     return {one.title, *one.solves} < {other.title, *other.solves}
 
 
-def _effect(one: Cure) -> Cell:
+def _effect(one: Remedy) -> Cell:
     """Return what passes with a change, and what fails then."""
     others = [title for title in one.solves if title != one.title]
     text = one.title

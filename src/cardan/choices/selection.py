@@ -21,7 +21,7 @@ class Need:
     Attributes
     ----------
     torque : float [N·m]
-    bend : float [rad]
+    joint_angle : float [rad]
         Of the joint.
     speed : float [rad/s]
     synchronous : bool
@@ -35,7 +35,7 @@ class Need:
     """
 
     torque: float
-    bend: float
+    joint_angle: float
     speed: float
     synchronous: bool = False
     service_factor: float = 1.0
@@ -47,7 +47,12 @@ class Need:
             Problem(name, _("{value:.6g} given; {allowed} is needed").format(value=value, allowed=allowed))
             for name, value, fine, allowed in (
                 ("torque", self.torque, self.torque > 0.0, _("more than 0")),
-                ("bend", math.degrees(self.bend), 0.0 <= self.bend < 0.5 * math.pi, _("0° to less than 90°")),
+                (
+                    "joint_angle",
+                    math.degrees(self.joint_angle),
+                    0.0 <= self.joint_angle < 0.5 * math.pi,
+                    _("0° to less than 90°"),
+                ),
                 ("speed", self.speed, self.speed >= 0.0, _("at least 0")),
                 ("service_factor", self.service_factor, self.service_factor > 0.0, _("more than 0")),
                 ("outer", self.outer, self.outer is None or self.outer > 0.0, _("more than 0")),
@@ -102,7 +107,7 @@ def select_joint(need: Need, *, known: Catalogue | None = None, include_beyond: 
 
     Examples
     --------
-    >>> found = select_joint(Need(torque=2.5e6, bend=math.radians(9.0), speed=6.28))
+    >>> found = select_joint(Need(torque=2.5e6, joint_angle=math.radians(9.0), speed=6.28))
     >>> sorted(one.row.id for one in found if one.state == "ok")
     ['mill_slipper', 'super_heavy']
     """
@@ -128,9 +133,9 @@ def _judged(row: JointType, need: Need) -> Candidate:
             causes.add(cause)
 
     compare(torque, row.max_torque, "torque", "unverified_torque")
-    compare(need.bend, row.max_bend, "angle", "unverified_angle")
+    compare(need.joint_angle, row.max_joint_angle, "angle", "unverified_angle")
     if need.continuous:
-        compare(need.speed * need.bend, row.max_speed_angle, "n_alpha", None)
+        compare(need.speed * need.joint_angle, row.max_speed_angle, "n_alpha", None)
     if row.max_rim_speed is not None:
         if need.outer is None:
             flags.add("unverified_rim_speed")

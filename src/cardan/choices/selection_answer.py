@@ -93,7 +93,7 @@ def _sentence(result: Selection) -> Say:
     return say(
         _("{torque} at {angle} and {speed}: {accepted}, {more}."),
         torque=Quantity(need.torque * need.service_factor, "torque"),
-        angle=Quantity(need.bend, "angle", 3),
+        angle=Quantity(need.joint_angle, "angle", 3),
         speed=Quantity(need.speed, "angular_speed"),
         accepted=done if accepted else _("no type does it without conditions"),
         more=more if under else _("none under conditions"),
@@ -195,7 +195,7 @@ def _facts(result: Selection) -> dict[str, Any]:
     return {
         "need": {
             "torque": Quantity(need.torque, "torque"),
-            "joint_angle": Quantity(need.bend, "angle"),
+            "joint_angle": Quantity(need.joint_angle, "angle"),
             "speed": Quantity(need.speed, "angular_speed"),
             "service_factor": need.service_factor,
             "synchronous": need.synchronous,

@@ -96,7 +96,7 @@ def need_of(
     Examples
     --------
     >>> found = need_of(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))
-    >>> print(f"{found.torque:.3f} {found.bend} {found.service_factor}")
+    >>> print(f"{found.torque:.3f} {found.joint_angle} {found.service_factor}")
     104.675 0.3 1.5
     """
     rows = known or catalogue()
@@ -114,17 +114,19 @@ def need_of(
     check(problems)
     own = list(range(n)) if joint is None else [joint - 1]
     base = given_chain(whole)
-    torque, bend = [], []
+    torque, joint_angle = [], []
     for case in cases:
         loads = case_loads(whole, case).torque
         torque.append(np.maximum(loads[:-1], loads[1:])[own])
-        bend.append(np.asarray(base.bend if case.bend is None else np.full(n, case.bend), dtype=float)[own])
+        joint_angle.append(
+            np.asarray(base.joint_angle if case.joint_angle is None else np.full(n, case.joint_angle), dtype=float)[own]
+        )
     outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]
     outer = max((one for one in outers if one is not None), default=None)
     used = whole.duty
     return Need(
         torque=float(np.max(torque)),
-        bend=float(np.max(bend)),
+        joint_angle=float(np.max(joint_angle)),
         speed=float(np.max(made.top_speed if made.top_speed is not None else 0.0)),
         synchronous=used.synchronous,
         service_factor=used.shock_factor,
@@ -147,7 +149,7 @@ def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.choices.selection import select_joint
     >>> from cardan.units import deg
-    >>> need = Need(torque=50.0, bend=20 * deg, speed=10.0)
+    >>> need = Need(torque=50.0, joint_angle=20 * deg, speed=10.0)
     >>> said = next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light")
     >>> said.told(USUAL)
     '50 N·m is more than its 12.5 N·m'
@@ -159,8 +161,8 @@ def _reason(code: str, candidate: Candidate, need: Need) -> Reason:
     row, torque = candidate.row, need.torque * need.service_factor
     figures = {
         "torque": (torque, row.max_torque, "torque"),
-        "angle": (need.bend, row.max_bend, "angle"),
-        "n_alpha": (need.speed * need.bend, row.max_speed_angle, "speed_angle"),
+        "angle": (need.joint_angle, row.max_joint_angle, "angle"),
+        "n_alpha": (need.speed * need.joint_angle, row.max_speed_angle, "speed_angle"),
         "rim_speed": (0.5 * need.speed * (need.outer or math.nan), row.max_rim_speed, "speed"),
     }
     if code in figures:
@@ -203,7 +205,7 @@ def fitting_sizes(need: Need, *, known: Catalogue | None = None) -> tuple[SizeFi
     Examples
     --------
     >>> from cardan.units import deg
-    >>> found = fitting_sizes(Need(torque=700.0, bend=10 * deg, speed=100.0))
+    >>> found = fitting_sizes(Need(torque=700.0, joint_angle=10 * deg, speed=100.0))
     >>> found[0].row.id, round(found[0].headroom, 2)
     ('example-58', 1.26)
     """
@@ -223,9 +225,9 @@ def _size_reasons(row: JointSize, need: Need) -> Iterator[Reason]:
     rim = 0.5 * need.speed * (rating.outer or math.nan)
     for code, value, limit, dimension in (
         ("torque", need.torque * need.service_factor, rating.max_torque, "torque"),
-        ("angle", need.bend, rating.max_bend, "angle"),
+        ("angle", need.joint_angle, rating.max_joint_angle, "angle"),
         ("speed", need.speed, rating.max_speed, "angular_speed"),
-        ("n_alpha", need.speed * need.bend if need.continuous else 0.0, rating.speed_angle, "speed_angle"),
+        ("n_alpha", need.speed * need.joint_angle if need.continuous else 0.0, rating.speed_angle, "speed_angle"),
         ("rim_speed", rim, rating.rim_speed, "speed"),
     ):
         if limit is not None and value > limit * (1.0 + SLACK):

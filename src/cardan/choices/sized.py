@@ -26,7 +26,7 @@ CHECKS = {
     "journal": ("journal_strength",),
     "needles": ("bearing_life", "needle_static"),
     "joint": (
-        "bend",
+        "joint_angle",
         "joint_torque",
         "rated_torque",
         "max_speed",

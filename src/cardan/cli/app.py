@@ -93,7 +93,7 @@ COMMANDS = {
         _("Which types and sizes of joints do a job, and why not the others."),
         (
             "cardan select truck.toml",
-            "cardan select --torque-Nm 2500 --bend-deg 12 --speed-rpm 900 --synchronous",
+            "cardan select --torque-Nm 2500 --joint-angle-deg 12 --speed-rpm 900 --synchronous",
             "cardan select truck.toml --catalogue my-maker.toml",
         ),
     ),
@@ -103,8 +103,8 @@ COMMANDS = {
         _("How kinds of joints turn by themselves, one or several beside each other."),
         (
             "cardan joint",
-            "cardan joint double_cardan centring_ratio=0.5 --bend-deg 30",
-            "cardan joint hooke rzeppa tracta --bend-deg 25 --speed-rpm 1000 --plot joints.svg",
+            "cardan joint double_cardan centring_ratio=0.5 --joint-angle-deg 30",
+            "cardan joint hooke rzeppa tracta --joint-angle-deg 25 --speed-rpm 1000 --plot joints.svg",
         ),
     ),
     "accuracy": Entry(
@@ -182,7 +182,7 @@ COMMANDS = {
                 _("Whether vibration decays, at a speed or over a map."),
                 (
                     "cardan torsion stability truck.toml",
-                    "cardan torsion stability truck.toml --speeds 500:3000 --bends 2:25 --plot map.svg",
+                    "cardan torsion stability truck.toml --speeds 500:3000 --joint-angles 2:25 --plot map.svg",
                 ),
             ),
             "absorber": Entry(

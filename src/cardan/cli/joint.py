@@ -37,8 +37,8 @@ def joint(
             autocompletion=_words,
         ),
     ] = None,
-    bend_deg: Annotated[
-        float, typer.Option("--bend-deg", "--bend", metavar="DEG", help=_("Joint angle of the joints."))
+    joint_angle_deg: Annotated[
+        float, typer.Option("--joint-angle-deg", "--joint-angle", metavar="DEG", help=_("Joint angle of the joints."))
     ] = USUAL,
     speed_rpm: Annotated[
         float | None,
@@ -54,11 +54,11 @@ def joint(
     check_options(speed_rpm, json=json, csv=csv, plot=plot)
     if not words:
         return tell(answer_of_kinds(), json=json, csv=csv)
-    if not isfinite(bend_deg):
-        raise refuse("--bend-deg", _("{value} is not a finite number").format(value=bend_deg))
+    if not isfinite(joint_angle_deg):
+        raise refuse("--joint-angle-deg", _("{value} is not a finite number").format(value=joint_angle_deg))
     several = made(asked(words))
     try:
-        result = ask(several, bend_deg * deg, speed=None if speed_rpm is None else speed_rpm * rpm)
+        result = ask(several, joint_angle_deg * deg, speed=None if speed_rpm is None else speed_rpm * rpm)
     except InputError as error:
-        raise error.renamed(lambda field: "--bend-deg" if field == "bend" else field) from error
+        raise error.renamed(lambda field: "--joint-angle-deg" if field == "joint_angle" else field) from error
     return tell(answer(result), json=json, csv=csv, plot=plot)

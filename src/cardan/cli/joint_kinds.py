@@ -119,7 +119,7 @@ def _made(one: Asked) -> Joint:
     text = _("means nothing for a joint by itself; its sizes are {keys}")
     known = ", ".join(written(kind)) or _("none")
     check(Problem(f"joints[0].{key}", text.format(keys=known), "unknown_key") for key in strange)
-    return drive_from_tree({"format": 1, "joints": [{"kind": one.kind, "bend_deg": 0.0, **one.keys}]}).joints[0]
+    return drive_from_tree({"format": 1, "joints": [{"kind": one.kind, "joint_angle_deg": 0.0, **one.keys}]}).joints[0]
 
 
 def _named(key: str, spellings: dict[str, tuple[str, float]]) -> str:

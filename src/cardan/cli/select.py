@@ -44,8 +44,8 @@ def select(
         ),
     ] = None,
     torque: TorqueNm = None,
-    bend_deg: Annotated[
-        float | None, typer.Option("--bend-deg", metavar="DEG", help=_("Joint angle."), show_default=False)
+    joint_angle_deg: Annotated[
+        float | None, typer.Option("--joint-angle-deg", metavar="DEG", help=_("Joint angle."), show_default=False)
     ] = None,
     speed_rpm: SpeedRpm = None,
     factor: Annotated[
@@ -79,7 +79,7 @@ def select(
     """Tell which types and sizes of joints do a job: accepted, under conditions, or rejected, and why."""
     check_options(speed_rpm, torque, json=json, csv=csv)
     files = tuple(more or ())
-    changes = _changes(bend_deg, factor, outer_mm, synchronous, continuous)
+    changes = _changes(joint_angle_deg, factor, outer_mm, synchronous, continuous)
     drive = None if file is None else read(file, files)
     if drive is None or file is None:
         known = with_files(catalogue(), files) if files else catalogue()
@@ -97,7 +97,7 @@ def select(
 
 OPTIONS = {
     "torque": "--torque-Nm",
-    "bend": "--bend-deg",
+    "joint_angle": "--joint-angle-deg",
     "speed": "--speed-rpm",
     "service_factor": "--service-factor",
     "outer": "--outer-mm",
@@ -110,14 +110,14 @@ def _option(field: str) -> str:
 
 
 def _changes(
-    bend: float | None, factor: float | None, outer: float | None, even: bool | None, long: bool | None
+    joint_angle: float | None, factor: float | None, outer: float | None, even: bool | None, long: bool | None
 ) -> dict[str, Any]:
     """Return what the options say beside torque and speed, in SI."""
-    given = (("--bend-deg", bend), ("--service-factor", factor), ("--outer-mm", outer))
+    given = (("--joint-angle-deg", joint_angle), ("--service-factor", factor), ("--outer-mm", outer))
     text = _("{value} is not a finite number")
     check(Problem(name, text.format(value=one)) for name, one in given if one is not None and not isfinite(one))
     said = {
-        "bend": None if bend is None else bend * deg,
+        "joint_angle": None if joint_angle is None else joint_angle * deg,
         "service_factor": factor,
         "outer": None if outer is None else outer * mm,
         "synchronous": even,
@@ -128,7 +128,7 @@ def _changes(
 
 def _need(torque: float | None, speed_rpm: float | None, changes: dict[str, Any]) -> Need:
     """Return a need from options alone."""
-    given = {"--torque-Nm": torque, "--bend-deg": changes.get("bend"), "--speed-rpm": speed_rpm}
+    given = {"--torque-Nm": torque, "--joint-angle-deg": changes.get("joint_angle"), "--speed-rpm": speed_rpm}
     check(
         Problem(name, _("missing; give it, or a drive file"), "missing") for name, one in given.items() if one is None
     )

@@ -31,7 +31,7 @@ def sweep_show(
     best: Annotated[
         str | None,
         typer.Option(
-            "--best", metavar="GOAL", help=_('The best points by a goal: "min irregularity".'), show_default=False
+            "--best", metavar="GOAL", help=_('The best points by a goal: "min speed_fluctuation".'), show_default=False
         ),
     ] = None,
     pareto: Annotated[
@@ -48,7 +48,7 @@ def sweep_show(
         typer.Option(
             "--limit",
             metavar="LIMIT",
-            help=_('What a point has to keep: "bend_deg[1] <= 12"; may be repeated.'),
+            help=_('What a point has to keep: "joint_angle_deg[1] <= 12"; may be repeated.'),
             show_default=False,
         ),
     ] = None,

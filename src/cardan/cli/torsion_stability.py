@@ -25,10 +25,10 @@ def torsion_stability(
     file: DriveFile,
     speed_rpm: SpeedRpm = None,
     speeds: Speeds = None,
-    bends: Annotated[
+    joint_angles: Annotated[
         str | None,
         typer.Option(
-            "--bends",
+            "--joint-angles",
             metavar="LOW:HIGH[:COUNT]",
             help=_("Joint angle of the joint with the largest, in degrees; the others in proportion."),
             show_default=False,
@@ -50,22 +50,22 @@ def torsion_stability(
 ) -> int:
     """Tell whether torsional vibration decays, and how fast."""
     check_options(speed_rpm, json=json, csv=csv, plot=plot)
-    axes = _axes(speeds, bends, over or [])
+    axes = _axes(speeds, joint_angles, over or [])
     drive = on_duty(read(file), speed_rpm, None)
     with keys_of(file), keeping(_("judging steady motions")) as progress:
         found = question(drive, over=axes, pieces=pieces, progress=progress)
     return ended(tell(answer(drive, found, signs=True), file, drive, json=json, csv=csv, plot=plot), progress)
 
 
-def _axes(speeds: str | None, bends: str | None, over: list[str]) -> dict[str, Any]:
+def _axes(speeds: str | None, joint_angles: str | None, over: list[str]) -> dict[str, Any]:
     """Return the paths of a map with their values."""
-    several = sum(one is not None for one in (speeds, bends)) + len(over) > 1
+    several = sum(one is not None for one in (speeds, joint_angles)) + len(over) > 1
     across, up = (ACROSS, UP) if several else (ALONE, ALONE)
     axes: dict[str, Any] = {}
     if speeds is not None:
         axes["duty.speed_rpm"] = values(speeds, "--speeds", count=across, low=0.0)
-    if bends is not None:
-        axes["bend_deg"] = values(bends, "--bends", count=up)
+    if joint_angles is not None:
+        axes["joint_angle_deg"] = values(joint_angles, "--joint-angles", count=up)
     for one in over:
         path, equals, text = one.partition("=")
         if not equals:

@@ -23,7 +23,7 @@ class Error:
     alpha1: float = quantity("angle", 0.0, doc="error of the right angle between driving shaft and driving journals")
     alpha2: float = quantity("angle", 0.0, doc="error of the right angle of the cross")
     alpha3: float = quantity("angle", 0.0, doc="error of the right angle between driven journals and driven shaft")
-    alpha4: float = quantity("angle", 0.0, doc="error of the bend")
+    alpha4: float = quantity("angle", 0.0, doc="error of the joint angle")
     phase: float = quantity("angle", 0.0, doc="error of the angle of the driving yoke about its shaft")
 
 

@@ -84,7 +84,7 @@ class Drive:
         """In which form the geometry is given."""
         if any(joint.centre is not None for joint in self.joints):
             return "points"
-        if any(joint.bend is not None for joint in self.joints):
+        if any(joint.joint_angle is not None for joint in self.joints):
             return "angles"
         if any(shaft.side_slope is not None or shaft.plan_slope is not None for shaft in self.shafts):
             return "slopes"
@@ -128,7 +128,7 @@ class Drive:
     @classmethod
     def from_angles(
         cls,
-        bends: Sequence[float],
+        joint_angles: Sequence[float],
         *,
         plane_twists: Sequence[float] = (),
         yoke_angles: Sequence[float] = (),
@@ -139,7 +139,7 @@ class Drive:
 
         Parameters
         ----------
-        bends : sequence (n,) [rad]
+        joint_angles : sequence (n,) [rad]
             α of each joint.
         plane_twists : sequence (n-1,) [rad]
             β of joints 2 to n; all zero when empty.
@@ -152,7 +152,7 @@ class Drive:
         """
         from .fields.validity import wrong_count
 
-        between = max(len(bends) - 1, 0)
+        between = max(len(joint_angles) - 1, 0)
         check(
             [
                 *wrong_count("plane_twists", plane_twists, between, empty=True),
@@ -164,7 +164,8 @@ class Drive:
             name=name,
             input=Input(start_phase=start_phase),
             joints=tuple(
-                Hooke(bend=float(bend), plane_twist=twist) for bend, twist in zip(bends, [0.0, *twists], strict=False)
+                Hooke(joint_angle=float(joint_angle), plane_twist=twist)
+                for joint_angle, twist in zip(joint_angles, [0.0, *twists], strict=False)
             ),
             shafts=_yokes(yoke_angles),
         )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.errors import BendLimitError, InputError, Problem, check, refuse
+from cardan.errors import InputError, JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import frames
 from cardan.texts import _
@@ -39,12 +39,12 @@ class Drives:
     @property
     def shape(self) -> tuple[int, ...]:
         """Leading axes of the batch."""
-        return tuple(self.chain.bend.shape[:-1])
+        return tuple(self.chain.joint_angle.shape[:-1])
 
     @classmethod
     def from_angles(
         cls,
-        bend: ArrayLike,
+        joint_angle: ArrayLike,
         *,
         plane_twist: ArrayLike | None = None,
         yoke_angle: ArrayLike | None = None,
@@ -54,7 +54,7 @@ class Drives:
 
         Parameters
         ----------
-        bend : array (..., n) [rad]
+        joint_angle : array (..., n) [rad]
             α, each in [0, π/2).
         plane_twist, yoke_angle : array (..., n-1) [rad], optional
             β and γ; zero when not given.
@@ -63,23 +63,25 @@ class Drives:
 
         Raises
         ------
-        BendLimitError
-            A bend outside [0, π/2) or not finite; ``where`` is the mask (..., n).
+        JointAngleLimitError
+            A joint angle outside [0, π/2) or not finite; ``where`` is the mask (..., n).
         InputError
-            An array that does not fit the bends, or a value that is not finite.
+            An array that does not fit the joint angles, or a value that is not finite.
 
         Examples
         --------
         >>> Drives.from_angles([[0.1, 0.2], [0.3, 0.3]]).shape
         (2,)
         """
-        xp = namespace(bend, plane_twist, yoke_angle, start_phase)
-        alpha = real(bend, xp)
+        xp = namespace(joint_angle, plane_twist, yoke_angle, start_phase)
+        alpha = real(joint_angle, xp)
         if not alpha.ndim or not alpha.shape[-1]:
-            raise refuse("bend", _("a drive needs at least one joint; bends are a list, of one drive or of many"))
+            raise refuse(
+                "joint_angle", _("a drive needs at least one joint; bends are a list, of one drive or of many")
+            )
         fits = (alpha >= 0.0) & (alpha < 0.5 * xp.pi)
         if not bool(xp.all(fits)):
-            raise BendLimitError([Problem("bend", _("a bend angle must lie in [0°, 90°)"))], where=~fits)
+            raise JointAngleLimitError([Problem("joint_angle", _("a joint angle must lie in [0°, 90°)"))], where=~fits)
         between = (*alpha.shape[:-1], alpha.shape[-1] - 1)
 
         def rest(name: str, value: ArrayLike | None) -> Array:
@@ -99,7 +101,7 @@ class Drives:
             raise refuse("start_phase", _misfit(start.shape, alpha.shape[:-1]))
         _refuse_unreal("start_phase", start)
         whole = Chain(
-            bend=alpha,
+            joint_angle=alpha,
             plane_twist=rest("plane_twist", plane_twist),
             yoke_angle=rest("yoke_angle", yoke_angle),
             start_phase=xp.broadcast_to(start, alpha.shape[:-1]),
@@ -130,7 +132,7 @@ class Drives:
         xp = namespace(points, yoke_angle, start_phase)
         place = geometry_from_points(_sound(real(points, xp)))
         return cls.from_angles(
-            place.bend, plane_twist=place.plane_twist, yoke_angle=yoke_angle, start_phase=start_phase
+            place.joint_angle, plane_twist=place.plane_twist, yoke_angle=yoke_angle, start_phase=start_phase
         )
 
 
@@ -148,7 +150,7 @@ def _refuse_unreal(name: str, value: Array) -> None:
 
 
 def _misfit(shape: tuple[int, ...], wanted: tuple[int, ...]) -> str:
-    return _("shape {shape} does not fit the bends; {wanted} is needed").format(
+    return _("shape {shape} does not fit the joint angles; {wanted} is needed").format(
         shape=tuple(shape), wanted=tuple(wanted)
     )
 
@@ -202,7 +204,7 @@ def stack(drives: Sequence[Drive], *, xp: Any = None) -> Drives:
         return lib.asarray(table)
 
     whole = Chain(
-        bend=padded([c.bend for c in chains], most, 0.0),
+        joint_angle=padded([c.joint_angle for c in chains], most, 0.0),
         plane_twist=padded([c.plane_twist for c in chains], most - 1, 0.0),
         yoke_angle=padded([c.yoke_angle for c in chains], most - 1, 0.5 * np.pi),
         start_phase=lib.asarray([float(c.start_phase) for c in chains]),

@@ -25,8 +25,12 @@ class Block:
     torque: float = quantity("torque", doc="torque at the output", low=0.0)
     speed: float = quantity("angular_speed", doc="input speed", above=0.0)
     share: float = quantity("share", doc="share of the whole time", low=0.0, high=1.0)
-    bend: float | None = quantity(
-        "angle", None, doc="bend of every joint in this part; that of the drive when not given", low=0.0, below=1.5708
+    joint_angle: float | None = quantity(
+        "angle",
+        None,
+        doc="joint angle of every joint in this part; that of the drive when not given",
+        low=0.0,
+        below=1.5708,
     )
 
 
@@ -125,9 +129,11 @@ class Duty:
 class Limits:
     """Limits that the user sets over the built-in ones."""
 
-    irregularity: float | None = quantity("share", None, doc="largest irregularity of the output allowed", above=0.0)
+    speed_fluctuation: float | None = quantity(
+        "share", None, doc="largest speed fluctuation of the output allowed", above=0.0
+    )
     output_error: float | None = quantity("angle", None, doc="largest error of the output angle allowed", above=0.0)
-    bend: float | None = quantity("angle", None, doc="largest bend angle of a joint allowed", above=0.0)
+    joint_angle: float | None = quantity("angle", None, doc="largest joint angle of a joint allowed", above=0.0)
     twist: float | None = quantity("angle", None, doc="largest twist of the shafts under torque allowed", above=0.0)
     shear_stress: float | None = quantity("stress", None, doc="largest shear stress of a shaft allowed", above=0.0)
     spline_pressure: float | None = quantity("stress", None, doc="largest pressure on spline teeth allowed", above=0.0)

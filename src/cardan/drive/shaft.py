@@ -114,7 +114,7 @@ class Shaft:
         mirror="yoke_lead",
     )
     yoke_fixed: bool = plain(False, doc="true excludes this yoke angle from synthesis")
-    weight: float = plain(1.0, doc="weight of this shaft's irregularity as a secondary goal of synthesis", low=0.0)
+    weight: float = plain(1.0, doc="weight of this shaft's speed fluctuation as a secondary goal of synthesis", low=0.0)
     outer: float | None = quantity("length", None, doc="outer diameter", above=0.0)
     inner: float | None = quantity("length", None, doc="inner diameter of a tube", low=0.0)
     wall: float | None = quantity("length", None, doc="thickness of the wall of a tube", above=0.0)

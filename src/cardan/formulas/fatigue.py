@@ -131,12 +131,15 @@ def shaft_fatigue(
     size = xp.where(wide < 2.79, 1.0, size)
     surface = xp.minimum(scale * (ultimate / MPA) ** exponent, 0.0 * ultimate + 1.0)
     endurance = surface * size * reliability_factor(reliability) * xp.minimum(0.5 * ultimate, 0.0 * ultimate + 700e6)
-    bend_swing, bend_mean = 2.0 * m_swing / modulus, 2.0 * m_mean / modulus
+    joint_angle_swing, joint_angle_mean = 2.0 * m_swing / modulus, 2.0 * m_mean / modulus
     twist_swing, twist_mean = t_swing / modulus, t_mean / modulus
-    alternating = xp.sqrt((kf * bend_swing) ** 2 + 3.0 * (kfs * twist_swing) ** 2)
-    mean = xp.sqrt((kf * bend_mean) ** 2 + 3.0 * (kfs * twist_mean) ** 2)
+    alternating = xp.sqrt((kf * joint_angle_swing) ** 2 + 3.0 * (kfs * twist_swing) ** 2)
+    mean = xp.sqrt((kf * joint_angle_mean) ** 2 + 3.0 * (kfs * twist_mean) ** 2)
     use = alternating / endurance + mean / ultimate
-    most = xp.sqrt((kf * (xp.abs(bend_mean) + bend_swing)) ** 2 + 3.0 * (kfs * (xp.abs(twist_mean) + twist_swing)) ** 2)
+    most = xp.sqrt(
+        (kf * (xp.abs(joint_angle_mean) + joint_angle_swing)) ** 2
+        + 3.0 * (kfs * (xp.abs(twist_mean) + twist_swing)) ** 2
+    )
     level = 0.9 * ultimate / endurance
     rest = xp.where(mean < ultimate, 1.0 - mean / ultimate, 1.0)
     slope = -xp.log10(level) / 3.0

@@ -49,14 +49,14 @@ def reduced_friction(material: ArrayLike, *, fit: str = "new") -> Array:
     return FIT[fit] * real(material, namespace(material))
 
 
-def swings(sine: Array, cosine: Array, bend: Array) -> tuple[Array, Array]:
+def swings(sine: Array, cosine: Array, joint_angle: Array) -> tuple[Array, Array]:
     """Return how steeply a joint leans on its journals: tan of the cross's angle from both of its shafts.
 
     Parameters
     ----------
     sine, cosine : arrays (...)
         sin θ, cos θ of the joint angle, or any common multiple of both.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
 
     Returns
@@ -66,21 +66,21 @@ def swings(sine: Array, cosine: Array, bend: Array) -> tuple[Array, Array]:
         κ times them is the share of the torque that the friction of the driven yoke's pins takes from the driving
         shaft, and that of the driving yoke's pins from the driven shaft.
     """
-    xp = namespace(sine, cosine, bend)
-    c = xp.cos(bend)
+    xp = namespace(sine, cosine, joint_angle)
+    c = xp.cos(joint_angle)
     size = xp.sqrt(sine * sine + cosine * cosine)
     rest = xp.sqrt(sine * sine + (c * cosine) ** 2)
-    return xp.tan(bend) * xp.abs(sine) / size, xp.sin(bend) * xp.abs(cosine) / rest
+    return xp.tan(joint_angle) * xp.abs(sine) / size, xp.sin(joint_angle) * xp.abs(cosine) / rest
 
 
-def efficiency_at(angle: Array, bend: Array, drag: Array, *, backwards: bool = False) -> Array:
+def efficiency_at(angle: Array, joint_angle: Array, drag: Array, *, backwards: bool = False) -> Array:
     """Return the efficiency of a joint at an instant, friction acting on itself.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Joint angle θ.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
     drag : array (...)
         κ = μ d_c/d: friction moment of a pair of journals over the couple of the cross.
@@ -104,8 +104,8 @@ def efficiency_at(angle: Array, bend: Array, drag: Array, *, backwards: bool = F
     >>> efficiency_at(np.asarray([0.0, 90 * deg]), np.asarray(30 * deg), np.asarray(0.02))
     array([0.98845299, 0.9885848])
     """
-    xp = namespace(angle, bend, drag)
-    driving, driven = swings(xp.sin(angle), xp.cos(angle), bend)
+    xp = namespace(angle, joint_angle, drag)
+    driving, driven = swings(xp.sin(angle), xp.cos(angle), joint_angle)
     if backwards:
         driving, driven = driven, driving
     return (1.0 - drag * driven) / (1.0 + drag * driving)
@@ -113,7 +113,7 @@ def efficiency_at(angle: Array, bend: Array, drag: Array, *, backwards: bool = F
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class JointFriction:
-    """What friction takes in single joints over a turn; leading axes are those of bends and coefficients.
+    """What friction takes in single joints over a turn; leading axes are those of joint angles and coefficients.
 
     Attributes
     ----------
@@ -147,13 +147,13 @@ class JointFriction:
 
 
 def joint_friction(
-    bend: ArrayLike, drag: ArrayLike, *, bearing_drag: ArrayLike = 0.0, torque_at: str = "output"
+    joint_angle: ArrayLike, drag: ArrayLike, *, bearing_drag: ArrayLike = 0.0, torque_at: str = "output"
 ) -> JointFriction:
     """Return what friction takes in single joints over a turn, exactly.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     drag : array (...)
         κ = μ d_c/d of the journals: reduced coefficient times diameter over span.
@@ -179,8 +179,8 @@ def joint_friction(
     >>> print(found.exact, found.first_order, found.small_angle)
     0.985753829 0.985857835 0.986666667
     """
-    xp = namespace(bend, drag, bearing_drag)
-    alpha, kappa, bearings = (real(one, xp) for one in (bend, drag, bearing_drag))
+    xp = namespace(joint_angle, drag, bearing_drag)
+    alpha, kappa, bearings = (real(one, xp) for one in (joint_angle, drag, bearing_drag))
     alpha, kappa, bearings = xp.broadcast_arrays(alpha, kappa, bearings)
     tangent, logarithm = xp.tan(alpha), xp.atanh(xp.sin(alpha))
     first, second = complete(alpha)
@@ -207,10 +207,10 @@ def joint_friction(
     )
 
 
-def _exact(bend: Array, drag: Array, torque_at: str) -> Array:
+def _exact(joint_angle: Array, drag: Array, torque_at: str) -> Array:
     """Return 2π/∮ i/η dφ at constant output torque, ∮ η dφ/2π at constant input torque, by what is lost of 1."""
-    xp = namespace(bend, drag)
-    alpha, kappa, c = bend[..., None], drag[..., None], xp.cos(bend)[..., None]
+    xp = namespace(joint_angle, drag)
+    alpha, kappa, c = joint_angle[..., None], drag[..., None], xp.cos(joint_angle)[..., None]
 
     def lost(angle: Array) -> Array:
         sine, cosine = xp.sin(angle), xp.cos(angle)

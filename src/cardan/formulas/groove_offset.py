@@ -5,12 +5,12 @@ from __future__ import annotations
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 
-def groove_offset(bend: ArrayLike, tilt: ArrayLike, play: ArrayLike) -> Array:
+def groove_offset(joint_angle: ArrayLike, tilt: ArrayLike, play: ArrayLike) -> Array:
     """Return the smallest offset of both groove centres with which the plane of the balls tilts no more than allowed.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Largest α in [0, π/2).
     tilt : array (...) [rad]
         Largest η allowed, in size, above 0.
@@ -33,6 +33,6 @@ def groove_offset(bend: ArrayLike, tilt: ArrayLike, play: ArrayLike) -> Array:
     >>> print(groove_offset(40 * deg, 0.5 * deg, 0.1 * mm) / mm)
     2.13534289
     """
-    alpha, eta, shift = floats(bend, tilt, play)
+    alpha, eta, shift = floats(joint_angle, tilt, play)
     xp = namespace(alpha, eta, shift)
     return 0.5 * shift * (1.0 + xp.tan(0.5 * alpha) / xp.tan(eta))

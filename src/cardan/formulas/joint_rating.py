@@ -25,7 +25,7 @@ RATED_LIFE = 500.0 * HOUR
 RATED_SPEED_ANGLE = 100.0 * rpm * deg
 """Speed times bend at which f_na is 1."""
 
-LEAST_BEND = 3.0 * deg
+LEAST_JOINT_ANGLE = 3.0 * deg
 """Smaller bends count as this one: needles then no longer roll on each other's tracks."""
 
 NOMINAL = 2.6
@@ -90,16 +90,16 @@ def speed_angle_factor(speed_angle: ArrayLike, *, method: Method = "power_law") 
     return (value / RATED_SPEED_ANGLE) ** (1.0 / POWER)
 
 
-def rated_bend(bend: ArrayLike) -> Array:
-    """Return the bend that the book and the makers count: at least 3°.
+def rated_joint_angle(joint_angle: ArrayLike) -> Array:
+    """Return the joint angle that the book and the makers count: at least 3°.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
     """
-    (value,) = floats(bend)
-    return namespace(value).maximum(value, value * 0.0 + LEAST_BEND)
+    (value,) = floats(joint_angle)
+    return namespace(value).maximum(value, value * 0.0 + LEAST_JOINT_ANGLE)
 
 
 def nominal_torque(capacity: ArrayLike, arm: ArrayLike) -> Array:
@@ -122,7 +122,7 @@ def nominal_torque(capacity: ArrayLike, arm: ArrayLike) -> Array:
 
 
 def rated_torque(
-    nominal: ArrayLike, *, speed: ArrayLike, bend: ArrayLike, life: ArrayLike, shock: ArrayLike = 1.0
+    nominal: ArrayLike, *, speed: ArrayLike, joint_angle: ArrayLike, life: ArrayLike, shock: ArrayLike = 1.0
 ) -> Array:
     """Return the torque that a joint may carry for a life, Book (267): 2 M_nom/(f_d f_h f_na) [N·m].
 
@@ -132,7 +132,7 @@ def rated_torque(
         M_nom.
     speed : array (...) [rad/s]
         n, either way round.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α; below 3° counted as 3°.
     life : array (...) [s]
         L_h.
@@ -146,17 +146,17 @@ def rated_torque(
 
     Examples
     --------
-    >>> torque = rated_torque(2080.0, speed=1000 * rpm, bend=6 * deg, life=2000 * 3600.0, shock=1.38)
+    >>> torque = rated_torque(2080.0, speed=1000 * rpm, joint_angle=6 * deg, life=2000 * 3600.0, shock=1.38)
     >>> print(f"{torque:.4f}")
     582.3055
     """
-    m, n, alpha, lasts, f = floats(nominal, speed, bend, life, shock)
-    factor = speed_angle_factor(namespace(n).abs(n) * rated_bend(alpha))
+    m, n, alpha, lasts, f = floats(nominal, speed, joint_angle, life, shock)
+    factor = speed_angle_factor(namespace(n).abs(n) * rated_joint_angle(alpha))
     return 2.0 * m / (f * life_factor(lasts) * factor)
 
 
 def book_life(
-    nominal: ArrayLike, torque: ArrayLike, *, speed: ArrayLike, bend: ArrayLike, shock: ArrayLike = 1.0
+    nominal: ArrayLike, torque: ArrayLike, *, speed: ArrayLike, joint_angle: ArrayLike, shock: ArrayLike = 1.0
 ) -> Array:
     """Return the life of a joint by the book, (267) and (269) solved for it: 500 h [2 M_nom/(f_d f_na M)]^(10/3) [s].
 
@@ -168,19 +168,19 @@ def book_life(
         M; without torque the life is unlimited, infinite here.
     speed : array (...) [rad/s]
         n, not zero.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α; below 3° counted as 3°.
     shock : array (...)
         f_d.
 
     Examples
     --------
-    >>> print(f"{book_life(2080.0, 900.0, speed=1500 * rpm, bend=5 * deg) / 3600:.4f} h")
+    >>> print(f"{book_life(2080.0, 900.0, speed=1500 * rpm, joint_angle=5 * deg) / 3600:.4f} h")
     1096.6755 h
     """
-    m, load, n, alpha, f = floats(nominal, torque, speed, bend, shock)
+    m, load, n, alpha, f = floats(nominal, torque, speed, joint_angle, shock)
     xp = namespace(load)
-    factor = speed_angle_factor(xp.abs(n) * rated_bend(alpha))
+    factor = speed_angle_factor(xp.abs(n) * rated_joint_angle(alpha))
     share = xp.abs(load) * f * factor / (2.0 * m)
     return lasting(RATED_LIFE, share**POWER)
 

@@ -27,7 +27,7 @@ class JointRunUp:
 
     Attributes
     ----------
-    bend : float [rad]
+    joint_angle : float [rad]
         α.
     stiffness : float [N·m/rad]
         c of the driven shaft.
@@ -53,7 +53,7 @@ class JointRunUp:
         Whether ``progress`` stopped the run.
     """
 
-    bend: float
+    joint_angle: float
     stiffness: float
     inertia: float
     damping: float
@@ -80,14 +80,14 @@ class JointRunUp:
     def steady_torque(self) -> float:
         """Amplitude of order 2 when running steadily at `order2_speed` [N·m]; infinite without damping."""
         omega = 2.0 * self.order2_speed
-        swing = math.tan(0.5 * self.bend) ** 2
+        swing = math.tan(0.5 * self.joint_angle) ** 2
         if not self.damping:
             return math.inf if swing else 0.0
         return swing * abs(self.stiffness + 1j * omega * self.damping) * self.inertia * omega / self.damping
 
 
 def joint_run_up(
-    bend: float,
+    joint_angle: float,
     stiffness: float,
     inertia: float,
     acceleration: float,
@@ -101,7 +101,7 @@ def joint_run_up(
 
     Parameters
     ----------
-    bend : float [rad]
+    joint_angle : float [rad]
         α in [0, π/2).
     stiffness : float [N·m/rad]
         c of the driven shaft.
@@ -141,15 +141,15 @@ def joint_run_up(
     842.25 N·m at 37.47 rad/s, after 31.62 rad/s
     """
     problems = not_positive({"stiffness": stiffness, "inertia": inertia, "acceleration": acceleration, "end": end})
-    if not 0.0 <= bend < 0.5 * math.pi:
-        problems.append(Problem("bend", _("needs to be at least 0 and below 90°")))
+    if not 0.0 <= joint_angle < 0.5 * math.pi:
+        problems.append(Problem("joint_angle", _("needs to be at least 0 and below 90°")))
     if not 0.0 <= damping < math.inf:
         problems.append(Problem("damping", _("needs to be a number that is not negative")))
     check(problems + bad_times(time, end))
     omega, lossy = math.sqrt(stiffness / inertia), damping / inertia
     zeta = 0.5 * lossy / omega
     at = np.sort(instants(time, end, omega / (2.0 * math.pi)))
-    cosine, square = math.cos(bend), math.sin(bend) ** 2
+    cosine, square = math.cos(joint_angle), math.sin(joint_angle) ** 2
 
     def force(t: Array) -> Array:
         """Return -g̈."""
@@ -166,7 +166,7 @@ def joint_run_up(
         pushed = force(t) - lossy * state[1] - omega * omega * state[0]
         return -(stiffness * state[1] + damping * pushed)
 
-    steps = _steps(bend, acceleration, end, omega * (1.0 if zeta < 1.0 else 2.0 * zeta))
+    steps = _steps(joint_angle, acceleration, end, omega * (1.0 if zeta < 1.0 else 2.0 * zeta))
     best, best_time, cancelled = 0.0, 0.0, False
     curves = []
     for t, x, v in stepped(force, end, steps, omega, zeta):
@@ -194,9 +194,9 @@ def joint_run_up(
             cancelled = not final
             break
     moments, x, v = (np.concatenate(rows) for rows in zip(*curves, strict=True))
-    closed = _closed_torque(bend, acceleration, best_time, omega, zeta) * inertia
+    closed = _closed_torque(joint_angle, acceleration, best_time, omega, zeta) * inertia
     return JointRunUp(
-        bend=float(bend),
+        joint_angle=float(joint_angle),
         stiffness=float(stiffness),
         inertia=float(inertia),
         damping=float(damping),
@@ -211,9 +211,9 @@ def joint_run_up(
     )
 
 
-def _steps(bend: float, acceleration: float, end: float, fastest: float) -> int:
+def _steps(joint_angle: float, acceleration: float, end: float, fastest: float) -> int:
     """Return how many steps follow the oscillator and the joint: g has a pole atanh(cos α) beside the real angles."""
-    turn = min(0.2, 0.25 * math.atanh(math.cos(bend)) if bend else 0.2)
+    turn = min(0.2, 0.25 * math.atanh(math.cos(joint_angle)) if joint_angle else 0.2)
     steps = end * max(fastest / 0.4, acceleration * end / turn)
     if steps > STEPS:
         raise refuse(
@@ -222,13 +222,13 @@ def _steps(bend: float, acceleration: float, end: float, fastest: float) -> int:
     return math.ceil(steps) + 1
 
 
-def _closed_torque(bend: float, acceleration: float, time: float, omega: float, zeta: float) -> float:
+def _closed_torque(joint_angle: float, acceleration: float, time: float, omega: float, zeta: float) -> float:
     """Return the torque over the inertia by the series g = θ + Σ (τ^k/k) sin 2kθ, in closed forms.
 
     A term Im E, E = e^(i a_k t²/2), a_k = 2ka, twists by Im L, L = E - Y - 2ζẎ/ω with the answer Y to ω²E; and the rate
     of L is Ė - Ẏ - 2ζωL.
     """
-    tau = math.tan(0.5 * bend) ** 2
+    tau = math.tan(0.5 * joint_angle) ** 2
     count = 1 if tau < 1e-17 else min(math.ceil(math.log(1e-17) / math.log(tau)) + 1, 200_000)
     k = np.arange(1, count + 1)
     rate = 2.0 * k * acceleration

@@ -141,7 +141,7 @@ def needle_contact(
 
 
 def critical_swing(count: ArrayLike, diameter: ArrayLike, journal: ArrayLike) -> tuple[Array, Array]:
-    """Return the bends from which needles reach their neighbours' tracks on the inner and the outer race [rad].
+    """Return the joint angles from which needles reach their neighbours' tracks on the inner and the outer race [rad].
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ class PinGeometry:
         How long a pin has to be from its start on the axis.
     force : float or array (k,) [1/m]
         Largest contact force without friction for each unit of torque.
-    lead : float or array (k,) [rad/m]
+    angle_error : float or array (k,) [rad/m]
         Largest lead or lag of the output for each unit by which the distances of both pins differ, to first order.
     """
 
@@ -54,16 +54,16 @@ class PinGeometry:
     stroke: ArrayLike
     length: ArrayLike
     force: ArrayLike
-    lead: ArrayLike
+    angle_error: ArrayLike
 
 
-def pin_choices(bend_max: float, radius: float, slants: ArrayLike) -> PinGeometry:
+def pin_choices(joint_angle_max: float, radius: float, slants: ArrayLike) -> PinGeometry:
     """Return what pins of several slants come to in the same room.
 
     Parameters
     ----------
-    bend_max : float [rad]
-        Largest bend, in (0, π/2).
+    joint_angle_max : float [rad]
+        Largest joint angle, in (0, π/2).
     radius : float [m]
         Largest distance of the contact from the axes, at the largest bend.
     slants : array (k,) [rad]
@@ -77,7 +77,7 @@ def pin_choices(bend_max: float, radius: float, slants: ArrayLike) -> PinGeometr
     Raises
     ------
     InputError
-        A bend, radius or slant with which pins do not turn.
+        A joint angle, radius or slant with which pins do not turn.
 
     Notes
     -----
@@ -91,16 +91,16 @@ def pin_choices(bend_max: float, radius: float, slants: ArrayLike) -> PinGeometr
     [87.84609691 43.92304845] [32.15390309 35.86301889]
     """
     theta = np.asarray(slants, dtype=float)
-    check(_problems(bend_max, radius, theta))
-    half = 0.5 * bend_max
+    check(_problems(joint_angle_max, radius, theta))
+    half = 0.5 * joint_angle_max
     distance = radius * np.cos(theta + half) / (np.sin(theta) * math.cos(half))
-    least, most = pin_coupling.stroke(bend_max, distance, theta)
+    least, most = pin_coupling.stroke(joint_angle_max, distance, theta)
     columns = distance[..., None], theta[..., None]
-    force = pin_coupling.force_alike(TURN, bend_max, *columns)
-    off = pin_coupling.missed_by_pins(TURN, bend_max, 0.5, columns[1])
-    along = pin_coupling.along_alike(TURN, bend_max, *columns)
-    lead = pin_coupling.missed_plane(TURN, bend_max, off, along * np.sin(columns[1]))
-    low, high = pin_coupling.slant_range(bend_max)
+    force = pin_coupling.force_alike(TURN, joint_angle_max, *columns)
+    off = pin_coupling.missed_by_pins(TURN, joint_angle_max, 0.5, columns[1])
+    along = pin_coupling.along_alike(TURN, joint_angle_max, *columns)
+    angle_error = pin_coupling.missed_plane(TURN, joint_angle_max, off, along * np.sin(columns[1]))
+    low, high = pin_coupling.slant_range(joint_angle_max)
     return PinGeometry(
         slant=theta,
         distance=distance,
@@ -108,17 +108,17 @@ def pin_choices(bend_max: float, radius: float, slants: ArrayLike) -> PinGeometr
         stroke=most - least,
         length=most,
         force=np.max(force, axis=-1),
-        lead=np.max(np.abs(lead), axis=-1),
+        angle_error=np.max(np.abs(angle_error), axis=-1),
     )
 
 
-def best_pins(bend_max: float, radius: float, *, margin: float = MARGIN) -> PinGeometry:
+def best_pins(joint_angle_max: float, radius: float, *, margin: float = MARGIN) -> PinGeometry:
     """Return the pins that touch with the smallest force in a given room.
 
     Parameters
     ----------
-    bend_max : float [rad]
-        Largest bend, in (0, π/2).
+    joint_angle_max : float [rad]
+        Largest joint angle, in (0, π/2).
     radius : float [m]
         Largest distance of the contact from the axes, at the largest bend.
     margin : float [rad]
@@ -137,8 +137,8 @@ def best_pins(bend_max: float, radius: float, *, margin: float = MARGIN) -> PinG
     Notes
     -----
     Flat pins, of small slant, touch at a flat angle and magnify errors; steep ones reach inward on the inner side of
-    the bend, where their lever is short, and their contact runs far. Between the two the largest force over the turn
-    has one lowest value. Its largest bend is the worst.
+    the joint angle, where their lever is short, and their contact runs far. Between the two the largest force over the
+    turn has one lowest value. Its largest joint angle is the worst.
 
     Examples
     --------
@@ -146,22 +146,22 @@ def best_pins(bend_max: float, radius: float, *, margin: float = MARGIN) -> PinG
     >>> print(f"{found.slant / deg:.2f}° {1e3 * found.distance:.2f} mm, {0.06 * found.force:.4f} times T/R")
     30.50° 85.80 mm, 1.5073 times T/R
     """
-    check(_problems(bend_max, radius, np.asarray([])))
-    low, high = (float(one) for one in pin_coupling.slant_range(bend_max))
+    check(_problems(joint_angle_max, radius, np.asarray([])))
+    low, high = (float(one) for one in pin_coupling.slant_range(joint_angle_max))
     if not 0.0 <= margin < 0.5 * (high - low):
         text = _("{value}° leaves no slant between {low}° and {high}°")
         text = text.format(value=f"{margin / deg:.6g}", low=f"{low / deg:.6g}", high=f"{high / deg:.6g}")
         check([Problem("margin", text, "out_of_range")])
     edge = max(margin, 1e-9)
-    slant = _lowest(lambda one: _largest_force(one, bend_max, radius), low + edge, high - edge)
-    found = pin_choices(bend_max, radius, [slant])
-    each = ("slant", "distance", "stroke", "length", "force", "lead")
+    slant = _lowest(lambda one: _largest_force(one, joint_angle_max, radius), low + edge, high - edge)
+    found = pin_choices(joint_angle_max, radius, [slant])
+    each = ("slant", "distance", "stroke", "length", "force", "angle_error")
     return PinGeometry(slant_range=found.slant_range, **{name: float(getattr(found, name)[0]) for name in each})
 
 
-def _largest_force(slant: float, bend_max: float, radius: float) -> float:
-    distance = radius * math.cos(slant + 0.5 * bend_max) / (math.sin(slant) * math.cos(0.5 * bend_max))
-    return float(np.max(pin_coupling.force_alike(TURN, bend_max, distance, slant)))
+def _largest_force(slant: float, joint_angle_max: float, radius: float) -> float:
+    distance = radius * math.cos(slant + 0.5 * joint_angle_max) / (math.sin(slant) * math.cos(0.5 * joint_angle_max))
+    return float(np.max(pin_coupling.force_alike(TURN, joint_angle_max, distance, slant)))
 
 
 def _lowest(function: Callable[[float], float], low: float, high: float) -> float:
@@ -180,16 +180,16 @@ def _lowest(function: Callable[[float], float], low: float, high: float) -> floa
     return 0.5 * (low + high)
 
 
-def _problems(bend_max: float, radius: float, slants: Array) -> list[Problem]:
+def _problems(joint_angle_max: float, radius: float, slants: Array) -> list[Problem]:
     found = []
-    if not 0.0 < bend_max < 0.5 * math.pi:
+    if not 0.0 < joint_angle_max < 0.5 * math.pi:
         text = _("{value}° is not above 0° and below 90°")
-        found.append(Problem("bend_max", text.format(value=f"{bend_max / deg:.6g}"), "out_of_range"))
+        found.append(Problem("joint_angle_max", text.format(value=f"{joint_angle_max / deg:.6g}"), "out_of_range"))
     if not (math.isfinite(radius) and radius > 0.0):
         found.append(Problem("radius", _("{value} is not above 0").format(value=radius), "not_positive"))
     if not found:
-        low, high = pin_coupling.slant_range(bend_max)
-        text = _("{value}° is not between {low}° and {high}°, where pins turn all the way round at this bend")
+        low, high = pin_coupling.slant_range(joint_angle_max)
+        text = _("{value}° is not between {low}° and {high}°, where pins turn all the way round at this joint angle")
         for k, slant in enumerate(slants.ravel()):
             if not low < slant < high:
                 shown = {"value": slant / deg, "low": low / deg, "high": high / deg}

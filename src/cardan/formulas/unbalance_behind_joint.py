@@ -18,7 +18,7 @@ class UnbalanceBehindJoint:
 
     Attributes
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α of the joint, or of the one that the joints before the shaft are equal to.
     phase : array (...) [rad]
         ψ, angle of the driving yoke from the plane of the shafts where φ_1 is 0.
@@ -30,7 +30,7 @@ class UnbalanceBehindJoint:
         What the squares of the vector's orders, those given and the next ones, miss of their sum, 1.
     """
 
-    bend: Array
+    joint_angle: Array
     phase: Array
     order: Array
     force: Array
@@ -42,12 +42,12 @@ class UnbalanceBehindJoint:
         return np.abs(self.force)
 
 
-def unbalance_behind_joint(bend: ArrayLike, phase: ArrayLike = 0.0, *, reach: int = 9) -> UnbalanceBehindJoint:
+def unbalance_behind_joint(joint_angle: ArrayLike, phase: ArrayLike = 0.0, *, reach: int = 9) -> UnbalanceBehindJoint:
     """Return the orders of the force of an unbalance behind a Hooke joint.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     phase : array (...) [rad]
         ψ.
@@ -61,7 +61,7 @@ def unbalance_behind_joint(bend: ArrayLike, phase: ArrayLike = 0.0, *, reach: in
     Raises
     ------
     InputError
-        A bend out of range.
+        A joint angle out of range.
 
     Notes
     -----
@@ -76,10 +76,10 @@ def unbalance_behind_joint(bend: ArrayLike, phase: ArrayLike = 0.0, *, reach: in
     >>> found.order, found.size.round(5)
     (array([-3, -1,  1,  3]), array([0.00109, 0.01555, 0.99976, 0.13986]))
     """
-    alpha, psi = np.broadcast_arrays(np.asarray(bend, dtype=float), np.asarray(phase, dtype=float))
+    alpha, psi = np.broadcast_arrays(np.asarray(joint_angle, dtype=float), np.asarray(phase, dtype=float))
     problems = []
     if not np.all((alpha >= 0.0) & (alpha < 0.5 * np.pi)):
-        problems.append(Problem("bend", _("needs to be at least 0 and below 90°"), "out_of_range"))
+        problems.append(Problem("joint_angle", _("needs to be at least 0 and below 90°"), "out_of_range"))
     if not np.all(np.isfinite(psi)):
         problems.append(Problem("phase", _("needs to be finite"), "not_finite"))
     if reach < 1:
@@ -88,11 +88,11 @@ def unbalance_behind_joint(bend: ArrayLike, phase: ArrayLike = 0.0, *, reach: in
     tau = np.tan(0.5 * alpha) ** 2
     order = np.arange(-reach, reach + 1)
     order = order[order % 2 == 1]
-    lead = np.arctan2(tau * np.sin(2.0 * psi), 1.0 - tau * np.cos(2.0 * psi))  # T(ψ) - ψ
-    turned = np.exp(1j * (order * psi[..., None] - (psi + lead)[..., None]))
+    angle_error = np.arctan2(tau * np.sin(2.0 * psi), 1.0 - tau * np.cos(2.0 * psi))  # T(ψ) - ψ
+    turned = np.exp(1j * (order * psi[..., None] - (psi + angle_error)[..., None]))
     more = vector_orders(tau, np.arange(-2 * reach - 41, 2 * reach + 42))
     return UnbalanceBehindJoint(
-        bend=alpha,
+        joint_angle=alpha,
         phase=psi,
         order=order,
         force=order**2 * vector_orders(tau, order) * turned,

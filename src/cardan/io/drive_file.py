@@ -112,7 +112,7 @@ def loads(
     Examples
     --------
     >>> from cardan.io import loads
-    >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'bend_deg = 20').joints[0].bend
+    >>> loads('format = 1' + chr(10) + '[[joints]]' + chr(10) + 'joint_angle_deg = 20').joints[0].joint_angle
     0.3490658503988659
     """
     tree = parsed(text, form, name)

@@ -43,11 +43,11 @@ def edit(
 
     Examples
     --------
-    >>> print(edit("format = 1  # first" + chr(10) + "[[joints]]" + chr(10) + "bend_deg = 20",
-    ...            {"joints[0].bend_deg": 25}))
+    >>> print(edit("format = 1  # first" + chr(10) + "[[joints]]" + chr(10) + "joint_angle_deg = 20",
+    ...            {"joints[0].joint_angle_deg": 25}))
     format = 1  # first
     [[joints]]
-    bend_deg = 25
+    joint_angle_deg = 25
     """
     import tomlkit
 

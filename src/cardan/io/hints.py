@@ -13,10 +13,10 @@ from cardan.texts import _
 from cardan.units import DIMENSIONS, label, nearest
 
 OTHER_WORDS = {
-    "alpha": "bend",
-    "bend_angle": "bend",
-    "misalignment": "bend",
-    "deflection": "bend",
+    "alpha": "joint_angle",
+    "joint_angle_angle": "joint_angle",
+    "misalignment": "joint_angle",
+    "deflection": "joint_angle",
     "beta": "plane_twist",
     "twist": "plane_twist",
     "gamma": "yoke_angle",
@@ -42,7 +42,7 @@ def meant(cls: type, key: str) -> str:
     Examples
     --------
     >>> from cardan.drive.joints import Hooke
-    >>> meant(Hooke, "centre"), meant(Hooke, "bend_mm"), meant(Hooke, "colour")
+    >>> meant(Hooke, "centre"), meant(Hooke, "joint_angle_mm"), meant(Hooke, "colour")
     ('centre', 'bend', '')
     """
     split = _split(cls, key)

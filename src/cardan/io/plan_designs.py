@@ -288,7 +288,7 @@ def _between(plan: Plan, table: Table) -> tuple[Asked | None, tuple[tuple[float,
     """Return what answers over the fields of ``between``, and their ranges."""
     given: Mapping[str, Any] = table.table("between").given
     if not given:
-        table.refuse("between", _('missing; write between = { "joints[1].bend_deg" = [0, 20] }'))
+        table.refuse("between", _('missing; write between = { "joints[1].joint_angle_deg" = [0, 20] }'))
         return None, ()
     bounds = []
     for path, pair in given.items():

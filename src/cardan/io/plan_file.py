@@ -124,7 +124,7 @@ def read_plan(path: str | Path, *, catalogues: Sequence[str | Path] = ()) -> Pla
     Examples
     --------
     >>> read_plan("examples/sweeps/truck-suspension.toml").ask  # doctest: +SKIP
-    ('irregularity', 'acceleration', 'bend')
+    ('speed_fluctuation', 'acceleration', 'bend')
     """
     where = Path(path)
     text, form = text_of(where)
@@ -193,7 +193,7 @@ def plan_of(
     top.finish()
     for k, axis in enumerate(found):
         if drive is not None and axis is not None:
-            _leads(top, f"vary[{k}]", drive, axis)
+            _angle_errors(top, f"vary[{k}]", drive, axis)
     check(top.problems)
     assert drive is not None
     return Plan(
@@ -221,7 +221,7 @@ def _asks(top: Table, ask: Sequence[str]) -> None:
         top.problems += error.problems
 
 
-def _leads(top: Table, path: str, drive: Drive, axis: Axis) -> None:
+def _angle_errors(top: Table, path: str, drive: Drive, axis: Axis) -> None:
     """Note paths of an axis that lead nowhere in the drive."""
     try:
         spots_of(drive, [one for one in axis.fields if one not in axis.facts])

@@ -36,12 +36,12 @@ def with_joint(text: str, at: int) -> str:
 
     Examples
     --------
-    >>> text = "[[joints]]" + chr(10) + "bend_deg = 10" + chr(10)
+    >>> text = "[[joints]]" + chr(10) + "joint_angle_deg = 10" + chr(10)
     >>> print(with_joint(text, 1).strip())
     [[joints]]
-    bend_deg = 10
+    joint_angle_deg = 10
     [[joints]]
-    bend_deg = 10
+    joint_angle_deg = 10
     """
     import tomlkit
 
@@ -125,7 +125,7 @@ def joint_moved(text: str, at: int, to: int) -> str:
 
 def _lies(key: str) -> bool:
     """Tell whether a key of a joint says where it lies."""
-    return key.startswith(("centre_", "bend_", "plane_twist_", "move_within_"))
+    return key.startswith(("centre_", "joint_angle_", "plane_twist_", "move_within_"))
 
 
 def _joints(document: Any) -> Any:
@@ -143,7 +143,7 @@ def _like_neighbours(document: Any, joints: Any, at: int) -> dict[str, Any]:
     if one and two and one[0] == two[0]:
         return {f"centre_{one[0]}": [round((a + b) / 2, 6) for a, b in zip(one[1], two[1], strict=True)]}
     near = joints[min(at, len(joints) - 1)]
-    return {key: near[key] for key in near if key.startswith("bend_")}
+    return {key: near[key] for key in near if key.startswith("joint_angle_")}
 
 
 def _point(table: Mapping[str, Any]) -> tuple[str, list[float]] | None:

@@ -38,9 +38,9 @@ speed_rpm = 3000
 
 # --- Instead of centres: bends and plane twists --------------------------------------------------------------------
 # [[joints]]
-# bend_deg = 7.6                    # angle between the joint's two shafts
+# joint_angle_deg = 7.6                    # angle between the joint's two shafts
 # [[joints]]
-# bend_deg = 5.2
+# joint_angle_deg = 5.2
 # plane_twist_deg = 35              # from the plane of the joint before to this one, about the shaft between them
 # [[shafts]]
 # number = 2

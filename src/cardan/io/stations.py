@@ -35,12 +35,12 @@ def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".
     --------
     >>> from dataclasses import replace
     >>> from cardan.drive.station import Absorber, Station
-    >>> text = "format = 1" + chr(10) + "[[joints]]" + chr(10) + "bend_deg = 20  # steep" + chr(10)
+    >>> text = "format = 1" + chr(10) + "[[joints]]" + chr(10) + "joint_angle_deg = 20  # steep" + chr(10)
     >>> disc = Station(shaft=2, inertia=0.02, absorber=Absorber(inertia=0.002, stiffness=40.0))
     >>> print(put_station(text, replace(loads(text), stations=(disc,)), 0))
     format = 1
     [[joints]]
-    bend_deg = 20  # steep
+    joint_angle_deg = 20  # steep
     <BLANKLINE>
     [[stations]]
     shaft = 2

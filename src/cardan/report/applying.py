@@ -86,9 +86,9 @@ def synchronous(on: Subject) -> Applicable | str:
     if found is None:
         own = ", ".join(f"{k} ({kind_name(joint)})" for k, joint in enumerate(on.drive.joints, start=1))
         return _("Yoke angles cannot be found for these joints: {joints}.").format(joints=own)
-    if found.as_built.irregularity < SYNCHRONOUS:
+    if found.as_built.speed_fluctuation < SYNCHRONOUS:
         return _("The yokes stand right: the drive is synchronous.")
-    exact = [one for one in found.settings if one.irregularity < SYNCHRONOUS]
+    exact = [one for one in found.settings if one.speed_fluctuation < SYNCHRONOUS]
     if not exact:
         return _why_not(on, found)
     return _of(exact[0], on)
@@ -105,15 +105,15 @@ def _phasing(on: Subject) -> Phasing | None:
 
 
 def _why_not(on: Subject, found: Phasing) -> str:
-    least = percent(found.irregularity_min)
+    least = percent(found.speed_fluctuation_min)
     if found.limiting_joint is None or len(found.limiting_joints) != 1:
         text = _("Joints tied by held yokes act as one that is too uneven for the others; {least} is the least.")
         return text.format(least=least)
     i = found.limiting_joint - 1
-    why = excess(found, on.joints, float(on.bend[i]), plain=on.drive.joints[i].single_cross)
+    why = excess(found, on.joints, float(on.joint_angle[i]), plain=on.drive.joints[i].single_cross)
     return say(_("It cannot be made uniform. {why}"), why=why).told(reader())
 
 
 def _of(one: YokeSetting, on: Subject) -> Applicable:
-    effect = _("leaves {share}").format(share=percent(one.irregularity))
+    effect = _("leaves {share}").format(share=percent(one.speed_fluctuation))
     return Applicable(label=one.label, effect=effect, values=values_of(one, on.drive))

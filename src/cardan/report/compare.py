@@ -297,7 +297,7 @@ def _answer(variants: Sequence[Variant]) -> str:
 
 
 def _evenness(variants: Sequence[Variant]) -> str:
-    shares = [float(np.ravel(one.subject.whole.irregularity)[-1]) for one in variants]
+    shares = [float(np.ravel(one.subject.whole.speed_fluctuation)[-1]) for one in variants]
     told = [shown(Quantity(share, "share", 3)) for share in shares]
     best = shares.index(min(shares))
     if len(variants) == 1:

@@ -75,7 +75,7 @@ class Content:
         What the reader must not overlook.
     lights : Table or None
         The verdicts that matter most; None where nothing was judged.
-    cures : Table or None
+    remedies : Table or None
         The changes that help most against failed verdicts; None where nothing fails.
     sketch : Figure
         The drive in space.
@@ -94,7 +94,7 @@ class Content:
     judgement: Words
     warnings: tuple[Words, ...]
     lights: Table | None
-    cures: Table | None
+    remedies: Table | None
     sketch: Figure
     figures: Table
     changes: Table | Words
@@ -213,7 +213,7 @@ def _written(
         judgement=said,
         warnings=warned,
         lights=limits.lights,
-        cures=limits.changes,
+        remedies=limits.changes,
         sketch=space_figure(drive, seen, name="sketch"),
         figures=key_table(figures),
         changes=changed,
@@ -224,7 +224,7 @@ def _written(
 def moved(drive: Drive) -> list[Page]:
     """Return the pages of the motion: joints have their angles on the page before, shafts theirs in a table."""
     said = motion.answer(drive, motion.ask(drive))
-    drawn = [one for one in said.figures() if one.name != "irregularity"]
+    drawn = [one for one in said.figures() if one.name != "speed_fluctuation"]
     tables = [one for one in said.tables if one.name != "joints"]
     pages = [page(replace(said, tables=tables, figures=lambda: drawn), reader())]
     seen = classical.ask(drive)

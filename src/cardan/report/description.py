@@ -67,11 +67,11 @@ def description(on: Subject) -> Page:
 
 
 def _joints(on: Subject) -> Table:
-    centre, bend, joints = np.asarray(on.place.points[1:-1]), on.bend, on.drive.joints
+    centre, joint_angle, joints = np.asarray(on.place.points[1:-1]), on.joint_angle, on.drive.joints
     twist: list[float | None] = [None, *np.asarray(on.place.plane_twist, dtype=float).tolist()]
     angles = [
         Cell(value=float(angle), tone="failed" if too_steep(joint, k, float(angle)) else "plain")
-        for k, (joint, angle) in enumerate(zip(joints, bend, strict=True), start=1)
+        for k, (joint, angle) in enumerate(zip(joints, joint_angle, strict=True), start=1)
     ]
     start = [half_turn(float(phase) / deg) * deg for phase in on.phase]
     columns = [Column(key="joint", heading=_("joint"), values=list(range(1, on.joints + 1)))]
@@ -88,18 +88,18 @@ def _joints(on: Subject) -> Table:
         Column(key="plane_twist", heading=_("plane twist β"), values=twist, dimension="angle", decimals=2),
         Column(key="initial_phase", heading=_("initial yoke position ψ"), values=start, dimension="angle", decimals=2),
     ]
-    return table(answer.Table(title=_("Joints"), columns=columns, note=_straight(bend)))
+    return table(answer.Table(title=_("Joints"), columns=columns, note=_straight(joint_angle)))
 
 
-def _straight(bend: Array) -> str:
+def _straight(joint_angle: Array) -> str:
     """Return a sentence on where straight joints have their planes; nothing where there are none."""
-    if not np.any(bend == 0.0):
+    if not np.any(joint_angle == 0.0):
         return ""
-    if len(bend) == 1:
+    if len(joint_angle) == 1:
         return _("A straight joint has no plane of its own.")
-    if not np.any(bend > 0.0):
+    if not np.any(joint_angle > 0.0):
         return _("Straight joints have no plane of their own; all are given the same one.")
-    if bend[0] == 0.0:
+    if joint_angle[0] == 0.0:
         return _(
             "A straight joint has no plane of its own; it takes that of the joint before, or at the input that of the "
             "first joint that is not straight."
@@ -119,7 +119,7 @@ def _inside(within: Sequence[tuple[int, Inside]]) -> Table:
 
 def _shafts(on: Subject) -> Table:
     shafts, count = on.drive.shafts, on.joints + 1
-    fluctuation: list[float | None] = [None, *np.asarray(on.whole.shaft_irregularity, dtype=float).tolist()]
+    fluctuation: list[float | None] = [None, *np.asarray(on.whole.shaft_speed_fluctuation, dtype=float).tolist()]
     ends = {1: _("input"), count: _("output")}
     heads = [
         Cell(value=" ".join(part for part in (str(k), ends.get(k, ""), one.name) if part), chip=colour(shaft(k)))

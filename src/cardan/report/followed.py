@@ -52,9 +52,9 @@ class Followed:
     known: Catalogue | None = None
 
     @property
-    def bend(self) -> Array:
-        """Bend of every joint, array (n) [rad]."""
-        return np.asarray(self.place.bend)
+    def joint_angle(self) -> Array:
+        """Joint angle of every joint, array (n) [rad]."""
+        return np.asarray(self.place.joint_angle)
 
     @property
     def joints(self) -> int:
@@ -71,19 +71,22 @@ def asked_by_laws(drive: Drive, duty: Duty | None) -> Followed:
         seen=solids(whole),
         found=motion(whole),
         whole=swing(whole),
-        phase=by_laws(whole, np.zeros(1))["joint_angle"][:, 0],
+        phase=by_laws(whole, np.zeros(1))["yoke_rotation"][:, 0],
     )
 
 
 def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
     """Return the one sentence the reader came for."""
-    share = float(on.whole.irregularity[-1])
+    share = float(on.whole.speed_fluctuation[-1])
     said = {"name": on.drive.name or _("The drive"), "share": Quantity(share, "share", 3)}
     text = _("{name} has {share} speed fluctuation.")
     if share < SPECK:
         text = _("{name} is uniform, but for {share} that nobody notices.")
     alarms = [alarm.tone for page in pages for alarm in page.alarms]
-    steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
+    steep = any(
+        too_steep(joint, 1, float(joint_angle))
+        for joint, joint_angle in zip(on.drive.joints, on.joint_angle, strict=True)
+    )
     tone: Tone = "good" if share < SPECK and "warning" not in alarms else "warning"
     return Words(text=say(text, **said), tone="failed" if steep or "failed" in alarms else tone)
 
@@ -91,8 +94,8 @@ def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
 def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
     """Yield what the reader must not overlook."""
     yield from (alarm for page in pages for alarm in page.alarms)
-    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
-        text = too_steep(joint, k, float(bend))
+    for k, (joint, joint_angle) in enumerate(zip(on.drive.joints, on.joint_angle, strict=True), start=1):
+        text = too_steep(joint, k, float(joint_angle))
         if text:
             yield Words(text=text, tone="failed")
 
@@ -105,7 +108,7 @@ def figures_by_laws(on: Followed, pages: Sequence[Page]) -> list[KeyFigure]:
 
 def changes_by_laws(on: Followed) -> Words:
     """Return what would make the drive even."""
-    if float(on.whole.irregularity[-1]) < SPECK:
+    if float(on.whole.speed_fluctuation[-1]) < SPECK:
         return Words(text=_("Nothing needs to be changed for a uniform output."))
     own = [str(i) for i, joint in enumerate(on.drive.joints, 1) if not joint.has_map]
     text = plural(

@@ -56,12 +56,12 @@ def own_figures(on: Subject) -> Iterator[KeyFigure]:
     yield KeyFigure(
         name="speed_fluctuation",
         title=_("speed fluctuation δ of the output"),
-        value=Quantity(float(whole.irregularity), "share"),
+        value=Quantity(float(whole.speed_fluctuation), "share"),
         verdict=verdict,
         tone=tone,
     )
     yield from _worst_pose(on)
-    alike, error = (0.0 if on.even else float(value) for value in (whole.bend, whole.max_lead))
+    alike, error = (0.0 if on.even else float(value) for value in (whole.joint_angle, whole.max_angle_error))
     title = _("equivalent joint angle of the drive")
     yield KeyFigure(name="equivalent_joint_angle", title=title, value=Quantity(alike, "angle"))
     yield KeyFigure(name="angle_error", title=_("angle error of the output, ±"), value=Quantity(error, "angle"))
@@ -73,8 +73,8 @@ def own_figures(on: Subject) -> Iterator[KeyFigure]:
 
 def _worst_pose(on: Subject) -> Iterator[KeyFigure]:
     """Yield the speed fluctuation in the worst pose, where it is worse than as drawn."""
-    share = on.phasing.as_built.pose_irregularity
-    if share.size and float(np.max(share)) > float(on.whole.irregularity) + UTMOST:
+    share = on.phasing.as_built.pose_speed_fluctuation
+    if share.size and float(np.max(share)) > float(on.whole.speed_fluctuation) + UTMOST:
         worst, name = float(np.max(share)), on.phasing.poses[int(foremost(share))]
         place = say(_("in the pose {name}"), name=name)
         title = _("speed fluctuation δ of the output")
@@ -84,10 +84,10 @@ def _worst_pose(on: Subject) -> Iterator[KeyFigure]:
 def _joint_angle(on: Subject) -> KeyFigure:
     """Return the joint angle that comes nearest to its limit: that of the checks, else the utmost of its kind."""
     allowed = {one.subject: one for one in _judged(on) if one.run}
-    moving = {one.number: one.value for one in on.moving.worst if one.what == "bend"} if on.moving else {}
+    moving = {one.number: one.value for one in on.moving.worst if one.what == "joint_angle"} if on.moving else {}
     poses = [] if len(allowed) == on.joints else _in_poses(on)
     found: list[tuple[float, int, float, float, Text, bool]] = []
-    for k, (kind, drawn) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
+    for k, (kind, drawn) in enumerate(zip(on.drive.joints, on.joint_angle, strict=True), start=1):
         one = allowed.get(f"joints[{k - 1}]")
         if one is None:
             most, moves, where = max(float(drawn), moving.get(k, 0.0)), moving.get(k, 0.0) > drawn, ""
@@ -115,13 +115,16 @@ def _in_poses(on: Subject) -> list[tuple[str, Array, Array]]:
     if not on.drive.poses:
         return []
     each = posed(Design(drive=on.drive, duty=on.drive.duty))
-    return [(name, one.bend, one.moving_bend if one.drive.movements else one.bend) for name, one in each]
+    return [
+        (name, one.joint_angle, one.moving_joint_angle if one.drive.movements else one.joint_angle)
+        for name, one in each
+    ]
 
 
 def _judged(on: Subject) -> tuple[Verdict, ...]:
     """Return the verdicts on the joint angles; none where the drive cannot be judged."""
     try:
-        return check(on.drive, only=["bend"], known=on.known)
+        return check(on.drive, only=["joint_angle"], known=on.known)
     except InputError:
         return ()
 
@@ -150,7 +153,7 @@ def _uniformity(on: Subject) -> tuple[str, Tone]:
         return _("exactly uniform"), "good"
     if on.rounded:
         return _("uniform but for rounding"), "good"
-    if float(on.whole.irregularity) < CALM:
+    if float(on.whole.speed_fluctuation) < CALM:
         return _("nearly uniform"), "plain"
     return (_("can be made uniform") if on.curable else _("cannot be uniform")), "warning"
 
@@ -158,8 +161,8 @@ def _uniformity(on: Subject) -> tuple[str, Tone]:
 def _moving(on: Subject) -> Iterator[KeyFigure]:
     assert on.moving is not None
     titles = {
-        "irregularity": _("largest speed fluctuation if it stopped on its way"),
-        "moving_irregularity": _("largest speed fluctuation while moving"),
+        "speed_fluctuation": _("largest speed fluctuation if it stopped on its way"),
+        "moving_speed_fluctuation": _("largest speed fluctuation while moving"),
     }
     for one in on.moving.worst:
         if one.what in titles:
@@ -194,6 +197,6 @@ def _moving(on: Subject) -> Iterator[KeyFigure]:
 
 
 def _worst_of_poses(on: Subject) -> dict[str, Verdict]:
-    """Return the verdicts on splines by their lever, where the drive has poses that may be worse than as drawn."""
+    """Return the verdicts on splines by their design variable, where poses of the drive may be worse than as drawn."""
     found = check(on.drive, only=["spline_overlap"], known=on.known) if on.drive.poses else ()
-    return {one.levers[0]: one for one in found if one.run}
+    return {one.design_variables[0]: one for one in found if one.run}

@@ -14,7 +14,7 @@ from cardan.checks.alike import alike
 from cardan.checks.verdict_table import MOST, limit, verdict_key
 from cardan.choices.change import typed
 from cardan.choices.check_answer import sentence as said
-from cardan.choices.cure import Cure, cures
+from cardan.choices.remedy import Remedy, remedies
 from cardan.errors import InputError
 from cardan.texts import _, plural
 
@@ -22,7 +22,7 @@ from .applying import Applicable
 from .page import capital
 from .subject import Progress, Subject
 
-CURES = 3
+REMEDIES = 3
 """Cures of a verdict; those after them move the drive more."""
 
 
@@ -52,11 +52,11 @@ class Light:
         Where the limit comes from; what it means or assumes.
     path : str
         Part of the drive that it is about: ``joints[1]``; empty for the whole drive.
-    levers : tuple of str
+    design_variables : tuple of str
         Paths of keys that move the value.
     advice : bool
         A rule of thumb that fails no drive.
-    cures : tuple of Applicable
+    remedies : tuple of Applicable
         Smallest changes of one key that make it pass; empty before they were looked for.
     verdicts : tuple of Verdict
         Those it stands for.
@@ -73,9 +73,9 @@ class Light:
     source: str
     why: str
     path: str
-    levers: tuple[str, ...] = ()
+    design_variables: tuple[str, ...] = ()
     advice: bool = False
-    cures: tuple[Applicable, ...] = ()
+    remedies: tuple[Applicable, ...] = ()
     verdicts: tuple[Verdict, ...] = ()
 
 
@@ -96,7 +96,7 @@ def lights(on: Subject) -> tuple[Light, ...]:
     --------
     >>> from cardan.drive.drive import Drive
     >>> from cardan.drive.duty import Limits
-    >>> bent = replace(Drive.from_angles([0.5]), limits=Limits(bend=0.4))
+    >>> bent = replace(Drive.from_angles([0.5]), limits=Limits(joint_angle=0.4))
     >>> print(lights(Subject(drive=bent))[0].title)
     joint angle of joint 1
     """
@@ -104,7 +104,7 @@ def lights(on: Subject) -> tuple[Light, ...]:
     return tuple(_light(group) for group in alike(sorted(run, key=lambda one: (one.advice, -float(one.utilisation)))))
 
 
-def with_cures(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:
+def with_remedies(on: Subject, progress: Progress | None = None) -> tuple[Light, ...]:
     """Return the same with the remedies of the failed ones.
 
     Parameters
@@ -118,10 +118,10 @@ def with_cures(on: Subject, progress: Progress | None = None) -> tuple[Light, ..
     if all(one.tone != "failed" for one in shown):
         return shown
     try:
-        found = cures(on.drive, check(on.drive, known=on.known), known=on.known, progress=progress)
+        found = remedies(on.drive, check(on.drive, known=on.known), known=on.known, progress=progress)
     except InputError:
         return shown
-    return tuple(replace(one, cures=_applicable(one, found)) for one in shown)
+    return tuple(replace(one, remedies=_applicable(one, found)) for one in shown)
 
 
 def _light(group: Sequence[Verdict]) -> Light:
@@ -140,13 +140,13 @@ def _light(group: Sequence[Verdict]) -> Light:
         source=told(one.source, who),
         why=told(one.note, who),
         path=one.subject,
-        levers=one.levers,
+        design_variables=one.design_variables,
         advice=one.advice,
         verdicts=tuple(group),
     )
 
 
-def _applicable(light: Light, found: Sequence[Cure]) -> tuple[Applicable, ...]:
+def _applicable(light: Light, found: Sequence[Remedy]) -> tuple[Applicable, ...]:
     mine = [one for one in found if f"{one.check} {one.subject}" == light.name]
     return tuple(
         Applicable(
@@ -154,11 +154,11 @@ def _applicable(light: Light, found: Sequence[Cure]) -> tuple[Applicable, ...]:
             effect=_effect(one),
             values={one.path: one.value},
         )
-        for one in mine[:CURES]
+        for one in mine[:REMEDIES]
     )
 
 
-def _effect(one: Cure) -> str:
+def _effect(one: Remedy) -> str:
     text = _("instead of {now}").format(now=typed(one.now))
     others = len([title for title in one.solves if title != one.title])
     if others:
@@ -180,4 +180,4 @@ def sentence(shown: Sequence[Light]) -> str:
     return capital(told(said([verdict for one in shown for verdict in one.verdicts]), reader()))
 
 
-__all__ = ["MOST", "Light", "lights", "sentence", "with_cures"]
+__all__ = ["MOST", "Light", "lights", "sentence", "with_remedies"]

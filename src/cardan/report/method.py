@@ -54,7 +54,7 @@ def _kinds(on: Subject) -> Iterator[Block]:
         text=_(
             "A joint of another kind with tan θ′ = κ tan θ turns exactly like a Hooke joint with cos α = 1/κ, or with "
             "cos α = κ and its yoke a quarter turn ahead where κ is below 1. With these in place of the joints the "
-            "drive is a chain of Hooke joints; their bends stand in the equations."
+            "drive is a chain of Hooke joints; their joint angles stand in the equations."
         )
     )
     joints = on.drive.joints
@@ -64,9 +64,15 @@ def _kinds(on: Subject) -> Iterator[Block]:
             columns=(
                 Column(key="joint", heading=_("joint"), values=list(range(1, on.joints + 1))),
                 Column(key="kind", heading=_("kind"), values=[kind_name(joint) for joint in joints]),
-                Column(key="joint_angle", heading=_("joint angle α"), values=on.bend, dimension="angle", decimals=2),
                 Column(
-                    key="hooke", heading=_("of the Hooke joint"), values=on.train.bend, dimension="angle", decimals=3
+                    key="joint_angle", heading=_("joint angle α"), values=on.joint_angle, dimension="angle", decimals=2
+                ),
+                Column(
+                    key="hooke",
+                    heading=_("of the Hooke joint"),
+                    values=on.train.joint_angle,
+                    dimension="angle",
+                    decimals=3,
                 ),
             ),
         )
@@ -99,7 +105,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
     if on.even:
         b = 0.0
     pair = {"a": Quantity(a, decimals=6), "b": Quantity(b, decimals=6)}
-    half = 0.5 * float(on.train.bend[0])
+    half = 0.5 * float(on.train.joint_angle[0])
     yield (
         _("joint 1"),
         Cell(value="τ = tan²(α/2)", formula="tau = tan^2 alpha/2"),
@@ -145,7 +151,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
     closing = on.closing
     if on.joints > 1:
         sign = "≤" if closing.closes else ">"
-        if not closing.closes and on.rounding(on.phasing.irregularity_min):
+        if not closing.closes and on.rounding(on.phasing.speed_fluctuation_min):
             sign = "≈"
         yield (
             _("can be uniform"),
@@ -183,8 +189,8 @@ def _checks(on: Subject) -> Table:
             SelfCheck(
                 name=_("speed fluctuation at setting {label}").format(label=on.best.label),
                 way=_("output speed by plain vectors, sampled over a turn"),
-                residual=abs(on.replayed - on.best.irregularity),
-                allowed=1e-12 + 0.001 * on.best.irregularity,
+                residual=abs(on.replayed - on.best.speed_fluctuation),
+                allowed=1e-12 + 0.001 * on.best.speed_fluctuation,
             )
         )
     verdicts = [

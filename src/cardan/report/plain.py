@@ -21,7 +21,7 @@ from .content import Content
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
 """Words that begin so would be calculated by a spreadsheet that opens the file."""
 
-ABOVE = ("judgement", "warnings", "lights", "cures", "figures", "changes")
+ABOVE = ("judgement", "warnings", "lights", "remedies", "figures", "changes")
 """Parts of a report before its pages."""
 
 

@@ -22,7 +22,7 @@ from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import Articulation, articulation
 from cardan.questions.motion.closure import Closure, closure
 from cardan.questions.motion.equivalence import SYNCHRONOUS, EquivalentJoint, after_each_joint, equivalent_joint
-from cardan.questions.motion.motion import Motion, motion, phase_angles
+from cardan.questions.motion.motion import Motion, initial_phases, motion
 from cardan.questions.motion.rounding import is_rounding
 from cardan.questions.phases.phases import Phasing, phases
 from cardan.questions.phases.setting import YokeSetting
@@ -92,7 +92,7 @@ class Subject:
     @cached_property
     def phase(self) -> Array:
         """Phase angle of every joint, array (n) [rad]."""
-        return np.asarray(phase_angles(self.drive))
+        return np.asarray(initial_phases(self.drive))
 
     @cached_property
     def phasing(self) -> Phasing:
@@ -101,7 +101,7 @@ class Subject:
 
     @cached_property
     def closing(self) -> Closure:
-        """Whether its bends can be closed to a polygon."""
+        """Whether its joint angles can be closed to a polygon."""
         return closure(self.drive)
 
     @cached_property
@@ -118,14 +118,14 @@ class Subject:
     def alone(self) -> tuple[tuple[int, YokeSetting], ...]:
         """Best setting when only the yoke of one shaft is turned, the most helpful shaft first."""
         found: list[tuple[int, YokeSetting]] = []
-        uneven = not self.phasing.as_built.irregularity < SYNCHRONOUS
+        uneven = not self.phasing.as_built.speed_fluctuation < SYNCHRONOUS
         free = self.phasing.free if uneven and len(self.phasing.free) <= ALONE else ()
         built = {k: shaft.yoke_angle for k, shaft in enumerate(self.drive.shafts, start=1)}
         for number in free if len(free) > 1 else ():
             held = {k: built[k] for k in self.phasing.free if k != number}
             best = phases(self.drive, fixed=held, poses={}).settings
             found += [(number, one) for one in best[:1]]
-        return tuple(sorted(found, key=lambda pair: pair[1].irregularity))
+        return tuple(sorted(found, key=lambda pair: pair[1].speed_fluctuation))
 
     @cached_property
     def replayed(self) -> float | None:
@@ -157,20 +157,20 @@ class Subject:
     @property
     def even(self) -> bool:
         """Whether the drive is synchronous as built."""
-        return float(self.whole.irregularity) < SYNCHRONOUS
+        return float(self.whole.speed_fluctuation) < SYNCHRONOUS
 
     @property
     def rounded(self) -> bool:
         """Whether it is synchronous as built but for the rounding of the figures that describe it."""
-        return not self.even and self.rounding(float(self.whole.irregularity))
+        return not self.even and self.rounding(float(self.whole.speed_fluctuation))
 
     def rounding(self, share: float) -> bool:
-        """Tell whether an irregularity is no more than rounding, see `cardan.questions.motion.rounding.is_rounding`.
+        """Tell whether a fluctuation is no more than rounding, see `cardan.questions.motion.rounding.is_rounding`.
 
         Parameters
         ----------
         share : float
-            Irregularity of this drive at some setting of its yokes.
+            SpeedFluctuation of this drive at some setting of its yokes.
         """
         return is_rounding(self.drive, share, self.closing.length)
 
@@ -184,7 +184,7 @@ class Subject:
         """Whether another setting of the yokes makes it synchronous, but for rounding."""
         if self.even or self.rounded:
             return False
-        return self.phasing.feasible or self.rounding(self.phasing.irregularity_min)
+        return self.phasing.feasible or self.rounding(self.phasing.speed_fluctuation_min)
 
     @property
     def best(self) -> YokeSetting | None:
@@ -192,9 +192,9 @@ class Subject:
         return self.phasing.settings[0] if self.phasing.settings else None
 
     @property
-    def bend(self) -> Array:
-        """Bend of every joint, array (n) [rad]."""
-        return np.asarray(self.place.bend)
+    def joint_angle(self) -> Array:
+        """Joint angle of every joint, array (n) [rad]."""
+        return np.asarray(self.place.joint_angle)
 
     @property
     def mixed(self) -> bool:

@@ -11,7 +11,7 @@ from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.maths.ties import foremost
-from cardan.questions.motion.equivalence import WARN_BEND
+from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
 from cardan.questions.motion.kinds import too_steep
 from cardan.questions.phases.answer import excess
 from cardan.questions.phases.setting import YokeSetting
@@ -70,8 +70,11 @@ def _limits(pages: Sequence[Page]) -> Page | None:
 
 def uniformity(on: Subject) -> Words:
     """Return a sentence on how uniformly the drive turns."""
-    share = Quantity(float(on.whole.irregularity), "share", 3)
-    steep = any(too_steep(joint, 1, float(bend)) for joint, bend in zip(on.drive.joints, on.bend, strict=True))
+    share = Quantity(float(on.whole.speed_fluctuation), "share", 3)
+    steep = any(
+        too_steep(joint, 1, float(joint_angle))
+        for joint, joint_angle in zip(on.drive.joints, on.joint_angle, strict=True)
+    )
     posed, pose = _in_poses(on)
     text, tone = _as_specified(on, posed)
     parts: list[Text] = [
@@ -79,17 +82,17 @@ def uniformity(on: Subject) -> Words:
             text,
             name=on.drive.name or _("The drive"),
             share=share,
-            least=_share(on.best.irregularity if on.best else 0.0),
+            least=_share(on.best.speed_fluctuation if on.best else 0.0),
         )
     ]
-    limit = on.drive.limits.irregularity
-    if float(on.whole.irregularity) < (CALM if limit is None else min(CALM, limit)):
+    limit = on.drive.limits.speed_fluctuation
+    if float(on.whole.speed_fluctuation) < (CALM if limit is None else min(CALM, limit)):
         tone = "good"
     swings = _while_moving(on)
     if swings > UTMOST:
         tone = "warning" if tone == "good" and swings > CALM else tone
         parts.append(say(_("While it moves, the speed fluctuation reaches {share}."), share=_share(swings)))
-    if posed > max(swings, float(on.whole.irregularity)) + UTMOST:
+    if posed > max(swings, float(on.whole.speed_fluctuation)) + UTMOST:
         tone = "warning" if tone == "good" and posed > CALM else tone
         parts.append(say(_("In the pose {name} the speed fluctuation is {share}."), name=pose, share=_share(posed)))
     if on.moving is not None and any(one.flags for one in on.moving.splines):
@@ -122,7 +125,7 @@ def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
         if on.mixed:
             return _("{name} has one joint and {share} speed fluctuation."), "warning"
         return _("{name} has one joint and {share} speed fluctuation; a single joint always fluctuates."), "warning"
-    if float(on.whole.irregularity) - on.best.irregularity > UTMOST:
+    if float(on.whole.speed_fluctuation) - on.best.speed_fluctuation > UTMOST:
         text = _(
             "{name} has {share} speed fluctuation as specified; no phasing of the yokes makes it uniform, the best "
             "leaves {least}."
@@ -138,12 +141,12 @@ def _share(value: float) -> Quantity:
 def _while_moving(on: Subject) -> float:
     """Return the largest speed fluctuation over the movement, the movement counted where a speed is known."""
     found = {one.what: one.value for one in on.moving.worst} if on.moving else {}
-    return float(found.get("moving_irregularity", found.get("irregularity", 0.0)))
+    return float(found.get("moving_speed_fluctuation", found.get("speed_fluctuation", 0.0)))
 
 
 def _in_poses(on: Subject) -> tuple[float, str]:
     """Return the speed fluctuation in the pose where it is largest, and the name of that; 0 without poses."""
-    share = on.phasing.as_built.pose_irregularity
+    share = on.phasing.as_built.pose_speed_fluctuation
     return (float(np.max(share)), on.phasing.poses[int(foremost(share))]) if share.size else (0.0, "")
 
 
@@ -162,12 +165,14 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     if limits is not None:
         yield uniformity(on)
     yield from steep_joints(on)
-    fluctuating = not on.rounding(min(float(on.whole.irregularity), on.phasing.irregularity_min))
+    fluctuating = not on.rounding(min(float(on.whole.speed_fluctuation), on.phasing.speed_fluctuation_min))
     if on.joints > 1 and fluctuating and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
         if len(on.phasing.limiting_joints) == 1:
             limiting = on.phasing.limiting_joint - 1
-            why = excess(on.phasing, on.joints, float(on.bend[limiting]), plain=on.drive.joints[limiting].single_cross)
+            why = excess(
+                on.phasing, on.joints, float(on.joint_angle[limiting]), plain=on.drive.joints[limiting].single_cross
+            )
         yield Words(text=say(_("It cannot be made uniform. {why}"), why=why), tone="warning")
     if on.phasing.spline_refusal:
         yield Words(text=on.phasing.spline_refusal, tone="warning")
@@ -182,17 +187,17 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
 
 def steep_joints(on: Subject) -> Iterator[Words]:
     """Yield joints whose angle no joint of their kind works at."""
-    for k, (joint, bend) in enumerate(zip(on.drive.joints, on.bend, strict=True), start=1):
-        angle = Quantity(float(bend), "angle", decimals=1)
+    for k, (joint, joint_angle) in enumerate(zip(on.drive.joints, on.joint_angle, strict=True), start=1):
+        angle = Quantity(float(joint_angle), "angle", decimals=1)
         if not joint.single_cross:
-            text = too_steep(joint, k, float(bend))
+            text = too_steep(joint, k, float(joint_angle))
             yield from [Words(text=text, tone="failed")] if text else []
-        elif bend > ILL * deg:
+        elif joint_angle > ILL * deg:
             text = _("Joint {k} has a joint angle of {angle}: the motion is so steep that rounding costs digits.")
             yield Words(text=say(text, k=k, angle=angle), tone="failed")
-        elif bend > WARN_BEND * deg:
+        elif joint_angle > WARN_JOINT_ANGLE * deg:
             text = _("Joint {k} has a joint angle of {angle}; no real cross joint works above {limit}.")
-            limit = Quantity(WARN_BEND * deg, "angle", trim=True)
+            limit = Quantity(WARN_JOINT_ANGLE * deg, "angle", trim=True)
             yield Words(text=say(text, k=k, angle=angle, limit=limit), tone="failed")
 
 
@@ -201,7 +206,7 @@ def changes(on: Subject) -> Table | Words:
     drawn = _("This concerns the drive as drawn, standing still.") if on.drive.movements else ""
     if on.even or on.rounded:
         return Words(text=_nothing_as_drawn(on))
-    now = float(on.whole.irregularity)
+    now = float(on.whole.speed_fluctuation)
     found = sorted(((after, text) for text, after in _changes(on) if now - after > max(UTMOST, 0.01 * now)), key=_first)
     if not found:
         if on.joints == 1 and on.mixed:
@@ -236,9 +241,9 @@ def _first(change: tuple[float, Text]) -> tuple[float, str]:
 
 def _nothing_as_drawn(on: Subject) -> Text:
     """Return what is left to be done where the drive as drawn is uniform."""
-    little, moving, posed = max(UTMOST, 2.0 * float(on.whole.irregularity)), _while_moving(on), _in_poses(on)[0]
+    little, moving, posed = max(UTMOST, 2.0 * float(on.whole.speed_fluctuation)), _while_moving(on), _in_poses(on)[0]
     for one in on.phasing.pose_settings[:1]:
-        left = float(np.max(one.pose_irregularity))
+        left = float(np.max(one.pose_speed_fluctuation))
         if posed > little and posed - left > max(UTMOST, 0.01 * posed):
             text = _("The drive is uniform as drawn; “{label}” leaves {left} in the worst pose instead of {now}.")
             return say(text, label=one.label, left=_share(left), now=_share(posed))
@@ -260,14 +265,14 @@ def _changes(on: Subject) -> Iterator[tuple[Text, float]]:
 
     for one in (*on.phasing.settings[:1], *on.phasing.spline_settings[:1]):
         if new(one):
-            yield _set_to(one), one.irregularity
+            yield _set_to(one), one.speed_fluctuation
     for k, one in on.alone[:2]:
         if new(one):
             text = _("turn only the yokes of shaft {k}: to {angle}")
-            yield say(text, k=k, angle=_yoke_angle(one, k)), one.irregularity
+            yield say(text, k=k, angle=_yoke_angle(one, k)), one.speed_fluctuation
     plain = on.drive.joints[on.closing.longest - 1].single_cross
     if on.joints > 1 and plain and not on.phasing.feasible and not on.phasing.fixed:
-        closing, now = float(on.closing.bend_allowed), float(on.bend[on.closing.longest - 1])
+        closing, now = float(on.closing.joint_angle_allowed), float(on.joint_angle[on.closing.longest - 1])
         if round(closing / deg, 2) != round(now / deg, 2):
             text = _("reduce joint angle {k} from {now} to {closing} and re-phase the yokes")
             angles = {

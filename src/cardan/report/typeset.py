@@ -98,7 +98,7 @@ def as_data(content: Content) -> dict[str, Any]:
         "judgement": _block(content.judgement),
         "warnings": [_block(one) for one in content.warnings],
         "sketch": _picture(content.sketch),
-        "tables": [_block(one) for one in (content.lights, content.cures, content.figures, content.changes) if one],
+        "tables": [_block(one) for one in (content.lights, content.remedies, content.figures, content.changes) if one],
         "pages": [_page(page) for page in content.pages],
     }
 

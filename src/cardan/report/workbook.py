@@ -125,7 +125,7 @@ class Sheets:
 
 
 def _tables_of(content: Content) -> list[Table]:
-    every = (content.lights, content.cures, content.figures, content.changes)
+    every = (content.lights, content.remedies, content.figures, content.changes)
     return [one for one in every if isinstance(one, Table)]
 
 
@@ -137,7 +137,7 @@ def _summary(paper: Paper, content: Content, names: Sequence[str]) -> None:
     for one in content.warnings:
         paper.remark(one)
     paper.space()
-    for block in (content.lights, content.cures):
+    for block in (content.lights, content.remedies):
         if block is not None:
             paper.block(block)
     paper.image(content.sketch, most=SKETCH)

@@ -110,7 +110,7 @@ def drawn_round(build: Build, size: float) -> Drawn:
     paper = _Paper(build=build)
     _axes(paper)
     _planes(paper)
-    _bends(paper)
+    _joint_angles(paper)
     _yokes(paper)
     _dimensions(paper, size)
     _names(paper)
@@ -125,9 +125,9 @@ def drawn_round(build: Build, size: float) -> Drawn:
         ),
         SceneGroup(
             name="angles",
-            title=_("Bends"),
+            title=_("Joint angles"),
             on=False,
-            text=_("The bend of a joint is the angle between its two shafts."),
+            text=_("The joint angle of a joint is the angle between its two shafts."),
         ),
         SceneGroup(
             name="yokes",
@@ -171,7 +171,7 @@ def _axes(paper: _Paper) -> None:
 def _planes(paper: _Paper) -> None:
     build = paper.build
     for i in range(build.count):
-        if float(build.place.bend[i]) < LEAST:
+        if float(build.place.joint_angle[i]) < LEAST:
             continue
         middle, normal = build.centre(i), build.place.normal[i]
         before, behind = (0.42 * float(np.linalg.norm(np.subtract(*_ends(build, k)))) for k in (i + 1, i + 2))
@@ -214,16 +214,16 @@ def _twist(paper: _Paper, k: int) -> None:
     paper.sector("planes", middle, before, across, beta, radius, "muted", text)
 
 
-def _bends(paper: _Paper) -> None:
+def _joint_angles(paper: _Paper) -> None:
     build = paper.build
     for i in range(build.count):
-        bend, middle = float(build.place.bend[i]), build.centre(i)
+        joint_angle, middle = float(build.place.joint_angle[i]), build.centre(i)
         a, normal = build.axis(i + 1), build.place.normal[i]
         start, stop = _ends(build, i + 2)
-        clear = 1.35 * build.body_radius(i + 2) / max(math.sin(bend), 1e-3)
+        clear = 1.35 * build.body_radius(i + 2) / max(math.sin(joint_angle), 1e-3)
         radius = max(3.0 * build.sizes.joints[i].radius, min(clear, 0.55 * float(np.linalg.norm(stop - start))))
-        text = _angle(bend)
-        paper.sector("angles", middle, a, frames.cross(normal, a), bend, radius, "warning", text, say=False)
+        text = _angle(joint_angle)
+        paper.sector("angles", middle, a, frames.cross(normal, a), joint_angle, radius, "warning", text, say=False)
         paper.line("angles", np.stack((middle, middle + 1.12 * radius * a)), "muted", dashed=True)
         paper.label("angles", text, middle + 1.18 * radius * a, "value")
 

@@ -162,13 +162,13 @@ def _extent(build: Build) -> tuple[Array, float]:
 
 
 def _stuck(drive: Drive, build: Build) -> dict[str, str]:
-    """Return that joints do not turn at their bend, where any does not."""
+    """Return that joints do not turn at their joint angle, where any does not."""
     if not mixed(drive.joints):
         return {}
     numbers = [str(i + 1) for i in turns(drive, build)]
     if not numbers:
         return {}
-    text = _("joint {number} does not turn at its bend with these sizes; it is shown turning evenly")
+    text = _("joint {number} does not turn at its joint angle with these sizes; it is shown turning evenly")
     return {"motion": text.format(number=", ".join(numbers))}
 
 

@@ -26,7 +26,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "spline_pressure": ("spline sleeve", "spline shaft"),
     "spline_overlap": ("spline sleeve", "spline shaft"),
     "acceleration": (),
-    "irregularity": (),
+    "speed_fluctuation": (),
     "output_error": (),
 }
 """Check -> parts of the joint or shaft that it judges; all of a joint, the tube of a shaft where it is not here."""

@@ -172,7 +172,7 @@ def test_a_drive_in_json_is_taken_as_toml(session: Session) -> None:
 
 
 def test_a_file_with_faults_is_taken_with_its_faults_told(session: Session) -> None:
-    session.take("a.toml", b"format = 1\n[[joints]]\nbend_deg = 95\nspeed = 3\n")
+    session.take("a.toml", b"format = 1\n[[joints]]\njoint_angle_deg = 95\nspeed = 3\n")
     assert session.drive is None
     assert len(session.document.problems) == 2
 
@@ -181,7 +181,9 @@ def test_files_beside_the_workspace_are_not_read(tmp_path: Path) -> None:
     (tmp_path / "own.toml").write_text("secret")
     inner = tmp_path / "inner"
     inner.mkdir()
-    found = read('format = 1\nsettings.catalogues = ["../own.toml"]\n[[joints]]\nbend_deg = 20\n', Enclosed(inner))
+    found = read(
+        'format = 1\nsettings.catalogues = ["../own.toml"]\n[[joints]]\njoint_angle_deg = 20\n', Enclosed(inner)
+    )
     assert "leads out" in found.problems[0].message
     assert "secret" not in str(found.problems)
 
@@ -216,7 +218,7 @@ def test_nonsense_kept_by_a_browser_is_dropped_whatever_its_sort() -> None:
 def test_names_of_files_that_no_system_takes_are_told(tmp_path: Path) -> None:
     (tmp_path / "circle").symlink_to(tmp_path / "circle")
     for name in ("a\\u0000b", "circle"):
-        text = f'format = 1\nsettings.catalogues = ["{name}"]\n[[joints]]\nbend_deg = 20\n'
+        text = f'format = 1\nsettings.catalogues = ["{name}"]\n[[joints]]\njoint_angle_deg = 20\n'
         assert not read(text, Enclosed(tmp_path)).valid
 
 

@@ -29,15 +29,16 @@ SLOPES = loads(
     "side_slope_deg = 8\nplan_slope_deg = 3\n[[shafts]]\nnumber = 3\nside_slope_deg = 2\n[duty]\nspeed_rpm = 2000\n"
 )
 MIXED = loads(
-    'format = 1\n[[joints]]\nbend_deg = 12\n[[joints]]\nkind = "constant_velocity"\nbend_deg = 20\n[[joints]]\n'
-    "bend_deg = 9\n[duty]\nspeed_rpm = 2000\n"
+    "format = 1\n[[joints]]\njoint_angle_deg = 12\n"
+    '[[joints]]\nkind = "constant_velocity"\njoint_angle_deg = 20\n[[joints]]\n'
+    "joint_angle_deg = 9\n[duty]\nspeed_rpm = 2000\n"
 )
 PAIR = replace(Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0.1), (1.5, 0, 0)], yoke_angles=[0.3]), duty=RUNNING)
 NAMES = [one.name for one in MOTION if one.name != "length"]
 CASES = {
     "angles": (
         ANGLES,
-        {"joints[1].bend_deg": (-5, 95), "shafts[1].yoke_angle_deg": (-90, 90), "duty.speed_rpm": (1, 9)},
+        {"joints[1].joint_angle_deg": (-5, 95), "shafts[1].yoke_angle_deg": (-90, 90), "duty.speed_rpm": (1, 9)},
     ),
     "planes": (ANGLES, {"joints[2].plane_twist_deg": (-90, 90), "shafts[2].yoke_lead_deg": (0, 90)}),
     "points": (
@@ -48,7 +49,11 @@ CASES = {
     "slopes": (SLOPES, {"shafts[1].side_slope_deg": (-60, 60), "shafts[2].plan_slope_deg": (-80, 80)}),
     "mixed": (
         MIXED,
-        {"joints[0].bend_deg": (0, 91), "joints[1].bend_deg": (0, 30), "shafts[1].yoke_angle_deg": (0, 90)},
+        {
+            "joints[0].joint_angle_deg": (0, 91),
+            "joints[1].joint_angle_deg": (0, 30),
+            "shafts[1].yoke_angle_deg": (0, 90),
+        },
     ),
 }
 
@@ -79,7 +84,7 @@ def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("case", "names"), [("pair", NAMES), ("mixed", ["irregularity"])])
+@pytest.mark.parametrize(("case", "names"), [("pair", NAMES), ("mixed", ["speed_fluctuation"])])
 def test_jax_tells_what_numpy_tells(case, names):
     pytest.importorskip("jax")
     drive, paths, points = drawn(case, 33)
@@ -98,22 +103,22 @@ def test_the_kernel_tells_what_plain_arrays_tell():
 
 
 def test_answers_stand_in_the_unit_of_their_column():
-    found = ask_of(ANGLES, ["joints[0].bend_deg"], ["alpha_eq", "acceleration", "ratio"])(np.asarray([[10.0]]))
-    joint = equivalent_joint(with_values(ANGLES, {"joints[0].bend_deg": 10.0}))
-    assert found["alpha_eq_deg"][0] == pytest.approx(joint.bend / deg)
+    found = ask_of(ANGLES, ["joints[0].joint_angle_deg"], ["alpha_eq", "acceleration", "ratio"])(np.asarray([[10.0]]))
+    joint = equivalent_joint(with_values(ANGLES, {"joints[0].joint_angle_deg": 10.0}))
+    assert found["alpha_eq_deg"][0] == pytest.approx(joint.joint_angle / deg)
     assert found["output_acceleration_rad_s2"][0] == pytest.approx(joint.max_acceleration * (2000 * rpm) ** 2)
     assert found["ratio_max"][0] == pytest.approx(joint.ratio_max)
 
 
 def test_other_fields_remake_the_drive():
     drive = example("truck-duty-cycle")
-    ask = ask_of(drive, ["joints[2].size", "duty.shock_factor"], ["life", "irregularity"])
+    ask = ask_of(drive, ["joints[2].size", "duty.shock_factor"], ["life", "speed_fluctuation"])
     assert not ask.fast
     given = {"joints[2].size": np.asarray(["example-150", "example-180"]), "duty.shock_factor": np.asarray([1.2, 1.2])}
     found = ask.rows(given, 2)
     assert found["life_h"][0] == pytest.approx(life(drive).drive / 3600.0)
     assert found["life_h"][1] > found["life_h"][0]
-    assert found["irregularity"][0] == found["irregularity"][1]
+    assert found["speed_fluctuation"][0] == found["speed_fluctuation"][1]
 
 
 def test_losses_over_friction():
@@ -126,29 +131,29 @@ def test_losses_over_friction():
 
 
 def test_a_point_that_makes_no_drive_says_so_and_why():
-    ask = ask_of(ANGLES, ["joints[0].cross.span_mm"], ["irregularity"])
+    ask = ask_of(ANGLES, ["joints[0].cross.span_mm"], ["speed_fluctuation"])
     assert ask(np.asarray([[60.0], [-1.0]]))["status"].tolist() == [Status.ANSWERED, Status.NO_DRIVE]
     problems = ask.at({"joints[0].cross.span_mm": -1.0})[2]
     assert problems[0].field == "joints[0].cross.span_mm"
 
 
 def test_a_question_without_an_answer_leaves_the_others_theirs():
-    ask = ask_of(ANGLES, ["duty.torque_Nm"], ["life", "irregularity"])
+    ask = ask_of(ANGLES, ["duty.torque_Nm"], ["life", "speed_fluctuation"])
     found = ask(np.asarray([[100.0]]))
     assert found["status"][0] == Status.NO_ANSWER
     assert np.isnan(found["life_h"][0])
-    assert found["irregularity"][0] == pytest.approx(float(equivalent_joint(ANGLES).irregularity))
+    assert found["speed_fluctuation"][0] == pytest.approx(float(equivalent_joint(ANGLES).speed_fluctuation))
 
 
 def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
-    text = 'format = 1\n[[joints]]\nkind = "tracta"\nbend_deg = 10\n'
+    text = 'format = 1\n[[joints]]\nkind = "tracta"\njoint_angle_deg = 10\n'
     drive = loads(text.replace("tracta", "pin_coupling") + "driving_distance_mm = 50\ndriven_distance_mm = 52\n")
-    ask = ask_of(drive, ["joints[0].bend_deg"], ["irregularity", "alpha_eq", "bend"])
+    ask = ask_of(drive, ["joints[0].joint_angle_deg"], ["speed_fluctuation", "alpha_eq", "joint_angle"])
     assert not ask.fast
     found = ask(np.asarray([[0.0], [10.0], [20.0]]))
     assert np.all(found["status"] == 0)
-    assert 0.0 <= found["irregularity"][0] < found["irregularity"][1] < found["irregularity"][2]
-    assert np.allclose(found["bend_deg[0]"], [0.0, 10.0, 20.0])
+    assert 0.0 <= found["speed_fluctuation"][0] < found["speed_fluctuation"][1] < found["speed_fluctuation"][2]
+    assert np.allclose(found["joint_angle_deg[0]"], [0.0, 10.0, 20.0])
 
 
 def test_every_question_tells_columns_of_its_own():
@@ -183,12 +188,12 @@ def test_questions_about_the_whole_drive_are_answered(name):
 @pytest.mark.parametrize(
     ("paths", "names", "expected"),
     [
-        (["joints[0].bend"], ["irregularity"], "needs a unit"),
-        (["joints[9].bend_deg"], ["irregularity"], "no index 9"),
-        (["joints[0].bend_deg", "joints[0].bend_rad"], ["irregularity"], "varies twice"),
-        (["joints[0].bend_deg"], ["irregularty"], "nearest is irregularity"),
-        (["joints[0].bend_deg"], [], "nothing is asked"),
-        (["joints[0].bend_deg"], ["length"], "joint centres"),
+        (["joints[0].joint_angle"], ["speed_fluctuation"], "needs a unit"),
+        (["joints[9].joint_angle_deg"], ["speed_fluctuation"], "no index 9"),
+        (["joints[0].joint_angle_deg", "joints[0].joint_angle_rad"], ["speed_fluctuation"], "varies twice"),
+        (["joints[0].joint_angle_deg"], ["irregularty"], "nearest is speed fluctuation"),
+        (["joints[0].joint_angle_deg"], [], "nothing is asked"),
+        (["joints[0].joint_angle_deg"], ["length"], "joint centres"),
     ],
 )
 def test_what_cannot_be_asked_is_refused(paths, names, expected):
@@ -199,7 +204,7 @@ def test_what_cannot_be_asked_is_refused(paths, names, expected):
 def test_an_acceleration_needs_a_speed_or_varies_it():
     bare = Drive.from_angles([0.1, 0.1])
     with pytest.raises(InputError, match=r"duty\.speed"):
-        ask_of(bare, ["joints[0].bend_deg"], ["acceleration"])
+        ask_of(bare, ["joints[0].joint_angle_deg"], ["acceleration"])
     assert ask_of(bare, ["duty.speed_rpm"], ["acceleration"])(np.asarray([[100.0]]))["status"].tolist() == [0]
 
 

@@ -21,9 +21,9 @@ from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from tests.batch.tables import COLUMNS, whole
 
-HEIGHT, SPEED, SUPPLIER, IRREGULARITY, BEND, _STATUS = COLUMNS
+HEIGHT, SPEED, SUPPLIER, SPEED_FLUCTUATION, JOINT_ANGLE, _STATUS = COLUMNS
 ROWS = whole()
-EVEN, STRAIGHT = Goal(name="irregularity"), Goal(name="bend_deg[1]")
+EVEN, STRAIGHT = Goal(name="speed_fluctuation"), Goal(name="joint_angle_deg[1]")
 SUM = Formula.of(["x", "y", "z"], {"sum": lambda x, y, z: 3.0 * x + y, "still": lambda x, y, z: 0.0 * x})
 BOX = [(-1.0, 1.0)] * 3
 
@@ -52,7 +52,7 @@ def test_every_point_is_a_line_and_the_best_are_drawn_last():
 
 
 def test_the_best_by_a_goal_to_be_great_are_the_greatest():
-    figure = parallel_figure(COLUMNS[:5], ROWS, goal=Goal(name="bend_deg[1]", largest=True))
+    figure = parallel_figure(COLUMNS[:5], ROWS, goal=Goal(name="joint_angle_deg[1]", largest=True))
     best = [one for one in of(figure, Curve) if len(one.x) > 2][-1].y.reshape(-1, 6)
     assert np.all(best[:, 4] > 0.9)
     drawn(parallel_figure(COLUMNS[:2], {name: column[:0] for name, column in ROWS.items()}))
@@ -66,9 +66,11 @@ def test_the_choice_between_goals(goals):
     figure = drawn(pareto_figure(COLUMNS, goals, front, ROWS))
     dots = [one for one in of(figure, Curve) if one.marker > 4.0]
     assert sum(len(one.x) for one in dots) == np.count_nonzero(chosen)
-    assert f"{np.count_nonzero(chosen)} choices, from irregularity of the output 0.001" in figure.sentence
+    assert f"{np.count_nonzero(chosen)} choices, from speed fluctuation of the output 0.001" in figure.sentence
     one = {name: column[:1] for name, column in ROWS.items()}
-    assert drawn(pareto_figure(COLUMNS, goals, one)).sentence.startswith("One choice: irregularity of the output 0.01")
+    assert drawn(pareto_figure(COLUMNS, goals, one)).sentence.startswith(
+        "One choice: speed fluctuation of the output 0.01"
+    )
     none = {name: column[:0] for name, column in ROWS.items()}
     assert "No point" in drawn(pareto_figure(COLUMNS, goals, none)).sentence
 
@@ -76,21 +78,21 @@ def test_the_choice_between_goals(goals):
 def test_a_map_has_the_values_where_they_belong():
     x, y = np.asarray([-100.0, 0.0, 90.0]), np.asarray([500.0, 1000.0])
     values = np.asarray([[3.0, 1.0, np.nan], [4.0, 2.0, 5.0]])
-    figure = drawn(heat_figure(HEIGHT, SPEED, IRREGULARITY, x, y, values))
+    figure = drawn(heat_figure(HEIGHT, SPEED, SPEED_FLUCTUATION, x, y, values))
     cells, bar = of(figure, Cells)
     np.testing.assert_array_equal(cells.values, values)
     np.testing.assert_allclose(cells.x, [-150.0, -50.0, 45.0, 135.0])
     assert (bar.y[0], bar.y[-1]) == (1.0, 5.0)
     assert "Least is 1.00 at 0 mm and 500 rpm, greatest 5.00 at 90.0 mm and 1\u202f000 rpm." in figure.sentence
-    words = drawn(heat_figure(SUPPLIER, SPEED, IRREGULARITY, np.asarray(["Alpha", "Beta"]), y, values[:, :2]))
+    words = drawn(heat_figure(SUPPLIER, SPEED, SPEED_FLUCTUATION, np.asarray(["Alpha", "Beta"]), y, values[:, :2]))
     assert words.panels[0].x.texts == ("Alpha", "Beta")
-    empty = heat_figure(HEIGHT, SPEED, IRREGULARITY, x, y, values * np.nan)
+    empty = heat_figure(HEIGHT, SPEED, SPEED_FLUCTUATION, x, y, values * np.nan)
     assert drawn(empty).sentence == "No point has an answer."
 
 
 def test_a_histogram_rules_in_what_it_is_told():
     figure = drawn(
-        histogram_figure(BEND, np.asarray([0.0, 1.0, 2.0]), np.asarray([3, 9]), marks={"mean": 1.4}, unknown=2)
+        histogram_figure(JOINT_ANGLE, np.asarray([0.0, 1.0, 2.0]), np.asarray([3, 9]), marks={"mean": 1.4}, unknown=2)
     )
     (bars,) = of(figure, Bars)
     assert list(bars.size) == [3, 9]
@@ -119,12 +121,12 @@ def test_one_field_at_a_time():
 
 
 def test_what_an_answer_goes_with():
-    found = Ranks(answer=BEND, fields=(HEIGHT, SPEED), correlation=np.asarray([-0.9, 0.2]), points=99)
+    found = Ranks(answer=JOINT_ANGLE, fields=(HEIGHT, SPEED), correlation=np.asarray([-0.9, 0.2]), points=99)
     (figure,) = (drawn(one) for one in figures.for_result(found))
     (bars,) = of(figure, Bars)
     assert bars.size.tolist() == [0.2, -0.9]
     assert figure.sentence == "It falls most steadily with joints[1].centre_mm[2]."
-    none = Ranks(answer=BEND, fields=(), correlation=np.empty(0), points=9)
+    none = Ranks(answer=JOINT_ANGLE, fields=(), correlation=np.empty(0), points=9)
     assert "No field" in drawn(figures.for_result(none)[0]).sentence
 
 

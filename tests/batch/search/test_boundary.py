@@ -108,11 +108,11 @@ def test_the_zones_of_mathieus_equation(accuracy):
 def test_a_drive_that_swings_itself_up():
     """The places asked and those of the map of stability agree; the line lies between them."""
     drive = example("unstable-drive")
-    fields = "duty.speed_rpm", "joints[0].bend_deg"
+    fields = "duty.speed_rpm", "joints[0].joint_angle_deg"
     box = [(1280.0, 1400.0), (10.0, 26.0)]
     found = boundary(ask_of(drive, fields, ["stability"]), box, LIMIT, coarse=(6, 2), halvings=0, accuracy=0.1)
-    speeds, bends = np.linspace(*box[0], 7), np.linspace(*box[1], 3)
-    verdict = stability(drive, over=dict(zip(fields, (speeds, bends), strict=True))).verdict
+    speeds, joint_angles = np.linspace(*box[0], 7), np.linspace(*box[1], 3)
+    verdict = stability(drive, over=dict(zip(fields, (speeds, joint_angles), strict=True))).verdict
     np.testing.assert_array_equal(found.kept, (verdict == Verdict.STABLE).ravel())
     edge = np.concatenate(found.lines)[1:-1]
     rates = [float(stability(with_values(drive, dict(zip(fields, one, strict=True)))).growth_rate) for one in edge]

@@ -10,7 +10,7 @@ from cardan.errors import InputError
 ROWS = {"a": np.asarray([1.0, 2.0, np.nan]), "b": np.asarray([-1.0, 0.0, 4.0])}
 
 
-@pytest.mark.parametrize("text", ["min irregularity", "max joints[1].centre_mm[2]"])
+@pytest.mark.parametrize("text", ["min speed_fluctuation", "max joints[1].centre_mm[2]"])
 def test_a_goal_is_told_as_it_was_written(text):
     assert str(goal_of(text)) == text
 
@@ -52,9 +52,9 @@ def test_a_goal_to_be_great_costs_the_less_the_greater_it_is():
 
 
 def test_unknown_columns_are_named_all_at_once():
-    columns = [Column(name=name, unit="", role="answer", text="") for name in ("irregularity", "life_h")]
+    columns = [Column(name=name, unit="", role="answer", text="") for name in ("speed_fluctuation", "life_h")]
     with pytest.raises(InputError) as refused:
         check_names([Goal(name="iregularity"), Limit(name="zzz", high=1.0), Goal(name="life_h")], columns)
-    assert "the nearest is irregularity" in str(refused.value)
-    assert "known: irregularity, life_h" in str(refused.value)
+    assert "the nearest is speed fluctuation" in str(refused.value)
+    assert "known: speed fluctuation, life_h" in str(refused.value)
     assert len(refused.value.problems) == 2

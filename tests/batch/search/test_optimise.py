@@ -42,7 +42,7 @@ def test_a_corner_of_the_box():
 
 
 def test_a_tip_is_found_as_well_as_a_bowl():
-    """The irregularity of a drive that can be even comes to nought in a tip, not in a bowl."""
+    """The speed fluctuation of a drive that can be even comes to nought in a tip, not in a bowl."""
     tip = Formula.of(["x", "y"], {"z": lambda x, y: np.hypot(x - 0.3, y + 0.2)})
     assert optimise(tip, BOX, Goal(name="z")).value < 1e-5
 

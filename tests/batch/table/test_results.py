@@ -13,7 +13,7 @@ from cardan.batch.table.sql import sql_names
 from cardan.errors import InputError
 from tests.batch.tables import COLUMNS, SIZE, Suspension, stored, whole
 
-HEIGHT, BEND = "joints[1].centre_mm[2]", "bend_deg[1]"
+HEIGHT, JOINT_ANGLE = "joints[1].centre_mm[2]", "joint_angle_deg[1]"
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +37,9 @@ def same(rows, expected):
 def test_the_whole_table_in_order(found):
     same(found.table(), whole())
     assert found.columns == COLUMNS
-    assert found.units[BEND] == "deg"
+    assert found.units[JOINT_ANGLE] == "deg"
     assert found.provenance["seed"] == 3
-    assert [column.name for column in found.numbers] == [HEIGHT, "duty.speed_rpm", "irregularity", BEND]
+    assert [column.name for column in found.numbers] == [HEIGHT, "duty.speed_rpm", "speed_fluctuation", JOINT_ANGLE]
 
 
 def test_some_columns_of_some_rows(found):
@@ -53,10 +53,10 @@ def test_some_columns_of_some_rows(found):
 
 def test_what_has_no_answer_is_null_and_not_the_greatest(found):
     """SQL takes nan for greater than all numbers."""
-    rows = found.query(f"SELECT max(irregularity) AS most, count({BEND}) AS answered FROM sweep")
+    rows = found.query(f"SELECT max(speed fluctuation) AS most, count({JOINT_ANGLE}) AS answered FROM sweep")
     assert rows["most"][0] == pytest.approx(1e-6 * 100.0**2 + 1e-3)
     assert rows["answered"][0] == 200
-    assert np.isnan(found.table(["irregularity"], where=f"{HEIGHT} > 90")["irregularity"]).all()
+    assert np.isnan(found.table(["speed_fluctuation"], where=f"{HEIGHT} > 90")["speed_fluctuation"]).all()
 
 
 def test_words_without_a_value_are_none(found):
@@ -66,9 +66,9 @@ def test_words_without_a_value_are_none(found):
 
 
 def test_spans_are_those_of_the_rows_that_have_an_answer(found):
-    answers = whole()["irregularity"]
-    spans = found.spans(["irregularity", HEIGHT])
-    assert spans["irregularity"] == pytest.approx(
+    answers = whole()["speed_fluctuation"]
+    spans = found.spans(["speed_fluctuation", HEIGHT])
+    assert spans["speed_fluctuation"] == pytest.approx(
         {"least": np.nanmin(answers), "mean": np.nanmean(answers), "most": np.nanmax(answers), "unknown": 10.0}
     )
     assert spans[HEIGHT]["most"] == 100.0
@@ -76,23 +76,25 @@ def test_spans_are_those_of_the_rows_that_have_an_answer(found):
 
 
 def test_the_best_rows(found):
-    best = found.best(Goal(name=BEND, largest=True), count=3, limits=[Limit(name="irregularity", high=0.0075)])
-    assert best[BEND].tolist() == pytest.approx([16.0] * 3)
+    best = found.best(
+        Goal(name=JOINT_ANGLE, largest=True), count=3, limits=[Limit(name="speed_fluctuation", high=0.0075)]
+    )
+    assert best[JOINT_ANGLE].tolist() == pytest.approx([16.0] * 3)
     assert best[HEIGHT].tolist() == [-80.0] * 3
-    least = found.best(Goal(name="irregularity"), where="supplier = 'Beta'")
-    assert least["irregularity"][0] == 1e-3
+    least = found.best(Goal(name="speed_fluctuation"), where="supplier = 'Beta'")
+    assert least["speed_fluctuation"][0] == 1e-3
     assert least["supplier"][0] == "Beta"
-    assert len(found.best(Goal(name=BEND), limits=[Limit(name=BEND, low=50.0)])[BEND]) == 0
+    assert len(found.best(Goal(name=JOINT_ANGLE), limits=[Limit(name=JOINT_ANGLE, low=50.0)])[JOINT_ANGLE]) == 0
 
 
 def test_the_pareto_set_is_that_of_the_whole_table(found):
-    goals = [Goal(name="irregularity"), Goal(name=BEND)]
+    goals = [Goal(name="speed_fluctuation"), Goal(name=JOINT_ANGLE)]
     table = whole()
     rows = found.pareto(goals)
     chosen = pareto(table, goals)
-    assert len(rows[BEND]) == np.count_nonzero(chosen)
-    assert np.all(np.diff(rows["irregularity"]) >= 0.0)
-    np.testing.assert_allclose(np.sort(rows[BEND]), np.sort(table[BEND][chosen]))
+    assert len(rows[JOINT_ANGLE]) == np.count_nonzero(chosen)
+    assert np.all(np.diff(rows["speed_fluctuation"]) >= 0.0)
+    np.testing.assert_allclose(np.sort(rows[JOINT_ANGLE]), np.sort(table[JOINT_ANGLE][chosen]))
     some = found.pareto(goals, limits=[Limit(name=HEIGHT, high=50.0)], where="supplier = 'Alpha'")
     assert some[HEIGHT].max() == 50.0
     assert set(some["supplier"]) == {"Alpha"}
@@ -144,7 +146,7 @@ def test_equal_ones_are_told_in_the_order_of_their_points(found):
 def test_a_question_that_has_no_answer_is_told_in_words(found):
     with pytest.raises(InputError, match=r"cannot be answered.*irregularitty"):
         found.query("SELECT irregularitty FROM sweep")
-    with pytest.raises(InputError, match=r"columns: irregularitty.*nearest is irregularity"):
+    with pytest.raises(InputError, match=r"columns: irregularitty.*nearest is speed fluctuation"):
         found.table(["irregularitty"])
     with pytest.raises(InputError, match="none is given"):
         found.pareto([])
@@ -166,7 +168,7 @@ def test_a_damaged_file_is_one_clear_message(tmp_path):
     file = sorted(made.glob("*.parquet"))[1]
     file.write_bytes(file.read_bytes()[:-40])
     with pytest.raises(InputError, match=r"damaged.*run the sweep again"):
-        results(made).count("irregularity > 0")
+        results(made).count("speed_fluctuation > 0")
 
 
 def test_a_sweep_of_which_parts_are_missing_is_read_as_far_as_it_is(tmp_path):
@@ -178,13 +180,13 @@ def test_a_sweep_of_which_parts_are_missing_is_read_as_far_as_it_is(tmp_path):
     for file in made.glob("*.parquet"):
         file.unlink()
     assert results(made).count() == 0
-    assert results(made).pareto([Goal(name=BEND)])[BEND].shape == (0,)
+    assert results(made).pareto([Goal(name=JOINT_ANGLE)])[JOINT_ANGLE].shape == (0,)
 
 
 def test_a_sweep_without_a_status_has_all_its_rows_allowed():
     sweep = run(Suspension(), chunk=50)
     bare = replace(sweep, columns=COLUMNS[:-1])
-    assert len(results(bare).best(Goal(name=BEND), count=500)[BEND]) == 200
+    assert len(results(bare).best(Goal(name=JOINT_ANGLE), count=500)[JOINT_ANGLE]) == 200
 
 
 def test_names_with_brackets_are_put_into_quotes_once_and_not_within_words():

@@ -77,7 +77,7 @@ def test_far_below_all_zones_the_first_one_is_shown():
 
 
 def test_a_straight_drive_has_a_chart_too():
-    drawn(figures.for_result(replace(ONE, bend=np.asarray([0.0])))[0])
+    drawn(figures.for_result(replace(ONE, joint_angle=np.asarray([0.0])))[0])
 
 
 def test_damping_draws_its_edges_inside_the_zones():

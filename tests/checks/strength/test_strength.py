@@ -36,7 +36,7 @@ def hand_drive():
         section=Section(shape="ellipse", height=30 * mm, width=20 * mm),
         material=STEEL,
     )
-    joint = Hooke(bend=12 * deg, cross=cross, needles=needles, yoke=yoke)
+    joint = Hooke(joint_angle=12 * deg, cross=cross, needles=needles, yoke=yoke)
     spline = Spline(teeth=8, outer=46 * mm, root=40 * mm, tooth_width=8 * mm, length=70 * mm)
     tube = Shaft(number=2, outer=76 * mm, wall=3 * mm, length=1.2, material=STEEL, spline=spline)
     return replace(
@@ -140,7 +140,7 @@ def everything():
                 life=2000 * HOUR,
                 blocks=(
                     Block(torque=300.0, speed=1800 * rpm, share=0.7),
-                    Block(torque=900.0, speed=900 * rpm, share=0.3, bend=5 * deg),
+                    Block(torque=900.0, speed=900 * rpm, share=0.3, joint_angle=5 * deg),
                 ),
             ),
         )
@@ -189,9 +189,9 @@ def test_the_largest_torques_of_a_chain_are_closed_forms():
     whole = chain(Drive.from_angles([0.4, 0.25, 0.3], plane_twists=[0.8, 0.3], yoke_angles=[0.5, 1.2]))
     found = turn_loads(whole, 100.0, torque_at="input")
     for k, pair in enumerate(whole.products(), start=1):
-        bend = float(mobius.bend(pair))
-        assert found.high[k] == pytest.approx(100.0 / math.cos(bend), rel=2e-10)  # quartic, places 1.5° apart
-        assert found.low[k] == pytest.approx(100.0 * math.cos(bend), rel=2e-10)
+        joint_angle = float(mobius.joint_angle(pair))
+        assert found.high[k] == pytest.approx(100.0 / math.cos(joint_angle), rel=2e-10)  # quartic, places 1.5° apart
+        assert found.low[k] == pytest.approx(100.0 * math.cos(joint_angle), rel=2e-10)
 
 
 def test_many_drives_at_once_are_the_single_ones():

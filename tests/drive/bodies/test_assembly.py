@@ -17,22 +17,22 @@ from cardan.maths.kernel import frames, meshes
 from cardan.questions.motion.motion import motion
 from tests.maths.kernel.test_meshes import closed
 
-BEND = math.radians(20.0)
+JOINT_ANGLE = math.radians(20.0)
 KINDS = {
-    "hooke": kinds.Hooke(bend=BEND),
-    "offset": kinds.OffsetCross(bend=BEND, offset=0.03, reach=0.5),
-    "double": kinds.DoubleCardan(bend=1.5 * BEND),
-    "double with a ball": kinds.DoubleCardan(bend=1.5 * BEND, centring_ratio=0.45, ball_on="driven"),
-    "constant velocity": kinds.ConstantVelocity(bend=BEND),
-    "tracta": kinds.Tracta(bend=BEND),
-    "rzeppa": kinds.Rzeppa(bend=BEND, driving_offset=0.005, driven_offset=0.0055, groove_radius=0.032),
-    "weiss": kinds.Weiss(bend=BEND),
-    "tripod": kinds.Tripod(bend=BEND, track_radius=0.02),
-    "half": kinds.HalfCardan(bend=0.08),
-    "toothed half": kinds.HalfCardan(bend=0.08, pairs=8),
-    "elastic": kinds.ElasticHalfCardan(bend=0.1, pairs=4),
-    "pins": kinds.PinCoupling(bend=BEND, driving_distance=0.05, driven_distance=0.052),
-    "clemens": kinds.Clemens(bend=BEND),
+    "hooke": kinds.Hooke(joint_angle=JOINT_ANGLE),
+    "offset": kinds.OffsetCross(joint_angle=JOINT_ANGLE, offset=0.03, reach=0.5),
+    "double": kinds.DoubleCardan(joint_angle=1.5 * JOINT_ANGLE),
+    "double with a ball": kinds.DoubleCardan(joint_angle=1.5 * JOINT_ANGLE, centring_ratio=0.45, ball_on="driven"),
+    "constant velocity": kinds.ConstantVelocity(joint_angle=JOINT_ANGLE),
+    "tracta": kinds.Tracta(joint_angle=JOINT_ANGLE),
+    "rzeppa": kinds.Rzeppa(joint_angle=JOINT_ANGLE, driving_offset=0.005, driven_offset=0.0055, groove_radius=0.032),
+    "weiss": kinds.Weiss(joint_angle=JOINT_ANGLE),
+    "tripod": kinds.Tripod(joint_angle=JOINT_ANGLE, track_radius=0.02),
+    "half": kinds.HalfCardan(joint_angle=0.08),
+    "toothed half": kinds.HalfCardan(joint_angle=0.08, pairs=8),
+    "elastic": kinds.ElasticHalfCardan(joint_angle=0.1, pairs=4),
+    "pins": kinds.PinCoupling(joint_angle=JOINT_ANGLE, driving_distance=0.05, driven_distance=0.052),
+    "clemens": kinds.Clemens(joint_angle=JOINT_ANGLE),
 }
 
 TRUCK = Drive(
@@ -108,7 +108,7 @@ def test_ears_of_both_yokes_hold_the_ends_of_the_cross_in_every_frame():
 
 
 def test_shafts_turn_as_the_motion_says():
-    mixed = Drive(joints=(KINDS["hooke"], KINDS["rzeppa"], KINDS["pins"], kinds.HalfCardan(bend=0.06)))
+    mixed = Drive(joints=(KINDS["hooke"], KINDS["rzeppa"], KINDS["pins"], kinds.HalfCardan(joint_angle=0.06)))
     build = assembled(mixed, count=36)
     angle = motion(mixed, np.arange(36) * (2.0 * np.pi / 36)).shaft_angle
     for k in range(2, 6):
@@ -140,7 +140,7 @@ def test_crosses_have_their_span_and_journals():
     from cardan.drive.cross import Cross
 
     cross = Cross(span=0.098, journal=0.024, journal_length=0.02)
-    build = assembled(Drive(joints=(kinds.Hooke(bend=0.2, cross=cross), kinds.Hooke(bend=0.2))), count=4)
+    build = assembled(Drive(joints=(kinds.Hooke(joint_angle=0.2, cross=cross), kinds.Hooke(joint_angle=0.2))), count=4)
     size = build.sizes.joints[0]
     assert (size.radius, size.ear, size.journal, size.given) == (0.049, 0.02, 0.024, True)
     assert build.sizes.joints[1].radius == pytest.approx(0.049)
@@ -156,7 +156,8 @@ def test_stretches_keep_their_places():
         Segment(length=0.2, outer=0.04),
     )
     drive = Drive(
-        joints=(kinds.Hooke(bend=0.1), kinds.Hooke(bend=0.1)), shafts=(Shaft(number=2, length=1.0, segments=segments),)
+        joints=(kinds.Hooke(joint_angle=0.1), kinds.Hooke(joint_angle=0.1)),
+        shafts=(Shaft(number=2, length=1.0, segments=segments),),
     )
     build = assembled(drive, count=4)
     ends = [
@@ -200,7 +201,7 @@ def test_the_second_cross_of_a_double_joint_stands_as_the_law_of_both_says(name)
 
 def test_balls_stand_in_the_halving_plane_in_the_grooves_of_both_shafts():
     grooves = {"driving_offset": 0.004, "driven_offset": 0.004, "groove_radius": 0.03}
-    build = assembled(Drive(joints=(kinds.Rzeppa(bend=BEND, **grooves),)), count=24)
+    build = assembled(Drive(joints=(kinds.Rzeppa(joint_angle=JOINT_ANGLE, **grooves),)), count=24)
     half = frames.unit(build.axis(1) + build.axis(2))
     for j, ball in enumerate(parts(build, "ball")):
         place = world(build, ball.track, (0.03, 0.0, 0.0)) - build.centre(0)
@@ -236,14 +237,14 @@ def test_pins_touch_in_every_frame():
 
 def test_arms_of_a_clemens_coupling_meet():
     side = kinds.Profile(axial=0.06, radial=0.01, radius=0.075)
-    build = assembled(Drive(joints=(kinds.Clemens(bend=BEND, driving=side),)), count=24)
+    build = assembled(Drive(joints=(kinds.Clemens(joint_angle=JOINT_ANGLE, driving=side),)), count=24)
     tips = [world(build, arm.track, (0.075, 0.0, 0.0)) for arm in parts(build, "arm")]
     for one, two in zip(tips[:3], tips[3:], strict=True):
         np.testing.assert_allclose(one, two, atol=1e-14)
     u, normal = build.arms.driving[0], build.place.normal[0]
     theta = np.arctan2(u @ normal, u @ np.cross(normal, build.axis(1)))
     circle = Circle(axial=0.06, radial=0.01, radius=0.075)
-    contact = profile_contact(theta, BEND, circle, circle)
+    contact = profile_contact(theta, JOINT_ANGLE, circle, circle)
     # The contact of equal profiles, found by iteration on the circles themselves.
     np.testing.assert_allclose(
         frames.norm(tips[0] - build.centre(0)), np.hypot(contact.height1, contact.radius1), atol=1e-9
@@ -281,7 +282,7 @@ def test_the_first_yoke_stays_while_the_points_move_through_a_straight_line():
 
 
 def test_sizes_that_do_not_turn_are_shown_turning_evenly():
-    stuck = Drive(joints=(kinds.PinCoupling(bend=1.2, driving_slant=0.2),))
+    stuck = Drive(joints=(kinds.PinCoupling(joint_angle=1.2, driving_slant=0.2),))
     build = assembled(stuck, count=4)
     assert np.all(np.isfinite(build.arms.driven))
 
@@ -289,7 +290,7 @@ def test_sizes_that_do_not_turn_are_shown_turning_evenly():
 def test_bodies_of_unusual_proportions_stay_sound():
     tight = Spline(position=0.02, outer=0.3, root=0.01, engaged=0.5, gap=0.5, teeth=3)
     drive = Drive(
-        joints=(kinds.Hooke(bend=1.4), kinds.Hooke(bend=0.0)),
+        joints=(kinds.Hooke(joint_angle=1.4), kinds.Hooke(joint_angle=0.0)),
         shafts=(
             Shaft(number=1, outer=0.9),
             Shaft(number=2, length=0.1, outer=0.4, wall=0.2, spline=tight),

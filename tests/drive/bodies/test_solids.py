@@ -10,7 +10,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.chain import chain
 from cardan.drive.models.geometry import geometry
 from cardan.maths.kernel import frames
-from cardan.questions.motion.motion import motion, phase_angles
+from cardan.questions.motion.motion import initial_phases, motion
 from cardan.units import deg
 
 DRIVE = Drive.from_angles([0.2, 0.3, 0.25], plane_twists=[0.7, -2.0], yoke_angles=[0.4, -1.1], start_phase=0.3)
@@ -45,7 +45,7 @@ def test_yokes_stand_at_the_yoke_angles_of_the_drive():
 
 def test_driving_yokes_start_at_the_phase_angles_of_the_motion():
     place, train = geometry(DRIVE), chain(DRIVE)
-    psi = phase_angles(DRIVE)
+    psi = initial_phases(DRIVE)
     for i, u in enumerate(arms(place, train).driving):
         in_plane = np.cross(place.normal[i], place.axis[i])
         angle = frames.angle_about(place.axis[i], in_plane, u)

@@ -13,7 +13,7 @@ def cycle(*shares):
 
 
 def drive(**duty):
-    return Drive(joints=(Hooke(bend=0.1),), duty=Duty(**duty))
+    return Drive(joints=(Hooke(joint_angle=0.1),), duty=Duty(**duty))
 
 
 def test_blocks_make_up_the_whole_time_within_a_ten_thousandth():
@@ -36,6 +36,6 @@ def test_rows_of_a_history_are_a_table(times, torques, text):
 
 def test_a_convention_belongs_to_a_rated_torque():
     with pytest.raises(InputError, match="rated torque") as caught:
-        Drive(joints=(Hooke(bend=0.1), Hooke(bend=0.1, rating=Rating(convention="CR"))))
+        Drive(joints=(Hooke(joint_angle=0.1), Hooke(joint_angle=0.1, rating=Rating(convention="CR"))))
     assert caught.value.field == "joints[1].rating.convention"
-    assert Hooke(bend=0.1, rating=Rating(convention="CR", torque=10.0)).rating
+    assert Hooke(joint_angle=0.1, rating=Rating(convention="CR", torque=10.0)).rating

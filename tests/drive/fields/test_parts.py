@@ -89,8 +89,8 @@ def test_an_end_shaft_may_reach_as_far_as_it_likes() -> None:
 
 
 def test_a_length_that_is_not_said_limits_nothing() -> None:
-    bends = Drive.from_angles([0.1, 0.2])
-    assert replace(bends, supports=(Support(shaft=2, position=7.0),)).supports
+    joint_angles = Drive.from_angles([0.1, 0.2])
+    assert replace(joint_angles, supports=(Support(shaft=2, position=7.0),)).supports
 
 
 def test_swinging_parts_belong_to_a_torque() -> None:

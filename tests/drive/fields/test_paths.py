@@ -89,7 +89,7 @@ def test_says_where_a_path_leads_nowhere(path: str, value: object, words: str) -
 
 def test_all_bad_paths_at_once() -> None:
     with pytest.raises(InputError) as caught:
-        with_values(DRIVE, {"a": 1, "joints[9].bend_deg": 2})
+        with_values(DRIVE, {"a": 1, "joints[9].joint_angle_deg": 2})
     assert len(caught.value.problems) == 2
 
 

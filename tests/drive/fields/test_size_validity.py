@@ -81,7 +81,7 @@ def test_needles_that_have_no_room_around_their_journal(count, fine):
     needles = Needles(count=count, diameter=2.5e-3, length=14e-3)
 
     def made():
-        return Drive(joints=(Hooke(bend=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles),))
+        return Drive(joints=(Hooke(joint_angle=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles),))
 
     if fine:
         assert made().joints[0].needles == needles

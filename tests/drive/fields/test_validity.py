@@ -96,11 +96,13 @@ def test_slopes_that_fold_are_refused(side: float, plan: float, folds: bool) -> 
     if folds:
         assert fields(joints=(Hooke(),), shafts=shafts) == ["shafts[1].side_slope"]
     else:
-        assert math.degrees(motion(Drive(joints=(Hooke(),), shafts=shafts), [0.0]).bend[0]) == pytest.approx(2 * side)
+        assert math.degrees(motion(Drive(joints=(Hooke(),), shafts=shafts), [0.0]).joint_angle[0]) == pytest.approx(
+            2 * side
+        )
 
 
 def test_what_no_question_can_use_is_refused() -> None:
-    joints = (Hooke(bend=0.1), Hooke(bend=0.2))
+    joints = (Hooke(joint_angle=0.1), Hooke(joint_angle=0.2))
     limits = Limits(spline_overlap=0.05)
     assert fields(joints=joints, limits=limits) == ["limits.spline_overlap"]
     splined = (Shaft(number=2, spline=Spline(engaged=0.1)),)
@@ -110,16 +112,16 @@ def test_what_no_question_can_use_is_refused() -> None:
 
 
 def test_poses_are_judged_with_the_drive() -> None:
-    joints = (Hooke(bend=0.1), Hooke(bend=0.2))
+    joints = (Hooke(joint_angle=0.1), Hooke(joint_angle=0.2))
     poses = (
-        Pose(name="a", share=0.7, set=(("joints[0].bend_deg", 95.0),)),
-        Pose(name="a", share=0.7, set=(("joints[2].bend_deg", 5.0), ("shafts[1].yoke_angle_deg", 3.0))),
+        Pose(name="a", share=0.7, set=(("joints[0].joint_angle_deg", 95.0),)),
+        Pose(name="a", share=0.7, set=(("joints[2].joint_angle_deg", 5.0), ("shafts[1].yoke_angle_deg", 3.0))),
     )
     assert fields(joints=joints, poses=poses) == [
         "poses[1].name",
         "poses[1].share",
-        "poses[0].set: joints[0].bend_deg",
-        "poses[1].set: joints[2].bend_deg",
+        "poses[0].set: joints[0].joint_angle_deg",
+        "poses[1].set: joints[2].joint_angle_deg",
     ]
 
 
@@ -129,10 +131,10 @@ def test_a_bad_field_does_not_hide_the_others() -> None:
 
 
 def test_texts_that_terminals_would_obey_are_refused() -> None:
-    joint = Hooke(bend=0.1, name="two\nlines")
+    joint = Hooke(joint_angle=0.1, name="two\nlines")
     assert fields(name="red\x1b[31m", joints=(joint,), poses=(Pose(name="\x9b0m", set=()),)) == [
         "name",
         "joints[0].name",
         "poses[0].name",
     ]
-    Drive(name="Müller 轴 🚜", note="two\n\tlines", joints=(Hooke(bend=0.1),))
+    Drive(name="Müller 轴 🚜", note="two\n\tlines", joints=(Hooke(joint_angle=0.1),))

@@ -14,9 +14,9 @@ from cardan.io import example
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "two-piece-rubber-bearing", "w-arrangement"])
 def test_every_lever_has_words_with_numbers_from_one(name):
     drive = design(example(name)).drive
-    levers = {path for one in check(drive) for path in one.levers}
-    assert levers
-    for path in levers:
+    design_variables = {path for one in check(drive) for path in one.design_variables}
+    assert design_variables
+    for path in design_variables:
         said = in_words(path)
         assert meant(re.sub(r"\[\d\]$", "", path)), path
         assert not re.search(r"[\[\]_;]", said), said

@@ -101,7 +101,9 @@ def test_what_asks_for_a_type_is_seen(code):
 def one_of_each() -> list[Joint]:
     """Return a joint of every kind, the toys among them."""
     sizes = {"offset_cross": {"offset": 0.01, "reach": 0.3}}
-    return [kind(bend=0.04, **sizes.get(name, {})) for name, kind in JOINTS.items()] + [toy(bend=0.04) for toy in TOYS]
+    return [kind(joint_angle=0.04, **sizes.get(name, {})) for name, kind in JOINTS.items()] + [
+        toy(joint_angle=0.04) for toy in TOYS
+    ]
 
 
 STANCE = Stance(
@@ -109,7 +111,7 @@ STANCE = Stance(
     before=np.asarray([1.0, 0.0, 0.0]),
     after=np.asarray([np.cos(0.3), np.sin(0.3), 0.0]),
     normal=np.asarray([0.0, 0.0, 1.0]),
-    bend=0.3,
+    joint_angle=0.3,
     driving=np.asarray([0.0, 1.0, 0.0]),
     driven=np.asarray([-np.sin(0.3), np.cos(0.3), 0.0]),
     length=1.0,
@@ -120,11 +122,11 @@ STANCE = Stance(
 def test_every_kind_speaks_the_protocol(joint):
     assert joint.in_words()
     assert 0.0 < joint.steepest <= np.pi / 2
-    lead, ratio, slope = joint.deviation(np.linspace(0.0, 6.0, 7), np.asarray(0.04))
-    assert all(np.all(np.isfinite(one)) for one in (lead, ratio, slope))
+    angle_error, ratio, slope = joint.deviation(np.linspace(0.0, 6.0, 7), np.asarray(0.04))
+    assert all(np.all(np.isfinite(one)) for one in (angle_error, ratio, slope))
     a, b = joint.near_pair(np.asarray(0.04))
     assert float(np.real(a * a - b * b)) == pytest.approx(1.0)
-    assert joint.even == (joint.has_map and not np.any(np.abs(lead) > 0.0))
+    assert joint.even == (joint.has_map and not np.any(np.abs(angle_error) > 0.0))
     assert set(joint.refusals) <= set(REFUSALS)
     assert joint.own_fields().isdisjoint(one.name for one in fields(Joint))
     assert joint.foreign <= {one.name for one in fields(Joint)}
@@ -143,11 +145,11 @@ def test_every_inner_mechanism_joins_both_shafts(joint):
 
 
 def test_what_a_kind_does_not_say_is_said_for_it():
-    toy = TOYS[0](bend=0.1)
+    toy = TOYS[0](joint_angle=0.1)
     assert toy.in_words() == "toy"
     assert list(toy.inside(0.1)) == []
     assert toy.twist_spring is None
     assert toy.types == ()
     assert toy.refusal("losses").endswith("cross")
     assert toy.refusal("articulation")
-    assert TOYS[1](bend=0.1).refusal("forces")
+    assert TOYS[1](joint_angle=0.1).refusal("forces")

@@ -27,7 +27,7 @@ def lines(joints, count, varied, straight=False):
 def test_columns_are_polylines(varied, straight):
     points, whole = lines(4, 60, varied, straight)
     found, same = columns(points, 60), polyline(whole)
-    for name in ("bend", "plane_twist", "length"):  # the same formulas; reciprocals round once more
+    for name in ("joint_angle", "plane_twist", "length"):  # the same formulas; reciprocals round once more
         assert np.allclose(table(getattr(found, name), 60), getattr(same, name), rtol=0, atol=1e-13)
 
 
@@ -43,4 +43,4 @@ def test_a_drive_does_not_depend_on_those_beside_it():
 def test_nothing_varied_is_a_number():
     points, _whole = lines(4, 1000, [(5, 1)])
     found = columns(points, 1000)
-    assert [np.ndim(one) for one in found.bend] == [0, 0, 0, 1]
+    assert [np.ndim(one) for one in found.joint_angle] == [0, 0, 0, 1]

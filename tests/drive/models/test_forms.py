@@ -35,7 +35,9 @@ def test_motion_is_the_same_in_every_form(n: int, form: str, back: str) -> None:
     # The forms go through sines and cosines of the bends: some roundings of 1e-16 each.
     np.testing.assert_allclose(motion(other).shaft_angle, motion(drive).shaft_angle, atol=1e-13)
     np.testing.assert_allclose(geometry(other).length, geometry(drive).length, rtol=1e-13)
-    assert equivalent_joint(other).irregularity == pytest.approx(float(equivalent_joint(drive).irregularity), abs=1e-14)
+    assert equivalent_joint(other).speed_fluctuation == pytest.approx(
+        float(equivalent_joint(drive).speed_fluctuation), abs=1e-14
+    )
 
 
 def test_bends_of_a_level_input_shaft_keep_the_drive_in_place() -> None:
@@ -72,14 +74,14 @@ def test_what_stands_in_coordinates_is_not_carried_over() -> None:
 
 
 @pytest.mark.parametrize(
-    "bends", [[0.0], [0.0, 0.0], [0.0, 0.3, 0.5], [0.0, 0.0, 0.4], [0.4, 0.0, 0.0, 0.2], [0.3, 0.0]]
+    "joint_angles", [[0.0], [0.0, 0.0], [0.0, 0.3, 0.5], [0.0, 0.0, 0.4], [0.4, 0.0, 0.0, 0.2], [0.3, 0.0]]
 )
 @pytest.mark.parametrize("form", ["points", "slopes"])
 @pytest.mark.parametrize("phase", [0.0, 0.4])
-def test_straight_joints_keep_the_motion(bends: list[float], form: str, phase: float) -> None:
-    between = len(bends) - 1
+def test_straight_joints_keep_the_motion(joint_angles: list[float], form: str, phase: float) -> None:
+    between = len(joint_angles) - 1
     twists, yokes = [0.3 + 0.2 * i for i in range(between)], [0.1 - 0.4 * i for i in range(between)]
-    drive = Drive.from_angles(bends, plane_twists=twists, yoke_angles=yokes, start_phase=phase)
+    drive = Drive.from_angles(joint_angles, plane_twists=twists, yoke_angles=yokes, start_phase=phase)
     other = in_form(drive, form)  # type: ignore[arg-type]
     # Some roundings of 1e-16 each, in angles of up to one turn.
     np.testing.assert_allclose(motion(other).shaft_angle, motion(drive).shaft_angle, atol=1e-13)
@@ -103,7 +105,9 @@ def test_movements_are_shifted_with_the_drive_and_refused_where_it_turns() -> No
     wanted = articulation(moved, times=times)
     for form in ("angles", "slopes"):
         found = articulation(in_form(moved, form), times=times)  # type: ignore[arg-type]
-        np.testing.assert_allclose(found.bend, wanted.bend, atol=1e-12)  # roundings of the shifted coordinates
+        np.testing.assert_allclose(
+            found.joint_angle, wanted.joint_angle, atol=1e-12
+        )  # roundings of the shifted coordinates
         np.testing.assert_allclose(found.length[:, 1], wanted.length[:, 1], rtol=1e-13)
     slanted = replace(moved, input=replace(moved.input, point=(0.5, 0.2, 0.2)))
     with pytest.raises(InputError, match="movements"):

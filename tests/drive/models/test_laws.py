@@ -43,32 +43,32 @@ ROUNDING = 1e-13
 ANGLE = np.linspace(-1.0, 8.0, 61)
 
 MAPPED = (
-    Hooke(bend=0.3, plane_twist=0.2),
-    DoubleCardan(bend=0.6, centring_ratio=0.45, plane_twist=0.4),
-    ConstantVelocity(bend=0.5, plane_twist=-1.0),
-    Tracta(bend=0.4, driving_distance=20 * mm, driven_distance=25 * mm, plane_twist=0.9),
-    OffsetCross(bend=0.3, offset=10 * mm, reach=0.2, plane_twist=0.1),
-    DoubleCardan(bend=0.4, centring_ratio=0.6, ball_on="driven", plane_twist=-0.3),
-    HalfCardan(bend=0.05),
-    PinCoupling(bend=0.3),
-    Clemens(bend=0.2),
-    Rzeppa(bend=0.4),
-    Weiss(bend=0.2),
-    Tripod(bend=0.2, track_radius=20 * mm),
-    ElasticHalfCardan(bend=0.1, stiffness=1e4),
-    Hooke(bend=0.35),
+    Hooke(joint_angle=0.3, plane_twist=0.2),
+    DoubleCardan(joint_angle=0.6, centring_ratio=0.45, plane_twist=0.4),
+    ConstantVelocity(joint_angle=0.5, plane_twist=-1.0),
+    Tracta(joint_angle=0.4, driving_distance=20 * mm, driven_distance=25 * mm, plane_twist=0.9),
+    OffsetCross(joint_angle=0.3, offset=10 * mm, reach=0.2, plane_twist=0.1),
+    DoubleCardan(joint_angle=0.4, centring_ratio=0.6, ball_on="driven", plane_twist=-0.3),
+    HalfCardan(joint_angle=0.05),
+    PinCoupling(joint_angle=0.3),
+    Clemens(joint_angle=0.2),
+    Rzeppa(joint_angle=0.4),
+    Weiss(joint_angle=0.2),
+    Tripod(joint_angle=0.2, track_radius=20 * mm),
+    ElasticHalfCardan(joint_angle=0.1, stiffness=1e4),
+    Hooke(joint_angle=0.35),
 )
 
 UNMAPPED = (
-    Rzeppa(bend=0.5, lever_b=0.35, lever_c=0.65),
-    Weiss(bend=0.3, driving_offset=3.0 * mm, driven_offset=3.3 * mm, groove_radius=30 * mm),
-    PinCoupling(bend=0.3, driving_distance=50 * mm, driven_distance=52 * mm),
+    Rzeppa(joint_angle=0.5, lever_b=0.35, lever_c=0.65),
+    Weiss(joint_angle=0.3, driving_offset=3.0 * mm, driven_offset=3.3 * mm, groove_radius=30 * mm),
+    PinCoupling(joint_angle=0.3, driving_distance=50 * mm, driven_distance=52 * mm),
     Clemens(
-        bend=0.3,
+        joint_angle=0.3,
         driving=Profile(axial=60 * mm, radial=10 * mm, radius=75 * mm),
         driven=Profile(axial=62 * mm, radial=11 * mm, radius=74 * mm),
     ),
-    ElasticHalfCardan(bend=0.2, pairs=2),
+    ElasticHalfCardan(joint_angle=0.2, pairs=2),
 )
 
 
@@ -77,25 +77,26 @@ def drive_of(*joints, start=0.37):
     return Drive(joints=joints, shafts=shafts, input=Input(start_phase=start))
 
 
-def tangent_of(joint, bend):
+def tangent_of(joint, joint_angle):
     """Return κ of tan θ' = κ tan θ by the law of sines and cosines alone."""
     if isinstance(joint, DoubleCardan):
-        second = math.asin(joint.centring_ratio * math.sin(bend))
-        kappa = math.cos(second) / math.cos(bend - second)
+        second = math.asin(joint.centring_ratio * math.sin(joint_angle))
+        kappa = math.cos(second) / math.cos(joint_angle - second)
         return kappa if joint.ball_on == "driving" else 1.0 / kappa
     if isinstance(joint, Tracta):
         first = math.atan2(
-            joint.driven_distance * math.sin(bend), joint.driving_distance + joint.driven_distance * math.cos(bend)
+            joint.driven_distance * math.sin(joint_angle),
+            joint.driving_distance + joint.driven_distance * math.cos(joint_angle),
         )
-        return math.cos(bend - first) / math.cos(first)
-    return 1.0 / math.cos(bend) if joint.crossed else 1.0
+        return math.cos(joint_angle - first) / math.cos(first)
+    return 1.0 / math.cos(joint_angle) if joint.crossed else 1.0
 
 
 def plain(drive, angle):
     """Return the output angle by one arctan after another."""
     theta, origin = angle + drive.input.start_phase, drive.input.start_phase
     for i, joint in enumerate(drive.joints):
-        kappa = tangent_of(joint, joint.bend)
+        kappa = tangent_of(joint, joint.joint_angle)
         rounds = [np.round(x / np.pi) * np.pi for x in (theta, origin)]
         theta, origin = (
             turns + np.arctan(kappa * np.tan(x - turns)) for x, turns in zip((theta, origin), rounds, strict=True)
@@ -122,13 +123,13 @@ def test_both_ways_through_a_mixed_chain_agree(joints):
     found, way = motion(drive, ANGLE), followed(drive, ANGLE)
     for name in ("shaft_angle", "shaft_ratio", "shaft_slope"):
         assert np.abs(getattr(found, name) - way[name]).max() < ROUNDING
-    assert np.abs(np.sin(found.joint_angle - way["joint_angle"])).max() < ROUNDING
-    assert np.array_equal(found.bend, [joint.bend for joint in drive.joints])
+    assert np.abs(np.sin(found.yoke_rotation - way["yoke_rotation"])).max() < ROUNDING
+    assert np.array_equal(found.joint_angle, [joint.joint_angle for joint in drive.joints])
 
 
 @pytest.mark.parametrize("joint", UNMAPPED, ids=lambda joint: joint.kind)
 def test_laws_of_their_own_have_the_right_derivatives(joint):
-    drive = drive_of(Hooke(bend=0.2), joint, Hooke(bend=0.3))
+    drive = drive_of(Hooke(joint_angle=0.2), joint, Hooke(joint_angle=0.3))
     step = 1e-4
     at, after, before = (motion(drive, ANGLE + shift) for shift in (0.0, step, -step))
     ahead, behind = (one.shaft_angle + one.shaft_angle * 0.0 for one in (after, before))
@@ -146,14 +147,18 @@ def test_marks_of_the_picture_are_those_of_the_motion():
     stand = arms(place, given_chain(drive), ANGLE, drive.joints)
     for i in range(len(drive.joints)):
         across, normal = np.cross(place.normal[i], place.axis[i]), place.normal[i]
-        theta = found.joint_angle[i][:, None]
+        theta = found.yoke_rotation[i][:, None]
         along = np.sum((np.cos(theta) * across + np.sin(theta) * normal) * stand.driving[i], axis=-1)
         assert np.abs(np.abs(along) - 1.0).max() < ROUNDING
     assert len(solids(drive).bodies) > 2 * len(drive.joints)
 
 
 def test_synchronous_yokes_of_a_mixed_chain_are_exact():
-    joints = (Hooke(bend=0.3), DoubleCardan(bend=0.5, centring_ratio=0.5), Hooke(bend=0.31, plane_twist=0.7))
+    joints = (
+        Hooke(joint_angle=0.3),
+        DoubleCardan(joint_angle=0.5, centring_ratio=0.5),
+        Hooke(joint_angle=0.31, plane_twist=0.7),
+    )
     drive = drive_of(*joints)
     found = phases(drive)
     assert found.feasible
@@ -166,7 +171,9 @@ def test_synchronous_yokes_of_a_mixed_chain_are_exact():
 
 def test_a_constant_velocity_joint_does_not_change_the_phasing_of_the_others():
     two = phases(Drive.from_angles([0.3, 0.3], plane_twists=[0.6])).settings[0]
-    between = Drive(joints=(Hooke(bend=0.3), ConstantVelocity(bend=0.2), Hooke(bend=0.3, plane_twist=0.6)))
+    between = Drive(
+        joints=(Hooke(joint_angle=0.3), ConstantVelocity(joint_angle=0.2), Hooke(joint_angle=0.3, plane_twist=0.6))
+    )
     found = phases(between, fixed={3: 0.0}).settings[0]
     assert np.sin(found.yoke_angle[0] - two.yoke_angle[0]) == pytest.approx(0.0, abs=1e-12)
 
@@ -183,13 +190,13 @@ def test_hooke_chains_are_what_they_were():
     one, other = chain(drive), turning_chain(drive)
     assert one.laws is None
     assert other.laws is None
-    assert np.array_equal(one.bend, other.bend)
+    assert np.array_equal(one.joint_angle, other.joint_angle)
     assert motion(drive).crossed == ()
 
 
 @pytest.mark.parametrize("joint", UNMAPPED[2:], ids=lambda joint: joint.kind)
 def test_questions_that_need_a_map_name_the_joint_its_kind_and_themselves(joint):
-    drive = drive_of(Hooke(bend=0.2), joint)
+    drive = drive_of(Hooke(joint_angle=0.2), joint)
     with pytest.raises(InputError, match=rf"^joints\[1\]\.kind: yoke angles: .*{joint.kind}: "):
         phases(drive)
     with pytest.raises(InputError, match=r"joints\[1\]\.kind: .*law of its own"):
@@ -199,8 +206,8 @@ def test_questions_that_need_a_map_name_the_joint_its_kind_and_themselves(joint)
 def test_what_nobody_can_measure_keeps_no_yokes_from_being_set():
     """Six balls leave τ³/3 of order 6 beside their map, here some 1e-10 rad."""
     rzeppa = UNMAPPED[0]
-    assert 0.0 < left_over(rzeppa, rzeppa.bend) < NEGLIGIBLE < left_over(UNMAPPED[2], UNMAPPED[2].bend)
-    joints = Hooke(bend=0.2), rzeppa, Hooke(bend=0.2, plane_twist=0.4)
+    assert 0.0 < left_over(rzeppa, rzeppa.joint_angle) < NEGLIGIBLE < left_over(UNMAPPED[2], UNMAPPED[2].joint_angle)
+    joints = Hooke(joint_angle=0.2), rzeppa, Hooke(joint_angle=0.2, plane_twist=0.4)
     found = phases(drive_of(*joints)).settings[0]
     set_so = replace(
         drive_of(*joints),
@@ -210,13 +217,13 @@ def test_what_nobody_can_measure_keeps_no_yokes_from_being_set():
 
 
 def test_crosses_turn_only_where_there_are_some():
-    found = motion(drive_of(Hooke(bend=0.2), Rzeppa(bend=0.3)))
+    found = motion(drive_of(Hooke(joint_angle=0.2), Rzeppa(joint_angle=0.3)))
     assert np.all(np.isfinite(found.cross_driving[0]))
     assert np.all(np.isnan(found.cross_driven_rate[1]))
 
 
 @pytest.mark.parametrize(
-    ("joint", "bend"),
+    ("joint", "joint_angle"),
     [
         (PinCoupling(driving_slant=0.2), 0.5),
         (PinCoupling(driving_slant=0.2, driving_distance=0.05, driven_distance=0.06), 0.5),
@@ -224,34 +231,36 @@ def test_crosses_turn_only_where_there_are_some():
         (Tracta(driving_distance=1.0, driven_distance=1e-6), 1.5),
     ],
 )
-def test_sizes_that_do_not_turn_are_named(joint, bend):
-    drive = Drive(joints=(Hooke(bend=0.1), replace(joint, bend=bend)))
+def test_sizes_that_do_not_turn_are_named(joint, joint_angle):
+    drive = Drive(joints=(Hooke(joint_angle=0.1), replace(joint, joint_angle=joint_angle)))
     if isinstance(joint, Tracta):  # reaches nearly to 90°: it turns, however steeply
         assert np.isfinite(motion(drive).ratio).all()
         return
-    with pytest.raises(InputError, match=r"joints\[1\]\.bend: .*does not turn at its bend"):
+    with pytest.raises(InputError, match=r"joints\[1\]\.bend: .*does not turn at its joint angle"):
         motion(drive)
 
 
 @pytest.mark.parametrize(
     ("joint", "path"),
     [
-        (Tracta(bend=0.1, driving_distance=0.02), "driven_distance"),
-        (Rzeppa(bend=0.1, lever_b=0.35), "lever_c"),
+        (Tracta(joint_angle=0.1, driving_distance=0.02), "driven_distance"),
+        (Rzeppa(joint_angle=0.1, lever_b=0.35), "lever_c"),
         (
-            Rzeppa(bend=0.1, lever_b=0.35, lever_c=0.7, driving_offset=1e-3, driven_offset=1e-3, groove_radius=1e-2),
+            Rzeppa(
+                joint_angle=0.1, lever_b=0.35, lever_c=0.7, driving_offset=1e-3, driven_offset=1e-3, groove_radius=1e-2
+            ),
             "lever_b",
         ),
-        (Weiss(bend=0.1, groove_radius=0.03), "driving_offset"),
-        (OffsetCross(bend=0.1, offset=0.2, reach=0.1), "reach"),
-        (PinCoupling(bend=0.1, driven_slant=0.9), "driving_distance"),
-        (Clemens(bend=0.1, driven=Profile(axial=0.1, radial=0.0, radius=0.2)), "driving"),
-        (Rzeppa(bend=0.1, friction=0.1), "friction"),
+        (Weiss(joint_angle=0.1, groove_radius=0.03), "driving_offset"),
+        (OffsetCross(joint_angle=0.1, offset=0.2, reach=0.1), "reach"),
+        (PinCoupling(joint_angle=0.1, driven_slant=0.9), "driving_distance"),
+        (Clemens(joint_angle=0.1, driven=Profile(axial=0.1, radial=0.0, radius=0.2)), "driving"),
+        (Rzeppa(joint_angle=0.1, friction=0.1), "friction"),
     ],
 )
 def test_contradictions_within_a_joint_are_found(joint, path):
     with pytest.raises(InputError, match=rf"joints\[1\]\.{path}: "):
-        Drive(joints=(Hooke(bend=0.1), joint))
+        Drive(joints=(Hooke(joint_angle=0.1), joint))
 
 
 def test_every_kind_is_covered_here():

@@ -52,18 +52,21 @@ def test_positions_on_the_input_shaft_count_from_joint_1() -> None:
 
 def test_friction_of_journals_needs_their_sizes() -> None:
     sized = Cross(span=0.08, journal=0.02)
-    joints = (Hooke(bend=0.1, friction=0.02, cross=sized), Hooke(bend=0.1, material_friction=0.1, cross=sized))
+    joints = (
+        Hooke(joint_angle=0.1, friction=0.02, cross=sized),
+        Hooke(joint_angle=0.1, material_friction=0.1, cross=sized),
+    )
     np.testing.assert_allclose(train(Drive(joints=joints)).drag, [0.005, 0.1 * np.pi / 2 / 4])
     run_in = replace(joints[1], fit="run_in")
     assert train(Drive(joints=(joints[0], run_in))).drag[1] == pytest.approx(0.1 / np.pi)
-    assert train(Drive(joints=(Hooke(bend=0.1, friction=0.02),))).drag is None
+    assert train(Drive(joints=(Hooke(joint_angle=0.1, friction=0.02),))).drag is None
 
 
 def test_supports_need_the_lengths_between_joints() -> None:
-    bends = Drive.from_angles([0.1, 0.2, 0.1])
-    assert train(bends).position.size == 0
+    joint_angles = Drive.from_angles([0.1, 0.2, 0.1])
+    assert train(joint_angles).position.size == 0
     with pytest.raises(InputError) as caught:
-        train(replace(bends, supports=(Support(shaft=1, position=-0.1),)))
+        train(replace(joint_angles, supports=(Support(shaft=1, position=-0.1),)))
     assert [problem.field for problem in caught.value.problems] == ["shafts[1].length", "shafts[2].length"]
 
 

@@ -58,9 +58,9 @@ def test_sine_and_cosine():
 
 
 def test_cosine_of_a_bend_keeps_its_digits_near_a_right_angle():
-    bend = np.concatenate([np.linspace(0, 1.57, 500), np.pi / 2 - 10.0 ** -np.arange(3.0, 16)])
-    assert relative(near.bend_cosine(bend), exact(mp.cos, bend)) < 6e-16
-    assert near.bend_cosine(np.asarray(0.0)) == 1.0
+    joint_angle = np.concatenate([np.linspace(0, 1.57, 500), np.pi / 2 - 10.0 ** -np.arange(3.0, 16)])
+    assert relative(near.joint_angle_cosine(joint_angle), exact(mp.cos, joint_angle)) < 6e-16
+    assert near.joint_angle_cosine(np.asarray(0.0)) == 1.0
 
 
 def test_reduction_to_half_a_turn():

@@ -10,19 +10,19 @@ from cardan.questions.accuracy.sample_sums import Exact, Sums
 from cardan.units import deg, mm
 
 TOLERANCE = Tolerance(alpha1=0.1 * deg, alpha2=0.2 * deg, alpha3=0.1 * deg, alpha4=0.3 * deg, phase=0.1 * deg)
-BENDS = {1: [25 * deg], 2: [0.0, 60 * deg], 4: [11 * deg, 35 * deg, 5 * deg, 20 * deg]}
+JOINT_ANGLES = {1: [25 * deg], 2: [0.0, 60 * deg], 4: [11 * deg, 35 * deg, 5 * deg, 20 * deg]}
 
 
 def drive_of(joints, **options):
-    bends = BENDS[joints]
+    joint_angles = JOINT_ANGLES[joints]
     yokes = [0.3 + 0.4 * k for k in range(joints - 1)]
-    rows = tuple(Hooke(bend=bend, plane_twist=0.2, **options) for bend in bends)
-    base = Drive.from_angles(bends, yoke_angles=yokes, start_phase=0.7)
+    rows = tuple(Hooke(joint_angle=joint_angle, plane_twist=0.2, **options) for joint_angle in joint_angles)
+    base = Drive.from_angles(joint_angles, yoke_angles=yokes, start_phase=0.7)
     return Drive(joints=rows, shafts=base.shafts, input=base.input)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("joints", BENDS)
+@pytest.mark.parametrize("joints", JOINT_ANGLES)
 def test_the_kernel_gives_what_every_chain_gives_alone(joints):
     """Sums, sizes and kept values against the array expressions, each sample a chain of its own."""
     drive, phi = drive_of(joints, error=Error(alpha1=0.2 * deg, phase=-0.3 * deg)), one_turn(24)
@@ -50,7 +50,7 @@ def test_the_kernel_gives_what_every_chain_gives_alone(joints):
     assert sums[0].all_sizes() == pytest.approx(np.stack(wanted), abs=1e-14)
 
 
-@pytest.mark.parametrize("joints", BENDS)
+@pytest.mark.parametrize("joints", JOINT_ANGLES)
 @pytest.mark.parametrize("points", ["sobol", "random"])
 def test_both_ways_to_compute_give_the_same_band(joints, points):
     drive = drive_of(joints)

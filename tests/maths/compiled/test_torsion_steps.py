@@ -23,7 +23,7 @@ SPEED, DRIVES = 20.0, 11
 
 def model(*, forced: bool = False, backlash: float = 0.0, steep: float = 0.0) -> TorsionalModel:
     """Return drives of four shafts with every kind of torque: bound by three joints, light and heavy followers."""
-    lead = np.linspace(0.0, 0.1, DRIVES)[:, None]
+    angle_error = np.linspace(0.0, 0.1, DRIVES)[:, None]
     torques = (
         Torque(station=7, law=Falling(standstill=-3.0, slope=0.2)),
         Torque(station=1, law=Swinging(amplitude=np.linspace(4.0, 6.0, DRIVES), frequency=1.5, phase=0.3)),
@@ -41,7 +41,7 @@ def model(*, forced: bool = False, backlash: float = 0.0, steep: float = 0.0) ->
         damping=[[1.0], [], [0.3, 0.2], [0.1]],
         backlash=[[backlash], [], [0.0, 0.0], [0.0]],
         ground_damping=[[0.1, 0.2], [0.3], [0.1, 0.1, 0.1], [0.0, 0.2]],
-        bend=np.asarray([0.4 + steep, 0.5, 0.3]) + lead,
+        joint_angle=np.asarray([0.4 + steep, 0.5, 0.3]) + angle_error,
         phase=[0.1, 1.2, 2.0],
         torques=torques,
         input_speed=SPEED if forced else None,
@@ -98,7 +98,7 @@ def test_what_acts_is_what_the_equations_say(forced: bool) -> None:
 
 def test_halving_the_step_divides_the_error_by_two_to_the_eighth() -> None:
     """A pendulum of one joint: J F'² q̈ + J F' F'' q̇² = 0 has F' q̇ constant."""
-    line = torsional_line([[0.0], [1.0]], stiffness=[[], []], bend=[0.6])
+    line = torsional_line([[0.0], [1.0]], stiffness=[[], []], joint_angle=[0.6])
     errors = []
     for steps in (12, 24):
         state = begin(line_of(line, 1), np.zeros((1, 1)), np.full((1, 1), 1.0))

@@ -18,10 +18,10 @@ def test_kinks_do_not_spoil_the_mean():
 
 def test_a_sharp_peak_at_a_kink_is_resolved():
     """The mean of c/(1 - s² cos²) is one, of a joint however steep; at 89.9° the peak is 573 high."""
-    bend = np.deg2rad(np.asarray([[0.0], [45.0], [80.0], [89.0], [89.9]]))
+    joint_angle = np.deg2rad(np.asarray([[0.0], [45.0], [80.0], [89.0], [89.9]]))
 
     def ratio(x):
-        c = np.cos(bend)
+        c = np.cos(joint_angle)
         return (c / (np.sin(x) ** 2 + (c * np.cos(x)) ** 2))[..., None, :]
 
     found = mean_between(ratio, np.broadcast_to([0.0, np.pi / 2], (5, 2)), period=np.pi)

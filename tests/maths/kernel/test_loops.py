@@ -21,8 +21,8 @@ def random_loops(count, seed=1):
     )
 
 
-def joint_loops(bend, errors=0.0):
-    return np.asarray([RIGHT, RIGHT, RIGHT, bend]) + errors
+def joint_loops(joint_angle, errors=0.0):
+    return np.asarray([RIGHT, RIGHT, RIGHT, joint_angle]) + errors
 
 
 @pytest.mark.parametrize("branch", [-1.0, 1.0])
@@ -78,20 +78,20 @@ def test_the_newton_solution_is_one_of_both_branches_from_any_start():
 
 
 @given(st.floats(0.0, 80.0), st.floats(-400.0, 400.0))
-def test_the_perfect_loop_is_a_universal_joint(bend, angle):
-    found = loops.rccc(joint_loops(bend * deg), angle * deg)
+def test_the_perfect_loop_is_a_universal_joint(joint_angle, angle):
+    found = loops.rccc(joint_loops(joint_angle * deg), angle * deg)
     # tan θ' = tan θ / cos α with θ' = π/2 - φ_4, on the branch where both vanish together.
     theta = RIGHT - found.angle[2]
-    expected = np.arctan2(np.sin(angle * deg), np.cos(angle * deg) * np.cos(bend * deg))
+    expected = np.arctan2(np.sin(angle * deg), np.cos(angle * deg) * np.cos(joint_angle * deg))
     assert np.cos(theta - expected) == pytest.approx(1.0, abs=1e-14)
     assert np.sin(theta - expected) == pytest.approx(0.0, abs=1e-14)
     assert np.max(np.abs(found.slide)) == 0.0
 
 
 @given(st.floats(0.0, 80.0), st.floats(-400.0, 400.0), st.sampled_from([-1.0, 1.0]))
-def test_the_closed_table_is_that_of_the_perfect_loop(bend, angle, branch):
-    table = loops.influence(bend * deg, angle * deg, branch=branch)
-    loop = loops.rccc(joint_loops(bend * deg), angle * deg, branch=branch)
+def test_the_closed_table_is_that_of_the_perfect_loop(joint_angle, angle, branch):
+    table = loops.influence(joint_angle * deg, angle * deg, branch=branch)
+    loop = loops.rccc(joint_loops(joint_angle * deg), angle * deg, branch=branch)
     # Entries reach 1/cos²80° = 33.
     assert table == pytest.approx(loop.coefficient, abs=2e-13)
 
@@ -99,21 +99,21 @@ def test_the_closed_table_is_that_of_the_perfect_loop(bend, angle, branch):
 @pytest.mark.slow
 @given(st.floats(1.0, 60.0), st.floats(-200.0, 200.0), st.sampled_from([-1.0, 1.0]))
 @settings(max_examples=50)
-def test_the_table_is_the_derivative_of_the_angles(bend, angle, branch):
+def test_the_table_is_the_derivative_of_the_angles(joint_angle, angle, branch):
     """Fourth-order differences of the exact loop: steps of 1e-3 leave about 1e-12/1e-3 and 1e-12 · bound of f⁗."""
-    table = loops.influence(bend * deg, angle * deg, branch=branch)
+    table = loops.influence(joint_angle * deg, angle * deg, branch=branch)
 
     def shifted(seat, step):
         change = np.zeros(5)
         change[seat] = step
-        return loops.rccc(joint_loops(bend * deg, change[1:]), angle * deg + change[0], branch=branch).angle
+        return loops.rccc(joint_loops(joint_angle * deg, change[1:]), angle * deg + change[0], branch=branch).angle
 
     h = 1e-3
     for seat in range(5):
         at = np.stack([shifted(seat, k * h) for k in (-2, -1, 1, 2)])
         off = np.angle(np.exp(1j * (at - at[1])))
         slope = (off[0] - 8 * off[1] + 8 * off[2] - off[3]) / (12 * h)
-        assert slope == pytest.approx(table[:, seat], abs=1e-7 / np.cos(bend * deg) ** 4)
+        assert slope == pytest.approx(table[:, seat], abs=1e-7 / np.cos(joint_angle * deg) ** 4)
 
 
 def test_the_general_table_is_the_derivative_of_the_angles():
@@ -136,10 +136,10 @@ def test_the_general_table_is_the_derivative_of_the_angles():
 
 def test_the_book_s_equations_hold_for_the_table():
     """(167), (170): three linear relations between slides and lengths."""
-    bend, phi = 0.7, np.linspace(0.1, 6.0, 13)
-    table = loops.influence(bend, phi)
-    f2, f4 = (loops.rccc(joint_loops(bend), phi).angle[:, k] for k in (0, 2))
-    s, c, cp, sp = np.sin(bend), np.cos(bend), np.cos(phi), np.sin(phi)
+    joint_angle, phi = 0.7, np.linspace(0.1, 6.0, 13)
+    table = loops.influence(joint_angle, phi)
+    f2, f4 = (loops.rccc(joint_loops(joint_angle), phi).angle[:, k] for k in (0, 2))
+    s, c, cp, sp = np.sin(joint_angle), np.cos(joint_angle), np.cos(phi), np.sin(phi)
     two, three, four = (table[:, k] for k in range(3))
     zero, one = np.zeros_like(phi), np.ones_like(phi)
     left = sp[:, None] * two + np.sin(f4)[:, None] * three
@@ -243,8 +243,8 @@ def test_negative_angles_between_axes_are_mirror_images():
 
 
 @given(st.floats(0.0, 70.0), st.floats(-400.0, 400.0), st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4))
-def test_the_short_way_to_the_driven_shaft_is_that_of_the_loop(bend, angle, errors):
-    alpha = joint_loops(bend * deg, np.asarray(errors) * deg)
+def test_the_short_way_to_the_driven_shaft_is_that_of_the_loop(joint_angle, angle, errors):
+    alpha = joint_loops(joint_angle * deg, np.asarray(errors) * deg)
     loop = loops.rccc(alpha, angle * deg)
     along, across, carried = loops.driven(np.cos(alpha), np.sin(alpha), np.cos(angle * deg), np.sin(angle * deg))
     assert along == pytest.approx(np.sin(loop.angle[2]), abs=1e-14)

@@ -10,15 +10,15 @@ from cardan.maths.kernel import mobius, polygon
 RANDOM = np.random.default_rng(20)
 
 
-def hooke_sides(bends):
-    return [mobius.hooke(bends[..., i]) for i in range(bends.shape[-1])]
+def hooke_sides(joint_angles):
+    return [mobius.hooke(joint_angles[..., i]) for i in range(joint_angles.shape[-1])]
 
 
 @pytest.mark.parametrize("n", range(1, 8))
 def test_closes_as_near_as_the_triangle_inequality_allows(n):
     sides = hooke_sides(RANDOM.uniform(0.0, 0.9, (2000, n)))
     low, _high = polygon.reach([mobius.length(side) for side in sides])
-    left = mobius.irregularity(polygon.close(sides).pair)
+    left = mobius.speed_fluctuation(polygon.close(sides).pair)
     # rounding of the product, a few units in the last place of numbers of order one
     assert np.abs(left - 2.0 * np.sinh(low)).max() < 4e-15
 
@@ -34,8 +34,8 @@ def test_reaches_every_distance_in_its_range(n):
 
 
 def test_no_turns_end_nearer_than_the_bound():
-    bends = RANDOM.uniform(0.02, 0.8, (300, 4))
-    sides = hooke_sides(bends)
+    joint_angles = RANDOM.uniform(0.02, 0.8, (300, 4))
+    sides = hooke_sides(joint_angles)
     low, high = polygon.reach([mobius.length(side) for side in sides])
     for _ in range(200):
         here = sides[0]
@@ -51,7 +51,7 @@ def test_every_fold_closes_and_the_mirror_has_the_same_corners():
     way = polygon.close(sides, folds=folds)
     mirror = polygon.close(sides, folds=[-f for f in folds])
     for closure, sign in ((way, 1), (mirror, -1)):
-        assert mobius.irregularity(closure.pair).max() < 4e-15
+        assert mobius.speed_fluctuation(closure.pair).max() < 4e-15
         corners = walked(sides, closure.turns)
         np.testing.assert_allclose(
             [c.imag * sign for c in corners], [c.imag for c in walked(sides, way.turns)], atol=1e-14
@@ -99,13 +99,13 @@ def test_the_aims_give_the_least_sum_of_diagonals():
 
 @pytest.mark.parametrize("n", range(2, 7))
 def test_plain_numbers_give_what_arrays_give(n):
-    bends = RANDOM.uniform(0.0, 0.7, (50, n))
-    sides = hooke_sides(bends)
+    joint_angles = RANDOM.uniform(0.0, 0.7, (50, n))
+    sides = hooke_sides(joint_angles)
     lengths = [mobius.length(side) for side in sides]
     aims = polygon.shortest_diagonals(lengths, [1.0] * n, polygon.reach(lengths)[0])
     together = polygon.close(sides, aims=aims)
-    for row, bend in enumerate(bends.tolist()):
-        one_sides = [mobius.hooke(angle) for angle in bend]
+    for row, joint_angle in enumerate(joint_angles.tolist()):
+        one_sides = [mobius.hooke(angle) for angle in joint_angle]
         one_lengths = [mobius.length(side) for side in one_sides]
         one_aims = polygon.shortest_diagonals(one_lengths, [1.0] * n, polygon.reach(one_lengths)[0])
         one = polygon.close(one_sides, aims=one_aims)
@@ -113,17 +113,17 @@ def test_plain_numbers_give_what_arrays_give(n):
         # NumPy's sinh and atan2 differ from Python's in the last place, and a corner that is stretched shows the root
         # of that: the closure itself does not
         assert np.abs(np.sin(np.asarray([t[row] for t in together.turns]) - one.turns)).max() < 1e-6
-        assert abs(mobius.irregularity(one.pair) - mobius.irregularity(together.pair)[row]) < 4e-15
+        assert abs(mobius.speed_fluctuation(one.pair) - mobius.speed_fluctuation(together.pair)[row]) < 4e-15
 
 
 def test_runs_on_any_array_library():
-    bends = RANDOM.uniform(0.1, 0.6, (20, 5))
-    strict = [mobius.hooke(array_api_strict.asarray(bends[:, i])) for i in range(5)]
+    joint_angles = RANDOM.uniform(0.1, 0.6, (20, 5))
+    strict = [mobius.hooke(array_api_strict.asarray(joint_angles[:, i])) for i in range(5)]
     lengths = [mobius.length(side) for side in strict]
     aims = polygon.shortest_diagonals(lengths, [1.0] * 5, polygon.reach(lengths)[0])
     got = polygon.close(strict, aims=aims)
     np.testing.assert_allclose(
-        np.asarray(mobius.irregularity(got.pair)), 2 * np.sinh(np.asarray(polygon.reach(lengths)[0])), atol=4e-15
+        np.asarray(mobius.speed_fluctuation(got.pair)), 2 * np.sinh(np.asarray(polygon.reach(lengths)[0])), atol=4e-15
     )
 
 
@@ -132,11 +132,11 @@ def test_a_turn_without_effect_is_kept():
     closure = polygon.close(sides, keep=[0.1, 0.2, 0.3, 0.4])
     assert closure.turns[1:3] == [0.2, 0.3]
     assert closure.loose[1:3] == [True, True]
-    assert mobius.irregularity(closure.pair) < 1e-15
+    assert mobius.speed_fluctuation(closure.pair) < 1e-15
 
 
 def test_long_chains_stay_closed():
     sides = [mobius.hooke(0.3) for _ in range(400)]
     closure = polygon.close(sides)
     # rounding grows with the square root of the number of joints
-    assert mobius.irregularity(closure.pair) < 1e-13
+    assert mobius.speed_fluctuation(closure.pair) < 1e-13

@@ -9,17 +9,17 @@ from cardan.maths.kernel import turned
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_model import torsional_line
 
-BENDS, PHASES = np.asarray([0.4, 1.2, 0.2]), np.asarray([0.3, 1.2, -2.0])
-RIGID = torsional_line([[1.0]] * 4, stiffness=[[]] * 4, bend=BENDS, phase=PHASES)
+JOINT_ANGLES, PHASES = np.asarray([0.4, 1.2, 0.2]), np.asarray([0.3, 1.2, -2.0])
+RIGID = torsional_line([[1.0]] * 4, stiffness=[[]] * 4, joint_angle=JOINT_ANGLES, phase=PHASES)
 
 
 @pytest.mark.parametrize("joints", [1, 2, 3])
 def test_it_turns_like_the_chain_over_several_turns(joints: int) -> None:
     q = np.linspace(-8.0, 8.0, 101)
     wanted = places(RIGID, q[:, None])
-    tau, c, s = turned.equivalent(BENDS[:joints], PHASES[:joints])
+    tau, c, s = turned.equivalent(JOINT_ANGLES[:joints], PHASES[:joints])
     c2, s2 = turned.waves(np.cos(2.0 * q), np.sin(2.0 * q), c, s)
-    angle = q + turned.lead(c2, s2, tau) - turned.lead(c, s, tau)
+    angle = q + turned.angle_error(c2, s2, tau) - turned.angle_error(c, s, tau)
     _x, _y, first, second = turned.slopes(c2, s2, tau)
     # Ratios reach 2.8 here, their slopes 15: a few units in the last place of these.
     np.testing.assert_allclose(angle, wanted.angle[:, joints], atol=2e-14)
@@ -33,7 +33,7 @@ def test_straight_joints_do_nothing() -> None:
 
 
 def test_many_chains_at_once() -> None:
-    many = turned.equivalent(np.stack((BENDS, BENDS[::-1])), np.stack((PHASES, PHASES)))
-    for k, bends in enumerate((BENDS, BENDS[::-1])):
-        for one, all_of in zip(turned.equivalent(bends, PHASES), many, strict=True):
+    many = turned.equivalent(np.stack((JOINT_ANGLES, JOINT_ANGLES[::-1])), np.stack((PHASES, PHASES)))
+    for k, joint_angles in enumerate((JOINT_ANGLES, JOINT_ANGLES[::-1])):
+        for one, all_of in zip(turned.equivalent(joint_angles, PHASES), many, strict=True):
             assert float(all_of[k]) == pytest.approx(float(one), rel=1e-14)

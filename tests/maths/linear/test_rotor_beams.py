@@ -21,19 +21,19 @@ def of(section, length, **keys):
     return line(length, section.bending, section.mass, shear=section.shear, rotary=section.rotary, **keys)
 
 
-def some_line(seed, *, lead=()):
+def some_line(seed, *, angle_error=()):
     """Return a stepped Timoshenko line with everything a line can have, hinge included."""
     rng = np.random.default_rng(seed)
-    outer = rng.uniform(0.04, 0.09, (*lead, 5))
-    section = round_section(outer, outer * rng.uniform(0.0, 0.9, (*lead, 5)), **STEEL, poisson=0.3)
+    outer = rng.uniform(0.04, 0.09, (*angle_error, 5))
+    section = round_section(outer, outer * rng.uniform(0.0, 0.9, (*angle_error, 5)), **STEEL, poisson=0.3)
     return of(
         section,
-        rng.uniform(0.1, 0.6, (*lead, 5)),
-        spring=np.asarray([0.0, 1e6, 0.0, 0.0, 3e5, 0.0]) * rng.uniform(0.5, 2.0, (*lead, 6)),
-        lump=rng.uniform(0.0, 3.0, (*lead, 6)),
+        rng.uniform(0.1, 0.6, (*angle_error, 5)),
+        spring=np.asarray([0.0, 1e6, 0.0, 0.0, 3e5, 0.0]) * rng.uniform(0.5, 2.0, (*angle_error, 6)),
+        lump=rng.uniform(0.0, 3.0, (*angle_error, 6)),
         tilt_spring=np.asarray([0.0, 0.0, 2e3, 0.0, 0.0, 0.0, 5e2]),
-        diametral=rng.uniform(0.0, 0.004, (*lead, 7)),
-        polar=rng.uniform(0.0, 0.004, (*lead, 7)),
+        diametral=rng.uniform(0.0, 0.004, (*angle_error, 7)),
+        polar=rng.uniform(0.0, 0.004, (*angle_error, 7)),
         hinged=(3,),
         held=(0,),
     )
@@ -270,7 +270,7 @@ def test_modes_of_a_pinned_beam_are_sines_and_part_from_each_other():
 
 
 def test_many_lines_at_once_are_as_each_alone():
-    many = divided(some_line(5, lead=(2, 3)), [4] * 5)
+    many = divided(some_line(5, angle_error=(2, 3)), [4] * 5)
     found = synchronous(many, 3)
     assert found.speed.shape == (2, 3, 3)
     assert found.deflection.shape == (2, 3, 3, 21)

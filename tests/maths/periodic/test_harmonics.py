@@ -33,7 +33,7 @@ def test_a_hardening_swing_moves_as_integrated_in_time() -> None:
     def missed(y):
         return solve_ivp(right, (0.0, period), y, method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1] - y
 
-    x, rate, _bend = found.at([0.0])
+    x, rate, _joint_angle = found.at([0.0])
     start = fsolve(missed, [x[0, 0, 0], frequency * rate[0, 0, 0]], xtol=1e-12)
     # The tail of the harmonics is cut at 1e-9 of the motion.
     assert [x[0, 0, 0], frequency * rate[0, 0, 0]] == pytest.approx(start, rel=2e-8)
@@ -104,7 +104,7 @@ def test_extremes_are_those_of_a_million_places() -> None:
     low, high = extremes(waves)
     phase = np.linspace(0.0, 2.0 * np.pi, 200_001)
     values = series_at(waves, phase)[0]
-    # Steps of 3e-5 rad miss a peak by half their square times its bend, 3e-8 here.
+    # Steps of 3e-5 rad miss a peak by half their square times its joint angle, 3e-8 here.
     np.testing.assert_allclose(low, values.min(axis=0), atol=1e-7)
     np.testing.assert_allclose(high, values.max(axis=0), atol=1e-7)
     assert np.all(high >= values.max(axis=0) - 1e-12)

@@ -21,8 +21,8 @@ def test_the_solution_fulfils_the_equation(a, q, n):
     found = forced(a, q, n, **FORCING)
     z = np.linspace(0.0, 20.0, 57)
     wave = found.coefficient[:, None] * np.exp(1j * found.order[:, None] * z)
-    y, slope, bend = (np.sum((1j * found.order[:, None]) ** k * wave, axis=0).imag for k in (0, 1, 2))
-    rest = bend + 2 * n * slope + (a - 2 * q * np.cos(2 * z)) * y - force(z)
+    y, slope, joint_angle = (np.sum((1j * found.order[:, None]) ** k * wave, axis=0).imag for k in (0, 1, 2))
+    rest = joint_angle + 2 * n * slope + (a - 2 * q * np.cos(2 * z)) * y - force(z)
     assert np.max(np.abs(rest)) < 1e-12
     assert found.at(z) == pytest.approx(y, abs=1e-14)
     assert np.sum(found.amplitude * np.sin(found.phase)) == pytest.approx(found.at([0.0])[0], abs=1e-12)

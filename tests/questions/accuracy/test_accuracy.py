@@ -28,7 +28,7 @@ def random_errors(rng, n, size):
 def test_a_chain_of_loops_solved_by_newton_agrees(plan, seed, phi):
     """Each joint as a product of 4x4 matrices driven to the unit matrix, the angles and slides handed on by hand."""
     rng = np.random.default_rng(seed)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     turns, ways = random_errors(rng, n, 1 * deg), random_errors(rng, n, 1 * mm)
     found = transmission_error(plan.drive, [phi], turns=turns, ways=ways)
     nominal = chain(plan.drive)
@@ -38,17 +38,17 @@ def test_a_chain_of_loops_solved_by_newton_agrees(plan, seed, phi):
         if j:
             theta, perfect = theta + nominal.turn_before[j], perfect + nominal.turn_before[j]
         theta += turns[j, 0]
-        alpha = np.asarray([RIGHT, RIGHT, RIGHT, nominal.bend[j]]) + turns[j, 1:]
-        turned = np.arctan2(np.sin(theta), np.cos(theta) * np.cos(nominal.bend[j]))
+        alpha = np.asarray([RIGHT, RIGHT, RIGHT, nominal.joint_angle[j]]) + turns[j, 1:]
+        turned = np.arctan2(np.sin(theta), np.cos(theta) * np.cos(nominal.joint_angle[j]))
         c, s = np.cos(theta), np.sin(theta)
-        near = np.sqrt(s**2 + (c * np.cos(nominal.bend[j])) ** 2)
-        phi2 = np.arctan2(np.cos(nominal.bend[j]), np.sin(nominal.bend[j]) * s)
-        phi3 = np.arctan2(near, np.sin(nominal.bend[j]) * c)
+        near = np.sqrt(s**2 + (c * np.cos(nominal.joint_angle[j])) ** 2)
+        phi2 = np.arctan2(np.cos(nominal.joint_angle[j]), np.sin(nominal.joint_angle[j]) * s)
+        phi3 = np.arctan2(near, np.sin(nominal.joint_angle[j]) * c)
         start = [phi2, phi3, RIGHT - turned, 0.0, 0.0, 0.0]
         unknown, left = solved(alpha, ways[j, 1:], theta, shift + ways[j, 0], start)
         assert left < 1e-13
         theta, shift = RIGHT - unknown[2], -unknown[5]
-        perfect = np.arctan2(np.sin(perfect), np.cos(perfect) * np.cos(nominal.bend[j]))
+        perfect = np.arctan2(np.sin(perfect), np.cos(perfect) * np.cos(nominal.joint_angle[j]))
         # Rounding of n joints, and Newton's last step.
         assert found.shift[j, 0] == pytest.approx(shift, abs=1e-14)
     assert np.angle(np.exp(1j * (theta - perfect))) == pytest.approx(found.error[0], abs=1e-12)
@@ -58,7 +58,7 @@ def test_a_chain_of_loops_solved_by_newton_agrees(plan, seed, phi):
 @given(plans(straight=False), st.floats(-0.2, 0.2))
 def test_an_error_of_the_first_phase_is_an_input_turned_on(plan, late):
     phi = one_turn(24)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     turns = np.zeros((n, 5))
     turns[0, 0] = late
     found = transmission_error(plan.drive, phi, turns=turns)
@@ -66,18 +66,20 @@ def test_an_error_of_the_first_phase_is_an_input_turned_on(plan, late):
     assert found.error == pytest.approx(expected, abs=1e-13)
 
 
-@given(plans(straight=False, bend=30 * deg), st.floats(-2.0, 2.0), st.integers(0, 5))
+@given(plans(straight=False, joint_angle=30 * deg), st.floats(-2.0, 2.0), st.integers(0, 5))
 def test_an_error_of_the_bend_is_another_bend(plan, more, which):
     phi = one_turn(24)
-    j = which % len(plan.bends)
-    turns = np.zeros((len(plan.bends), 5))
+    j = which % len(plan.joint_angles)
+    turns = np.zeros((len(plan.joint_angles), 5))
     turns[j, 4] = more * deg
     found = transmission_error(plan.drive, phi, turns=turns).error
     nominal = chain(plan.drive)
-    changed = nominal.bend + turns[:, 4]
-    sign = np.where(changed < 0, -1.0, 1.0)  # a bend below zero is one above with the plane turned round: the same law
+    changed = nominal.joint_angle + turns[:, 4]
+    sign = np.where(
+        changed < 0, -1.0, 1.0
+    )  # a joint angle below zero is one above with the plane turned round: the same law
     other = Chain(
-        bend=changed * sign,
+        joint_angle=changed * sign,
         plane_twist=nominal.plane_twist,
         yoke_angle=nominal.yoke_angle,
         start_phase=nominal.start_phase,
@@ -87,10 +89,10 @@ def test_an_error_of_the_bend_is_another_bend(plan, more, which):
 
 
 @settings(max_examples=30)
-@given(plans(bend=35 * deg), st.integers(0, 10**6))
+@given(plans(joint_angle=35 * deg), st.integers(0, 10**6))
 def test_sensitivities_are_the_differences_of_the_exact_chain(plan, seed):
     phi = one_turn(12)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     table = sensitivity(plan.drive, phi)
     rng = np.random.default_rng(seed)
     direction = rng.uniform(-1, 1, (n, 5))
@@ -104,7 +106,7 @@ def test_sensitivities_are_the_differences_of_the_exact_chain(plan, seed):
 def test_lengths_feel_what_angles_feel(plan, seed):
     """The same table serves both, and without errors of angles it is exact for lengths of any size."""
     phi = one_turn(12)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     ways = random_errors(np.random.default_rng(seed), n, 1.0)
     found = transmission_error(plan.drive, phi, ways=ways)
     expected = np.sum(sensitivity(plan.drive, phi) * ways, axis=(-2, -1))
@@ -114,10 +116,10 @@ def test_lengths_feel_what_angles_feel(plan, seed):
 
 
 @settings(max_examples=40)
-@given(plans(most=4, bend=25 * deg), st.integers(0, 10**6))
+@given(plans(most=4, joint_angle=25 * deg), st.integers(0, 10**6))
 def test_what_is_left_of_the_linear_errors_is_of_second_order(plan, seed):
     rng = np.random.default_rng(seed)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     turns, ways = random_errors(rng, n, 1.0), random_errors(rng, n, 1.0)
     left = []
     for size in (1e-3, 1e-4):
@@ -175,7 +177,7 @@ def test_a_shaft_held_along_its_axis_ends_the_shift():
 
 def test_errors_of_the_drive_file_are_taken():
     skew = Error(alpha1=0.1 * deg, s1=0.1 * mm)
-    joints = (Hooke(bend=30 * deg, plane_twist=0.0, error=skew), Hooke(bend=30 * deg, plane_twist=0.0))
+    joints = (Hooke(joint_angle=30 * deg, plane_twist=0.0, error=skew), Hooke(joint_angle=30 * deg, plane_twist=0.0))
     drive = Drive(joints=joints)
     found = transmission_error(drive)
     turns, ways = np.zeros((2, 5)), np.zeros((2, 5))
@@ -197,7 +199,7 @@ def test_batches_of_drives_and_of_errors():
     assert sensitivity(many, phi).shape == (5, 7, 3, 5)
     for k in range(5):
         alone = transmission_error(
-            Drives.from_angles(many.chain.bend[k], yoke_angle=many.chain.yoke_angle[k]),
+            Drives.from_angles(many.chain.joint_angle[k], yoke_angle=many.chain.yoke_angle[k]),
             phi,
             turns=turns[k],
             ways=ways[k],
@@ -221,19 +223,25 @@ def test_a_joint_that_cannot_be_assembled_is_told_in_a_batch():
 def test_errors_on_the_standard_alone():
     xp = pytest.importorskip("array_api_strict")
     rng = np.random.default_rng(1)
-    bend, yoke, turns = rng.uniform(0, 0.6, (4, 3)), rng.uniform(-1, 1, (4, 2)), rng.uniform(-0.01, 0.01, (4, 3, 5))
+    joint_angle, yoke, turns = (
+        rng.uniform(0, 0.6, (4, 3)),
+        rng.uniform(-1, 1, (4, 2)),
+        rng.uniform(-0.01, 0.01, (4, 3, 5)),
+    )
     phi = one_turn(6)
-    plain = transmission_error(Drives.from_angles(bend, yoke_angle=yoke), phi, turns=turns, ways=turns)
+    plain = transmission_error(Drives.from_angles(joint_angle, yoke_angle=yoke), phi, turns=turns, ways=turns)
     strict = transmission_error(
-        Drives.from_angles(xp.asarray(bend), yoke_angle=xp.asarray(yoke)),
+        Drives.from_angles(xp.asarray(joint_angle), yoke_angle=xp.asarray(yoke)),
         xp.asarray(phi),
         turns=xp.asarray(turns),
         ways=xp.asarray(turns),
     )
     assert np.allclose(np.asarray(strict.error), plain.error, rtol=0, atol=1e-14)
     assert np.allclose(np.asarray(strict.shift_linear), plain.shift_linear, rtol=0, atol=1e-14)
-    table = sensitivity(Drives.from_angles(xp.asarray(bend), yoke_angle=xp.asarray(yoke)), xp.asarray(phi))
-    assert np.allclose(np.asarray(table), sensitivity(Drives.from_angles(bend, yoke_angle=yoke), phi), atol=1e-14)
+    table = sensitivity(Drives.from_angles(xp.asarray(joint_angle), yoke_angle=xp.asarray(yoke)), xp.asarray(phi))
+    assert np.allclose(
+        np.asarray(table), sensitivity(Drives.from_angles(joint_angle, yoke_angle=yoke), phi), atol=1e-14
+    )
     assert np.asarray(course(strict.error).first).shape == (4,)
 
 

@@ -27,14 +27,14 @@ def values(found):
 @pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(
-    plans(most=4, bend=35 * deg, straight=False),
+    plans(most=4, joint_angle=35 * deg, straight=False),
     st.integers(0, 10**6),
     st.sampled_from(METHODS),
     st.sampled_from(list(Of)),
 )
 def test_the_tolerances_found_keep_the_target_and_no_others_are_cheaper(plan, seed, method, of):
     rng = np.random.default_rng(seed)
-    weights = 10 ** rng.uniform(-1, 1, (len(plan.bends), 10))
+    weights = 10 ** rng.uniform(-1, 1, (len(plan.joint_angles), 10))
     names = [*TURNS, "s1", "a1", "a2", "a3", "a4"]
     given_costs = [Tolerance(cost=Cost(**dict(zip(names, row, strict=True)))) for row in weights.tolist()]
     target = 0.001

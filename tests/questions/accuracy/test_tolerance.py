@@ -104,7 +104,7 @@ def test_samples_stay_within_the_worst_case():
 
 
 def test_samples_are_exact_not_linear():
-    """A bend that errs by tens of degrees: the mean shows the second order, which no linear rule has."""
+    """A joint angle that errs by tens of degrees: the mean shows the second order, which no linear rule has."""
     wide = Tolerance(alpha1=15 * deg, distribution="uniform")
     band = tolerance(SINGLE, wide, method=MonteCarlo(samples=2048, positions=8)).output
     sizes = np.linspace(-15, 15, 2001) * deg

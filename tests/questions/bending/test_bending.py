@@ -240,8 +240,8 @@ def fields(drive, **keys):
 
 def test_what_a_drive_must_say():
     assert fields(line_of(1.0, 0.9)) == ["shafts[1].outer", "shafts[2].outer"]
-    bends = Drive.from_angles([0.1, 0.1])
-    assert fields(replace(bends, shafts=(Shaft(number=2, outer=0.05),))) == ["shafts[1].length"]
+    joint_angles = Drive.from_angles([0.1, 0.1])
+    assert fields(replace(joint_angles, shafts=(Shaft(number=2, outer=0.05),))) == ["shafts[1].length"]
     one = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (0.4, 0, 0)])
     assert fields(one) == ["shafts[0].outer", "shafts[1].outer"]
     assert fields(replace(one, shafts=(Shaft(number=1, **TUBE),))) == ["shafts[1].outer", "supports"]

@@ -19,23 +19,23 @@ SECOND = WhirlingShaft(mass=0.5, stiffness=15e3, inertia=5e-4, damping=3.0, unba
 HEAVY = {"mass": 0.6, "stiffness": 19e3, "damping": 40.0}
 
 
-def behind(angle, bend, phase):
+def behind(angle, joint_angle, phase):
     """Return θ_2 by the plain arctangent, half turns counted."""
 
     def joint(theta):
         turns = math.floor(theta / math.pi + 0.5)
         inside = theta - math.pi * turns
-        return math.pi * turns + math.atan2(math.sin(inside), math.cos(bend) * math.cos(inside))
+        return math.pi * turns + math.atan2(math.sin(inside), math.cos(joint_angle) * math.cos(inside))
 
     return joint(angle + phase) - joint(phase)
 
 
-def plain(bend, phase, speed, spring, damper):
+def plain(joint_angle, phase, speed, spring, damper):
     """Return the rates by weighted point coordinates: their Jacobian gives the masses, differences all the rest."""
 
     def points(q):
         theta, *places = q
-        other = behind(theta, bend, phase)
+        other = behind(theta, joint_angle, phase)
         rows, weights = [theta, other], [FIRST.inertia, SECOND.inertia]
         for one, angle, (x, y) in ((FIRST, theta, places[:2]), (SECOND, other, places[2:])):
             e = one.unbalance_radius
@@ -71,18 +71,27 @@ def plain(bend, phase, speed, spring, damper):
     return rate
 
 
-@pytest.mark.parametrize(("bend", "phase"), [(0.4, 0.6), (1.0, math.pi / 2)])
-def test_point_masses_and_another_integrator_give_the_same_motion(bend, phase):
+@pytest.mark.parametrize(("joint_angle", "phase"), [(0.4, 0.6), (1.0, math.pi / 2)])
+def test_point_masses_and_another_integrator_give_the_same_motion(joint_angle, phase):
     end = 0.04
     found = cracked_shafts(
-        FIRST, SECOND, bend, 90.0, end, phase=phase, crack=CRACK, drive_stiffness=120.0, drive_damping=0.05, time=[end]
+        FIRST,
+        SECOND,
+        joint_angle,
+        90.0,
+        end,
+        phase=phase,
+        crack=CRACK,
+        drive_stiffness=120.0,
+        drive_damping=0.05,
+        time=[end],
     )
     sag = [one.whole * 9.81 / one.stiffness for one in (FIRST, SECOND)]
     start = [0.0, sag[0], 0.0, sag[1], 0.0, 90.0, 0.0, 0.0, 0.0, 0.0]
-    run = solve_ivp(plain(bend, phase, 90.0, 120.0, 0.05), (0.0, end), start, "RK45", rtol=1e-8, atol=1e-10)
+    run = solve_ivp(plain(joint_angle, phase, 90.0, 120.0, 0.05), (0.0, end), start, "RK45", rtol=1e-8, atol=1e-10)
     theta, *places = run.y[:5, -1]
     # Second differences of the plain model leave some 1e-7 of the accelerations.
-    assert found.angle[-1] == pytest.approx([theta, behind(theta, bend, phase)], abs=3e-6)
+    assert found.angle[-1] == pytest.approx([theta, behind(theta, joint_angle, phase)], abs=3e-6)
     assert found.rate[-1, 0] == pytest.approx(run.y[5, -1], rel=1e-5)
     got = [found.deflection[-1, 0], found.deflection[-1, 1]]
     np.testing.assert_allclose(got, [places[0] + 1j * places[1], places[2] + 1j * places[3]], atol=2e-5 * sag[0])
@@ -92,8 +101,8 @@ def test_point_masses_and_another_integrator_give_the_same_motion(bend, phase):
 def test_with_a_heavy_rotor_each_shaft_is_one_by_itself():
     first = WhirlingShaft(**HEAVY, inertia=1e4, unbalance_mass=1e-4, unbalance_radius=0.02)
     second = WhirlingShaft(**HEAVY, inertia=1e-3, unbalance_mass=1e-4, unbalance_radius=0.02)
-    bend, phase, speed = 25 * deg, 0.7, 80.0
-    found = cracked_shafts(first, second, bend, speed, 1.2, phase=phase, crack=CRACK, drive_stiffness=1.0)
+    joint_angle, phase, speed = 25 * deg, 0.7, 80.0
+    found = cracked_shafts(first, second, joint_angle, speed, 1.2, phase=phase, crack=CRACK, drive_stiffness=1.0)
     np.testing.assert_allclose(found.rate[:, 0], speed, rtol=1e-6)
     mass = first.whole
     omega = math.sqrt(first.stiffness / mass)
@@ -107,7 +116,7 @@ def test_with_a_heavy_rotor_each_shaft_is_one_by_itself():
     at = np.isin(alone.order, order.astype(int))
     np.testing.assert_allclose(size, alone.amplitude[at], atol=1e-9)
 
-    force = unbalance_behind_joint(bend, phase, reach=15)
+    force = unbalance_behind_joint(joint_angle, phase, reach=15)
     n = force.order
     answer = second.unbalance / mass * speed**2 * force.force
     answer = answer / (omega**2 - (n * speed) ** 2 + 2j * zeta * omega * n * speed)
@@ -140,7 +149,7 @@ def test_a_run_can_be_stopped():
     ("changed", "named"),
     [
         ({"speed": 0.0, "end": -1.0, "drive_stiffness": 0.0}, ["speed", "end", "drive_stiffness"]),
-        ({"bend": 0.5 * math.pi, "phase": np.nan}, ["bend", "phase"]),
+        ({"joint_angle": 0.5 * math.pi, "phase": np.nan}, ["joint_angle", "phase"]),
         ({"gravity": -1.0, "drive_damping": np.inf}, ["drive_damping", "gravity"]),
         ({"second": WhirlingShaft(mass=0.0, stiffness=1.0, inertia=0.0, damping=-1.0)},
          ["second.mass", "second.inertia", "second.damping"]),
@@ -149,7 +158,7 @@ def test_a_run_can_be_stopped():
     ],
 )  # fmt: skip
 def test_what_makes_no_pair_of_shafts_is_named(changed, named):
-    given = {"first": FIRST, "second": SECOND, "bend": 0.1, "speed": 50.0, "end": 0.1, "drive_stiffness": 100.0}
+    given = {"first": FIRST, "second": SECOND, "joint_angle": 0.1, "speed": 50.0, "end": 0.1, "drive_stiffness": 100.0}
     with pytest.raises(InputError) as caught:
         cracked_shafts(**given | changed)
     assert [problem.field for problem in caught.value.problems] == named

@@ -21,9 +21,9 @@ LENGTH = 1.5
 G = 9.80665
 
 
-def beam(bend=5 * deg, **more):
+def beam(joint_angle=5 * deg, **more):
     """Return a drive of one long thin bar between two joints: the beam of the textbooks."""
-    drive = Drive.from_angles([bend, bend])
+    drive = Drive.from_angles([joint_angle, joint_angle])
     bar = Shaft(number=2, length=LENGTH, outer=0.03, **more)
     return replace(drive, shafts=(bar,), duty=replace(drive.duty, speed=1000.0 * rpm))
 

@@ -35,12 +35,13 @@ def random_drive(seed, pieces=None):
     pieces = pieces or drawn
     outer, wall = rng.uniform(0.06, 0.11), rng.uniform(0.002, 0.004)
     points = [np.zeros(3)]
-    # A front piece runs nearly straight on; the bends at both ends of the last piece are about equal: so the rules ask.
-    bend = rng.choice([-1.0, 1.0]) * math.radians(rng.uniform(2.0, 5.0))
-    slopes = np.cumsum([*([math.radians(rng.uniform(0.5, 1.2))] * (pieces - 1)), bend])
+    # A front piece runs nearly straight on; the joint angles at both ends of the last piece are about equal: so the
+    # rules ask.
+    joint_angle = rng.choice([-1.0, 1.0]) * math.radians(rng.uniform(2.0, 5.0))
+    slopes = np.cumsum([*([math.radians(rng.uniform(0.5, 1.2))] * (pieces - 1)), joint_angle])
     for slope in slopes:
         points.append(points[-1] + rng.uniform(0.9, 1.4) * np.array([math.cos(slope), 0.0, math.sin(slope)]))
-    last = slopes[-1] - bend - math.radians(rng.uniform(-0.4, 0.4))
+    last = slopes[-1] - joint_angle - math.radians(rng.uniform(-0.4, 0.4))
     end = points[-1] + 0.3 * np.array([math.cos(last), 0.0, math.sin(last)])
     length = float(np.linalg.norm(points[1] - points[0]))
     supports = [Support(shaft=1, position=-0.1, axial=True), Support(shaft=1, position=-0.25)]

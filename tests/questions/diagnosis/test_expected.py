@@ -37,7 +37,7 @@ def test_order_2_is_that_of_the_secondary_couple():
     drive = example("car-propshaft")
     base, found = plant(drive), expected_orders(drive)
     line = next(one for one in found.orders if one.order == 2.0 and one.torque == (0.0, 0.0, 1.0))
-    couple = drive.duty.torque * np.tan(base.bend[0])
+    couple = drive.duty.torque * np.tan(base.joint_angle[0])
     assert line.size * base.housings[0].mass * base.length[0] == pytest.approx(couple)
     assert abs(found.value(line, 100.0, 0.0)) == 0.0
 

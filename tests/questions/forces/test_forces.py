@@ -133,22 +133,26 @@ def test_crosses_turn_by_the_rate_of_their_momentum() -> None:
 
 
 def test_z_cancels_and_v_doubles() -> None:
-    for bend in (10 * deg, 30 * deg, 55 * deg):
+    for joint_angle in (10 * deg, 30 * deg, 55 * deg):
         ends = []
         for twist in (0.0, np.pi):
-            drive = Drive.from_angles([bend, bend], plane_twists=[twist])
+            drive = Drive.from_angles([joint_angle, joint_angle], plane_twists=[twist])
             ends.append(forces(drive, Duty(torque=100.0), ANGLE))
         v, z = ends
         assert z.bending_couple[1].max() < 1e-12 * 100
-        wave = np.sqrt(1 + np.tan(bend) ** 2 * np.sin(ANGLE) ** 2)
-        np.testing.assert_allclose(v.bending_couple[1], 200 * np.sin(bend) * np.abs(np.cos(ANGLE)) * wave, atol=1e-10)
+        wave = np.sqrt(1 + np.tan(joint_angle) ** 2 * np.sin(ANGLE) ** 2)
+        np.testing.assert_allclose(
+            v.bending_couple[1], 200 * np.sin(joint_angle) * np.abs(np.cos(ANGLE)) * wave, atol=1e-10
+        )
         for end in ends:
-            np.testing.assert_allclose(end.bending_couple[0], 100 * np.tan(bend) * np.abs(np.sin(ANGLE)), atol=1e-10)
+            np.testing.assert_allclose(
+                end.bending_couple[0], 100 * np.tan(joint_angle) * np.abs(np.sin(ANGLE)), atol=1e-10
+            )
             np.testing.assert_allclose(end.input_torque, 100.0, rtol=1e-13)
 
 
-def book_joint(bend: float, *, slides: bool) -> Train:
-    points = points_from_angles(np.asarray([bend]), np.zeros(0), np.asarray([0.38, 0.9]))
+def book_joint(joint_angle: float, *, slides: bool) -> Train:
+    points = points_from_angles(np.asarray([joint_angle]), np.zeros(0), np.asarray([0.38, 0.9]))
     ends: tuple = ((1, ("radial",)), (1, ("radial",))) if slides else ((1, ("radial",)),)
     return train_of_points(
         points,
@@ -162,10 +166,10 @@ def book_joint(bend: float, *, slides: bool) -> Train:
 @pytest.mark.parametrize("slides", [True, False])
 def test_single_joints_agree_with_the_closed_forms(slides: bool) -> None:
     """Book Figs 67a and 67b: the far bearing at 0.38 m before the joint, the near one at 0.08 m."""
-    bend = 30 * deg
-    found = kinetostatics(book_joint(bend, slides=slides), ANGLE, torque=1000.0)
+    joint_angle = 30 * deg
+    found = kinetostatics(book_joint(joint_angle, slides=slides), ANGLE, torque=1000.0)
     closed = single_joint_forces(
-        bend,
+        joint_angle,
         ANGLE,
         1000.0,
         span=0.1,
@@ -188,7 +192,7 @@ def test_single_joints_agree_with_the_closed_forms(slides: bool) -> None:
 
 
 def test_a_cross_that_slides_one_way_passes_no_force_on_along_it() -> None:
-    joints = (Hooke(bend=20 * deg, cross=Cross(span=0.1, slides="driving")),)
+    joints = (Hooke(joint_angle=20 * deg, cross=Cross(span=0.1, slides="driving")),)
     held = (HELD[0], HELD[1], Support(shaft=2, position=0.4), Support(shaft=2, position=0.7, radial=False, axial=True))
     drive = Drive(joints=joints, supports=held, duty=Duty(torque=100.0))
     found = forces(drive, angle=ANGLE[1:9] + 0.1)
@@ -207,12 +211,12 @@ def splined(*, axial: bool, spline: Spline | None = None, **parts: object) -> Dr
 
 def test_a_free_spline_leaves_the_pair_of_forces_of_the_double_joint() -> None:
     """Book Fig 70, and what Fig 69 adds: a force along the middle shaft that ends in the thrust bearing of shaft 1."""
-    bend = np.arctan2(0.2, 0.7)
+    joint_angle = np.arctan2(0.2, 0.7)
     length = np.hypot(0.7, 0.2)
     free = forces(splined(axial=True, spline=Spline()), angle=ANGLE)
     fixed = forces(splined(axial=False), angle=ANGLE)
     closed = double_joint_forces(
-        bend, bend, ANGLE + 0.3, plane_twist=np.pi, yoke_angle=0.4, torque=100.0, length=length
+        joint_angle, joint_angle, ANGLE + 0.3, plane_twist=np.pi, yoke_angle=0.4, torque=100.0, length=length
     )
     assert (free.equations, free.unknowns) == (16, 16)
     size = np.linalg.norm(free.joint_force, axis=-1)
@@ -250,7 +254,7 @@ def test_steeper_teeth_push_more() -> None:
 
 
 def test_friction_costs_what_it_takes_over_a_turn() -> None:
-    joints = (Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02)),) * 2
+    joints = (Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02)),) * 2
     found = forces(Drive(joints=joints, duty=Duty(torque=100.0, speed=100.0)), angle=np.arange(7200) * np.pi / 3600)
     work = np.mean(found.input_torque)
     wanted = chain_friction(Drive(joints=joints), [0.0125, 0.0125]).efficiency
@@ -263,14 +267,14 @@ def test_friction_costs_what_it_takes_over_a_turn() -> None:
 @pytest.mark.parametrize("at", ["output", "input"])
 def test_journals_that_reverse_just_there_rub_as_right_after(at: str) -> None:
     """At the quarter turns a journal stands still for an instant; what friction adds must not hang on rounding."""
-    joints = (Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02)),)
+    joints = (Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02)),)
     quarters = 0.5 * np.pi * np.arange(5)
     drive = Drive(joints=joints, duty=Duty(torque=100.0, speed=100.0, torque_at=at))
     there, after = forces(drive, angle=quarters), forces(drive, angle=quarters + 1e-9)
     # 1e-9 rad further the couples, some 40 N·m, differ by 1e-7 N·m at most
     np.testing.assert_allclose(there.secondary_couple, after.secondary_couple, rtol=0, atol=1e-6)
     np.testing.assert_allclose(there.bending_couple[:, 0], there.bending_couple[:, 4], rtol=1e-12)
-    straight = replace(drive, joints=(replace(joints[0], bend=0.0),))
+    straight = replace(drive, joints=(replace(joints[0], joint_angle=0.0),))
     assert forces(straight, angle=quarters).bending_couple.max() == 0.0
 
 
@@ -289,14 +293,16 @@ def test_torque_may_be_given_at_the_input(n: int, drag: float, torque: float) ->
     assert np.ptp(found.output_torque) > 1.0
 
 
-@pytest.mark.parametrize("bends", [(0.0, 0.5), (0.0, 0.0, 0.4, 0.3), (0.3, 0.0, 0.4)])
-def test_straight_joints_keep_the_planes_they_are_given(bends: tuple[float, ...]) -> None:
+@pytest.mark.parametrize("joint_angles", [(0.0, 0.5), (0.0, 0.0, 0.4, 0.3), (0.3, 0.0, 0.4)])
+def test_straight_joints_keep_the_planes_they_are_given(joint_angles: tuple[float, ...]) -> None:
     """Forces turn as motion says, and as where the joint is all but straight; points alone do not tell its plane."""
-    twists = [0.7, -1.1, 0.4][: len(bends) - 1]
+    twists = [0.7, -1.1, 0.4][: len(joint_angles) - 1]
     drive, near = (
         replace(
-            Drive.from_angles([bend or least for bend in bends], plane_twists=twists, start_phase=0.2),
-            shafts=tuple(Shaft(number=k + 1, length=0.5, inertia=0.02) for k in range(len(bends) + 1)),
+            Drive.from_angles(
+                [joint_angle or least for joint_angle in joint_angles], plane_twists=twists, start_phase=0.2
+            ),
+            shafts=tuple(Shaft(number=k + 1, length=0.5, inertia=0.02) for k in range(len(joint_angles) + 1)),
         )
         for least in (0.0, 1e-7)
     )
@@ -304,7 +310,7 @@ def test_straight_joints_keep_the_planes_they_are_given(bends: tuple[float, ...]
     found, almost = forces(drive, duty, ANGLE), forces(near, duty, ANGLE)
     np.testing.assert_allclose(found.speed, 50.0 * motion(drive, ANGLE).shaft_ratio, rtol=1e-13)
     for name in ("shaft_torque", "secondary_couple"):
-        # a bend of 1e-7 shows to the first order in couples of 30 N·m
+        # a joint angle of 1e-7 shows to the first order in couples of 30 N·m
         np.testing.assert_allclose(getattr(found, name), getattr(almost, name), rtol=0, atol=1e-4)
 
 
@@ -367,7 +373,7 @@ def test_journals_carry_couple_force_and_weight() -> None:
 
 
 def test_without_supports_there_are_couples_and_journal_loads() -> None:
-    joints = (Hooke(bend=20 * deg, cross=Cross(span=0.1)),)
+    joints = (Hooke(joint_angle=20 * deg, cross=Cross(span=0.1)),)
     found = forces(Drive(joints=joints), Duty(torque=100.0), [0.0])
     assert found.reaction is None
     assert found.force_left is None
@@ -389,8 +395,8 @@ def test_what_is_missing_is_named() -> None:
     assert fields(replace(loaded, supports=HELD[:2])) == ["supports"]
     heavy = replace(loaded, supports=HELD, shafts=(Shaft(number=3, mass=3.0),))
     assert fields(heavy) == ["shafts[2].centre_of_mass"]
-    bends = Drive.from_angles([0.1, 0.2])
-    assert fields(replace(bends, supports=HELD, duty=Duty(torque=1.0))) == ["shafts[1].length"]
+    joint_angles = Drive.from_angles([0.1, 0.2])
+    assert fields(replace(joint_angles, supports=HELD, duty=Duty(torque=1.0))) == ["shafts[1].length"]
     assert fields(loaded, angle=[[0.0]]) == ["angle"]
 
 
@@ -415,9 +421,9 @@ def test_a_loose_drive_in_a_batch_has_a_status() -> None:
 
 def test_a_joint_that_friction_locks_is_refused() -> None:
     # Beyond κ tan α = 1 no torque drives the joint: its equations still have a solution, which no drive obeys.
-    def held(bend: float) -> Drive:
-        joint = Hooke(bend=bend, friction=4.0, cross=Cross(span=0.1, journal=0.025))
-        return Drive(joints=(Hooke(bend=0.1), joint), duty=Duty(torque=10.0))
+    def held(joint_angle: float) -> Drive:
+        joint = Hooke(joint_angle=joint_angle, friction=4.0, cross=Cross(span=0.1, journal=0.025))
+        return Drive(joints=(Hooke(joint_angle=0.1), joint), duty=Duty(torque=10.0))
 
     assert np.max(forces(held(44.0 * deg)).power_left) < 1e-12
     with pytest.raises(InputError, match="locks joint 2") as caught:
@@ -426,25 +432,27 @@ def test_a_joint_that_friction_locks_is_refused() -> None:
 
 
 def test_friction_has_no_sense_at_standstill() -> None:
-    joint = Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02))
+    joint = Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=0.08, journal=0.02))
     with pytest.raises(InputError, match=r"duty\.speed"):
         forces(Drive(joints=(joint,)), Duty(torque=100.0, speed=0.0))
     assert forces(Drive(joints=(replace(joint, friction=None),)), Duty(torque=100.0, speed=0.0)).power_left.max() == 0.0
 
 
-@pytest.mark.parametrize("bends", [(85, 0, 60), (0, 0, 70, 20), (89, 45), (30, 0, 0, 80, 10, 40)])
+@pytest.mark.parametrize("joint_angles", [(85, 0, 60), (0, 0, 70, 20), (89, 45), (30, 0, 0, 80, 10, 40)])
 @pytest.mark.parametrize("at", ["output", "input"])
-def test_steep_and_straight_joints_balance_too(bends: tuple[float, ...], at: str) -> None:
+def test_steep_and_straight_joints_balance_too(joint_angles: tuple[float, ...], at: str) -> None:
     """With inertia, weight, friction near locking and a shaft clamped at its end; running the other way."""
-    n = len(bends)
+    n = len(joint_angles)
     random = np.random.default_rng(n)
     cross = Cross(span=0.08, journal=0.02, mass=0.5, inertia=(0.001, 0.001, 0.002))
-    drag = [min(1.0, 2.0 / np.tan(max(bend, 1.0) * deg)) for bend in bends]
+    drag = [min(1.0, 2.0 / np.tan(max(joint_angle, 1.0) * deg)) for joint_angle in joint_angles]
     drive = replace(
-        Drive.from_angles([bend * deg for bend in bends], plane_twists=list(random.uniform(-3, 3, n - 1))),
+        Drive.from_angles(
+            [joint_angle * deg for joint_angle in joint_angles], plane_twists=list(random.uniform(-3, 3, n - 1))
+        ),
         joints=tuple(
-            Hooke(bend=bend * deg, plane_twist=twist, friction=mu, cross=cross)
-            for bend, twist, mu in zip(bends, random.uniform(-3, 3, n), drag, strict=True)
+            Hooke(joint_angle=joint_angle * deg, plane_twist=twist, friction=mu, cross=cross)
+            for joint_angle, twist, mu in zip(joint_angles, random.uniform(-3, 3, n), drag, strict=True)
         ),
         shafts=tuple(
             Shaft(number=k + 1, length=0.5, inertia=0.02, mass=4.0, centre_of_mass=0.1 * k, resisting_torque=k - 2.0)
@@ -492,9 +500,9 @@ def test_ten_thousand_drives_are_one_call(monkeypatch: pytest.MonkeyPatch) -> No
 @pytest.mark.parametrize("at", ["output", "input"])
 def test_a_locked_drive_has_no_torques_and_leaves_its_batch_alone(at: str) -> None:
     many = trains(np.random.default_rng(5), 2, (3,), drag=0.02)
-    bend = many.chain.bend[1, 0]
+    joint_angle = many.chain.joint_angle[1, 0]
     drag = many.drag.copy()
-    drag[1, 0] = 1.0 / np.tan(bend)
+    drag[1, 0] = 1.0 / np.tan(joint_angle)
     found = kinetostatics(replace(many, drag=drag), ANGLE, torque=100.0, torque_at=at, speed=50.0)
     freely = kinetostatics(many, ANGLE, torque=100.0, torque_at=at, speed=50.0)
     assert np.isnan(found.output_torque[1] if at == "input" else found.input_torque[1]).all()

@@ -100,7 +100,7 @@ def test_every_shaft_balances_by_plain_sums(joints):
 
 
 def test_the_couple_of_a_constant_velocity_joint_halves_the_angle_of_its_shafts():
-    drive = Drive(joints=(ConstantVelocity(bend=0.7),))
+    drive = Drive(joints=(ConstantVelocity(joint_angle=0.7),))
     found = forces(drive, Duty(torque=100.0), [0.0, 1.0])
     one, two = found.axis[:, 0]
     middle = (one + two) / np.linalg.norm(one + two)
@@ -115,12 +115,16 @@ def test_a_joint_that_turns_as_a_cross_carries_as_one():
     from cardan.questions.forces.kind_stand import kind_arms
     from cardan.questions.motion.motion import motion
 
-    bend = np.asarray([0.5, 0.3])
-    drive = Drive.from_angles(bend.tolist(), plane_twists=[0.4], yoke_angles=[0.2])
+    joint_angle = np.asarray([0.5, 0.3])
+    drive = Drive.from_angles(joint_angle.tolist(), plane_twists=[0.4], yoke_angles=[0.2])
     place = geometry(drive)
-    _bend, _twist, _start, laws = alike(drive.joints, bend, np.asarray([0.4]))
+    _joint_angle, _twist, _start, laws = alike(drive.joints, joint_angle, np.asarray([0.4]))
     chain = Chain(
-        bend=bend, plane_twist=np.asarray([0.4]), yoke_angle=np.asarray([0.2]), start_phase=np.zeros(()), laws=laws
+        joint_angle=joint_angle,
+        plane_twist=np.asarray([0.4]),
+        yoke_angle=np.asarray([0.2]),
+        start_phase=np.zeros(()),
+        laws=laws,
     )
     found = motion(chain)
     _u, _v, crossed = kind_arms(chain, place.axis, place.normal, found)
@@ -132,8 +136,8 @@ def test_a_joint_that_turns_as_a_cross_carries_as_one():
 @pytest.mark.parametrize("kind", sorted(JOINTS))
 def test_kinds_that_statics_cannot_tell_are_refused_by_name(kind):
     known = {"offset_cross": {"offset": 0.01, "reach": 0.3}}.get(kind, {})
-    joint = JOINTS[kind](bend=0.04, **known)
-    drive = Drive(joints=(Hooke(bend=0.1), joint))
+    joint = JOINTS[kind](joint_angle=0.04, **known)
+    drive = Drive(joints=(Hooke(joint_angle=0.1), joint))
     if joint.fixed:
         assert np.all(np.isfinite(forces(drive, Duty(torque=1.0)).input_torque))
         return

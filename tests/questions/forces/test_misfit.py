@@ -5,37 +5,37 @@ from cardan.maths.kernel import frames
 from cardan.questions.forces.held import Layout, actions
 from cardan.questions.forces.misfit import conditions, crosses, joint_gap, misfit, sliding
 
-BENDS = np.deg2rad([0.0, 12.0, 35.0])
+JOINT_ANGLES = np.deg2rad([0.0, 12.0, 35.0])
 ANGLES = np.linspace(0.0, 2 * np.pi, 13)
 
 
-def joint(bend, angle):
+def joint(joint_angle, angle):
     """One joint bent about -x, shaft 1 along z: its axes, and the arms of its cross at the angles."""
-    axis = np.stack((np.eye(3)[2], np.asarray([0.0, np.sin(bend), np.cos(bend)])))
+    axis = np.stack((np.eye(3)[2], np.asarray([0.0, np.sin(joint_angle), np.cos(joint_angle)])))
     driving = np.stack((-np.sin(angle), np.cos(angle), 0.0 * angle), axis=-1)
     driven = frames.unit(np.cross(axis[1], driving))
     return axis, driving[:, None], driven[:, None]
 
 
-@pytest.mark.parametrize("bend", BENDS)
-def test_arms_turn_with_their_shafts(bend):
+@pytest.mark.parametrize("joint_angle", JOINT_ANGLES)
+def test_arms_turn_with_their_shafts(joint_angle):
     step = 1e-5
-    axis, *here = joint(bend, ANGLES)
-    ahead, behind = joint(bend, ANGLES + step)[1:], joint(bend, ANGLES - step)[1:]
+    axis, *here = joint(joint_angle, ANGLES)
+    ahead, behind = joint(joint_angle, ANGLES + step)[1:], joint(joint_angle, ANGLES - step)[1:]
     found = crosses(axis, *here)
     for k, rate in enumerate((found.driving_rate, found.driven_rate)):
         # Central differences: 1e-16/1e-5 by rounding, (1e-5)² by the third derivative, both near 1e-11.
         np.testing.assert_allclose(rate, (ahead[k] - behind[k]) / (2 * step), atol=1e-9)
 
 
-@pytest.mark.parametrize("bend_deg", [10.0, 35.0])
-def test_the_gap_is_what_free_slides_take_up(bend_deg):
+@pytest.mark.parametrize("joint_angle_deg", [10.0, 35.0])
+def test_the_gap_is_what_free_slides_take_up(joint_angle_deg):
     # Book (171): with the slides free, s_i = C_i s_1 + Σ C_ij a_j along the driving and driven journals and shaft 2.
     errors = np.asarray([0.7, -0.4, 0.3, 0.9, -0.2])
     angle = np.deg2rad(40.0)
-    axis, driving, driven = joint(np.deg2rad(bend_deg), np.asarray([angle]))
+    axis, driving, driven = joint(np.deg2rad(joint_angle_deg), np.asarray([angle]))
     gap, _rate = joint_gap(axis, np.asarray([[-1.0, 0, 0]]), crosses(axis, driving, driven), errors[None])
-    c, s, t = np.cos(np.deg2rad(bend_deg)), np.sin(np.deg2rad(bend_deg)), angle
+    c, s, t = np.cos(np.deg2rad(joint_angle_deg)), np.sin(np.deg2rad(joint_angle_deg)), angle
     delta = np.sqrt(np.sin(t) ** 2 + (c * np.cos(t)) ** 2)
     rows = np.asarray(
         [
@@ -70,7 +70,7 @@ def test_a_batch_of_drives_equals_single_ones():
     )
     soft = np.diag([0.0] * 3 + [1e-8] * 10)
     errors = 1e-5 * np.random.default_rng(8).normal(size=(3, 1, 5))
-    parts = [joint(bend, ANGLES) for bend in BENDS[1:]]
+    parts = [joint(joint_angle, ANGLES) for joint_angle in JOINT_ANGLES[1:]]
     axis = np.stack([part[0] for part in parts])[:, None]
     length, place = np.ones((2, 1, 2)), np.asarray([0.1, 0.8, 0.2, 0.9]) * np.ones((2, 1, 1))
     arms = crosses(axis, *(np.stack([part[k] for part in parts]) for k in (1, 2)))

@@ -136,15 +136,15 @@ def test_what_does_not_go_with_a_movement_is_refused() -> None:
 
 
 def test_the_couple_of_a_swinging_shaft_is_the_rate_of_its_momentum() -> None:
-    def bend(t: float) -> tuple[float, float, float]:
+    def joint_angle(t: float) -> tuple[float, float, float]:
         return 0.3 + 0.08 * np.sin(15 * t), 1.2 * np.cos(15 * t), -18.0 * np.sin(15 * t)
 
     def momentum(t: float) -> np.ndarray:
-        axes, spins = parallel_ends(bend(t), 0.7 + 120.0 * t, speed=120.0, yoke_angle=0.3)
+        axes, spins = parallel_ends(joint_angle(t), 0.7 + 120.0 * t, speed=120.0, yoke_angle=0.3)
         e, rate = axes[0][1], axes[1][1]
         return 0.02 * spins.spin[1] * e + 0.4 * np.cross(e, rate)
 
-    axes, spins = parallel_ends(bend(0.05), 6.7, speed=120.0, yoke_angle=0.3)
+    axes, spins = parallel_ends(joint_angle(0.05), 6.7, speed=120.0, yoke_angle=0.3)
     middle = axes[0][1], axes[1][1], axes[2][1]
     found = swing_couple(middle, spins.spin[1], 0.02, 0.4)
     h = 1e-4

@@ -69,11 +69,11 @@ def test_groups_of_a_drive_are_those_of_its_supports():
         Support(shaft=1, position=-0.1),
         Support(shaft=2, position=0.3),
     )
-    joint = Hooke(bend=0.3, cross=Cross(span=0.08))
+    joint = Hooke(joint_angle=0.3, cross=Cross(span=0.08))
     single = Drive(joints=(joint,), supports=held)
     assert reaction_groups(single) == ((2,), (1,))
     # Along arms that slide nothing is passed on: shaft 2 needs bearings of its own, and holds nothing lengthwise.
-    slides = Hooke(bend=0.3, cross=Cross(span=0.08, slides=True))
+    slides = Hooke(joint_angle=0.3, cross=Cross(span=0.08, slides=True))
     both = Drive(joints=(slides,), supports=(*held, Support(shaft=2, position=0.5)))
     assert reaction_groups(both) == ((2,), (1,))
     assert reaction_groups(Drive(joints=(joint,))) == ()

@@ -21,8 +21,8 @@ from cardan.questions.life.life import life
 
 HOUR = 3600.0
 JOINTS = tuple(
-    Hooke(bend=bend, cross=Cross(span=0.08), needles=Needles(capacity=20e3), rating=Rating(torque=1000.0))
-    for bend in (0.1, 0.2)
+    Hooke(joint_angle=joint_angle, cross=Cross(span=0.08), needles=Needles(capacity=20e3), rating=Rating(torque=1000.0))
+    for joint_angle in (0.1, 0.2)
 )
 DRIVE = Drive(joints=JOINTS)
 

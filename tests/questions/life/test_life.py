@@ -25,24 +25,26 @@ P = 10.0 / 3.0
 CROSS, NEEDLES = Cross(span=0.08, journal=0.016), Needles(count=22, diameter=2.5e-3, length=14e-3, capacity=20e3)
 
 
-def joint(bend, **changed):
-    return Hooke(**{"bend": bend * deg, "cross": CROSS, "needles": NEEDLES} | changed)
+def joint(joint_angle, **changed):
+    return Hooke(**{"joint_angle": joint_angle * deg, "cross": CROSS, "needles": NEEDLES} | changed)
 
 
-def one(bend=12.0, **changed):
-    return Drive(joints=(joint(bend, **changed),))
+def one(joint_angle=12.0, **changed):
+    return Drive(joints=(joint(joint_angle, **changed),))
 
 
 @pytest.mark.parametrize("torque_at", ["input", "output"])
-@pytest.mark.parametrize("bend", [5.0, 30.0])
-def test_one_joint_is_the_closed_form(bend, torque_at):
+@pytest.mark.parametrize("joint_angle", [5.0, 30.0])
+def test_one_joint_is_the_closed_form(joint_angle, torque_at):
     """Quadrature over the turn against the integral over the swing; both rest at 1e-10 and better."""
-    found = life(one(bend), Duty(speed=-1000 * rpm, torque=800.0, torque_at=torque_at))
-    exact = bearing_life(20e3, 0.04, 800.0, speed=1000 * rpm, bend=bend * deg, torque_at=torque_at)
+    found = life(one(joint_angle), Duty(speed=-1000 * rpm, torque=800.0, torque_at=torque_at))
+    exact = bearing_life(20e3, 0.04, 800.0, speed=1000 * rpm, joint_angle=joint_angle * deg, torque_at=torque_at)
     assert found.driving[0, 0] == pytest.approx(exact.driving, rel=1e-9)
     assert found.driven[0, 0] == pytest.approx(exact.driven, rel=1e-9)
     assert found.simple[0, 0] == pytest.approx(exact.simple, rel=1e-9)
-    assert found.book[0, 0] == pytest.approx(book_life(2080.0, 800.0, speed=1000 * rpm, bend=bend * deg), rel=1e-9)
+    assert found.book[0, 0] == pytest.approx(
+        book_life(2080.0, 800.0, speed=1000 * rpm, joint_angle=joint_angle * deg), rel=1e-9
+    )
     assert found.torque[0, 0] == pytest.approx(800.0, rel=1e-12)
     assert found.drive == pytest.approx(exact.worst, rel=1e-9)
     assert np.isnan(found.maker[0, 0])
@@ -74,12 +76,15 @@ def test_a_chain_is_the_sum_of_what_its_forces_and_swings_do():
 
 def test_blocks_add_their_damage_by_hand():
     """Each block alone, then 1/Σ(q/L); the torque that does the same lasts as long."""
-    blocks = (Block(torque=900.0, speed=50.0, share=0.1), Block(torque=300.0, speed=200.0, share=0.9, bend=6 * deg))
+    blocks = (
+        Block(torque=900.0, speed=50.0, share=0.1),
+        Block(torque=300.0, speed=200.0, share=0.9, joint_angle=6 * deg),
+    )
     drive = one(10.0, rating=Rating(torque=1000.0))
     found = life(drive, Duty(blocks=blocks))
     alone = [
-        life(one(bend, rating=Rating(torque=1000.0)), Duty(speed=block.speed, torque=block.torque))
-        for block, bend in zip(blocks, (10.0, 6.0), strict=True)
+        life(one(joint_angle, rating=Rating(torque=1000.0)), Duty(speed=block.speed, torque=block.torque))
+        for block, joint_angle in zip(blocks, (10.0, 6.0), strict=True)
     ]
     for name in ("driving", "driven", "simple", "maker", "book"):
         first, second = (getattr(each, name)[0, 0] for each in alone)
@@ -128,11 +133,11 @@ def test_makers_ratings_go_by_their_own_convention():
     duty = Duty(speed=100.0, torque=500.0)
     for convention in ("Tc", "CR"):
         found = life(one(rating=Rating(torque=1000.0, convention=convention)), duty)
-        case = {"speed": 100.0, "bend": 12 * deg, "convention": convention}
+        case = {"speed": 100.0, "joint_angle": 12 * deg, "convention": convention}
         assert found.maker[0, 0] == pytest.approx(maker_life(1000.0, 500.0, **case), rel=1e-10)
     found = life(one(rating=Rating(torque=1000.0, convention="book")), duty)
     assert np.isnan(found.maker[0, 0])
-    assert found.book[0, 0] == pytest.approx(book_life(1000.0, 500.0, speed=100.0, bend=12 * deg), rel=1e-10)
+    assert found.book[0, 0] == pytest.approx(book_life(1000.0, 500.0, speed=100.0, joint_angle=12 * deg), rel=1e-10)
 
 
 def test_without_capacity_the_makers_rating_governs_and_iso_says_what_it_lacks():
@@ -210,7 +215,7 @@ def test_friction_and_inertia_load_the_joints_more():
 def test_the_couple_of_a_shaft_is_order_one_in_it_and_order_two_in_its_housing(torque_at, shaft):
     """Vectors of `forces` in the housing; turned back with the shaft they keep one direction."""
     phi = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
-    drive = Drive(joints=(Hooke(bend=25 * deg),))
+    drive = Drive(joints=(Hooke(joint_angle=25 * deg),))
     found = couple_frames(25 * deg, 300.0)
     turn = motion(drive, phi).shaft_angle[shaft]
     even = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
@@ -238,9 +243,9 @@ def test_the_couple_of_a_shaft_is_order_one_in_it_and_order_two_in_its_housing(t
 def test_formulas_run_on_any_array_library():
     import array_api_strict as strict
 
-    bend, torque = strict.asarray([0.1, 0.4]), strict.asarray([0.0, 500.0])
-    case = {"speed": strict.asarray([50.0, 100.0]), "bend": bend}
-    plain = {"speed": np.asarray([50.0, 100.0]), "bend": np.asarray([0.1, 0.4])}
+    joint_angle, torque = strict.asarray([0.1, 0.4]), strict.asarray([0.0, 500.0])
+    case = {"speed": strict.asarray([50.0, 100.0]), "joint_angle": joint_angle}
+    plain = {"speed": np.asarray([50.0, 100.0]), "joint_angle": np.asarray([0.1, 0.4])}
     pairs = [
         (
             bearing_life(2e4, 0.04, torque, **case, torque_at="input").worst,
@@ -251,10 +256,10 @@ def test_formulas_run_on_any_array_library():
             maker_life(2000.0, torque, **case, convention="CR"),
             maker_life(2000.0, [0.0, 500.0], **plain, convention="CR"),
         ),
-        (combined_life(bend, bend), combined_life([0.1, 0.4], [0.1, 0.4])),
-        (equivalent_torque(torque, bend), equivalent_torque([0.0, 500.0], [0.1, 0.4])),
+        (combined_life(joint_angle, joint_angle), combined_life([0.1, 0.4], [0.1, 0.4])),
+        (equivalent_torque(torque, joint_angle), equivalent_torque([0.0, 500.0], [0.1, 0.4])),
         (
-            cross_loads(bend, torque, torque, span=strict.asarray(0.1)).journal,
+            cross_loads(joint_angle, torque, torque, span=strict.asarray(0.1)).journal,
             cross_loads([0.1, 0.4], [0.0, 500.0], [0.0, 500.0], span=0.1).journal,
         ),
     ]

@@ -138,8 +138,8 @@ def test_duty_cycles_by_hand():
 def test_the_equivalent_torque_lasts_as_long_as_the_cycle():
     """Lives of M_i at n_i α_i add up as one torque at the mean n α does."""
     torque, share = np.asarray([1500.0, 700.0, 0.0]), np.asarray([0.05, 0.35, 0.6])
-    speed, bend = np.asarray([30.0, 90.0, 240.0]), np.asarray([0.1, 0.1, 0.05])
-    lives = 1.0 / (speed * bend * np.maximum(torque, 1e-9) ** P)
-    same = equivalent_torque(torque, share, speed=speed, bend=bend)
-    assert combined_life(lives, share) == pytest.approx(1.0 / (np.sum(share * speed * bend) * same**P))
+    speed, joint_angle = np.asarray([30.0, 90.0, 240.0]), np.asarray([0.1, 0.1, 0.05])
+    lives = 1.0 / (speed * joint_angle * np.maximum(torque, 1e-9) ** P)
+    same = equivalent_torque(torque, share, speed=speed, joint_angle=joint_angle)
+    assert combined_life(lives, share) == pytest.approx(1.0 / (np.sum(share * speed * joint_angle) * same**P))
     assert equivalent_torque([5.0], [1.0], speed=[0.0]) == 0.0

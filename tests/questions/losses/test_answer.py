@@ -34,7 +34,7 @@ def test_the_sentence_tells_efficiency_loss_and_where_most_is_lost():
 
 
 def test_what_loses_alike_is_named_together():
-    joint = Hooke(name="gearbox", bend=0.3, friction=0.02, cross=TRUCK.joints[0].cross)
+    joint = Hooke(name="gearbox", joint_angle=0.3, friction=0.02, cross=TRUCK.joints[0].cross)
     twice = Drive(joints=(joint, joint), duty=Duty(speed=100.0, torque=100.0))
     found = losses(twice)
     tied = replace(found, driving_pins=found.driving_pins[[0, 0]], driven_pins=found.driven_pins[[0, 0]])

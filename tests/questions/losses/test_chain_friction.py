@@ -23,7 +23,7 @@ def drags(n):
 @settings(max_examples=25)
 @given(plans(most=5), st.sampled_from(["output", "input"]), st.booleans(), st.data())
 def test_efficiency_and_heat_agree_with_couples_of_plain_vectors(plan, at, backwards, data):
-    drag = data.draw(drags(len(plan.bends)))
+    drag = data.draw(drags(len(plan.joint_angles)))
     found = chain_friction(plan.drive, drag, torque_at=at, backwards=backwards)
     plain = torques(plan.vectors, TURN, drag, load=-1.0 if backwards else 1.0, at=at)
     ends = [np.mean(np.broadcast_to(plain.shaft[k] * plain.speed[k], TURN.shape)) for k in (0, -1)]
@@ -39,7 +39,7 @@ def test_efficiency_and_heat_agree_with_couples_of_plain_vectors(plan, at, backw
 @given(plans(), st.sampled_from(["output", "input"]), st.booleans())
 def test_power_balances(plan, at, backwards):
     """In less out is heat, to rounding, each integrated by itself."""
-    found = chain_friction(plan.drive, [0.05] * len(plan.bends), torque_at=at, backwards=backwards)
+    found = chain_friction(plan.drive, [0.05] * len(plan.joint_angles), torque_at=at, backwards=backwards)
     assert float(found.residual) < 2e-14
 
 
@@ -117,10 +117,10 @@ def test_each_joint_needs_its_friction(drag):
 
 
 def test_any_array_library_computes_them():
-    bend = [[0.2, 0.3], [0.4, 0.1]]
+    joint_angle = [[0.2, 0.3], [0.4, 0.1]]
     found = chain_friction(
-        Drives.from_angles(strict.asarray(bend, dtype=strict.float64)),
+        Drives.from_angles(strict.asarray(joint_angle, dtype=strict.float64)),
         strict.asarray([0.01, 0.02], dtype=strict.float64),
     )
-    plain = chain_friction(Drives.from_angles(bend), [0.01, 0.02])
+    plain = chain_friction(Drives.from_angles(joint_angle), [0.01, 0.02])
     assert np.allclose(np.asarray(found.efficiency), plain.efficiency, rtol=1e-14)

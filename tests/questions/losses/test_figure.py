@@ -55,7 +55,7 @@ def test_curves_are_those_of_the_joints():
 
 def test_many_parts_share_the_last_bar():
     joint = TRUCK.joints[0]
-    many = Drive(joints=tuple(Hooke(bend=0.1, friction=0.02, cross=joint.cross) for _number in range(15)))
+    many = Drive(joints=tuple(Hooke(joint_angle=0.1, friction=0.02, cross=joint.cross) for _number in range(15)))
     found = losses(many, Duty(speed=100.0, torque=100.0))
     figure = loss_figure(found)
     drawn(figure)
@@ -70,7 +70,7 @@ def test_a_locked_drive_and_a_straight_one_are_drawn():
     figure = loss_figure(locked)
     drawn(figure)
     straight = losses(
-        Drive(joints=(Hooke(bend=0.0, friction=0.02, cross=TRUCK.joints[0].cross),)), Duty(speed=1.0, torque=1.0)
+        Drive(joints=(Hooke(joint_angle=0.0, friction=0.02, cross=TRUCK.joints[0].cross),)), Duty(speed=1.0, torque=1.0)
     )
     assert [part.loss for part in loss_parts(straight)] == [0.0]
     drawn(loss_figure(straight))
@@ -93,7 +93,7 @@ def test_a_map_shows_a_curve_for_every_speed_by_rising_torque():
 def test_a_map_tells_where_it_is_best_unless_that_is_everywhere():
     heavy = map_figure(loss_map(TRUCK, [1800 * rpm], [10.0, 1600.0]))
     assert told(heavy.sentence, USUAL) == "The efficiency is highest at 1\u202f800 rpm and 1\u202f600 N·m: 99.77 %."
-    joint = Hooke(bend=0.3, friction=0.02, cross=TRUCK.joints[0].cross)
+    joint = Hooke(joint_angle=0.3, friction=0.02, cross=TRUCK.joints[0].cross)
     single = loss_map(Drive(joints=(joint,)), [10.0, 20.0], [5.0, 50.0])
     assert map_figure(single).sentence == ""
 

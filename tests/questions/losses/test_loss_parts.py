@@ -19,13 +19,20 @@ def test_what_is_left_out_is_named_with_its_key():
     drive, _swing = sliding()
     assert fields(losses(drive, STEADY).uncounted) == ["supports", "movements"]
     assert fields(losses(sliding(Spline(teeth=16))[0], STEADY).uncounted) == ["supports", "shafts[1].spline.friction"]
-    joints = (Hooke(bend=0.1, friction=0.1, cross=CROSS), Hooke(bend=0.1), Hooke(bend=0.1, friction=0.1))
+    joints = (
+        Hooke(joint_angle=0.1, friction=0.1, cross=CROSS),
+        Hooke(joint_angle=0.1),
+        Hooke(joint_angle=0.1, friction=0.1),
+    )
     assert fields(losses(Drive(joints=joints), STEADY).uncounted) == [
         "joints[1].friction",
         "joints[2].cross.span",
         "supports",
     ]
-    partly = (Hooke(bend=0.1, friction=0.1, cross=Cross(span=0.1)), Hooke(bend=0.1, friction=0.1, cross=CROSS))
+    partly = (
+        Hooke(joint_angle=0.1, friction=0.1, cross=Cross(span=0.1)),
+        Hooke(joint_angle=0.1, friction=0.1, cross=CROSS),
+    )
     assert fields(losses(Drive(joints=partly), STEADY).uncounted) == ["joints[0].cross.journal", "supports"]
 
 

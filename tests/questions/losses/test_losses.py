@@ -21,7 +21,7 @@ from tests.builders.rubbing import CROSS, STEADY, book_layout, loaded, rubbing, 
 def test_without_masses_it_is_the_friction_of_the_chain_whichever_way_it_runs(plan, at, turning, pulling):
     duty = Duty(speed=turning * 100.0, torque=pulling * 50.0, torque_at=at)
     found = losses(rubbing(plan.drive), duty)
-    chain = chain_friction(plan.drive, [0.025] * len(plan.bends), torque_at=at, backwards=turning != pulling)
+    chain = chain_friction(plan.drive, [0.025] * len(plan.joint_angles), torque_at=at, backwards=turning != pulling)
     assert found.efficiency == pytest.approx(float(chain.efficiency), rel=1e-13)
     assert np.allclose(found.driving_pins, 5000 * chain.driving_loss, rtol=0, atol=1e-10)
     assert np.allclose(found.driven_pins, 5000 * chain.driven_loss, rtol=0, atol=1e-10)

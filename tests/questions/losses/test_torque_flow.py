@@ -14,7 +14,7 @@ PLACES = np.linspace(0, 2 * np.pi, 17)
 
 @given(plans(most=5), st.sampled_from(["output", "input"]), st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, -1.0]))
 def test_torques_and_losses_are_those_of_plain_vectors(plan, at, load, sense):
-    drag = [0.07, 0.0, 0.03, 0.1, 0.01][: len(plan.bends)]
+    drag = [0.07, 0.0, 0.03, 0.1, 0.01][: len(plan.joint_angles)]
     found = torque_flow(motion(plan.drive, PLACES), np.asarray(drag), np.full(17, load), sense=sense, torque_at=at)
     plain = torques(plan.vectors, PLACES, drag, load=load, speed=sense, at=at)
     want = np.stack([np.broadcast_to(one, (17,)) for one in plain.shaft])
@@ -29,7 +29,7 @@ def test_torques_and_losses_are_those_of_plain_vectors(plan, at, load, sense):
 def test_power_balances_at_every_position_whatever_shafts_take(plan, at, sense, seed):
     """What enters less what leaves, shaft by shaft and joint by joint, is what is drawn and what is rubbed away."""
     random = np.random.default_rng(seed)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     moved = motion(plan.drive, PLACES)
     drawn = random.normal(size=(n + 1, 17))
     flow = torque_flow(moved, np.full(n, 0.05), random.normal(size=17), drawn=drawn, sense=sense, torque_at=at)
@@ -46,7 +46,7 @@ def test_power_balances_at_every_position_whatever_shafts_take(plan, at, sense, 
 @given(plans(), st.integers(0, 2**32 - 1))
 def test_from_either_end_it_is_the_same_flow(plan, seed):
     random = np.random.default_rng(seed)
-    n = len(plan.bends)
+    n = len(plan.joint_angles)
     moved, drag, drawn = motion(plan.drive, PLACES), np.full(n, 0.04), random.normal(size=(n + 1, 17))
     one = torque_flow(moved, drag, random.normal(size=17), drawn=drawn)
     other = torque_flow(moved, drag, one.entering[0], drawn=drawn, torque_at="input")

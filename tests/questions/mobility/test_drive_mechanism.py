@@ -128,7 +128,7 @@ def test_joints_of_every_kind_are_pairs(kind):
     values = {one.name: 0.02 for one in fields_of(JOINTS[kind]).values() if one.required}
     if kind == "offset_cross":
         values = {"offset": 0.01, "reach": 0.3}
-    joint = JOINTS[kind](bend=0.2, **values)
+    joint = JOINTS[kind](joint_angle=0.2, **values)
     found = mobility(replace(two(FIRM), joints=(joint,)))
     assert found.agrees
     assert found.driven == 1

@@ -9,19 +9,19 @@ from tests.builders.mechanisms import chain, crank_slider, hooke
 
 
 def test_a_hooke_joint_turns_by_its_law():
-    bend, phase = 0.5, 0.3
-    found = finite_mobility(hooke(bend, phase), driven_joint="A", angle=2.0)
+    joint_angle, phase = 0.5, 0.3
+    found = finite_mobility(hooke(joint_angle, phase), driven_joint="A", angle=2.0)
     assert found.closes
     assert np.max(found.residual) < 1e-12
     # tan φ2 = tan φ1 / cos α, angles of the driving yoke from the plane of the shafts.
-    second = np.array([np.sin(bend), 0.0, np.cos(bend)])
+    second = np.array([np.sin(joint_angle), 0.0, np.cos(joint_angle)])
     last = found.displacement[-1, 2, :3, :3]
     start = np.cross(second, [0.0, 1.0, 0.0])
     end = last @ start
     turned = np.arctan2(second @ np.cross(start, end), start @ end)
 
     def law(angle):
-        return np.arctan2(np.sin(angle), np.cos(angle) * np.cos(bend))
+        return np.arctan2(np.sin(angle), np.cos(angle) * np.cos(joint_angle))
 
     wanted = law(phase + 2.0) - law(phase)
     assert np.angle(np.exp(1j * (turned - wanted))) == pytest.approx(0.0, abs=1e-9)

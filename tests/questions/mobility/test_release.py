@@ -12,10 +12,10 @@ from tests.builders.mechanisms import anyhow, hooke
 @pytest.mark.parametrize(
     ("joint", "way", "axis", "verdict"),
     [
-        *[(name, "trans", axis, "cure") for name in "ABCD" for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 3))],
-        ("A", "rot", (1, 0, 0), "cure"),
+        *[(name, "trans", axis, "remedy") for name in "ABCD" for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 3))],
+        ("A", "rot", (1, 0, 0), "remedy"),
         ("A", "rot", (0, 0, 1), "free"),
-        ("D", "rot", (0, 1, 0), "cure"),
+        ("D", "rot", (0, 1, 0), "remedy"),
         ("B", "rot", (0, 0, 1), "spoil"),
         ("C", "rot", (0, 0, 1), "spoil"),
     ],
@@ -38,7 +38,7 @@ def test_a_release_takes_one_away_or_lets_one_loose(seed):
 def test_the_axes_of_a_joint_say_what_a_release_there_does(name):
     mechanism = hooke()
     hold = next(one for one in mobility(mechanism).joints if one.id == name)
-    verdict = {"strained": "cure", "needed": "spoil", "free": "free"}
+    verdict = {"strained": "remedy", "needed": "spoil", "free": "free"}
     for way, words in (("rot", hold.turning), ("trans", hold.sliding)):
         for axis, word in zip(hold.axes, words, strict=True):
             assert release(mechanism, name, way, axis).verdict == verdict[word]

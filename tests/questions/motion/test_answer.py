@@ -51,13 +51,15 @@ def test_a_joint_with_a_law_of_its_own_is_answered_alike():
     plain = Drive.from_angles([20 * deg])
 
     own = Drive(
-        joints=(PinCoupling(bend=20 * deg, driving_slant=40 * deg, driving_distance=0.05, driven_distance=0.052),)
+        joints=(
+            PinCoupling(joint_angle=20 * deg, driving_slant=40 * deg, driving_distance=0.05, driven_distance=0.052),
+        )
     )
     seen, found = swing(own), of(own)
     assert (
         [one.name for one in found.tables] == [one.name for one in of(plain).tables] == ["joints", "shafts", "orders"]
     )
-    assert data(found, USUAL)["speed_fluctuation_percent"] == pytest.approx(100.0 * float(seen.irregularity[-1]))
+    assert data(found, USUAL)["speed_fluctuation_percent"] == pytest.approx(100.0 * float(seen.speed_fluctuation[-1]))
     assert "as of one cross joint at" in told(found.sentence, USUAL)
     assert [figure.name for figure in found.figures()] == ["motion"]
     assert of(drive).keys
@@ -67,11 +69,11 @@ def test_tables_and_keys_are_those_of_the_analysis():
     drive = example("truck-printed-angles")
     said, whole = of(drive), equivalent_joint(drive)
     keys = {one.name: one.value.value for one in said.keys}
-    assert keys["speed_fluctuation"] == float(whole.irregularity)
-    assert keys["equivalent_joint_angle"] == pytest.approx(float(whole.bend))
-    assert keys["angle_error"] == pytest.approx(float(whole.max_lead))
+    assert keys["speed_fluctuation"] == float(whole.speed_fluctuation)
+    assert keys["equivalent_joint_angle"] == pytest.approx(float(whole.joint_angle))
+    assert keys["angle_error"] == pytest.approx(float(whole.max_angle_error))
     shafts = next(one for one in said.tables if one.name == "shafts")
-    assert list(column(shafts, "speed_fluctuation").values) == pytest.approx(list(whole.shaft_irregularity))
+    assert list(column(shafts, "speed_fluctuation").values) == pytest.approx(list(whole.shaft_speed_fluctuation))
 
 
 def test_readers_are_told_in_their_units_and_language():

@@ -9,7 +9,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.movement import Arm, Body, Harmonic, Hitch, Parallel, Random, Spectrum, Table
 from cardan.drive.shaft import Shaft, Spline
-from cardan.errors import BendLimitError, InputError
+from cardan.errors import InputError, JointAngleLimitError
 from cardan.questions.motion.articulation import articulation
 from cardan.questions.motion.instants import Position
 from cardan.questions.motion.moving_points import moving_path
@@ -38,9 +38,9 @@ def test_a_hitched_drive_agrees_with_vector_geometry(before, behind, yaw, pitch,
     move = Hitch(moves=REAR, pivot=(0, 0, 0), yaw=yaw * deg, pitch=pitch * deg, frequency=1.0)
     found = articulation(hitched(before, behind), move, [0.5 * np.pi])
     # Expected values are double-precision vector geometry.
-    assert np.rad2deg(found.bend[0]) == pytest.approx(expected[:2], abs=1e-9)
+    assert np.rad2deg(found.joint_angle[0]) == pytest.approx(expected[:2], abs=1e-9)
     assert found.length[0, 1] == pytest.approx(expected[2], abs=1e-12)
-    assert found.irregularity[0] == pytest.approx(expected[3], abs=1e-12)
+    assert found.speed_fluctuation[0] == pytest.approx(expected[3], abs=1e-12)
 
 
 @pytest.mark.parametrize(("before", "behind"), [(0.4, 0.4), (0.4, 0.41), (0.3, 0.5)])
@@ -51,21 +51,23 @@ def test_a_hitched_drive_follows_the_closed_form_and_is_even_only_when_the_pin_i
     # Book Figs 56, 57: cos Δ = cos yaw cos pitch, tan α_1 = l_2 sin Δ/(l_1 + l_2 cos Δ) and so round.
     cosine = np.cos(0.9 * np.sin(time)) * np.cos(0.4 * np.sin(time + 0.8))
     sine = np.sqrt(1.0 - cosine**2)
-    bend = np.arctan2([behind * sine, before * sine], [before + behind * cosine, behind + before * cosine])
-    np.testing.assert_allclose(found.bend, bend.T, atol=1e-8)  # the root of 1 - cos² loses half of the digits near 0
+    joint_angle = np.arctan2([behind * sine, before * sine], [before + behind * cosine, behind + before * cosine])
+    np.testing.assert_allclose(
+        found.joint_angle, joint_angle.T, atol=1e-8
+    )  # the root of 1 - cos² loses half of the digits near 0
     length = np.sqrt(before**2 + behind**2 + 2.0 * before * behind * cosine)
     np.testing.assert_allclose(found.length[:, 1], length, rtol=1e-12)
-    uneven = 2.0 * np.sinh(np.abs(np.log(np.cos(bend[0]) / np.cos(bend[1]))))
-    np.testing.assert_allclose(found.irregularity, uneven, atol=1e-12)
-    assert (found.irregularity.max() < 1e-13) == (before == behind)
+    uneven = 2.0 * np.sinh(np.abs(np.log(np.cos(joint_angle[0]) / np.cos(joint_angle[1]))))
+    np.testing.assert_allclose(found.speed_fluctuation, uneven, atol=1e-12)
+    assert (found.speed_fluctuation.max() < 1e-13) == (before == behind)
 
 
 def test_hitch_half_way_stays_synchronous_moving_too_at_every_yaw_and_pitch():
     move = Hitch(moves=REAR, pivot=(0, 0, 0), yaw=0.7, pitch=0.3, pitch_phase=1.1, frequency=40.0)
     drive = hitched(0.4, 0.4)
     found = articulation(drive, move, speed=20.0)
-    assert found.irregularity.max() < 1e-14
-    assert found.moving_irregularity.max() < 1e-12
+    assert found.speed_fluctuation.max() < 1e-14
+    assert found.moving_speed_fluctuation.max() < 1e-12
     # A drive that is even at all times carries frames over by the shortest arc from input to output axis; where the
     # plane of the shafts turns, that frame itself spins about the output axis: an even offset of the speed.
     step = 1e-6
@@ -88,23 +90,23 @@ def test_a_drive_on_an_arm_agrees_with_vector_geometry():
     np.testing.assert_allclose(found.points[0, 2], [1.3935890366245827, 0.0, -0.23358597100594156], atol=1e-14)
     along = (found.points[0, 3] - found.points[0, 2]) / np.linalg.norm(found.points[0, 3] - found.points[0, 2])
     np.testing.assert_allclose(along, [0.9950236960851011, 0.0, -0.09963856798019671], atol=1e-14)
-    assert np.rad2deg(found.bend[0]) == pytest.approx([9.515162824503472, 3.796804822848015], abs=1e-10)
+    assert np.rad2deg(found.joint_angle[0]) == pytest.approx([9.515162824503472, 3.796804822848015], abs=1e-10)
     assert found.length[0, 1] == pytest.approx(1.4130296560408848, abs=1e-13)
-    assert found.irregularity[0] == pytest.approx(0.023313291424677363, abs=1e-12)
+    assert found.speed_fluctuation[0] == pytest.approx(0.023313291424677363, abs=1e-12)
 
 
 def test_parallel_guidance_stays_synchronous_standing_and_moving():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, -0.1], [2.0, 0, -0.1]])
     move = Parallel(moves=REAR, pivot=(0.8, 0.5, -0.1), axis=(1, 0.2, 0), amplitude=0.4, frequency=30.0)
     found = articulation(drive, move, speed=200.0)
-    np.testing.assert_allclose(found.bend[:, 0], found.bend[:, 1], atol=1e-13)
-    assert found.irregularity.max() < 1e-13
+    np.testing.assert_allclose(found.joint_angle[:, 0], found.joint_angle[:, 1], atol=1e-13)
+    assert found.speed_fluctuation.max() < 1e-13
     # tan α = offset/axial distance
     way = found.points[:, 2] - found.points[:, 1]
-    np.testing.assert_allclose(np.tan(found.bend[:, 0]), np.hypot(way[:, 1], way[:, 2]) / way[:, 0], rtol=1e-12)
-    # Parallel end axes that do not turn: the drive transmits exactly, whatever the plane of the bends does.
+    np.testing.assert_allclose(np.tan(found.joint_angle[:, 0]), np.hypot(way[:, 1], way[:, 2]) / way[:, 0], rtol=1e-12)
+    # Parallel end axes that do not turn: the drive transmits exactly, whatever the plane of the joint angles does.
     np.testing.assert_allclose(found.shaft_speed[:, -1], 200.0, rtol=1e-12)
-    assert found.moving_irregularity.max() < 1e-12
+    assert found.moving_speed_fluctuation.max() < 1e-12
 
 
 def test_worst_instants_lie_between_the_instants():
@@ -114,12 +116,12 @@ def test_worst_instants_lie_between_the_instants():
     peak = {(one.what, one.number): one for one in found.worst}
     time = 1.5 * np.pi - 0.1234
     exact = articulation(drive, move, [time])
-    bend = peak["bend", 1]
+    joint_angle = peak["joint_angle", 1]
     # Found to 1e-7 of the span in time; the value is flat there.
-    assert bend.time == pytest.approx(time, abs=1e-5)
-    assert bend.value == pytest.approx(exact.bend[0, 0], abs=1e-12)
-    assert bend.value == pytest.approx(np.arctan(0.3), abs=1e-12)
-    assert peak["irregularity", 3].value >= found.irregularity.max()
+    assert joint_angle.time == pytest.approx(time, abs=1e-5)
+    assert joint_angle.value == pytest.approx(exact.joint_angle[0, 0], abs=1e-12)
+    assert joint_angle.value == pytest.approx(np.arctan(0.3), abs=1e-12)
+    assert peak["speed_fluctuation", 3].value >= found.speed_fluctuation.max()
     assert peak["speed_error", 3].value >= found.speed_error.max()
     assert peak["length_max", 2].value == pytest.approx(np.hypot(1.0, 0.3), abs=1e-9)
 
@@ -170,7 +172,7 @@ def test_slow_movement_approaches_the_frozen_irregularity():
     move = Harmonic(moves=("output",), amplitude=(0.0, 0.0, 0.1), frequency=1e-4)
     found = articulation(drive, move, speed=300.0)
     # The rates are 1e-6 of the speed.
-    np.testing.assert_allclose(found.moving_irregularity, found.irregularity, rtol=1e-5)
+    np.testing.assert_allclose(found.moving_speed_fluctuation, found.speed_fluctuation, rtol=1e-5)
 
 
 def test_slip_path_and_stroke_of_the_telescoping_shaft():
@@ -210,17 +212,17 @@ def test_steep_and_impossible_instants_carry_a_status():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, 0]])
     move = Hitch(moves=("output",), pivot=(0, 0, 0), yaw=100 * deg, frequency=1.0)
     found = articulation(drive, move, speed=10.0)
-    bend = np.abs(100.0 * np.sin(found.times))
-    np.testing.assert_array_equal(found.status == Position.IMPOSSIBLE, bend >= 90.0)
-    np.testing.assert_array_equal(found.status == Position.STEEP, (bend > 45.0) & (bend < 90.0))
+    joint_angle = np.abs(100.0 * np.sin(found.times))
+    np.testing.assert_array_equal(found.status == Position.IMPOSSIBLE, joint_angle >= 90.0)
+    np.testing.assert_array_equal(found.status == Position.STEEP, (joint_angle > 45.0) & (joint_angle < 90.0))
     good = found.status < Position.IMPOSSIBLE
-    for table in (found.bend, found.irregularity, found.shaft_speed, found.speed_high):
+    for table in (found.joint_angle, found.speed_fluctuation, found.shaft_speed, found.speed_high):
         assert np.all(np.isfinite(table[good]))
         assert np.all(np.isnan(table[~good]))
     assert any("90°" in text for text in words(found))
     assert any("45°" in text for text in words(found))
-    assert max(one.value for one in found.worst if one.what == "bend") < 0.5 * np.pi
-    assert found.envelope["bend"][1][0] < 0.5 * np.pi
+    assert max(one.value for one in found.worst if one.what == "joint_angle") < 0.5 * np.pi
+    assert found.envelope["joint_angle"][1][0] < 0.5 * np.pi
 
 
 def test_centres_that_meet_are_impossible_instants():
@@ -237,13 +239,13 @@ def test_without_a_speed_there_are_no_speeds():
     assert found.speed is None
     assert found.shaft_speed is None
     assert found.speed_low is None
-    assert np.all(np.isnan(found.moving_irregularity))
-    assert {one.what for one in found.worst} == {"bend", "irregularity", "length_min", "length_max"}
+    assert np.all(np.isnan(found.moving_speed_fluctuation))
+    assert {one.what for one in found.worst} == {"joint_angle", "speed_fluctuation", "length_min", "length_max"}
 
 
 def test_a_movement_without_a_possible_instant_is_refused():
     drive = Drive.from_points([[-1, 0, 0], [0, 0, 0], [1.0, 0, 0]])
-    with pytest.raises(BendLimitError, match="every instant"):
+    with pytest.raises(JointAngleLimitError, match="every instant"):
         articulation(drive, Harmonic(moves=("output",), amplitude=(-3.0, 0.0, 0.0), frequency=1.0), [1.0, 2.0])
 
 

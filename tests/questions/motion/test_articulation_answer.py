@@ -45,7 +45,7 @@ def test_a_spline_that_runs_out_fails_in_every_form():
     assert not data(said, USUAL)["passed"]
     gap = next(one for one in said.keys if one.name == "gap_2")
     assert (gap.verdict, gap.tone) == ("too little", "failed")
-    assert [figure.name for figure in said.figures()] == ["bends", "sliding"]
+    assert [figure.name for figure in said.figures()] == ["joint_angles", "sliding"]
 
 
 def test_tables_and_worst_instants_are_those_of_the_analysis():
@@ -53,7 +53,7 @@ def test_tables_and_worst_instants_are_those_of_the_analysis():
     found, said = ask(drive), of(drive)
     worst = {(one.what, one.number): one.value for one in found.worst}
     told_worst = {(one["what"], one["number"]): one["value"] for one in data(said, USUAL)["worst"]}
-    assert told_worst["joint_angle", 1] == pytest.approx(worst["bend", 1] / deg)
+    assert told_worst["joint_angle", 1] == pytest.approx(worst["joint_angle", 1] / deg)
     titles = [block.title for block in page(said, USUAL).blocks if getattr(block, "title", "")]
     assert titles[-2:] == ["Sliding shafts", "Worst instants"]
 

@@ -27,20 +27,22 @@ NAMES = tuple(field.name for field in fields(Extremes))
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("joints", range(1, 9))
 def test_forty_digits(method, joints):
-    batch = drives(12, joints, bend=0.5)
+    batch = drives(12, joints, joint_angle=0.5)
     c = batch.chain
     found = extremes(batch, method=method)
     with mp.workdps(recurrence.DIGITS):
-        exact = [recurrence.largest_ratio(*row) for row in zip(c.bend, c.plane_twist, c.yoke_angle, strict=True)]
+        exact = [recurrence.largest_ratio(*row) for row in zip(c.joint_angle, c.plane_twist, c.yoke_angle, strict=True)]
         delta = np.asarray([float(x - 1 / x) for x in exact])
         tau = np.asarray([float((x - 1) / (x + 1)) for x in exact])
-        bend = np.asarray([float(mp.acos(1 / x)) for x in exact])
+        joint_angle = np.asarray([float(mp.acos(1 / x)) for x in exact])
     # rounding of n products of numbers near 1, each with an error of about 2e-16
     close = 2e-15 * joints
-    np.testing.assert_allclose(found.irregularity, delta, atol=2 * close, rtol=close)
+    np.testing.assert_allclose(found.speed_fluctuation, delta, atol=2 * close, rtol=close)
     np.testing.assert_allclose(found.tau, tau, atol=close)
     np.testing.assert_allclose(found.ratio_max, [float(x) for x in exact], rtol=close)
-    np.testing.assert_allclose(found.bend**2, bend**2, atol=4 * close)  # the bend is a square root of δ
+    np.testing.assert_allclose(
+        found.joint_angle**2, joint_angle**2, atol=4 * close
+    )  # the joint angle is a square root of δ
     np.testing.assert_allclose(found.ratio_min * found.ratio_max, 1.0, rtol=4e-16)
 
 
@@ -48,17 +50,17 @@ def test_forty_digits(method, joints):
 def test_equals_the_equivalent_joint(method):
     batch = drives(500, 4)
     found, wanted = extremes(batch, method=method), equivalent_joint(batch)
-    for name in ("irregularity", "tau", "bend", "ratio_max", "max_acceleration", "max_lead"):
+    for name in ("speed_fluctuation", "tau", "joint_angle", "ratio_max", "max_acceleration", "max_angle_error"):
         np.testing.assert_allclose(getattr(found, name), getattr(wanted, name), rtol=1e-12, atol=1e-14, err_msg=name)
     np.testing.assert_allclose(found.harmonics(4), wanted.harmonics(4), atol=1e-14)
-    turned = np.abs(np.sin(found.phase - wanted.phase)) * found.irregularity  # a phase means as much as δ
+    turned = np.abs(np.sin(found.phase - wanted.phase)) * found.speed_fluctuation  # a phase means as much as δ
     assert np.max(turned) < 1e-14
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_stored_traces_reach_them_and_no_more(method):
     """On 7200 positions the extreme is missed by at most the curvature times (2π/7200)²/8, 1e-6 here."""
-    batch = drives(20, 4, bend=0.4)
+    batch = drives(20, 4, joint_angle=0.4)
     found = extremes(batch, method=method)
     path = traces(batch, np.linspace(0, np.pi, 3601))
     for largest, reached in (
@@ -81,33 +83,33 @@ def test_odd_sizes(count, threads):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_shapes(method):
-    assert extremes(Drives.from_angles(np.zeros((0, 3))), method=method).bend.shape == (0,)
-    assert extremes(Drives.from_angles(np.zeros((2, 3, 3))), method=method).bend.shape == (2, 3)
-    assert extremes(Drive.from_angles([0.3]), method=method).bend.shape == ()
+    assert extremes(Drives.from_angles(np.zeros((0, 3))), method=method).joint_angle.shape == (0,)
+    assert extremes(Drives.from_angles(np.zeros((2, 3, 3))), method=method).joint_angle.shape == (2, 3)
+    assert extremes(Drive.from_angles([0.3]), method=method).joint_angle.shape == ()
     assert extremes(drives(5, 2), method=method).harmonics(3).shape == (5, 3)
     assert extremes(drives(5, 2), method=method).harmonics(0).shape == (5, 0)
 
 
 @pytest.mark.parametrize("method", METHODS)
 def test_synchronous_and_straight_drives(method):
-    """Equal bends with γ + β = 0 turn evenly, to rounding of 2 joints; a straight one exactly."""
+    """Equal joint angles with γ + β = 0 turn evenly, to rounding of 2 joints; a straight one exactly."""
     found = extremes(Drives.from_angles([[0.5, 0.5], [0.0, 0.0]]), method=method)
-    assert found.irregularity[0] < 4e-16
+    assert found.speed_fluctuation[0] < 4e-16
     assert np.all(np.isnan(found.phase))
-    assert found.irregularity[1] == found.tau[1] == found.bend[1] == found.max_acceleration[1] == 0.0
+    assert found.speed_fluctuation[1] == found.tau[1] == found.joint_angle[1] == found.max_acceleration[1] == 0.0
     assert found.ratio_max[1] == 1.0
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("bend", [0.001, 20.0, 60.0, 89.0, 89.99])
-def test_single_joint_in_closed_form(method, bend):
+@pytest.mark.parametrize("joint_angle", [0.001, 20.0, 60.0, 89.0, 89.99])
+def test_single_joint_in_closed_form(method, joint_angle):
     """δ = sin α tan α with the rounding of α itself near the right angle."""
-    alpha = np.deg2rad(bend)
+    alpha = np.deg2rad(joint_angle)
     found = extremes(Drives.from_angles([[alpha]], start_phase=[0.25]), method=method)
     rtol = 4e-15 / np.cos(alpha)
-    np.testing.assert_allclose(found.irregularity, np.sin(alpha) * np.tan(alpha), rtol=rtol)
+    np.testing.assert_allclose(found.speed_fluctuation, np.sin(alpha) * np.tan(alpha), rtol=rtol)
     np.testing.assert_allclose(found.ratio_max, 1 / np.cos(alpha), rtol=rtol)
-    np.testing.assert_allclose(found.bend, alpha, rtol=1e-14)
+    np.testing.assert_allclose(found.joint_angle, alpha, rtol=1e-14)
     np.testing.assert_allclose(found.phase, 0.25, rtol=1e-14)
 
 
@@ -133,7 +135,7 @@ def test_large_jobs_are_compiled_and_small_ones_are_not(monkeypatch):
 
 def test_without_numba_everything_still_works(monkeypatch):
     monkeypatch.setattr(method, "has_numba", lambda: False)
-    assert np.all(extremes(drives(LARGE, 1)).irregularity > 0.0)
+    assert np.all(extremes(drives(LARGE, 1)).speed_fluctuation > 0.0)
 
 
 def test_other_libraries_compute_it_themselves():
@@ -143,7 +145,7 @@ def test_other_libraries_compute_it_themselves():
     assert found.tau.__array_namespace__() is xp
     np.testing.assert_allclose(np.asarray(found.harmonics(2)), [[found.tau[0], found.tau[0] ** 2 / 2]], rtol=1e-15)
     np.testing.assert_allclose(
-        np.asarray(found.irregularity), extremes(Drives.from_angles([[0.3, 0.2]])).irregularity, rtol=1e-14
+        np.asarray(found.speed_fluctuation), extremes(Drives.from_angles([[0.3, 0.2]])).speed_fluctuation, rtol=1e-14
     )
 
 

@@ -13,8 +13,8 @@ from cardan.units import deg, rpm
 RADIANS = Reader(units={"angle": "rad"}, decimal=",")
 
 
-def of(*joints, bend=30 * deg, speed=None):
-    return answer(ask([Named(joint=one, name=one.kind, sizes={}) for one in joints], bend, speed=speed))
+def of(*joints, joint_angle=30 * deg, speed=None):
+    return answer(ask([Named(joint=one, name=one.kind, sizes={}) for one in joints], joint_angle, speed=speed))
 
 
 @pytest.mark.parametrize(
@@ -51,6 +51,6 @@ def test_all_kinds_are_listed():
 
 
 def test_a_joint_beyond_its_kind_is_warned_of():
-    said = of(Tripod(), bend=40 * deg)
+    said = of(Tripod(), joint_angle=40 * deg)
     assert said.tone == "warning"
     assert "real joints of this kind work to 26.0° only" in told(said.remarks[0].text, USUAL)

@@ -22,7 +22,7 @@ from cardan.drive.joints import (
     Weiss,
 )
 from cardan.questions.motion.joint_inside import joint_inside
-from cardan.questions.motion.joint_law import joint_bends, joint_turn, types_of
+from cardan.questions.motion.joint_law import joint_angles, joint_turn, types_of
 from cardan.units import deg, mm
 
 UNEVEN = (
@@ -43,13 +43,13 @@ UNEVEN = (
 
 
 def test_a_hooke_joint_is_the_chain_of_one():
-    bend = 25 * deg
-    found = joint_turn(Hooke(), bend)
-    chain = motion(Drive.from_angles([bend]), found.angle)
+    joint_angle = 25 * deg
+    found = joint_turn(Hooke(), joint_angle)
+    chain = motion(Drive.from_angles([joint_angle]), found.angle)
     np.testing.assert_allclose(found.ratio, chain.ratio, rtol=1e-13)
-    assert found.irregularity == pytest.approx(np.sin(bend) * np.tan(bend), rel=1e-12)
+    assert found.speed_fluctuation == pytest.approx(np.sin(joint_angle) * np.tan(joint_angle), rel=1e-12)
     # Half a degree beside the peak the lead is less by its curvature, 2 (0.25°)² of it at most.
-    assert found.error == pytest.approx(np.arcsin(np.tan(bend / 2) ** 2), rel=4e-5)
+    assert found.error == pytest.approx(np.arcsin(np.tan(joint_angle / 2) ** 2), rel=4e-5)
     assert found.order == 2
 
 
@@ -59,23 +59,23 @@ def test_lead_ratio_and_slope_belong_together(joint):
     found = joint_turn(joint, 15 * deg)
     step = found.angle[1] - found.angle[0]
     # A difference quotient over half a degree misses a slope of order k by (k 0.5°)²/6: 5e-4 of it for order 6.
-    lead, ratio = np.gradient(found.lead, step)[1:-1], np.gradient(found.ratio, step)[1:-1]
-    np.testing.assert_allclose(lead, found.ratio[1:-1] - 1, atol=5e-4 * found.irregularity)
+    angle_error, ratio = np.gradient(found.angle_error, step)[1:-1], np.gradient(found.ratio, step)[1:-1]
+    np.testing.assert_allclose(angle_error, found.ratio[1:-1] - 1, atol=5e-4 * found.speed_fluctuation)
     np.testing.assert_allclose(ratio, found.slope[1:-1], atol=1e-3 * found.acceleration)
     assert found.ratio[:-1].mean() == pytest.approx(1.0, abs=1e-12)
-    assert found.lead[-1] == pytest.approx(found.lead[0], abs=1e-9)
+    assert found.angle_error[-1] == pytest.approx(found.angle_error[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("joint", UNEVEN, ids=lambda joint: joint.kind)
 def test_over_bends_is_turn_by_turn(joint):
-    bends = np.array([5.0, 20.0]) * deg
-    found = joint_bends(joint, bends)
-    for k, bend in enumerate(bends):
-        one = joint_turn(joint, bend)
+    joint_angles = np.array([5.0, 20.0]) * deg
+    found = joint_angles(joint, joint_angles)
+    for k, joint_angle in enumerate(joint_angles):
+        one = joint_turn(joint, joint_angle)
         # Every third degree misses a peak of order 6, the highest here, by less than half its (9°)² at most.
         assert found.error[k] == pytest.approx(one.error, rel=0.015, abs=1e-11)
-        assert found.irregularity[k] == pytest.approx(one.irregularity, rel=0.015, abs=1e-11)
-    assert np.all(np.diff(joint_bends(joint).error[:8]) >= 0), "the more it bends, the more uneven it is"
+        assert found.speed_fluctuation[k] == pytest.approx(one.speed_fluctuation, rel=0.015, abs=1e-11)
+    assert np.all(np.diff(joint_angles(joint).error[:8]) >= 0), "the more it bends, the more uneven it is"
 
 
 def test_joints_without_sizes_are_even_but_for_crosses():
@@ -95,7 +95,7 @@ def test_a_bend_at_which_it_does_not_turn_is_refused():
     flat = PinCoupling(driving_slant=20 * deg)
     with pytest.raises(InputError, match="pin_coupling with these sizes does not turn at 45°"):
         joint_turn(flat, 45 * deg)
-    assert np.isnan(joint_bends(flat, [10 * deg, 45 * deg]).error).tolist() == [False, True]
+    assert np.isnan(joint_angles(flat, [10 * deg, 45 * deg]).error).tolist() == [False, True]
 
 
 def test_every_type_of_the_catalogue_turns_by_the_law_of_one_kind_at_most():
@@ -107,32 +107,34 @@ def test_every_type_of_the_catalogue_turns_by_the_law_of_one_kind_at_most():
 
 
 def test_what_moves_inside():
-    bend = 20 * deg
+    joint_angle = 20 * deg
 
     def inside(joint):
-        return {one.key: one.value for one in joint_inside(joint, bend)}
+        return {one.key: one.value for one in joint_inside(joint, joint_angle)}
 
     assert inside(Hooke()) == {}
     assert inside(Tripod()) == {}
     assert inside(Rzeppa()) == {}
     assert inside(Tripod(track_radius=20 * mm))["orbit"] == pytest.approx(0.642 * mm, rel=1e-3)
-    assert inside(OffsetCross(offset=20 * mm, reach=0.5))["wobble"] == pytest.approx(0.02 * np.sin(bend) / 1.0)
+    assert inside(OffsetCross(offset=20 * mm, reach=0.5))["wobble"] == pytest.approx(0.02 * np.sin(joint_angle) / 1.0)
     double = inside(DoubleCardan(centring_ratio=0.4))
-    assert np.sin(double["driven_bend"]) == pytest.approx(0.4 * np.sin(bend))
-    assert double["driving_bend"] + double["driven_bend"] == pytest.approx(bend)
+    assert np.sin(double["driven_joint_angle"]) == pytest.approx(0.4 * np.sin(joint_angle))
+    assert double["driving_joint_angle"] + double["driven_joint_angle"] == pytest.approx(joint_angle)
     other = inside(DoubleCardan(centring_ratio=0.4, ball_on="driven"))
-    assert other["driving_bend"] == pytest.approx(double["driven_bend"])
-    assert inside(HalfCardan(pairs=2))["play"] == pytest.approx(np.arctan(0.5 * np.sin(bend) * np.tan(bend)))
+    assert other["driving_joint_angle"] == pytest.approx(double["driven_joint_angle"])
+    assert inside(HalfCardan(pairs=2))["play"] == pytest.approx(
+        np.arctan(0.5 * np.sin(joint_angle) * np.tan(joint_angle))
+    )
     assert inside(ElasticHalfCardan(pairs=3))["strain"] > 0
     even = PinCoupling(driving_slant=40 * deg, driving_distance=50 * mm, driven_distance=50 * mm)
     assert inside(even)["stroke"] == pytest.approx(
-        50 * mm * np.cos(bend / 2) * (1 / np.cos(50 * deg) - 1 / np.cos(30 * deg))
+        50 * mm * np.cos(joint_angle / 2) * (1 / np.cos(50 * deg) - 1 / np.cos(30 * deg))
     )
     assert set(inside(PinCoupling())) == {"least_slant", "most_slant"}
     assert inside(Tracta(driving_distance=20 * mm, driven_distance=20 * mm))["plane_tilt"] == 0.0
     missed = inside(UNEVEN[4])
     # One ball by itself swings by 4 η tan(α/2) in speed, by a quarter of that to both sides in angle.
-    assert missed["ball_spread"] == pytest.approx(2 * abs(missed["plane_tilt"]) * np.tan(bend / 2), rel=0.15)
+    assert missed["ball_spread"] == pytest.approx(2 * abs(missed["plane_tilt"]) * np.tan(joint_angle / 2), rel=0.15)
     grooves = {"driving_offset": 6 * mm, "driven_offset": 5.5 * mm, "groove_radius": 30 * mm}
     two, six = inside(Weiss(balls=2, **grooves)), inside(Rzeppa(balls=6, **grooves))
     assert two["plane_tilt"] == six["plane_tilt"] != 0.0

@@ -47,7 +47,11 @@ def test_spins_are_those_of_the_marks_in_space():
 
 def test_still_axes_turn_as_in_motion():
     drive = Drive(
-        joints=(Hooke(bend=0.3), ConstantVelocity(bend=0.4, plane_twist=0.5), Hooke(bend=0.2, plane_twist=-0.8)),
+        joints=(
+            Hooke(joint_angle=0.3),
+            ConstantVelocity(joint_angle=0.4, plane_twist=0.5),
+            Hooke(joint_angle=0.2, plane_twist=-0.8),
+        ),
     )
     place = geometry(drive)
     still = np.zeros_like(place.axis)
@@ -68,7 +72,7 @@ def test_a_half_shaft_stays_even_but_for_the_swing_of_its_axis():
     drive = replace(drive, joints=joints, duty=Duty(speed=60.0))
     bounce = Harmonic(moves=("joints[1]", "output"), amplitude=(0.0, 0.0, 0.06), frequency=2.0 * np.pi)
     found = articulation(drive, bounce)
-    assert np.nanmax(found.irregularity) < 1e-14
+    assert np.nanmax(found.speed_fluctuation) < 1e-14
     # bending in one plane only, an even joint passes on its spin exactly, however fast its axis swings
     assert np.abs(found.shaft_speed - 60.0).max() < 1e-9
     assert not any("has a joint angle" in told(text, USUAL) for text in found.warnings)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from cardan import Drive, Drives, InputError, motion, stack
 from cardan.drive.drive import Duty
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.units import deg
 from tests.builders.drives import plans
 from tests.builders.vector_model import VectorModel, cross, dot
@@ -31,9 +31,9 @@ def test_every_shaft_turns_as_vectors_say_over_four_turns(plan):
 def test_ratio_and_acceleration_are_derivatives_of_vector_positions(plan, angle):
     moved = motion(plan.drive, [angle], speed=1.0)
     with mpmath.workdps(40):
-        exact = [tuple(mpmath.mpf(x) for x in row) for row in (plan.bends, plan.plane_twists, plan.yoke_angles)]
+        exact = [tuple(mpmath.mpf(x) for x in row) for row in (plan.joint_angles, plan.plane_twists, plan.yoke_angles)]
         model = VectorModel.from_angles(*exact, mpmath.mpf(plan.start_phase), lib=mpmath)
-        for k in range(len(plan.bends) + 1):
+        for k in range(len(plan.joint_angles) + 1):
 
             def turned(phi, k=k):
                 return model.angles(phi)[k]
@@ -74,7 +74,7 @@ def test_rates_of_the_crosses_are_their_derivatives(plan, angle):
 def test_another_start_only_shifts_the_angles(plan, later):
     """A drive started later by κ: same ratios κ further on, angles counted from there, for joint and shaft alike."""
     other = Drive.from_angles(
-        plan.bends,
+        plan.joint_angles,
         plane_twists=plan.plane_twists,
         yoke_angles=plan.yoke_angles,
         start_phase=plan.start_phase + later,
@@ -85,7 +85,7 @@ def test_another_start_only_shifts_the_angles(plan, later):
     assert np.allclose(here.shaft_angle - begin.shaft_angle, there.shaft_angle, rtol=0, atol=3e-14)
 
 
-@given(plans(bend=60 * deg))
+@given(plans(joint_angle=60 * deg))
 def test_the_mean_speed_of_every_shaft_is_that_of_the_input(plan):
     turn = motion(plan.drive, np.arange(4096) * (2 * np.pi / 4096))
     whole = motion(plan.drive, [0.0, np.pi, 2 * np.pi, -6 * np.pi])
@@ -108,7 +108,7 @@ def test_acceleration_adds_what_the_input_gains_and_what_the_joints_make(plan, a
 @given(plans())
 def test_joint_angles_start_at_the_phase_angles(plan):
     start = motion(plan.drive, [0.0])
-    assert np.allclose(start.joint_angle[:, 0], phase_angles(plan.drive), rtol=0, atol=1e-15)
+    assert np.allclose(start.yoke_rotation[:, 0], initial_phases(plan.drive), rtol=0, atol=1e-15)
     assert np.all(start.shaft_angle == 0.0)
 
 
@@ -123,12 +123,14 @@ def test_running_backwards_mirrors_the_accelerations_of_a_joint_started_in_its_p
 def test_a_batch_is_its_drives(n):
     """Not always to the last bit: NumPy fuses complex products in its vector loops, not in those over one number."""
     rng = np.random.default_rng(n)
-    bend, twist, yoke = rng.uniform(0, 0.7, (5, n)), *rng.uniform(-3, 3, (2, 5, n - 1))
+    joint_angle, twist, yoke = rng.uniform(0, 0.7, (5, n)), *rng.uniform(-3, 3, (2, 5, n - 1))
     start = rng.uniform(-3, 3, 5)
-    whole = motion(Drives.from_angles(bend, plane_twist=twist, yoke_angle=yoke, start_phase=start), ANY)
+    whole = motion(Drives.from_angles(joint_angle, plane_twist=twist, yoke_angle=yoke, start_phase=start), ANY)
     for k in range(5):
-        one = motion(Drives.from_angles(bend[k], plane_twist=twist[k], yoke_angle=yoke[k], start_phase=start[k]), ANY)
-        for name in ("shaft_angle", "shaft_ratio", "shaft_slope", "joint_angle", "cross_driving", "cross_driven"):
+        one = motion(
+            Drives.from_angles(joint_angle[k], plane_twist=twist[k], yoke_angle=yoke[k], start_phase=start[k]), ANY
+        )
+        for name in ("shaft_angle", "shaft_ratio", "shaft_slope", "yoke_rotation", "cross_driving", "cross_driven"):
             assert np.allclose(getattr(whole, name)[k], getattr(one, name), rtol=0, atol=4e-15), name
 
 
@@ -148,37 +150,37 @@ def test_padding_with_straight_joints_changes_nothing():
 
 
 def test_leading_axes_are_free():
-    bend = np.full((2, 3, 4), 0.2)
-    whole = motion(Drives.from_angles(bend), ANY)
+    joint_angle = np.full((2, 3, 4), 0.2)
+    whole = motion(Drives.from_angles(joint_angle), ANY)
     assert whole.shaft_angle.shape == (2, 3, 5, 6)
     assert whole.ratio.shape == whole.slope.shape == whole.output_angle.shape == (2, 3, 6)
-    assert whole.joint_angle.shape == whole.cross_driven_rate.shape == (2, 3, 4, 6)
-    fast = motion(Drives.from_angles(bend), ANY, speed=np.full((2, 3), 9.0))
+    assert whole.yoke_rotation.shape == whole.cross_driven_rate.shape == (2, 3, 4, 6)
+    fast = motion(Drives.from_angles(joint_angle), ANY, speed=np.full((2, 3), 9.0))
     assert fast.shaft_speed.shape == (2, 3, 5, 6)
 
 
-@pytest.mark.parametrize("bends", [[0.0], [0.0, 0.3], [0.3, 0.0, 0.2], [0.0, 0.0]])
-def test_straight_joints_turn_their_shafts_alike(bends):
-    n = len(bends)
-    moved = motion(Drive.from_angles(bends, plane_twists=[0.5] * (n - 1), yoke_angles=[0.2] * (n - 1)), ANY)
-    for i, bend in enumerate(bends):
-        if bend == 0.0:
+@pytest.mark.parametrize("joint_angles", [[0.0], [0.0, 0.3], [0.3, 0.0, 0.2], [0.0, 0.0]])
+def test_straight_joints_turn_their_shafts_alike(joint_angles):
+    n = len(joint_angles)
+    moved = motion(Drive.from_angles(joint_angles, plane_twists=[0.5] * (n - 1), yoke_angles=[0.2] * (n - 1)), ANY)
+    for i, joint_angle in enumerate(joint_angles):
+        if joint_angle == 0.0:
             assert np.allclose(moved.shaft_angle[i + 1], moved.shaft_angle[i], rtol=0, atol=4e-15)
 
 
-@pytest.mark.parametrize("bend", [45.0, 80.0, 89.0, 89.9])
-def test_a_joint_near_a_right_angle_against_forty_digits(bend):
+@pytest.mark.parametrize("joint_angle", [45.0, 80.0, 89.0, 89.9])
+def test_a_joint_near_a_right_angle_against_forty_digits(joint_angle):
     phi = np.linspace(-3.0, 3.0, 121)
-    moved = motion(Drive.from_angles([bend * deg]), phi)
+    moved = motion(Drive.from_angles([joint_angle * deg]), phi)
     with mpmath.workdps(40):
-        alpha = mpmath.mpf(bend * deg)
+        alpha = mpmath.mpf(joint_angle * deg)
         want = []
         for x in map(mpmath.mpf, phi):
             s, c = mpmath.sin(x), mpmath.cos(x)
             want.append(x + mpmath.atan2((1 - mpmath.cos(alpha)) * s * c, mpmath.cos(alpha) * c * c + s * s))
         off = max(abs(mpmath.mpf(got) - w) for got, w in zip(moved.output_angle, want, strict=True))
     # The angle is worst where ratio is 1/cos α: an input rounding of 4e-16 rad counts that much.
-    assert off < 1e-15 / np.cos(bend * deg)
+    assert off < 1e-15 / np.cos(joint_angle * deg)
 
 
 def test_a_thousand_joints_stay_finite():
@@ -188,20 +190,20 @@ def test_a_thousand_joints_stay_finite():
 
 
 def test_the_strict_array_api_suffices():
-    bend, twist, yoke = [[0.3, 0.2], [0.1, 0.4]], [[0.5], [1.0]], [[0.1], [-0.4]]
-    mine = [strict.asarray(x, dtype=strict.float64) for x in (bend, twist, yoke)]
+    joint_angle, twist, yoke = [[0.3, 0.2], [0.1, 0.4]], [[0.5], [1.0]], [[0.1], [-0.4]]
+    mine = [strict.asarray(x, dtype=strict.float64) for x in (joint_angle, twist, yoke)]
     one = motion(
         Drives.from_angles(mine[0], plane_twist=mine[1], yoke_angle=mine[2]),
         strict.asarray(ANY),
         speed=strict.asarray([10.0, 20.0], dtype=strict.float64),
     )
-    two = motion(Drives.from_angles(bend, plane_twist=twist, yoke_angle=yoke), ANY, speed=[10.0, 20.0])
+    two = motion(Drives.from_angles(joint_angle, plane_twist=twist, yoke_angle=yoke), ANY, speed=[10.0, 20.0])
     for name in (
         "shaft_angle",
         "shaft_speed",
         "shaft_acceleration",
-        "joint_angle",
-        "lead",
+        "yoke_rotation",
+        "angle_error",
         "cross_driving",
         "cross_driven",
         "cross_driving_rate",

@@ -84,7 +84,7 @@ def test_reference_of_moving_centres():
     expected = [0.0, 324.3777876286763, -55.353284944006745]
     np.testing.assert_allclose(found.spins.spin_acceleration[0], expected, atol=1e-7)
     np.testing.assert_allclose(found.shafts.length_acceleration[0, 1], -0.8618856111595669, rtol=1e-10)
-    np.testing.assert_allclose(np.rad2deg(found.shafts.bend[0]), [7.428759454737048, 8.423913824964], rtol=1e-10)
+    np.testing.assert_allclose(np.rad2deg(found.shafts.joint_angle[0]), [7.428759454737048, 8.423913824964], rtol=1e-10)
 
 
 def test_resting_points_give_the_frozen_motion():
@@ -167,7 +167,7 @@ def test_spin_range_at_rest_is_the_equivalent_joint():
     drive = Drive.from_angles([0.3, 0.5, 0.2], plane_twists=[0.4, -1.0], yoke_angles=[0.1, 0.9])
     axis = geometry(drive).axis
     low, high = speed_range((axis, 0.0 * axis, 0.0 * axis), yoke_angle=[0.1, 0.9], speed=1.0)
-    np.testing.assert_allclose((high - low)[1:], equivalent_joint(drive).shaft_irregularity, rtol=1e-13)
+    np.testing.assert_allclose((high - low)[1:], equivalent_joint(drive).shaft_speed_fluctuation, rtol=1e-13)
     low, high = acceleration_range((axis, 0.0 * axis, 0.0 * axis), yoke_angle=[0.1, 0.9], speed=1.0)
     largest = equivalent_joint(drive).max_acceleration
     assert (-low[-1], high[-1]) == pytest.approx((largest, largest), rel=1e-12)

@@ -30,10 +30,10 @@ RESULTS = ("output_angle", "ratio", "acceleration")
 CLOSE = 5e-15
 
 
-def drives(count, joints, *, bend=0.7, seed=1):
+def drives(count, joints, *, joint_angle=0.7, seed=1):
     rng = np.random.default_rng(seed)
     return Drives.from_angles(
-        rng.uniform(0.0, bend, (count, joints)),
+        rng.uniform(0.0, joint_angle, (count, joints)),
         plane_twist=rng.uniform(-3.0, 3.0, (count, joints - 1)),
         yoke_angle=rng.uniform(-3.0, 3.0, (count, joints - 1)),
         start_phase=rng.uniform(-3.0, 3.0, count),
@@ -50,7 +50,9 @@ def exactly(batch, angle, speed, acceleration):
     c = batch.chain
     table = [
         [recurrence.output(*row, x, w, e) for x in angle]
-        for *row, w, e in zip(c.bend, c.plane_twist, c.yoke_angle, c.start_phase, speed, acceleration, strict=True)
+        for *row, w, e in zip(
+            c.joint_angle, c.plane_twist, c.yoke_angle, c.start_phase, speed, acceleration, strict=True
+        )
     ]
     found = np.moveaxis(np.asarray(table), -1, 0)
     return Traces(angle=angle, output_angle=found[0], ratio=found[1], acceleration=found[2])
@@ -60,7 +62,7 @@ def exactly(batch, angle, speed, acceleration):
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("joints", [1, 2, 4, 8])
 def test_forty_digits(method, joints):
-    batch = drives(5, joints, bend=0.5)
+    batch = drives(5, joints, joint_angle=0.5)
     angle = np.asarray([0.0, 0.3, -2.0, 6.9, 40.0])
     speed, acceleration = np.linspace(-90.0, 120.0, 5), np.linspace(-5.0, 900.0, 5)
     found = traces(batch, angle, speed=speed, acceleration=acceleration, method=method)
@@ -69,7 +71,7 @@ def test_forty_digits(method, joints):
 
 @pytest.mark.parametrize("joints", range(1, 9))
 def test_compiled_equals_plain_for_any_number_of_joints(joints):
-    batch = drives(203, joints, bend=0.6)
+    batch = drives(203, joints, joint_angle=0.6)
     angle = np.linspace(-7.0, 9.0, 53)
     one, two = (traces(batch, angle, speed=3.0, acceleration=0.5, method=m) for m in METHODS)
     assert off(one, two) < 4 * CLOSE
@@ -79,8 +81,8 @@ def test_compiled_equals_plain_for_any_number_of_joints(joints):
 @pytest.mark.parametrize("positions", [1, 2, 7, 8, 9, 16, 23, 64, 361])
 @pytest.mark.parametrize("steep", [False, True])
 def test_every_number_is_written_once_for_odd_sizes(count, positions, steep):
-    batch, angle = drives(count, 3, bend=0.1 if steep else 0.7), np.linspace(0.0, 6.0, positions)
-    batch.chain.bend[::2, 0] = 1.25 if steep else 0.3  # leads of 29°: the long arctangent, in every other row
+    batch, angle = drives(count, 3, joint_angle=0.1 if steep else 0.7), np.linspace(0.0, 6.0, positions)
+    batch.chain.joint_angle[::2, 0] = 1.25 if steep else 0.3  # leads of 29°: the long arctangent, in every other row
     one, two = (traces(batch, angle, method=m) for m in METHODS)
     assert off(one, two) < (4 if steep else 1) * CLOSE  # i_max is 3.5 there
 
@@ -125,7 +127,7 @@ def test_more_leading_axes_and_broadcast_fields(method):
     batch = Drives.from_angles(rng.uniform(0, 0.6, (3, 5, 2)), yoke_angle=[0.4])
     angle = np.linspace(0, 4, 11)
     found = traces(batch, angle, speed=rng.uniform(1, 2, (3, 5)), method=method)
-    single = motion(Drive.from_angles(batch.chain.bend[2, 3], yoke_angles=[0.4]), angle)
+    single = motion(Drive.from_angles(batch.chain.joint_angle[2, 3], yoke_angles=[0.4]), angle)
     np.testing.assert_allclose(found.ratio[2, 3], single.ratio, rtol=CLOSE)
     np.testing.assert_allclose(found.output_angle[2, 3], single.output_angle, atol=CLOSE)
 
@@ -151,12 +153,12 @@ def test_large_yoke_angles_are_reduced(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("bend", [60.0, 80.0, 89.0, 89.9])
-def test_steep_joints(method, bend):
+@pytest.mark.parametrize("joint_angle", [60.0, 80.0, 89.0, 89.9])
+def test_steep_joints(method, joint_angle):
     """Rounding of the pair grows by i_max: the bound is relative to the peak, which is i_max high."""
-    batch = Drives.from_angles(np.deg2rad([[bend]]), start_phase=[0.3])
+    batch = Drives.from_angles(np.deg2rad([[joint_angle]]), start_phase=[0.3])
     angle = np.linspace(-2.0, 5.0, 40)
-    peak = 1.0 / np.cos(np.deg2rad(bend))
+    peak = 1.0 / np.cos(np.deg2rad(joint_angle))
     found = traces(batch, angle, method=method)
     assert off(found, exactly(batch, angle, [1.0], [0.0])) < 4e-15 * peak
 
@@ -195,7 +197,7 @@ def test_a_batch_equals_its_single_drives_bit_for_bit():
     for k in (0, 7, 8, 63, 64, 69):
         chain = batch.chain
         part = Drives.from_angles(
-            chain.bend[k : k + 1],
+            chain.joint_angle[k : k + 1],
             plane_twist=chain.plane_twist[k : k + 1],
             yoke_angle=chain.yoke_angle[k : k + 1],
             start_phase=chain.start_phase[k : k + 1],
@@ -284,7 +286,7 @@ def test_other_libraries_compute_it_themselves():
     batch = drives(3, 2)
     chain = batch.chain
     other = Drives.from_angles(
-        xp.asarray(chain.bend),
+        xp.asarray(chain.joint_angle),
         plane_twist=xp.asarray(chain.plane_twist),
         yoke_angle=xp.asarray(chain.yoke_angle),
         start_phase=xp.asarray(chain.start_phase),

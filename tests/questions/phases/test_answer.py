@@ -16,10 +16,10 @@ from cardan.units import deg
 RADIANS = Reader(units={"angle": "rad"}, decimal=",")
 
 
-def posed(kind: str, bend: float) -> Drive:
+def posed(kind: str, joint_angle: float) -> Drive:
     """Return two joints of a kind with this joint angle [°], and a pose with 20° at the first."""
-    joints = f'[[joints]]\nkind = "{kind}"\nbend_deg = {bend}\n' * 2
-    return loads(f'format = 1\n{joints}[[poses]]\nname = "low"\nset = {{ "joints[0].bend_deg" = 20 }}\n')
+    joints = f'[[joints]]\nkind = "{kind}"\njoint_angle_deg = {joint_angle}\n' * 2
+    return loads(f'format = 1\n{joints}[[poses]]\nname = "low"\nset = {{ "joints[0].joint_angle_deg" = 20 }}\n')
 
 
 def of(drive):
@@ -32,15 +32,15 @@ def said_of(drive, reader=USUAL):
 
 
 @pytest.mark.parametrize(
-    ("kind", "bend", "said"),
+    ("kind", "joint_angle", "said"),
     [
         ("rzeppa", 10.0, "the yokes may stand anyhow"),
         ("rzeppa", 0.0, "the yokes may stand anyhow"),
         ("hooke", 0.0, "as drawn every joint turns uniformly by itself, the yokes count"),
     ],
 )
-def test_yokes_count_in_poses_where_a_straight_joint_is_not_of_constant_velocity(kind, bend, said):
-    assert said in told(of(posed(kind, bend)).sentence, USUAL)
+def test_yokes_count_in_poses_where_a_straight_joint_is_not_of_constant_velocity(kind, joint_angle, said):
+    assert said in told(of(posed(kind, joint_angle)).sentence, USUAL)
 
 
 def test_what_is_only_rounding_in_the_worst_pose_is_no_cost_of_a_yoke():

@@ -24,11 +24,11 @@ def drives(n, count=3000, seed=0):
 def test_the_bound_is_reached_in_plain_vectors(n, mirror):
     many = drives(n)
     found = synchronous_yokes(many, mirror=mirror)
-    uneven = closing.irregularity(many.chain.bend, many.chain.plane_twist, found.yoke_angle)
+    uneven = closing.speed_fluctuation(many.chain.joint_angle, many.chain.plane_twist, found.yoke_angle)
     # bends to 34°: ratios to 3 in a chain of six, each sampled with a few roundings
-    assert np.abs(uneven - found.irregularity_min).max() < 3e-14
-    assert np.abs(found.irregularity - found.irregularity_min).max() < 1e-14
-    length = -np.log(np.cos(many.chain.bend))
+    assert np.abs(uneven - found.speed_fluctuation_min).max() < 3e-14
+    assert np.abs(found.speed_fluctuation - found.speed_fluctuation_min).max() < 1e-14
+    length = -np.log(np.cos(many.chain.joint_angle))
     gap = 2 * length.max(axis=-1) - length.sum(axis=-1)
     clear = np.abs(gap) > 1e-12
     assert (found.feasible == (gap < 0))[clear].all()
@@ -43,7 +43,7 @@ def test_a_batch_gives_what_single_drives_give(n):
         chain = many.chain
         one = synchronous_yokes(
             Chain(
-                bend=chain.bend[row],
+                joint_angle=chain.joint_angle[row],
                 plane_twist=chain.plane_twist[row],
                 yoke_angle=chain.yoke_angle[row],
                 start_phase=chain.start_phase[row],
@@ -51,7 +51,7 @@ def test_a_batch_gives_what_single_drives_give(n):
         )
         # a stretched corner shows the root of the last digit
         assert np.abs(np.sin(one.yoke_angle - together.yoke_angle[row])).max() < 1e-6
-        assert float(one.irregularity) == pytest.approx(float(together.irregularity[row]), abs=1e-14)
+        assert float(one.speed_fluctuation) == pytest.approx(float(together.speed_fluctuation[row]), abs=1e-14)
         assert bool(one.feasible) == bool(together.feasible[row])
 
 
@@ -59,7 +59,7 @@ def test_a_batch_does_not_depend_on_its_size():
     """Array operations treat elements alike up to the last digit of vectorised and scalar loops."""
     many = drives(5, 64)
     whole = synchronous_yokes(many)
-    half = Drives.from_angles(many.chain.bend[:7], plane_twist=many.chain.plane_twist[:7])
+    half = Drives.from_angles(many.chain.joint_angle[:7], plane_twist=many.chain.plane_twist[:7])
     part = synchronous_yokes(half)
     assert np.abs(np.sin(whole.yoke_angle[:7] - part.yoke_angle)).max() < 1e-6
 
@@ -68,10 +68,10 @@ def test_agrees_with_the_single_answer():
     many = drives(4, 30)
     found = synchronous_yokes(many)
     for row in range(30):
-        drive = Drive.from_angles(many.chain.bend[row], plane_twists=many.chain.plane_twist[row])
+        drive = Drive.from_angles(many.chain.joint_angle[row], plane_twists=many.chain.plane_twist[row])
         best = phases(drive)
         assert best.feasible == bool(found.feasible[row])
-        assert best.irregularity_max == pytest.approx(float(found.irregularity_max[row]), rel=1e-13)
+        assert best.speed_fluctuation_max == pytest.approx(float(found.speed_fluctuation_max[row]), rel=1e-13)
 
 
 def test_padding_changes_nothing():
@@ -80,7 +80,7 @@ def test_padding_changes_nothing():
     found = synchronous_yokes(stack([short, long]))
     alone = synchronous_yokes(short)
     assert np.abs(np.sin(found.yoke_angle[0, :2] - alone.yoke_angle)).max() < 1e-7
-    assert found.irregularity.max() < 1e-14
+    assert found.speed_fluctuation.max() < 1e-14
 
 
 def test_held_yokes_stay_as_each_drive_has_them():
@@ -88,24 +88,26 @@ def test_held_yokes_stay_as_each_drive_has_them():
     found = synchronous_yokes(many, fixed=(3, 4))
     kept = found.yoke_angle[:, 1:3] - many.chain.yoke_angle[:, 1:3]
     assert np.abs(np.sin(kept)).max() < 1e-14
-    uneven = closing.irregularity(many.chain.bend, many.chain.plane_twist, found.yoke_angle)
-    assert np.abs(uneven - found.irregularity_min).max() < 3e-14
+    uneven = closing.speed_fluctuation(many.chain.joint_angle, many.chain.plane_twist, found.yoke_angle)
+    assert np.abs(uneven - found.speed_fluctuation_min).max() < 3e-14
     for row in range(5):
         drive = Drive.from_angles(
-            many.chain.bend[row], plane_twists=many.chain.plane_twist[row], yoke_angles=many.chain.yoke_angle[row]
+            many.chain.joint_angle[row],
+            plane_twists=many.chain.plane_twist[row],
+            yoke_angles=many.chain.yoke_angle[row],
         )
         best = phases(drive, fixed={k: many.chain.yoke_angle[row, k - 2] for k in (3, 4)})
-        assert best.irregularity_min == pytest.approx(float(found.irregularity_min[row]), abs=1e-14)
+        assert best.speed_fluctuation_min == pytest.approx(float(found.speed_fluctuation_min[row]), abs=1e-14)
 
 
 def test_runs_on_any_array_library():
     many = drives(5, 20)
     strict = Drives.from_angles(
-        array_api_strict.asarray(many.chain.bend), plane_twist=array_api_strict.asarray(many.chain.plane_twist)
+        array_api_strict.asarray(many.chain.joint_angle), plane_twist=array_api_strict.asarray(many.chain.plane_twist)
     )
     found = synchronous_yokes(strict)
-    uneven = closing.irregularity(many.chain.bend, many.chain.plane_twist, np.asarray(found.yoke_angle))
-    assert np.abs(uneven - np.asarray(found.irregularity_min)).max() < 3e-14
+    uneven = closing.speed_fluctuation(many.chain.joint_angle, many.chain.plane_twist, np.asarray(found.yoke_angle))
+    assert np.abs(uneven - np.asarray(found.speed_fluctuation_min)).max() < 3e-14
 
 
 def test_wrong_shafts_and_weights_are_named():

@@ -26,7 +26,7 @@ def boxed(points, boxes, held=()):
     return replace(drive, joints=tuple(joints), shafts=shafts)
 
 
-def bends(points):
+def joint_angles(points):
     axes = np.diff(points, axis=-2)
     axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
     return np.arccos(np.clip(np.sum(axes[..., 1:, :] * axes[..., :-1, :], axis=-1), -1, 1))
@@ -35,7 +35,7 @@ def bends(points):
 def in_vectors(found):
     """Return δ of the drive that the search returns, by the plain vector model."""
     yokes = [shaft.yoke_angle for shaft in found.drive.shafts[1:-1]]
-    return VectorModel.from_points(found.points.tolist(), yokes).irregularity()
+    return VectorModel.from_points(found.points.tolist(), yokes).speed_fluctuation()
 
 
 def test_the_grid_knows_no_smaller_largest_bend():
@@ -43,7 +43,7 @@ def test_the_grid_knows_no_smaller_largest_bend():
     found = layout(drive)
     assert found.status is Status.CONVERGED
     assert found.feasible
-    assert found.irregularity < 1e-13
+    assert found.speed_fluctuation < 1e-13
     # 1440 samples find the extremes to 1e-9
     assert in_vectors(found) < 1e-9
     step = np.linspace(-0.1, 0.1, 81)
@@ -52,30 +52,30 @@ def test_the_grid_knows_no_smaller_largest_bend():
     grid[..., 2, 1] += y2
     grid[..., 2, 2] += z2
     grid[..., 3, 2] += z3
-    angle = bends(grid)
+    angle = joint_angles(grid)
     length = -np.log(np.cos(angle))
     closes = 2 * length.max(axis=-1) <= length.sum(axis=-1)
     best = angle.max(axis=-1)[closes].min()
-    assert found.bend.max() <= best + 1e-9
+    assert found.joint_angle.max() <= best + 1e-9
     # 2.5 mm on 0.5 m of shaft, both ends
-    assert found.bend.max() == pytest.approx(best, abs=1 * deg)
-    # among layouts with this largest bend, the one with the smallest sum
-    near = closes & (angle.max(axis=-1) <= found.bend.max() + 0.1 * deg)
+    assert found.joint_angle.max() == pytest.approx(best, abs=1 * deg)
+    # among layouts with this largest joint angle, the one with the smallest sum
+    near = closes & (angle.max(axis=-1) <= found.joint_angle.max() + 0.1 * deg)
     if near.any():
-        assert (1 - np.cos(found.bend)).sum() <= (1 - np.cos(angle))[near].sum(axis=-1).min() + 1e-3
+        assert (1 - np.cos(found.joint_angle)).sum() <= (1 - np.cos(angle))[near].sum(axis=-1).min() + 1e-3
 
 
 def test_two_joints_get_equal_bends():
     drive = boxed([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0.2, 0.4)], {2: (0.0, 0.0, 0.2)})
     found = layout(drive)
-    assert found.bend[0] == pytest.approx(found.bend[1], abs=1e-13)
-    assert found.irregularity < 1e-13
+    assert found.joint_angle[0] == pytest.approx(found.joint_angle[1], abs=1e-13)
+    assert found.speed_fluctuation < 1e-13
     assert in_vectors(found) < 1e-9
-    # the only height at which the bends are equal
+    # the only height at which the joint angles are equal
     z = np.linspace(-0.1, 0.3, 400001)
     points = np.broadcast_to(np.asarray([(-1, 0, 0), (0, 0, 0), (1, 0, 0.1), (2, 0.2, 0.4)]), (len(z), 4, 3)).copy()
     points[:, 2, 2] = z
-    angle = bends(points)
+    angle = joint_angles(points)
     assert found.points[2, 2] == pytest.approx(z[np.argmin(np.abs(angle[:, 0] - angle[:, 1]))], abs=2e-6)
 
 
@@ -88,8 +88,8 @@ def test_boxes_and_lengths_are_kept():
             assert low <= x <= high
     assert found.length.min() >= 0.25 * (1 - 1e-6)
     np.testing.assert_allclose(found.moved, np.linalg.norm(found.points - np.asarray(POINTS), axis=-1)[1:-1])
-    assert found.bend.max() < found.bend_before.max()
-    np.testing.assert_allclose(found.bend, bends(found.points), atol=1e-7)
+    assert found.joint_angle.max() < found.joint_angle_before.max()
+    np.testing.assert_allclose(found.joint_angle, joint_angles(found.points), atol=1e-7)
 
 
 @pytest.mark.slow
@@ -99,7 +99,10 @@ def test_held_yokes_stay_and_the_layout_suits_them():
     assert found.feasible
     assert found.drive.shafts[1].yoke_angle == 0.0
     assert in_vectors(found) < 1e-9
-    assert found.bend.max() >= layout(boxed(POINTS, {2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)})).bend.max() - 1e-6
+    assert (
+        found.joint_angle.max()
+        >= layout(boxed(POINTS, {2: (0.2, 0.1, 0.1), 3: (0.1, 0.1, 0.1)})).joint_angle.max() - 1e-6
+    )
 
 
 @pytest.mark.slow
@@ -110,12 +113,13 @@ def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gam
     found = layout(replace(free, shafts=shafts))
     assert found.status is Status.CONVERGED
     assert in_vectors(found) < 1e-9
-    # Synchronous exactly when both bends are equal and β + γ = 0 modulo 180°: a curve, here walked along by its x.
+    # Synchronous exactly when both joint angles are equal and β + γ = 0 modulo 180°: a curve, here walked along by its
+    # x.
     start, here, _moved, end = found.points
 
     def misfit(side, x):
         line = np.stack((start, here, (x, *side), end))
-        (one, two), axes = bends(line), np.diff(line, axis=0)
+        (one, two), axes = joint_angles(line), np.diff(line, axis=0)
         normals = np.cross(axes[:-1], axes[1:])
         across = axes[1] @ np.cross(normals[0], normals[1]) / np.linalg.norm(axes[1])
         return one - two, np.sin(np.arctan2(across, normals[0] @ normals[1]) + gamma)
@@ -125,7 +129,7 @@ def test_two_joints_with_held_yokes_are_brought_to_the_twist_that_suits_them(gam
         inside = abs(x - 1.0) <= 0.5 and abs(side[0] - 0.1) <= 0.3 and abs(side[1] - 0.1) <= 0.3
         if solved == 1 and inside:
             line = np.stack((start, here, (x, *side), end))
-            assert bends(line).max() >= found.bend.max() - 1e-7
+            assert joint_angles(line).max() >= found.joint_angle.max() - 1e-7
 
 
 def test_boxes_that_hold_no_drive_are_refused():
@@ -142,9 +146,9 @@ def test_boxes_too_small_give_the_most_even_layout():
     assert not found.feasible
     points = np.broadcast_to(np.asarray(POINTS), (2001, 5, 3)).copy()
     points[:, 2, 2] += np.linspace(-0.01, 0.01, 2001)
-    length = -np.log(np.cos(bends(points)))
+    length = -np.log(np.cos(joint_angles(points)))
     bound = 2 * np.sinh((2 * length.max(axis=-1) - length.sum(axis=-1)).min())
-    assert found.irregularity == pytest.approx(bound, abs=1e-6)
+    assert found.speed_fluctuation == pytest.approx(bound, abs=1e-6)
 
 
 def test_weights_trade_bends():
@@ -153,8 +157,8 @@ def test_weights_trade_bends():
     last = layout(boxed(POINTS, boxes), weights=[1, 1, 10])
     assert first.feasible
     assert last.feasible
-    assert first.bend[0] < last.bend[0]
-    assert last.bend[2] < first.bend[2]
+    assert first.joint_angle[0] < last.joint_angle[0]
+    assert last.joint_angle[2] < first.joint_angle[2]
 
 
 def test_the_same_question_has_the_same_answer():

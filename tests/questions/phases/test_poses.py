@@ -16,8 +16,8 @@ POSES = {
 }
 
 
-def drive(bends):
-    return Drive.from_angles(bends, plane_twists=TWISTS)
+def drive(joint_angles):
+    return Drive.from_angles(joint_angles, plane_twists=TWISTS)
 
 
 @pytest.fixture(scope="module")
@@ -25,38 +25,38 @@ def grid():
     axis = np.linspace(0, np.pi, 361)
     one, two = np.meshgrid(axis, axis)
     rows = np.stack((one.ravel(), two.ravel()), axis=-1)
-    return np.stack([closing.irregularity(bends, TWISTS, rows) for bends in POSES.values()], axis=-1)
+    return np.stack([closing.speed_fluctuation(joint_angles, TWISTS, rows) for joint_angles in POSES.values()], axis=-1)
 
 
 @pytest.fixture(scope="module")
 def found():
-    return phases(drive(POSES["empty"]), poses={name: drive(bends) for name, bends in POSES.items()})
+    return phases(drive(POSES["empty"]), poses={name: drive(joint_angles) for name, joint_angles in POSES.items()})
 
 
 def test_every_setting_tells_what_it_leaves_in_each_pose(found):
     assert found.poses == tuple(POSES)
     for setting in (found.as_built, *found.settings, *found.pose_settings):
-        truth = [closing.irregularity(bends, TWISTS, setting.yoke_angle) for bends in POSES.values()]
-        np.testing.assert_allclose(setting.pose_irregularity, truth, atol=2e-14)
+        truth = [closing.speed_fluctuation(joint_angles, TWISTS, setting.yoke_angle) for joint_angles in POSES.values()]
+        np.testing.assert_allclose(setting.pose_speed_fluctuation, truth, atol=2e-14)
 
 
 def test_the_worst_pose_is_as_even_as_a_fine_grid_can_make_it(found, grid):
     worst, _mean = found.pose_settings
-    assert worst.pose_irregularity.max() <= grid.max(axis=-1).min() + 1e-12
+    assert worst.pose_speed_fluctuation.max() <= grid.max(axis=-1).min() + 1e-12
     # half a degree of grid, slope below 0.3 per rad
-    assert worst.pose_irregularity.max() == pytest.approx(grid.max(axis=-1).min(), abs=2e-3)
+    assert worst.pose_speed_fluctuation.max() == pytest.approx(grid.max(axis=-1).min(), abs=2e-3)
 
 
 def test_the_mean_is_as_small_as_a_fine_grid_can_make_it(found, grid):
     _worst, mean = found.pose_settings
-    assert mean.pose_irregularity.mean() <= grid.mean(axis=-1).min() + 1e-12
-    assert mean.pose_irregularity.mean() == pytest.approx(grid.mean(axis=-1).min(), abs=2e-3)
+    assert mean.pose_speed_fluctuation.mean() <= grid.mean(axis=-1).min() + 1e-12
+    assert mean.pose_speed_fluctuation.mean() == pytest.approx(grid.mean(axis=-1).min(), abs=2e-3)
 
 
 def test_one_pose_is_the_drive_itself():
     alone = phases(drive(POSES["empty"]), poses={"empty": drive(POSES["empty"])})
     for setting in alone.pose_settings:
-        assert setting.irregularity < 1e-13
+        assert setting.speed_fluctuation < 1e-13
 
 
 def test_stopping_keeps_what_was_found():
@@ -80,7 +80,7 @@ def test_a_pose_with_another_number_of_joints_is_refused():
 
 def test_poses_of_the_drive_count_by_their_shares():
     base = drive(POSES["empty"])
-    laden = tuple((f"joints[{i}].bend_deg", float(b / deg)) for i, b in enumerate(POSES["laden"]))
+    laden = tuple((f"joints[{i}].joint_angle_deg", float(b / deg)) for i, b in enumerate(POSES["laden"]))
     mostly = Drive(
         joints=base.joints,
         shafts=base.shafts,
@@ -90,5 +90,7 @@ def test_poses_of_the_drive_count_by_their_shares():
     assert found.poses == ("laden", "empty")
     _worst, mean = found.pose_settings
     # nearly all the time laden: the mean is least where laden is as even as it can be
-    assert mean.pose_irregularity[0] == pytest.approx(phases(drive(POSES["laden"])).irregularity_min, abs=1e-6)
-    assert mean.pose_irregularity[1] > 1e-2
+    assert mean.pose_speed_fluctuation[0] == pytest.approx(
+        phases(drive(POSES["laden"])).speed_fluctuation_min, abs=1e-6
+    )
+    assert mean.pose_speed_fluctuation[1] > 1e-2

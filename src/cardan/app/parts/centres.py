@@ -18,7 +18,7 @@ from .fields import KeyField, attempt
 
 COLUMNS = {
     "points": {"input": ("point",), "joints": ("centre",), "shafts": (), "output": ("point",)},
-    "angles": {"input": (), "joints": ("bend", "plane_twist"), "shafts": ("length", "yoke_angle"), "output": ()},
+    "angles": {"input": (), "joints": ("joint_angle", "plane_twist"), "shafts": ("length", "yoke_angle"), "output": ()},
     "slopes": {
         "input": (),
         "joints": (),
@@ -116,7 +116,7 @@ def _sound(at: Any) -> bool:
 
 def _form(tree: Mapping[str, Any]) -> str:
     """Return in which form a file gives the geometry, also one that is not sound yet."""
-    if any(str(key).startswith("bend_") for one in tables(tree, "joints") for key in one):
+    if any(str(key).startswith("joint_angle_") for one in tables(tree, "joints") for key in one):
         return "angles"
     if any(str(key).startswith(("side_slope", "plan_slope")) for one in tables(tree, "shafts") for key in one):
         return "slopes"

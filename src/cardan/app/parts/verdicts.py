@@ -9,7 +9,7 @@ from nicegui import ui
 
 from cardan.app.state.jobs import Job, Jobs, own_fault
 from cardan.app.state.session import Session
-from cardan.app.state.work import CURES, VERDICTS, asked, result
+from cardan.app.state.work import REMEDIES, VERDICTS, asked, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, synchronous
@@ -108,7 +108,7 @@ class Verdicts:
             self._due = Timer(self.session, self.body, QUIET, self._search, once=True)
 
     def _search(self) -> None:
-        question = asked(self.session, CURES)
+        question = asked(self.session, REMEDIES)
         if question is None:
             return
         self._job = self._jobs.ask(question, self.session)
@@ -149,9 +149,9 @@ class Verdicts:
             return
         number, _space, name = name.partition(" ")
         light = next((one for one in self.lights if one.name == name), None)
-        if light is not None and int(number) < len(light.cures):
+        if light is not None and int(number) < len(light.remedies):
             with self.session.speaking():
-                applied(self.session, light.cures[int(number)])
+                applied(self.session, light.remedies[int(number)])
 
     def _even(self) -> None:
         """Put the best exact setting of the yokes into the file, or say why there is none."""
@@ -176,18 +176,19 @@ class Verdicts:
 
 
 def field_of(light: Light) -> str:
-    """Return the path of what a failed verdict is to be cured at: of its first cure, else a lever, else its part.
+    """Return the path of what a failed verdict is to be cured at: its first remedy, a design variable, or its part.
 
     Examples
     --------
     >>> from cardan.report.block import Cell
-    >>> light = Light(name="bend", title="bend", tone="failed", verdict="failed", value=Cell(text="50"), unit="°",
-    ...               limit="≤ 40 °", used=1.25, source="", why="", path="joints[0]", levers=("joints[0].bend",))
+    >>> light = Light(name="angle", title="angle", tone="failed", verdict="failed", value=Cell(text="50"), unit="°",
+    ...               limit="≤ 40 °", used=1.25, source="", why="", path="joints[0]",
+    ...               design_variables=("joints[0].joint_angle",))
     >>> field_of(light)
-    'joints[0].bend'
+    'joints[0].joint_angle'
     """
-    paths = [path for cure in light.cures for path in cure.values]
-    return next(iter((*paths, *light.levers, light.path)), "")
+    paths = [path for remedy in light.remedies for path in remedy.values]
+    return next(iter((*paths, *light.design_variables, light.path)), "")
 
 
 def lights_html(lights: Sequence[Light], opened: set[str]) -> str:
@@ -230,21 +231,21 @@ def _more(one: Light) -> str:
         (_("utilisation"), said),
         (_("by"), one.source),
         (_("why"), one.why),
-        (_("depends on"), ", ".join(one.levers[:6])),
+        (_("depends on"), ", ".join(one.design_variables[:6])),
     ]
     told = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in rows if text)
-    return f'<div class="more">{bar}<dl>{told}</dl>{"".join(_cures(one))}</div>'
+    return f'<div class="more">{bar}<dl>{told}</dl>{"".join(_remedies(one))}</div>'
 
 
-def _cures(one: Light) -> list[str]:
-    if not one.cures:
+def _remedies(one: Light) -> list[str]:
+    if not one.remedies:
         return []
     word = escape(_("apply"))
     made = [f"<h3>{escape(_('Remedies'))}</h3>"]
-    for k, cure in enumerate(one.cures):
+    for k, remedy in enumerate(one.remedies):
         name = escape(f"cure {k} {one.name}")
         made.append(
-            f'<div class="cure"><code>{escape(cure.label)}</code><small>{escape(cure.effect)}</small>'
+            f'<div class="cure"><code>{escape(remedy.label)}</code><small>{escape(remedy.effect)}</small>'
             f'<button type="button" class="apply" data-do="{name}">{word}</button></div>'
         )
     return made

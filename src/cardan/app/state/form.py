@@ -285,8 +285,8 @@ def tables(tree: Mapping[str, Any], name: str) -> Sequence[Mapping[str, Any]]:
 
     Examples
     --------
-    >>> tables({"joints": [{"bend_deg": 20}, 5]}, "joints"), tables({"joints": 5}, "joints")
-    ([{'bend_deg': 20}, {}], [])
+    >>> tables({"joints": [{"joint_angle_deg": 20}, 5]}, "joints"), tables({"joints": 5}, "joints")
+    ([{'joint_angle_deg': 20}, {}], [])
     """
     found = tree.get(name, [])
     return [one if isinstance(one, Mapping) else {} for one in found] if isinstance(found, list) else []

@@ -16,7 +16,7 @@ from cardan.io.drive_file import known_to
 from cardan.report.answers import answered, subject
 from cardan.report.block import Page
 from cardan.report.exports import Exported
-from cardan.report.lights import Light, lights, with_cures
+from cardan.report.lights import Light, lights, with_remedies
 from cardan.report.recorded import Recorded
 from cardan.texts import speaking
 
@@ -27,7 +27,7 @@ Result: TypeAlias = Page | tuple[Light, ...] | Exported | Recorded
 
 Progress: TypeAlias = Callable[[float], object]
 
-VERDICTS, CURES = "verdicts", "cures"
+VERDICTS, REMEDIES = "verdicts", "remedies"
 """Questions beside those of the register: the verdicts, and the same with what cures them."""
 
 
@@ -38,7 +38,7 @@ class Question:
     Parameters
     ----------
     name : str
-        A question of `cardan.register.QUESTIONS`, `VERDICTS`, `CURES`, one of `papers`, or `recordings.DIAGNOSIS`.
+        A question of `cardan.register.QUESTIONS`, `VERDICTS`, `REMEDIES`, one of `papers`, or `recordings.DIAGNOSIS`.
     drive : Drive
         About which drive.
     folder : Path
@@ -121,6 +121,6 @@ def result(question: Question, progress: Progress | None = None) -> Result:
         on = subject(question.drive, known=known)
         if question.name == VERDICTS:
             return lights(on)
-        if question.name == CURES:
-            return with_cures(on, progress)
+        if question.name == REMEDIES:
+            return with_remedies(on, progress)
         return answered(question.name, on, progress, question.choices)

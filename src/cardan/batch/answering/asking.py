@@ -230,7 +230,7 @@ def ask_of(
 
     Examples
     --------
-    >>> asked = ask_of(Drive.from_angles([0.3, 0.3]), ["joints[1].bend_deg"], ["alpha_eq"])
+    >>> asked = ask_of(Drive.from_angles([0.3, 0.3]), ["joints[1].joint_angle_deg"], ["alpha_eq"])
     >>> rows = asked(np.asarray([[10.0], [95.0]]))
     >>> rows["alpha_eq_deg"], rows["status"]
     (array([14.05239431,         nan]), array([0, 1], dtype=int8))

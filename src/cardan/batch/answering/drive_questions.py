@@ -96,8 +96,8 @@ def _movement(drive: Drive) -> Sequence[float]:
     found = articulation(drive)
     strokes = [one.stroke for one in found.splines]
     return (
-        float(np.nanmax(found.bend)),
-        float(np.nanmax(found.irregularity)),
+        float(np.nanmax(found.joint_angle)),
+        float(np.nanmax(found.speed_fluctuation)),
         max(strokes, default=0.0),
     )
 
@@ -197,10 +197,15 @@ DRIVE = (
     ),
     Question(
         name="movement",
-        doc=mark("what the movements of the drive ask: bend, irregularity, stroke of the splines"),
+        doc=mark("what the movements of the drive ask: bend, speed fluctuation, stroke of the splines"),
         told=lambda _drive: (
-            Told(name="moving_bend_deg", dimension="angle", unit="deg", text=mark("greatest bend while it moves")),
-            Told(name="moving_irregularity", text=mark("greatest irregularity while it moves")),
+            Told(
+                name="moving_joint_angle_deg",
+                dimension="angle",
+                unit="deg",
+                text=mark("greatest joint angle while it moves"),
+            ),
+            Told(name="moving_speed_fluctuation", text=mark("greatest speed fluctuation while it moves")),
             Told(name="stroke_mm", dimension="length", unit="mm", text=mark("stroke of the splines")),
         ),
         of_one=_movement,

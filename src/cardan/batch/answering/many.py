@@ -32,11 +32,11 @@ RIGHT = 1e-15
 class OneShaft:
     """How even one shaft turns, arrays (n,), under the names of `Extremes`."""
 
-    irregularity: Array
-    bend: Array
+    speed_fluctuation: Array
+    joint_angle: Array
     ratio_min: Array
     ratio_max: Array
-    max_lead: Array
+    max_angle_error: Array
     max_acceleration: Array
 
 
@@ -48,7 +48,7 @@ class Many:
     ----------
     chain : Chain (n, joints)
         The Hooke joints that turn alike.
-    bend : array (n, joints) [rad]
+    joint_angle : array (n, joints) [rad]
         Bends of the joints themselves.
     length : array (n, joints + 1) [m] or None
         Lengths of the shafts, where the joint centres give them.
@@ -59,7 +59,7 @@ class Many:
     """
 
     chain: Chain
-    bend: Array
+    joint_angle: Array
     length: Array | None
     speed: Array | float
     method: Method | None = None
@@ -120,17 +120,19 @@ def one(drive: Drive) -> Many:
 
     Examples
     --------
-    >>> one(Drive.from_angles([0.3])).output.bend
+    >>> one(Drive.from_angles([0.3])).output.joint_angle
     array([0.3])
     """
     if not unmapped(drive.joints):
         return many(drive, {}, 1)[0]
     given = given_chain(drive)
-    rows = replace(given, **{f: getattr(given, f)[None] for f in ("bend", "plane_twist", "yoke_angle", "start_phase")})
+    rows = replace(
+        given, **{f: getattr(given, f)[None] for f in ("joint_angle", "plane_twist", "yoke_angle", "start_phase")}
+    )
     place = geometry(drive)
     return Seen(
         chain=rows,
-        bend=rows.bend,
+        joint_angle=rows.joint_angle,
         length=place.length[None] if drive.form == "points" else None,
         speed=float("nan") if drive.duty.speed is None else drive.duty.speed,
         seen=swing(drive),
@@ -163,8 +165,8 @@ def many(
     Examples
     --------
     >>> pair = Drive.from_angles([0.3, 0.3])
-    >>> found, real = many(pair, {"joints[1].bend": np.asarray([0.3, 2.0])}, 2)
-    >>> found.bend, real
+    >>> found, real = many(pair, {"joints[1].joint_angle": np.asarray([0.3, 2.0])}, 2)
+    >>> found.joint_angle, real
     (array([[0.3, 0.3],
            [0.3, 0.3]]), array([ True, False]))
     """
@@ -181,22 +183,22 @@ def many(
 
     yokes = row([(f"shafts[{k}].yoke_angle", drive.shafts[k].yoke_angle) for k in range(1, len(drive.joints))])
     start = spread("input.start_phase", drive.input.start_phase)
-    bend, twist, length, real = _lie(drive, here, row, count, xp)
-    given = Chain(bend=bend, plane_twist=twist, yoke_angle=yokes, start_phase=start)
+    joint_angle, twist, length, real = _lie(drive, here, row, count, xp)
+    given = Chain(joint_angle=joint_angle, plane_twist=twist, yoke_angle=yokes, start_phase=start)
     chain, real = _turning(drive, given, real, xp)
     speed = spread("duty.speed", float("nan") if drive.duty.speed is None else drive.duty.speed)
-    return Many(chain=chain, bend=bend, length=length, speed=speed, method=method), real
+    return Many(chain=chain, joint_angle=joint_angle, length=length, speed=speed, method=method), real
 
 
 def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any) -> tuple[Array, Array, Any, Array]:
     """Return bends, plane twists and lengths, and which drives there are."""
     n = len(drive.joints)
     if drive.form == "angles":
-        bend = row([(f"joints[{i}].bend", drive.joints[i].bend) for i in range(n)])
+        joint_angle = row([(f"joints[{i}].joint_angle", drive.joints[i].joint_angle) for i in range(n)])
         twist = row([(f"joints[{i}].plane_twist", drive.joints[i].plane_twist) for i in range(1, n)])
-        real = xp.all((bend >= 0.0) & (bend < 0.5 * xp.pi), axis=-1)
-        own = np.asarray([joint.bend for joint in drive.joints])
-        return _mended(bend, own, real, xp), twist, None, real
+        real = xp.all((joint_angle >= 0.0) & (joint_angle < 0.5 * xp.pi), axis=-1)
+        own = np.asarray([joint.joint_angle for joint in drive.joints])
+        return _mended(joint_angle, own, real, xp), twist, None, real
     if xp is np:
         return _lie_in_columns(drive, here, count)
     points, own = _points(drive, row, xp)
@@ -205,11 +207,11 @@ def _lie(drive: Drive, here: Mapping[str, Array], row: Any, count: int, xp: Any)
     real = xp.all(apart > least[:, None], axis=-1)
     points = _mended(points, own, real, xp)
     found = polyline(points)
-    real = real & xp.all(found.bend < 0.5 * xp.pi - RIGHT, axis=-1)
+    real = real & xp.all(found.joint_angle < 0.5 * xp.pi - RIGHT, axis=-1)
     base = polyline(np.asarray(own))
-    bend = _mended(found.bend, base.bend, real, xp)
+    joint_angle = _mended(found.joint_angle, base.joint_angle, real, xp)
     twist = _mended(found.plane_twist, base.plane_twist, real, xp)
-    return bend, twist, found.length if drive.form == "points" else None, real
+    return joint_angle, twist, found.length if drive.form == "points" else None, real
 
 
 def _lie_in_columns(drive: Drive, here: Mapping[str, Array], count: int) -> tuple[Array, Array, Any, Array]:
@@ -217,12 +219,12 @@ def _lie_in_columns(drive: Drive, here: Mapping[str, Array], count: int) -> tupl
     found = columns(_vectors(drive, here), count)
     most = reduce(np.maximum, found.length)
     least = np.maximum(COINCIDENT * most, TINY)
-    fits = [one > least for one in found.length] + [one < 0.5 * np.pi - RIGHT for one in found.bend]
+    fits = [one > least for one in found.length] + [one < 0.5 * np.pi - RIGHT for one in found.joint_angle]
     real = np.array(np.broadcast_to(reduce(np.logical_and, fits), (count,)))
     base = geometry(drive)
-    bend = _mended(table(found.bend, count), base.bend, real, np)
+    joint_angle = _mended(table(found.joint_angle, count), base.joint_angle, real, np)
     twist = _mended(table(found.plane_twist, count), base.plane_twist, real, np)
-    return bend, twist, table(found.length, count) if drive.form == "points" else None, real
+    return joint_angle, twist, table(found.length, count) if drive.form == "points" else None, real
 
 
 def _vectors(drive: Drive, here: Mapping[str, Array]) -> list[Vector]:
@@ -296,5 +298,5 @@ def _turning(drive: Drive, given: Chain, real: Array, xp: Any) -> tuple[Chain, A
                 raise
             stuck = error.where
             real = real & ~stuck
-            given = replace(given, bend=xp.where(stuck[:, None], 0.0 * given.bend, given.bend))
+            given = replace(given, joint_angle=xp.where(stuck[:, None], 0.0 * given.joint_angle, given.joint_angle))
     return turning(given, drive.joints), real

@@ -47,15 +47,15 @@ def _each(values: Array) -> list[Array]:
 
 
 def _greatest(found: Many) -> Sequence[Array]:
-    return (namespace(found.bend).max(found.bend, axis=-1),)
+    return (namespace(found.joint_angle).max(found.joint_angle, axis=-1),)
 
 
 MOTION = (
     Question(
-        name="irregularity",
-        doc=mark("irregularity δ of the output: largest less smallest speed ratio"),
-        told=lambda _drive: _single(Told(name="irregularity", text=mark("irregularity of the output"))),
-        of_many=lambda found: (found.output.irregularity,),
+        name="speed_fluctuation",
+        doc=mark("speed fluctuation δ of the output: largest less smallest speed ratio"),
+        told=lambda _drive: _single(Told(name="speed_fluctuation", text=mark("speed fluctuation of the output"))),
+        of_many=lambda found: (found.output.speed_fluctuation,),
     ),
     Question(
         name="alpha_eq",
@@ -63,7 +63,7 @@ MOTION = (
         told=lambda _drive: _single(
             Told(name="alpha_eq_deg", dimension="angle", unit="deg", text=mark("equivalent angle"))
         ),
-        of_many=lambda found: (found.output.bend,),
+        of_many=lambda found: (found.output.joint_angle,),
     ),
     Question(
         name="ratio",
@@ -75,12 +75,12 @@ MOTION = (
         of_many=lambda found: (found.output.ratio_min, found.output.ratio_max),
     ),
     Question(
-        name="lead",
+        name="angle_error",
         doc=mark("how far the output leads the input at most, about its mean"),
         told=lambda _drive: _single(
-            Told(name="lead_deg", dimension="angle", unit="deg", text=mark("largest lead of the output"))
+            Told(name="angle_error_deg", dimension="angle", unit="deg", text=mark("largest lead of the output"))
         ),
-        of_many=lambda found: (found.output.max_lead,),
+        of_many=lambda found: (found.output.max_angle_error,),
     ),
     Question(
         name="acceleration",
@@ -90,27 +90,33 @@ MOTION = (
         needs_speed=True,
     ),
     Question(
-        name="shaft_irregularity",
-        doc=mark("irregularity of every shaft that a joint drives"),
+        name="shaft_speed_fluctuation",
+        doc=mark("speed fluctuation of every shaft that a joint drives"),
         told=lambda drive: tuple(
-            Told(name=f"shaft_irregularity[{k}]", text=mark("irregularity of a shaft")) for k in _shafts(drive)
+            Told(name=f"shaft_speed_fluctuation[{k}]", text=mark("speed fluctuation of a shaft"))
+            for k in _shafts(drive)
         ),
-        of_many=lambda found: _each(found.each.irregularity),
+        of_many=lambda found: _each(found.each.speed_fluctuation),
     ),
     Question(
-        name="bend",
-        doc=mark("bend of every joint"),
+        name="joint_angle",
+        doc=mark("joint angle of every joint"),
         told=lambda drive: tuple(
-            Told(name=f"bend_deg[{i}]", dimension="angle", unit="deg", text=mark("bend of a joint"))
+            Told(name=f"joint_angle_deg[{i}]", dimension="angle", unit="deg", text=mark("joint angle of a joint"))
             for i in range(len(drive.joints))
         ),
-        of_many=lambda found: _each(found.bend),
+        of_many=lambda found: _each(found.joint_angle),
     ),
     Question(
-        name="greatest_bend",
-        doc=mark("bend of the joint that bends most"),
+        name="greatest_joint_angle",
+        doc=mark("joint angle of the joint that bends most"),
         told=lambda _drive: _single(
-            Told(name="greatest_bend_deg", dimension="angle", unit="deg", text=mark("greatest bend of a joint"))
+            Told(
+                name="greatest_joint_angle_deg",
+                dimension="angle",
+                unit="deg",
+                text=mark("greatest joint angle of a joint"),
+            )
         ),
         of_many=_greatest,
     ),

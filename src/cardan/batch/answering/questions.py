@@ -89,7 +89,7 @@ def questions() -> dict[str, Question]:
     Examples
     --------
     >>> list(questions())[:3]
-    ['irregularity', 'alpha_eq', 'ratio']
+    ['speed_fluctuation', 'alpha_eq', 'ratio']
     """
     from .drive_questions import DRIVE
     from .motion_questions import MOTION
@@ -107,8 +107,8 @@ def asked(names: Sequence[str]) -> tuple[Question, ...]:
 
     Examples
     --------
-    >>> [one.name for one in asked(["irregularity", "life"])]
-    ['irregularity', 'life']
+    >>> [one.name for one in asked(["speed_fluctuation", "life"])]
+    ['speed_fluctuation', 'life']
     """
     known = questions()
     problems = [] if names else [Problem("ask", _("nothing is asked"))]

@@ -39,8 +39,8 @@ def shortened(text: str, most: int = LONG) -> str:
 
     Examples
     --------
-    >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("irregularity of the output", 20)
-    ('…ne.mean_diameter_mm', 'irregularity of the…')
+    >>> shortened("shafts[1].spline.mean_diameter_mm", 20), shortened("speed_fluctuation of the output", 20)
+    ('…ne.mean_diameter_mm', 'speed fluctuation of the…')
     """
     if len(text) <= most:
         return text

@@ -225,8 +225,8 @@ class Drawn:
     Examples
     --------
     >>> from cardan.batch.points.distributions import Uniform
-    >>> drawn = Drawn(distributions={"joints[0].bend_deg": Uniform(low=0, high=20)}, count=8, method="lhs")
-    >>> sorted((drawn.values(np.arange(8))["joints[0].bend_deg"] // 2.5).tolist())
+    >>> drawn = Drawn(distributions={"joints[0].joint_angle_deg": Uniform(low=0, high=20)}, count=8, method="lhs")
+    >>> sorted((drawn.values(np.arange(8))["joints[0].joint_angle_deg"] // 2.5).tolist())
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     """
 

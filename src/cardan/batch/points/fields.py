@@ -21,7 +21,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _, mark
 
 _MOTION = re.compile(
-    r"joints\[\d+\]\.(bend|plane_twist|centre\[\d\])|(input|output)\.point\[\d\]|input\.start_phase"
+    r"joints\[\d+\]\.(joint_angle|plane_twist|centre\[\d\])|(input|output)\.point\[\d\]|input\.start_phase"
     r"|shafts\[\d+\]\.(yoke_angle|side_slope|plan_slope|length)|duty\.(speed|acceleration|torque)"
 )
 
@@ -114,7 +114,7 @@ def spots_of(drive: Drive, paths: Iterable[str]) -> tuple[Spot, ...]:
 
     Examples
     --------
-    >>> spots_of(Drive.from_angles([0.1, 0.2]), ["joints[1].bend_deg"])[0].unit
+    >>> spots_of(Drive.from_angles([0.1, 0.2]), ["joints[1].joint_angle_deg"])[0].unit
     'deg'
     """
     problems: list[Problem] = []
@@ -158,7 +158,7 @@ def present(drive: Drive, path: str) -> float | None:
 
     Examples
     --------
-    >>> present(Drive.from_angles([0.0, 0.2]), "joints[0].bend_deg")
+    >>> present(Drive.from_angles([0.0, 0.2]), "joints[0].joint_angle_deg")
     0.0
     """
     value = read(drive, path)

@@ -53,8 +53,8 @@ def quantity(column: Field, value: float, digits: int = 4) -> Quantity:
     Examples
     --------
     >>> from cardan.answers.reader import Reader
-    >>> bend = Field(name="greatest_bend_deg", unit="deg", role="answer", text="")
-    >>> quantity(bend, 12.0).told(Reader())
+    >>> joint_angle = Field(name="greatest_joint_angle_deg", unit="deg", role="answer", text="")
+    >>> quantity(joint_angle, 12.0).told(Reader())
     '12.00°'
     """
     dimension = dimension_of(column.unit)

@@ -133,7 +133,9 @@ def goal_of(text: str) -> Goal:
     """
     found = _GOAL.fullmatch(text.strip())
     if found is None:
-        raise refuse("goals", _("not a goal: {text}; write “min irregularity” or “max life_h”").format(text=repr(text)))
+        raise refuse(
+            "goals", _("not a goal: {text}; write “min speed_fluctuation” or “max life_h”").format(text=repr(text))
+        )
     return Goal(name=found[2], largest=found[1] == "max")
 
 
@@ -147,12 +149,12 @@ def limit_of(text: str) -> Limit:
 
     Examples
     --------
-    >>> print(limit_of("irregularity <= 0.02"), "|", limit_of("10 < alpha_eq_deg < 12"))
-    irregularity <= 0.02 | 10 <= alpha_eq_deg <= 12
+    >>> print(limit_of("speed_fluctuation <= 0.02"), "|", limit_of("10 < alpha_eq_deg < 12"))
+    speed_fluctuation <= 0.02 | 10 <= alpha_eq_deg <= 12
     """
     found = _LIMIT.fullmatch(text.strip())
     if found is None or (found[1] and found[3].startswith(">")):
-        message = _("not a limit: {text}; write “irregularity <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
+        message = _("not a limit: {text}; write “speed_fluctuation <= 0.02”, “life_h >= 5000” or “1 <= x <= 2”")
         raise refuse("limits", message.format(text=repr(text)))
     low, high = (float(found[1]) if found[1] else -math.inf), float(found[4])
     if found[3].startswith(">"):

@@ -129,7 +129,7 @@ class Optimum:
         """By how much the goal may differ where the place does by its accuracy, in its unit.
 
         From the best of what was asked first to the best of all the goal changes over a good part of the box; where
-        it ends in a tip, as the irregularity does at nought, it changes evenly down to the last.
+        it ends in a tip, as the speed fluctuation does at nought, it changes evenly down to the last.
         """
         return float(self.accuracy * np.ptp(self.history[:, 1])) if len(self.history) else 0.0
 

@@ -54,8 +54,8 @@ class Reduce:
 
     Examples
     --------
-    >>> reduce_of("p95 irregularity by duty.speed_rpm").label
-    'p95 irregularity by duty.speed_rpm'
+    >>> reduce_of("p95 speed_fluctuation by duty.speed_rpm").label
+    'p95 speed_fluctuation by duty.speed_rpm'
     """
 
     kind: str
@@ -99,7 +99,8 @@ def reduce_of(text: str) -> Reduce:
     Parameters
     ----------
     text : str
-        ``max irregularity``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share irregularity <= 0.02 by supplier``.
+        ``max speed_fluctuation``, ``p99 alpha_eq_deg by duty.speed_rpm``, ``share speed_fluctuation <= 0.02 by
+        supplier``.
 
     Raises
     ------
@@ -108,7 +109,7 @@ def reduce_of(text: str) -> Reduce:
 
     Examples
     --------
-    >>> reduce_of("share irregularity <= 0.02 by supplier").by
+    >>> reduce_of("share speed_fluctuation <= 0.02 by supplier").by
     ('supplier',)
     """
     whole, _word, by = text.strip().partition(" by ")
@@ -118,7 +119,9 @@ def reduce_of(text: str) -> Reduce:
         return Reduce(kind="percentile", percent=float(percent[1]), of=percent[2].strip(), by=groups)
     kind, _space, rest = whole.partition(" ")
     if kind not in KINDS or kind == "percentile" or not rest.strip():
-        message = _("not a reduction: {text}; write “max irregularity”, “p95 life_h by supplier” or “share x <= 2”")
+        message = _(
+            "not a reduction: {text}; write “max speed_fluctuation”, “p95 life_h by supplier” or “share x <= 2”"
+        )
         raise refuse("reduce", message.format(text=repr(text)))
     if not KINDS[kind].columned:
         limits = tuple(limit_of(one) for one in rest.split(" and "))
@@ -312,7 +315,7 @@ def _problems(one: Reduce, path: str, units: dict[str, str]) -> Iterator[Problem
             )
             yield Problem(f"{path}.{key}", f"{name}: " + text.format(near=close, all=", ".join(units)))
     if not KINDS[one.kind].columned and not one.where:
-        yield Problem(f"{path}.where", _("missing; a condition such as “irregularity <= 0.02”"))
+        yield Problem(f"{path}.where", _("missing; a condition such as “speed_fluctuation <= 0.02”"))
     if not 0.0 <= one.percent <= 100.0:
         yield Problem(f"{path}.percent", _("{value} does not lie between 0 and 100").format(value=one.percent))
     if not 1 <= one.bins <= MOST_BINS:

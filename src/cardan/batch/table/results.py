@@ -101,12 +101,12 @@ class Results:
 
         Examples
         --------
-        >>> column = Column(name="bend_deg[0]", unit="deg", role="answer", text="")
-        >>> held = ((0, {"bend_deg[0]": np.asarray([3.0, 5.0])}),)
+        >>> column = Column(name="joint_angle_deg[0]", unit="deg", role="answer", text="")
+        >>> held = ((0, {"joint_angle_deg[0]": np.asarray([3.0, 5.0])}),)
         >>> made = Sweep(
         ...     columns=(column,), size=2, status="done", missing=(), reductions={}, provenance={}, held=held
         ... )
-        >>> results(made).query("SELECT max(bend_deg[0]) AS most FROM sweep")
+        >>> results(made).query("SELECT max(joint_angle_deg[0]) AS most FROM sweep")
         {'most': array([5.])}
         """
         return self._answered(sql, self.parts)
@@ -177,7 +177,7 @@ class Results:
         """
         check_names([*goals, *limits], self.columns)
         if not goals:
-            raise refuse("goals", _("none is given; write “min irregularity” or “max life_h”"), "missing")
+            raise refuse("goals", _("none is given; write “min speed_fluctuation” or “max life_h”"), "missing")
         sql = self.select(where=self._conditions(limits, where))
         kept: Rows = {}
         for part in self.parts or ({},):

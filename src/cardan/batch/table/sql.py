@@ -34,8 +34,8 @@ def sql_names(sql: str, columns: Sequence[str]) -> str:
 
     Examples
     --------
-    >>> print(sql_names("SELECT bend_deg[1] FROM sweep WHERE word = 'bend_deg[1]'", ["bend_deg[1]"]))
-    SELECT "bend_deg[1]" FROM sweep WHERE word = 'bend_deg[1]'
+    >>> print(sql_names("SELECT angle_deg[1] FROM sweep WHERE word = 'angle_deg[1]'", ["angle_deg[1]"]))
+    SELECT "angle_deg[1]" FROM sweep WHERE word = 'angle_deg[1]'
     """
     odd = sorted((name for name in columns if not _PLAIN.fullmatch(name)), key=len, reverse=True)
     if not odd:

@@ -130,7 +130,7 @@ def read_sweep(folder: str | Path) -> Sweep:
     >>> from cardan import Drive, sweep
     >>> pair = Drive.from_angles([0.3, 0.3])
     >>> with TemporaryDirectory() as folder:
-    ...     told = sweep(pair, {"joints[1].bend_deg": [10, 20]}, ["irregularity"], into=folder)
+    ...     told = sweep(pair, {"joints[1].joint_angle_deg": [10, 20]}, ["speed_fluctuation"], into=folder)
     ...     read_sweep(folder).status, read_sweep(folder).size
     ('done', 2)
     """

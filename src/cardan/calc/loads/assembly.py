@@ -46,7 +46,7 @@ def _two(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _blocked(values: Values) -> Values:
-    """Return the forces in one joint with blocked slides; shaft 1 lies along z, the bend turns about x."""
+    """Return the forces in one joint with blocked slides; shaft 1 lies along z, the joint angle turns about x."""
     one, two = values["shafts"]
     alpha, free = values["alpha"], values["free_slides"]
     axis = np.asarray([[0.0, 0.0, 1.0], [0.0, np.sin(alpha), np.cos(alpha)]])
@@ -145,7 +145,7 @@ CALCULATIONS = (
         doc=mark("force in a joint whose slides are blocked, from its errors of length"),
         source="Book p. 190, (171)",
         takes=(
-            given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT),
+            given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT),
             given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle"),
             given("errors_mm_s1_a1_a2_a3_a4", mark("errors s1, a1, a2, a3, a4 in mm"), axes=(1,), width=5),
             given("free_slides", mark("what slides freely"), kind="word", axes=(1,), choices=SLIDES, default=()),

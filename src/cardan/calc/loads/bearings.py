@@ -9,7 +9,7 @@ from cardan.calc.calculation import Calculation, Values, at_least_zero, given, g
 from cardan.formulas.needle_bearing import book_load, critical_swing, needle_contact, needle_rating
 from cardan.texts import mark
 
-from .life import ARM, BEND, SIDE, WARNINGS, said
+from .life import ARM, JOINT_ANGLE, SIDE, WARNINGS, said
 
 NEEDLES = given("needles", mark("number of needles in a bearing"), kind="whole", above=0.0)
 NEEDLE = positive("needle_d_mm", mark("diameter of a needle"), "length")
@@ -84,7 +84,7 @@ CALCULATIONS = (
         takes=(
             at_least_zero("torque_Nm", mark("torque, constant on one shaft"), "torque"),
             SIDE,
-            BEND,
+            JOINT_ANGLE,
             ARM,
             given("phi_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle", axes=(0, 1)),
         ),
@@ -147,7 +147,7 @@ CALCULATIONS = (
         name="small_oscillation",
         doc=mark("bends from which needles reach their neighbours' tracks; below them they wear patches of their own"),
         source=mark("kinematics of pure rolling"),
-        takes=(NEEDLES, NEEDLE, JOURNAL, BEND),
+        takes=(NEEDLES, NEEDLE, JOURNAL, JOINT_ANGLE),
         returns=(
             gives("alpha_crit_inner_deg", mark("on the journal"), "angle"),
             gives("alpha_crit_outer_deg", mark("on the outer race"), "angle"),

@@ -63,8 +63,8 @@ def _single_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem
 
 def _double(values: Values) -> Values:
     angles = {"plane_twist": values["beta13"], "yoke_angle": values["gamma2"], "torque": values["M3"]}
-    bends = values["alpha12"], values["alpha23"]
-    found = double_joint_forces(*bends, np.atleast_1d(values["phi1"]), length=values["l2"], **angles)
+    joint_angles = values["alpha12"], values["alpha23"]
+    found = double_joint_forces(*joint_angles, np.atleast_1d(values["phi1"]), length=values["l2"], **angles)
     single = np.ndim(values["phi1"]) == 0
 
     def at(table: Any) -> Any:
@@ -82,7 +82,7 @@ def _double(values: Values) -> Values:
         "N_across_yoke_arm_N": at(found.across_arm),
         "axial_on_shaft1_N": at(found.first_axial),
         "axial_on_shaft3_N": at(found.last_axial),
-        "M2_resultant_max_over_turn_Nm": largest_middle_couple(*bends, **angles)[0],
+        "M2_resultant_max_over_turn_Nm": largest_middle_couple(*joint_angles, **angles)[0],
     }
 
 
@@ -101,14 +101,14 @@ def _spline(values: Values) -> Values:
 
 def _gyro(values: Values) -> Values:
     swung = paths.swing(values["A"], values["W"], 0.0, np.asarray(values["t"], dtype=float))
-    bend = paths.plus(paths.resting(np.asarray(values["alpha0"], dtype=float)), swung)
-    axes, spins = parallel_ends(bend, values["phi1"], speed=values["omega1"], yoke_angle=values["gamma2"])
+    joint_angle = paths.plus(paths.resting(np.asarray(values["alpha0"], dtype=float)), swung)
+    axes, spins = parallel_ends(joint_angle, values["phi1"], speed=values["omega1"], yoke_angle=values["gamma2"])
     middle = axes[0][..., 1, :], axes[1][..., 1, :], axes[2][..., 1, :]
     found = swing_couple(middle, spins.spin[..., 1], values["J_polar"], values["J_transverse"])
     return {
-        "alpha_rad": bend[0],
-        "alpha_dot_rad_s": bend[1],
-        "alpha_ddot_rad_s2": bend[2],
+        "alpha_rad": joint_angle[0],
+        "alpha_dot_rad_s": joint_angle[1],
+        "alpha_ddot_rad_s2": joint_angle[2],
         "omega2_rad_s": spins.spin[..., 1],
         "eps2_rad_s2": spins.spin_acceleration[..., 1],
         "omega3_rad_s": spins.spin[..., 2],
@@ -120,7 +120,7 @@ def _gyro(values: Values) -> Values:
 
 def _gyro_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     if "alpha0" in values and "A" in values and abs(values["alpha0"]) + abs(values["A"]) >= RIGHT:
-        yield Problem(key("alpha0"), _("the bend reaches 90° with the given amplitude"))
+        yield Problem(key("alpha0"), _("the joint angle reaches 90° with the given amplitude"))
 
 
 SPLINE_THRUST = Calculation(
@@ -128,7 +128,7 @@ SPLINE_THRUST = Calculation(
     doc=mark("friction thrust of the spline of the driven shaft and its parts in the joint"),
     source="Book (123), (124), corrected",
     takes=(
-        given("alpha_deg", mark("bend"), "angle", low=0.0, below=RIGHT),
+        given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
         given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
         given("M2_Nm", mark("torque at the spline"), "torque"),
         given("mu", mark("coefficient of friction of the spline"), low=0.0),
@@ -153,7 +153,7 @@ CALCULATIONS = (
         source="Book (100)-(112), corrected",
         takes=(
             given("variant", mark("how the cross is held"), kind="word", choices=("sliding_cross", "located_cross")),
-            given("alpha_deg", mark("bend"), "angle", low=0.0, below=RIGHT),
+            given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
             given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
             given("M2_Nm", mark("torque of the driven shaft"), "torque"),
             size("d_pin_span_m", mark("span of the cross")),
@@ -183,8 +183,8 @@ CALCULATIONS = (
         doc=mark("secondary couples of a double joint and the pair of forces that balances those of the middle shaft"),
         source="Book (113)-(120), corrected",
         takes=(
-            given("alpha12_deg", mark("bend of joint 1"), "angle", low=0.0, below=RIGHT),
-            given("alpha23_deg", mark("bend of joint 2"), "angle", low=0.0, below=RIGHT),
+            given("alpha12_deg", mark("joint angle of joint 1"), "angle", low=0.0, below=RIGHT),
+            given("alpha23_deg", mark("joint angle of joint 2"), "angle", low=0.0, below=RIGHT),
             given("beta13_deg", mark("plane twist of joint 2"), "angle", default=0.0),
             given("gamma2_deg", mark("yoke angle of shaft 2"), "angle", default=0.0),
             given("phi1_deg", mark("angle of the driving yoke from the plane of joint 1"), "angle", axes=(0, 1)),
@@ -215,16 +215,16 @@ CALCULATIONS = (
             given("description", mark("words on the case; not used"), kind="word", default=None),
             given("phi1_rad", mark("angle of the driving yoke from the plane of the joints"), "angle"),
             given("omega1_rad_s", mark("spin of the input shaft"), "angular_speed"),
-            given("alpha0_rad", mark("mean bend"), "angle"),
-            given("A_rad", mark("amplitude of the bend"), "angle"),
-            given("W_rad_s", mark("angular frequency of the bend"), "angular_speed"),
+            given("alpha0_rad", mark("mean joint angle"), "angle"),
+            given("A_rad", mark("amplitude of the joint angle"), "angle"),
+            given("W_rad_s", mark("angular frequency of the joint angle"), "angular_speed"),
             given("t_s", mark("time"), "time"),
             given("gamma2_rad", mark("yoke angle of the middle shaft"), "angle", default=0.0),
             given("J_polar_kg_m2", mark("inertia of the middle shaft about its axis"), "inertia", low=0.0),
             given("J_transverse_kg_m2", mark("its inertia across, about its centre of mass"), "inertia", low=0.0),
         ),
         returns=(
-            gives("alpha_rad", mark("bend"), "angle"),
+            gives("alpha_rad", mark("joint angle"), "angle"),
             gives("alpha_dot_rad_s", mark("its rate"), "angular_speed"),
             gives("alpha_ddot_rad_s2", mark("its acceleration"), "angular_acceleration"),
             gives("omega2_rad_s", mark("spin of the middle shaft"), "angular_speed"),

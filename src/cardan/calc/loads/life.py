@@ -16,7 +16,7 @@ from cardan.formulas.joint_rating import (
     book_life,
     life_factor,
     nominal_torque,
-    rated_bend,
+    rated_joint_angle,
     rated_torque,
     speed_angle_factor,
     within,
@@ -38,7 +38,7 @@ WARNINGS = gives("warnings", mark("what to mind, in alphabetical order"))
 CAPACITY = positive("C_N", mark("dynamic capacity of one bearing"), "force")
 ARM = positive("R_mm", mark("from the axis of the shaft to the middle of a bearing, half the span"), "length")
 SPEED = positive("speed_rpm", mark("speed of the shaft"), "angular_speed")
-BEND = given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT)
+JOINT_ANGLE = given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT)
 TORQUE = positive("torque_Nm", mark("torque of the shaft"), "torque")
 SHOCK = given("shock_factor", mark("factor for shocks, 1 for moderate to 1.38 for strong ones"), low=1.0, default=1.0)
 SIDE = given(
@@ -97,14 +97,19 @@ def _speed_factor(values: Values) -> Values:
 
 
 def _warned(values: Values, life: Any) -> list[str]:
-    """Return the warnings on a bend and on the tables of the book."""
-    product = values["speed"] * rated_bend(values["alpha"])
+    """Return the warnings on a joint angle and on the tables of the book."""
+    product = values["speed"] * rated_joint_angle(values["alpha"])
     return said(angle_clamped_3deg=clamped(values["alpha"]), extrapolated=extrapolated(product, life))
 
 
 def _torque(values: Values) -> Values:
     nominal = nominal_torque(values["C"], values["R"])
-    case = {"speed": values["speed"], "bend": values["alpha"], "life": values["life"], "shock": values["shock_factor"]}
+    case = {
+        "speed": values["speed"],
+        "joint_angle": values["alpha"],
+        "life": values["life"],
+        "shock": values["shock_factor"],
+    }
     return {
         "M_nominal_Nm": nominal,
         "M_max_Nm": rated_torque(nominal, **case),
@@ -123,7 +128,7 @@ def _book(values: Values, regime: Values) -> Any:
         nominal_torque(values["C"], values["R"]),
         regime["torque"],
         speed=regime["speed"],
-        bend=regime["alpha"],
+        joint_angle=regime["alpha"],
         shock=values["shock_factor"],
     )
 
@@ -134,7 +139,7 @@ def _iso(values: Values) -> Values:
         values["R"],
         values["torque"],
         speed=values["speed"],
-        bend=values["alpha"],
+        joint_angle=values["alpha"],
         torque_at=values["torque_side"],
     )
     names = {"L10h_simple": found.simple, "L10h_driving_bearings": found.driving, "L10h_driven_bearings": found.driven}
@@ -150,7 +155,7 @@ def _still(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _catalogue(values: Values) -> Values:
-    case = {"speed": values["speed"], "bend": values["alpha"], "shock": values["shock_factor"]}
+    case = {"speed": values["speed"], "joint_angle": values["alpha"], "shock": values["shock_factor"]}
     found = maker_life(values["rating"], values["torque"], convention=values["convention"], **case)
     return {"L10h": found / HOUR, "warnings": said(angle_clamped_3deg=clamped(values["alpha"]))}
 
@@ -207,7 +212,7 @@ CALCULATIONS = (
         name="joint_rating",
         doc=mark("torque that a joint may carry for a life, by the book"),
         source=mark("Book (267), restored"),
-        takes=(CAPACITY, ARM, SPEED, BEND, positive("life_h", mark("life"), "time"), SHOCK),
+        takes=(CAPACITY, ARM, SPEED, JOINT_ANGLE, positive("life_h", mark("life"), "time"), SHOCK),
         returns=(
             gives("M_nominal_Nm", mark("nominal torque: 5000 h at 33.3 rpm and 3°"), "torque"),
             gives("M_max_Nm", mark("torque allowed"), "torque"),
@@ -219,7 +224,7 @@ CALCULATIONS = (
         name="joint_life",
         doc=mark("life of a joint, by the book"),
         source=mark("Book (267), restored, solved for the life"),
-        takes=(CAPACITY, ARM, SPEED, BEND, TORQUE, SHOCK),
+        takes=(CAPACITY, ARM, SPEED, JOINT_ANGLE, TORQUE, SHOCK),
         returns=(gives("life_h", mark("life"), "time"), WARNINGS),
         answer=_joint_life,
     ),
@@ -227,7 +232,7 @@ CALCULATIONS = (
         name="iso_life",
         doc=mark("life L10 of the bearings of one joint, by the mean load and by the exact integral over the turn"),
         source="ISO 281",
-        takes=(CAPACITY, ARM, TORQUE, SIDE, SPEED, BEND),
+        takes=(CAPACITY, ARM, TORQUE, SIDE, SPEED, JOINT_ANGLE),
         returns=(
             gives("L10h_simple", mark("by the mean load [h]")),
             gives("L10h_driving_bearings", mark("of the bearings in the driving yoke [h]")),
@@ -245,7 +250,7 @@ CALCULATIONS = (
             positive("rating_Nm", mark("rated torque Tc, or dynamic capacity times arm"), "torque"),
             TORQUE,
             SPEED,
-            BEND,
+            JOINT_ANGLE,
             SHOCK,
         ),
         returns=(gives("L10h", mark("life [h]")), WARNINGS),
@@ -264,7 +269,7 @@ CALCULATIONS = (
                 mark("parts of the duty cycle"),
                 at_least_zero("torque_Nm", mark("torque"), "torque"),
                 SPEED,
-                BEND,
+                JOINT_ANGLE,
                 at_least_zero("share_percent", mark("share of the whole time"), "share"),
             ),
         ),

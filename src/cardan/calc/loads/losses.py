@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from cardan.calc.calculation import Calculation, Given, Values, given, gives
-from cardan.calc.motion.kinematics import RIGHT, START, YOKES, bends, between, drives, points, twists
+from cardan.calc.motion.kinematics import RIGHT, START, YOKES, between, drives, joint_angles, points, twists
 from cardan.errors import Problem, check
 from cardan.formulas.friction import branch_efficiency, joint_friction, reduced_friction, spline_efficiency
 from cardan.questions.losses.chain_friction import chain_friction
@@ -36,14 +36,20 @@ def _bearings(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _joint(values: Values) -> Values:
-    bend, mu = np.asarray(values["alpha"]), values["mu_pin_reduced"]
+    joint_angle, mu = np.asarray(values["alpha"]), values["mu_pin_reduced"]
     drag = mu * values["pin_diameter"] / values["pin_span"]
     rest = values["mu_bearing_reduced"]
     bearing = rest * values["bearing_diameter"] / values["bearing_span"] if rest else 0.0
-    found = joint_friction(bend, drag, bearing_drag=bearing, torque_at=values["constant_torque"])
-    text = _("{mu:.6g} locks the joint at a bend of {bend:.4g}°: friction over the journals, κ tan α, reaches 1")
-    steepest = float(np.max(bend))
-    check([Problem("mu_pin_reduced", text.format(mu=mu, bend=np.degrees(steepest)))] if np.any(found.status) else [])
+    found = joint_friction(joint_angle, drag, bearing_drag=bearing, torque_at=values["constant_torque"])
+    text = _(
+        "{mu:.6g} locks the joint at an angle of {joint_angle:.4g}°: friction over the journals, κ tan α, reaches 1"
+    )
+    steepest = float(np.max(joint_angle))
+    check(
+        [Problem("mu_pin_reduced", text.format(mu=mu, joint_angle=np.degrees(steepest)))]
+        if np.any(found.status)
+        else []
+    )
     return {
         "pin_work_per_rev_over_torque": found.pin_work,
         "bearing_work_per_rev_over_torque": found.bearing_work,
@@ -128,7 +134,7 @@ CALCULATIONS = (
         ),
         source="Book (127)-(137), restored",
         takes=(
-            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             _coefficient("mu_pin_reduced", mark("reduced coefficient of friction of the journals")),
             given("pin_diameter_m", mark("diameter of the journals"), "length", above=0.0),
             given("pin_span_m", mark("span of the cross"), "length", above=0.0),
@@ -155,7 +161,7 @@ CALCULATIONS = (
         doc=mark("efficiency of a chain of joints with friction in their journals, exact and as a product of joints"),
         source="Book (139); exact by couples of the crosses",
         takes=(
-            bends(default=None),
+            joint_angles(default=None),
             twists(),
             points(default=None),
             YOKES,

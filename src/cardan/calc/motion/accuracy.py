@@ -18,14 +18,14 @@ from cardan.questions.accuracy.sampling import MonteCarlo
 from cardan.texts import _, mark
 from cardan.units import deg
 
-from .kinematics import RIGHT, bends
+from .kinematics import RIGHT, joint_angles
 
 IDEAL, OTHER = "phi4=atan2(cos(alpha)cos(phi1),sin(phi1))", "phi4=atan2(-cos(alpha)cos(phi1),-sin(phi1))"
 LAWS = ("normal", "uniform", "triangular")
 LENGTHS = ("s1", "a1", "a2", "a3", "a4")
 ANGLES = ("alpha1", "alpha2", "alpha3", "alpha4")
 
-BEND = given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT)
+JOINT_ANGLE = given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT)
 INPUT = given("phi1_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle")
 WAYS = given(
     "tol_s1_a1_a2_a3_a4_mm",
@@ -235,7 +235,7 @@ CALCULATIONS = (
         doc=mark("by how much angles and slides of a joint follow the errors of its loop"),
         source="Book (171), (180)",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             INPUT,
             given("branch", mark("assembly of the joint"), kind="word", choices=(IDEAL, OTHER), default=IDEAL),
         ),
@@ -253,7 +253,7 @@ CALCULATIONS = (
         doc=mark("what the tolerances of one joint add up to, at worst and as root of the sum of squares"),
         source="Book (171), (180), pp. 186-190",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             INPUT,
             WAYS,
             TURNS,
@@ -283,7 +283,7 @@ CALCULATIONS = (
         doc=mark("what errors drawn at random within the tolerances of one joint do, by the exact loop"),
         source="Book pp. 186-190; random samples",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             INPUT,
             WAYS,
             TURNS,
@@ -314,7 +314,7 @@ CALCULATIONS = (
         doc=mark("what errors of every joint do to the output of a chain, exactly and to first order"),
         source="Book (171), (180), chained",
         takes=(
-            bends(axes=(1,)),
+            joint_angles(axes=(1,)),
             given(
                 "kappa_deg_between_joints", mark("angle added to that of the yokes between joints"), "angle", axes=(1,)
             ),

@@ -124,7 +124,7 @@ CALCULATIONS = (
         source=mark("Book pp. 64-65 for ball joints; Dana catalogue for its sizes"),
         takes=(
             positive("speed_rpm", mark("speed"), "angular_speed"),
-            angle("alpha_deg", mark("bend")),
+            angle("alpha_deg", mark("joint angle")),
             given("joint", mark("row of the catalogue"), kind="word", choices=tuple(catalogue().rows(SpeedAngleLimit))),
         ),
         returns=(

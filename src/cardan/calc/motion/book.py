@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.comparison import book_comparison, book_series, collinear_bend, rule_of_practice
+from cardan.book.comparison import book_comparison, book_series, collinear_joint_angle, rule_of_practice
 from cardan.book.forms import OutputMotion, arrangement_phase, blokh, double_joint, double_joint_law
 from cardan.calc.calculation import Calculation, Values, given, gives
 from cardan.errors import Problem
 from cardan.texts import _, mark
 
-from .kinematics import ANGLE, RIGHT, START, YOKES, bends, between, drives, points, twists
+from .kinematics import ANGLE, RIGHT, START, YOKES, between, drives, joint_angles, points, twists
 
-_CHAIN = (bends(default=None), twists(), points(default=None), YOKES, START)
+_CHAIN = (joint_angles(default=None), twists(), points(default=None), YOKES, START)
 _MOTION = (
     gives("lead_deg", mark("output angle minus input angle, continuous"), "angle"),
     gives("phi_out_deg", mark("output angle from the start, continuous"), "angle"),
@@ -31,7 +31,7 @@ def _at(values: Values) -> Callable[[Any], Any]:
 def _curves(values: Values, moved: OutputMotion) -> Values:
     at = _at(values)
     return {
-        "lead_deg": at(moved.lead),
+        "lead_deg": at(moved.angle_error),
         "phi_out_deg": at(moved.output_angle),
         "ratio": at(moved.ratio),
         "eps_over_omega1_sq": at(moved.slope),
@@ -46,8 +46,8 @@ def _series(values: Values) -> Values:
     found = book_series(drives(values), values["order"], amplitude=values["amplitude"], phases=values["phases"])
     at, phi = _at(values), np.atleast_1d(values["phi1"])
     return {
-        "lead_deg": at(found.lead(phi)),
-        "phi_out_deg": at(phi + found.lead(phi)),
+        "lead_deg": at(found.angle_error(phi)),
+        "phi_out_deg": at(phi + found.angle_error(phi)),
         "ratio": at(found.ratio(phi)),
         "eps_over_omega1_sq": at(found.slope(phi)),
         "theta_deg": found.constant,
@@ -57,20 +57,20 @@ def _series(values: Values) -> Values:
         "b_n2": found.b2,
         "s_n1": found.amplitude,
         "delta_n1_mod180_deg": found.phase,
-        "delta_80": found.irregularity,
+        "delta_80": found.speed_fluctuation,
     }
 
 
 def _comparison(values: Values) -> Values:
     found = book_comparison(drives(values))
     return {
-        "delta": found.irregularity,
-        "delta_80": found.irregularity_80,
-        "delta_80_mean_phases": found.irregularity_mean_phases,
-        "delta_80_without_theta": found.irregularity_without_theta,
+        "delta": found.speed_fluctuation,
+        "delta_80": found.speed_fluctuation_80,
+        "delta_80_mean_phases": found.speed_fluctuation_mean_phases,
+        "delta_80_without_theta": found.speed_fluctuation_without_theta,
         "worst_first_order_deg": found.worst_first_order,
         "worst_second_order_deg": found.worst_second_order,
-        "alpha_eq_deg": found.bend,
+        "alpha_eq_deg": found.joint_angle,
         "alpha_eq_rule_deg": found.rule_of_practice,
     }
 
@@ -82,8 +82,8 @@ def _double(values: Values) -> Values:
     moved = double_joint(one, two, phase, np.atleast_1d(values["phi1"]))
     return {
         "psi2_deg": phase,
-        "delta": law.irregularity,
-        "alpha_eq_deg": law.bend,
+        "delta": law.speed_fluctuation,
+        "alpha_eq_deg": law.joint_angle,
         **_curves(values, moved),
     }
 
@@ -95,7 +95,7 @@ def _rule(values: Values) -> Values:
 
 
 def _collinear(values: Values) -> Values:
-    return {"alpha_eq_deg": collinear_bend(values["alpha"], values["sign"])}
+    return {"alpha_eq_deg": collinear_joint_angle(values["alpha"], values["sign"])}
 
 
 def _collinear_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
@@ -105,7 +105,7 @@ def _collinear_check(values: Values, key: Callable[[str], str]) -> Iterator[Prob
     if sign is not None and not np.all(np.abs(sign) == 1):
         yield Problem(key("sign"), _("only 1 and -1 are signs"))
     if alpha is not None and sign is not None and sign.shape not in (alpha.shape, alpha.shape[-1:]):
-        text = _("shape {shape} does not fit the bends; {wanted} is needed")
+        text = _("shape {shape} does not fit the joint angles; {wanted} is needed")
         yield Problem(key("sign"), text.format(shape=sign.shape, wanted=alpha.shape))
 
 
@@ -157,7 +157,7 @@ CALCULATIONS = (
             gives("b_n2", mark("coefficient of cos 4φ [rad]")),
             gives("s_n1", mark("amplitude of the second order of the turn [rad]")),
             gives("delta_n1_mod180_deg", mark("its phase"), "angle"),
-            gives("delta_80", mark("irregularity by (80)")),
+            gives("delta_80", mark("speed fluctuation by (80)")),
         ),
         answer=_series,
         check=_series_check,
@@ -168,10 +168,10 @@ CALCULATIONS = (
         source="Book (59)-(80)",
         takes=_CHAIN,
         returns=(
-            gives("delta", mark("irregularity, exact")),
-            gives("delta_80", mark("irregularity by (80), exact phases")),
-            gives("delta_80_mean_phases", mark("irregularity by (80), mean phases")),
-            gives("delta_80_without_theta", mark("irregularity by (80), phases without Θ")),
+            gives("delta", mark("speed fluctuation, exact")),
+            gives("delta_80", mark("speed fluctuation by (80), exact phases")),
+            gives("delta_80_mean_phases", mark("speed fluctuation by (80), mean phases")),
+            gives("delta_80_without_theta", mark("speed fluctuation by (80), phases without Θ")),
             gives("worst_first_order_deg", mark("largest angle error of the first order over a turn"), "angle"),
             gives("worst_second_order_deg", mark("largest angle error of the second order over a turn"), "angle"),
             gives("alpha_eq_deg", mark("equivalent angle, exact"), "angle"),
@@ -185,8 +185,8 @@ CALCULATIONS = (
         doc=mark("double joint in one of the four arrangements of Fig. 62"),
         source="Book (26)-(30), Fig. 62",
         takes=(
-            given("alpha12_deg", mark("bend of joint 1"), "angle", low=0.0, below=RIGHT),
-            given("alpha23_deg", mark("bend of joint 2"), "angle", low=0.0, below=RIGHT),
+            given("alpha12_deg", mark("joint angle of joint 1"), "angle", low=0.0, below=RIGHT),
+            given("alpha23_deg", mark("joint angle of joint 2"), "angle", low=0.0, below=RIGHT),
             given("arrangement", mark("letter of the arrangement"), kind="word", choices=("a", "b", "c", "d")),
             given("beta2_deg", mark("plane twist, arrangements c and d"), "angle", default=None),
             given("gamma2_deg", mark("yoke angle of shaft 2, arrangements b and d"), "angle", default=None),
@@ -214,7 +214,7 @@ CALCULATIONS = (
         doc=mark("exact equivalent angle of joints that work with or straight against one another"),
         source="cos α_eq = Π cos^±1 α_i",
         takes=(
-            bends(),
+            joint_angles(),
             given(
                 "sign",
                 mark("1 for a joint that works with the first, -1 against it"),

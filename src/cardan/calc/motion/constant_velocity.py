@@ -1,4 +1,4 @@
-"""Calculations of joints of constant velocity: dividing lever, planes of balls, grooves, Tracta, tripod."""
+"""Calculations of joints of constant velocity: pilot lever, planes of balls, grooves, Tracta, tripod."""
 
 from __future__ import annotations
 
@@ -9,33 +9,33 @@ from typing import Any
 import numpy as np
 
 from cardan.calc.calculation import Calculation, Given, Values, given, gives, positive
-from cardan.drive.joints.laws import dividing_lever, offset_grooves, tilted_plane, tracta, tripod
+from cardan.drive.joints.laws import offset_grooves, pilot_lever, tilted_plane, tracta, tripod
 from cardan.errors import InputError, Problem, refuse
-from cardan.formulas.dividing_lever import lever_choice
 from cardan.formulas.groove_offset import groove_offset
+from cardan.formulas.pilot_lever import lever_choice
 from cardan.texts import _, mark
 from cardan.units import deg
 
 from .kinematics import RIGHT
 
 
-def _bend(key: str, doc: str, **options: Any) -> Given:
+def _joint_angle(key: str, doc: str, **options: Any) -> Given:
     return given(key, doc, "angle", low=0.0, below=RIGHT, **options)
 
 
-BEND = _bend("alpha_deg", mark("bend, the angle between the shafts"))
-LEVER_BEND = _bend("alpha12_deg", mark("bend, the angle between the shafts"))
+JOINT_ANGLE = _joint_angle("alpha_deg", mark("joint angle, the angle between the shafts"))
+LEVER_JOINT_ANGLE = _joint_angle("alpha12_deg", mark("joint angle, the angle between the shafts"))
 DIVISION = positive("b_over_a", mark("part of the lever on the side of the fixed ball end over the other part"))
 LENGTH = positive("c_over_a", mark("distance of the fixed ball end from the centre of the joint over the same part"))
 
 
 def _lever(values: Values) -> Values:
     alpha, b, c = (values[name] for name in ("alpha12", "b_over_a", "c_over_a"))
-    error = dividing_lever.plane_error(alpha, b, c)
+    error = pilot_lever.plane_error(alpha, b, c)
     return {
-        "alpha2_rad": dividing_lever.cage_tilt(alpha, b, c),
+        "alpha2_rad": pilot_lever.cage_tilt(alpha, b, c),
         "plane_error_rad": error,
-        "single_ball_irregularity": tilted_plane.irregularity(alpha, error),
+        "single_ball_irregularity": tilted_plane.speed_fluctuation(alpha, error),
     }
 
 
@@ -51,9 +51,9 @@ def _reaches(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _even_lever(values: Values) -> Values:
-    found = float(dividing_lever.even_length(values["alpha12"], values["b_over_a"]))
+    found = float(pilot_lever.even_length(values["alpha12"], values["b_over_a"]))
     if math.isnan(found):
-        text = _("{value:.6g} is too much: a lever halves this bend only where b cos α_12 is less than a")
+        text = _("{value:.6g} is too much: a lever halves this joint angle only where b cos α_12 is less than a")
         raise refuse("b_over_a", text.format(value=values["b_over_a"]), "out_of_range")
     return {"c_over_a": found}
 
@@ -73,7 +73,7 @@ def _best_lever(values: Values) -> Values:
 
 
 def _range(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
-    """Yield a range of bends that ends before it begins."""
+    """Yield a range of joint angles that ends before it begins."""
     least, most = values.get("alpha_min"), values.get("alpha_max")
     if least is not None and most is not None and least > most:
         text = _("{value:.6g}° is above {other}, {limit:.6g}°")
@@ -82,35 +82,35 @@ def _range(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _plane(values: Values) -> Values:
-    bend, tilt = values["alpha"], values["plane_tilt"]
-    found = tilted_plane.ball_demands(values["phi1"], bend, tilt, values["balls"])
+    joint_angle, tilt = values["alpha"], values["plane_tilt"]
+    found = tilted_plane.ball_demands(values["phi1"], joint_angle, tilt, values["balls"])
     return {
         "mean_rad": found.mean,
         "spread_rad": found.spread,
         "max_abs_rad": found.largest,
-        "single_ball_irregularity": tilted_plane.irregularity(bend, tilt),
+        "single_ball_irregularity": tilted_plane.speed_fluctuation(joint_angle, tilt),
     }
 
 
 def _tilts(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     """Yield a plane that holds one of the shafts."""
-    bend, tilt = values.get("alpha"), values.get("plane_tilt")
-    if bend is not None and tilt is not None and 0.5 * bend + abs(tilt) >= RIGHT:
-        text = _("{value:.6g}° is too much: half the bend and the tilt must stay below 90° together")
+    joint_angle, tilt = values.get("alpha"), values.get("plane_tilt")
+    if joint_angle is not None and tilt is not None and 0.5 * joint_angle + abs(tilt) >= RIGHT:
+        text = _("{value:.6g}° is too much: half the joint angle and the tilt must stay below 90° together")
         yield Problem(key("plane_tilt"), text.format(value=tilt / deg), "out_of_range")
 
 
 def _grooves(values: Values) -> Values:
-    bend, one, two, radius = (values[name] for name in ("alpha", "c1", "c2", "groove_radius"))
-    lead = np.asarray(offset_grooves.deviation(values["phi1"], bend, one, two, radius))
-    if np.any(np.isnan(lead)):
-        text = _("{value:.6g} mm is too small: grooves so far off the centre do not meet at this bend")
+    joint_angle, one, two, radius = (values[name] for name in ("alpha", "c1", "c2", "groove_radius"))
+    angle_error = np.asarray(offset_grooves.deviation(values["phi1"], joint_angle, one, two, radius))
+    if np.any(np.isnan(angle_error)):
+        text = _("{value:.6g} mm is too small: grooves so far off the centre do not meet at this joint angle")
         raise refuse("groove_radius", text.format(value=1e3 * radius), "singular")
     return {
         # The sign of the tilt is the one of the offsets here: the normal leans to the groove that stands farther off.
-        "plane_tilt_rad": 0.0 - offset_grooves.plane_tilt(bend, one, two),
-        "plane_offset_m": offset_grooves.plane_offset(bend, one, two),
-        "phi2_minus_phi1_rad": lead + 0.0,
+        "plane_tilt_rad": 0.0 - offset_grooves.plane_tilt(joint_angle, one, two),
+        "plane_offset_m": offset_grooves.plane_offset(joint_angle, one, two),
+        "phi2_minus_phi1_rad": angle_error + 0.0,
     }
 
 
@@ -119,33 +119,33 @@ def _offset(values: Values) -> Values:
 
 
 def _tracta(values: Values) -> Values:
-    bend, first, second, angle = (values[name] for name in ("alpha", "OA", "OB", "phi1"))
-    one, two = tracta.bends(bend, first, second)
+    joint_angle, first, second, angle = (values[name] for name in ("alpha", "OA", "OB", "phi1"))
+    one, two = tracta.joint_angles(joint_angle, first, second)
     return {
         "alpha1_rad": one,
         "alpha2_rad": two,
-        "irregularity": tracta.irregularity(bend, first, second),
-        "phi2_minus_phi1_rad": None if angle is None else tracta.deviation(angle, bend, first, second),
+        "irregularity": tracta.speed_fluctuation(joint_angle, first, second),
+        "phi2_minus_phi1_rad": None if angle is None else tracta.deviation(angle, joint_angle, first, second),
     }
 
 
 def _tripod(values: Values) -> Values:
-    angle, bend, radius = (values[name] for name in ("phi1", "alpha", "track_radius"))
-    x, y = tripod.spider_centre(angle, bend, radius)
+    angle, joint_angle, radius = (values[name] for name in ("phi1", "alpha", "track_radius"))
+    x, y = tripod.spider_centre(angle, joint_angle, radius)
     length = values["shaft_length"]
     return {
         "phi2_minus_phi1_rad": 0.0 * np.asarray(angle, dtype=float),
-        "orbit_radius_m": tripod.orbit_radius(bend, radius),
+        "orbit_radius_m": tripod.orbit_radius(joint_angle, radius),
         "center_x_m": x,
         "center_y_m": y,
-        "roller_reach_m": tripod.roller_reach(angle, bend, radius),
-        "track_travel_m": tripod.track_travel(angle, bend, radius),
-        "shaft_tilt_rad": None if length is None else tripod.shaft_tilt(bend, radius, length),
+        "roller_reach_m": tripod.roller_reach(angle, joint_angle, radius),
+        "track_travel_m": tripod.track_travel(angle, joint_angle, radius),
+        "shaft_tilt_rad": None if length is None else tripod.shaft_tilt(joint_angle, radius, length),
     }
 
 
-IRREGULARITY = gives("single_ball_irregularity", mark("irregularity that one ball alone would give"))
-LEAD = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
+SPEED_FLUCTUATION = gives("single_ball_irregularity", mark("speed fluctuation that one ball alone would give"))
+ANGLE_ERROR = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
 ANGLE = given("phi1_deg", mark("input angle from the inner side of the plane of the shafts"), "angle", axes=(0, 1))
 
 CALCULATIONS = (
@@ -153,20 +153,20 @@ CALCULATIONS = (
         name="rzeppa_lever",
         doc=mark("how far the pilot lever of a Rzeppa joint holds its cage off the bisecting plane"),
         source="Book (13), (14)",
-        takes=(LEVER_BEND, DIVISION, LENGTH),
+        takes=(LEVER_JOINT_ANGLE, DIVISION, LENGTH),
         returns=(
             gives("alpha2_rad", mark("angle of the cage's normal to the axis of the sliding ball end"), "angle"),
-            gives("plane_error_rad", mark("the same less half the bend"), "angle"),
-            IRREGULARITY,
+            gives("plane_error_rad", mark("the same less half the joint angle"), "angle"),
+            SPEED_FLUCTUATION,
         ),
         answer=_lever,
         check=_reaches,
     ),
     Calculation(
         name="rzeppa_lever_ratio",
-        doc=mark("length of the pilot lever that halves one bend exactly"),
+        doc=mark("length of the pilot lever that halves one joint angle exactly"),
         source="Book (15), (16)",
-        takes=(LEVER_BEND, DIVISION),
+        takes=(LEVER_JOINT_ANGLE, DIVISION),
         returns=(
             gives("c_over_a", mark("distance of the fixed ball end over the part of the lever beside the other")),
         ),
@@ -174,18 +174,18 @@ CALCULATIONS = (
     ),
     Calculation(
         name="rzeppa_lever_optimum",
-        doc=mark("length of the pilot lever that errs least over a range of bends"),
+        doc=mark("length of the pilot lever that errs least over a range of joint angles"),
         source=mark("minimax of the exact error of Book (13)"),
         takes=(
             DIVISION,
-            _bend("alpha_max_deg", mark("largest bend")),
-            _bend("alpha_min_deg", mark("smallest bend"), default=0.0),
+            _joint_angle("alpha_max_deg", mark("largest joint angle")),
+            _joint_angle("alpha_min_deg", mark("smallest joint angle"), default=0.0),
         ),
         returns=(
             gives("c_over_a", mark("distance of the fixed ball end over the part of the lever beside the other")),
             gives("plane_error_max_rad", mark("largest error of the cage, of either sign"), "angle"),
-            gives("bend_of_largest_lag_deg", mark("bend at which the cage leans too little by most"), "angle"),
-            gives("bend_of_largest_lead_deg", mark("bend at which the cage leans too much by most"), "angle"),
+            gives("bend_of_largest_lag_deg", mark("joint angle at which the cage leans too little by most"), "angle"),
+            gives("bend_of_largest_lead_deg", mark("joint angle at which the cage leans too much by most"), "angle"),
             gives("exact_bend_deg", mark("bend that is halved exactly"), "angle"),
         ),
         answer=_best_lever,
@@ -196,8 +196,10 @@ CALCULATIONS = (
         doc=mark("what the balls of a joint ask of its output where their plane misses the bisecting one"),
         source=mark("ball in a tilted plane, exact; mean over the balls in closed form"),
         takes=(
-            BEND,
-            given("plane_tilt_deg", mark("tilt: the normal stands at half the bend and this to shaft 1"), "angle"),
+            JOINT_ANGLE,
+            given(
+                "plane_tilt_deg", mark("tilt: the normal stands at half the joint angle and this to shaft 1"), "angle"
+            ),
             given("tilt_sign", mark("remark on the sense of the tilt; not read"), kind="word", default=""),
             given("balls", mark("number of balls"), kind="whole", default=6, low=1, high=1000),
             ANGLE,
@@ -206,7 +208,7 @@ CALCULATIONS = (
             gives("mean_rad", mark("mean over the balls: what the output does"), "angle"),
             gives("spread_rad", mark("largest less smallest: what play and contacts take"), "angle"),
             gives("max_abs_rad", mark("largest in size"), "angle"),
-            IRREGULARITY,
+            SPEED_FLUCTUATION,
         ),
         answer=_plane,
         check=_tilts,
@@ -216,7 +218,7 @@ CALCULATIONS = (
         doc=mark("plane of balls in offset grooves, and how uneven unequal offsets make the output"),
         source=mark("ball as far from one groove centre as from the other, exact; corrects Book p. 69"),
         takes=(
-            BEND,
+            JOINT_ANGLE,
             positive("c1_m", mark("distance of the groove centre of shaft 1 from the centre of the joint"), "length"),
             positive("c2_m", mark("the same of shaft 2"), "length"),
             positive("groove_radius_m", mark("radius of both grooves"), "length"),
@@ -225,7 +227,7 @@ CALCULATIONS = (
         returns=(
             gives("plane_tilt_rad", mark("tilt of the plane, positive towards shaft 1"), "angle"),
             gives("plane_offset_m", mark("distance of the plane from the centre, positive towards shaft 1"), "length"),
-            LEAD,
+            ANGLE_ERROR,
         ),
         answer=_grooves,
     ),
@@ -234,7 +236,7 @@ CALCULATIONS = (
         doc=mark("offset of ball grooves with which an axial play tilts the plane of the balls no more than allowed"),
         source=mark("tilt of the plane of the balls with one centre shifted, exact"),
         takes=(
-            _bend("alpha_deg", mark("largest bend")),
+            _joint_angle("alpha_deg", mark("largest joint angle")),
             given("plane_tilt_deg", mark("largest tilt allowed"), "angle", above=0.0, below=RIGHT),
             given("axial_play_m", mark("shift of one shaft along its axis, to either side"), "length", low=0.0),
         ),
@@ -246,7 +248,7 @@ CALCULATIONS = (
         doc=mark("bends within a Tracta joint, and how uneven unequal forks make it"),
         source=mark("double joint whose middle shaft is the line of the fork centres, exact"),
         takes=(
-            BEND,
+            JOINT_ANGLE,
             positive("OA_m", mark("distance of the fork centre of shaft 1 from the crossing of the axes"), "length"),
             positive("OB_m", mark("the same of shaft 2"), "length"),
             given(
@@ -260,8 +262,8 @@ CALCULATIONS = (
         returns=(
             gives("alpha1_rad", mark("angle of shaft 1 to the line of the fork centres"), "angle"),
             gives("alpha2_rad", mark("angle of shaft 2 to it"), "angle"),
-            gives("irregularity", mark("irregularity of the output")),
-            LEAD,
+            gives("irregularity", mark("speed fluctuation of the output")),
+            ANGLE_ERROR,
         ),
         answer=_tracta,
     ),
@@ -270,7 +272,7 @@ CALCULATIONS = (
         doc=mark("orbit of the spider of a tripod joint, and ways of its rollers; its turn is even exactly"),
         source=mark("three rollers in three tracks, in closed form"),
         takes=(
-            BEND,
+            JOINT_ANGLE,
             positive("track_radius_m", mark("distance of the tracks from the axis of the housing"), "length"),
             given(
                 "phi1_deg",
@@ -281,7 +283,7 @@ CALCULATIONS = (
             positive("shaft_length_m", mark("from the spider to the other joint of its shaft"), "length", default=None),
         ),
         returns=(
-            LEAD,
+            ANGLE_ERROR,
             gives(
                 "orbit_radius_m", mark("radius of the circle that the spider's centre runs round three times"), "length"
             ),

@@ -20,12 +20,12 @@ EDGE = 1e-12
 """Slants this near an end of their range [rad] stand on it, whatever rounding says."""
 
 
-def _bend(key: str, doc: str) -> Given:
+def _joint_angle(key: str, doc: str) -> Given:
     return given(key, doc, "angle", low=0.0, below=RIGHT)
 
 
-BEND = _bend("alpha_deg", mark("bend between the outer shafts"))
-TURN = given("phi1_deg", mark("input angle from the inner side of the bend"), "angle", axes=(0, 1))
+JOINT_ANGLE = _joint_angle("alpha_deg", mark("joint angle between the outer shafts"))
+TURN = given("phi1_deg", mark("input angle from the inner side of the joint angle"), "angle", axes=(0, 1))
 
 
 def _ratios(first: float, second: float, *, crossed: bool = False) -> Values:
@@ -40,19 +40,19 @@ def _ratios(first: float, second: float, *, crossed: bool = False) -> Values:
 RATIOS = (
     gives("ratio_max", mark("largest speed ratio over a turn")),
     gives("ratio_min", mark("smallest speed ratio over a turn")),
-    gives("irregularity", mark("irregularity of the output")),
+    gives("irregularity", mark("speed fluctuation of the output")),
 )
 
 
 def _centring(values: Values) -> Values:
-    bend, share = values["alpha"], values["lambda_"]
-    first, second = double_cardan.split(bend, share)
+    joint_angle, share = values["alpha"], values["lambda_"]
+    first, second = double_cardan.split(joint_angle, share)
     return {
         "alpha12_rad": first,
         "alpha23_rad": second,
-        "Delta_rad": double_cardan.lag(bend, share),
-        "Delta_book12_rad": double_cardan.lag_book(bend, share),
-        "x_over_l": double_cardan.slide(bend, share),
+        "Delta_rad": double_cardan.lag(joint_angle, share),
+        "Delta_book12_rad": double_cardan.lag_book(joint_angle, share),
+        "x_over_l": double_cardan.slide(joint_angle, share),
         **_ratios(first, second),
     }
 
@@ -61,9 +61,9 @@ def _optimum(values: Values) -> Values:
     found = best_centring(values["alpha_max"], values["alpha_min"])
     return {
         "lambda_minimax": found.share,
-        "irregularity_max": found.irregularity,
+        "irregularity_max": found.speed_fluctuation,
         "lambda_sync_at_alpha_max": found.even_share,
-        "irregularity_max_lambda_half": found.middle_irregularity,
+        "irregularity_max_lambda_half": found.middle_speed_fluctuation,
     }
 
 
@@ -85,7 +85,9 @@ def _slants(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
     for name in ("theta1", "theta2", "theta"):
         slant = values.get(name)
         if slant is not None and not low + EDGE < slant < high - EDGE:
-            text = _("{value}° is not between {low}° and {high}°, where pins turn all the way round at this bend")
+            text = _(
+                "{value}° is not between {low}° and {high}°, where pins turn all the way round at this joint angle"
+            )
             shown = {"value": slant / deg, "low": low / deg, "high": high / deg}
             text = text.format(**{what: f"{angle:.6g}" for what, angle in shown.items()})
             yield Problem(key(name), text, "out_of_range")
@@ -126,7 +128,7 @@ def _geometry(values: Values) -> Values:
         "stroke_m": found.stroke,
         "length_m": found.length,
         "contact_force_per_torque_N_per_Nm": found.force,
-        "lead_per_m_rad": found.lead,
+        "lead_per_m_rad": found.angle_error,
         "theta_min_deg": found.slant_range[0],
         "theta_max_deg": found.slant_range[1],
     }
@@ -158,13 +160,13 @@ def _support(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _crossed(values: Values) -> Values:
-    angle, bend = np.asarray(values["phi1"], dtype=float), values["alpha"]
+    angle, joint_angle = np.asarray(values["phi1"], dtype=float), values["alpha"]
     size = values["cross_offset"], values["support_distance"]
     return {
-        "phi2_rad": offset_cross.output_angle(angle, bend),
-        "shaft_tilt_rad": offset_cross.tilt(angle, bend, *size, values["cross_sign"]),
-        "joint_to_support_m": offset_cross.span(angle, bend, *size, values["cross_sign"]),
-        "nutation_half_angle_rad": offset_cross.wobble(bend, *size),
+        "phi2_rad": offset_cross.output_angle(angle, joint_angle),
+        "shaft_tilt_rad": offset_cross.tilt(angle, joint_angle, *size, values["cross_sign"]),
+        "joint_to_support_m": offset_cross.span(angle, joint_angle, *size, values["cross_sign"]),
+        "nutation_half_angle_rad": offset_cross.wobble(joint_angle, *size),
     }
 
 
@@ -178,17 +180,17 @@ def _profile(number: int) -> Given:
     )
 
 
-LEAD = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
+ANGLE_ERROR = gives("phi2_minus_phi1_rad", mark("lead of the output over the input"), "angle")
 RATIO = gives("ratio_21", mark("speed ratio"))
 FORCE = gives("contact_force_per_torque_N_per_Nm", mark("contact force without friction for each N·m of input torque"))
 
 CALCULATIONS = (
     Calculation(
         name="double_cardan_centring",
-        doc=mark("bends of a double cardan joint centred by a ball on one shaft, and how uneven it is"),
+        doc=mark("joint angles of a double cardan joint centred by a ball on one shaft, and how uneven it is"),
         source="triangle of the centres, exact; Book (8)-(12)",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             given(
                 "lambda_",
                 mark("distance of the ball from the first centre over that of the centres"),
@@ -197,9 +199,9 @@ CALCULATIONS = (
             ),
         ),
         returns=(
-            gives("alpha12_rad", mark("bend of the first joint"), "angle"),
-            gives("alpha23_rad", mark("bend of the second joint"), "angle"),
-            gives("Delta_rad", mark("by how much the bend is not halved"), "angle"),
+            gives("alpha12_rad", mark("joint angle of the first joint"), "angle"),
+            gives("alpha23_rad", mark("joint angle of the second joint"), "angle"),
+            gives("Delta_rad", mark("by how much the joint angle is not halved"), "angle"),
             gives("Delta_book12_rad", mark("the same by the book's approximation"), "angle"),
             gives("x_over_l", mark("distance of the ball from the second centre over that of the centres")),
             *RATIOS,
@@ -208,28 +210,28 @@ CALCULATIONS = (
     ),
     Calculation(
         name="centring_optimum",
-        doc=mark("centring ratio of a double cardan joint that is most even over a range of bends"),
-        source="minimax of the exact irregularity",
+        doc=mark("centring ratio of a double cardan joint that is most even over a range of joint angles"),
+        source="minimax of the exact speed fluctuation",
         takes=(
-            given("alpha_max_deg", mark("largest bend"), "angle", above=0.0, below=RIGHT),
-            given("alpha_min_deg", mark("smallest bend"), "angle", low=0.0, below=RIGHT, default=0.0),
+            given("alpha_max_deg", mark("largest joint angle"), "angle", above=0.0, below=RIGHT),
+            given("alpha_min_deg", mark("smallest joint angle"), "angle", low=0.0, below=RIGHT, default=0.0),
         ),
         returns=(
             gives("lambda_minimax", mark("best centring ratio")),
-            gives("irregularity_max", mark("largest irregularity with it")),
-            gives("lambda_sync_at_alpha_max", mark("centring ratio that is exact at the largest bend")),
-            gives("irregularity_max_lambda_half", mark("largest irregularity with the ball in the middle")),
+            gives("irregularity_max", mark("largest speed fluctuation with it")),
+            gives("lambda_sync_at_alpha_max", mark("centring ratio that is exact at the largest joint angle")),
+            gives("irregularity_max_lambda_half", mark("largest speed fluctuation with the ball in the middle")),
         ),
         answer=_optimum,
         check=_between,
     ),
     Calculation(
         name="double_cardan_irregularity",
-        doc=mark("irregularity of two joints whose three axes lie in one plane"),
+        doc=mark("speed fluctuation of two joints whose three axes lie in one plane"),
         source="Möbius product; the equivalent joint in closed form",
         takes=(
-            _bend("alpha12_deg", mark("bend of the first joint")),
-            _bend("alpha23_deg", mark("bend of the second joint")),
+            _joint_angle("alpha12_deg", mark("joint angle of the first joint")),
+            _joint_angle("alpha23_deg", mark("joint angle of the second joint")),
             given(
                 "yokes",
                 mark("how the inner yokes stand to each other"),
@@ -246,7 +248,7 @@ CALCULATIONS = (
         doc=mark("where the straight pins of a pin coupling touch, and how uneven it runs"),
         source="line and cone, exact; completes Book (3)-(7)",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             positive("a_m", mark("distance from the crossing of the axes at which pin 1 starts"), "length"),
             positive("b_m", mark("distance from the crossing of the axes at which pin 2 starts"), "length"),
             given("theta1_deg", mark("slant of pin 1 to its axis"), "angle"),
@@ -254,7 +256,7 @@ CALCULATIONS = (
             TURN,
         ),
         returns=(
-            LEAD,
+            ANGLE_ERROR,
             gives("x_m", mark("distance of the contact along pin 1"), "length"),
             gives("y_m", mark("distance of the contact along pin 2"), "length"),
             RATIO,
@@ -268,7 +270,7 @@ CALCULATIONS = (
         doc=mark("how far the contact of a pin coupling with pins alike runs along them"),
         source="closed form of the contact in the bisecting plane",
         takes=(
-            BEND,
+            JOINT_ANGLE,
             positive("a_m", mark("distance from the crossing of the axes at which the pins start"), "length"),
             given("theta_deg", mark("slant of the pins to their axes"), "angle"),
         ),
@@ -287,7 +289,7 @@ CALCULATIONS = (
         doc=mark("pins alike that touch with the smallest force in a given room"),
         source="smallest largest contact force of the exact contact",
         takes=(
-            given("alpha_max_deg", mark("largest bend"), "angle", above=0.0, below=RIGHT),
+            given("alpha_max_deg", mark("largest joint angle"), "angle", above=0.0, below=RIGHT),
             positive("radius_m", mark("largest distance of the contact from the axes"), "length"),
             given(
                 "margin_deg",
@@ -301,7 +303,7 @@ CALCULATIONS = (
         returns=(
             gives("theta_deg", mark("slant of the pins to their axes"), "angle"),
             gives("a_m", mark("distance from the crossing of the axes at which the pins start"), "length"),
-            gives("stroke_m", mark("way of the contact along a pin at the largest bend"), "length"),
+            gives("stroke_m", mark("way of the contact along a pin at the largest joint angle"), "length"),
             gives("length_m", mark("length that a pin needs from its start"), "length"),
             FORCE,
             gives(
@@ -318,9 +320,9 @@ CALCULATIONS = (
         name="profile_coupling",
         doc=mark("how uneven a coupling with circular profiles runs: Clemens, curved grooves"),
         source="contact of two circles in their meridian planes",
-        takes=(BEND, _profile(1), _profile(2), TURN),
+        takes=(JOINT_ANGLE, _profile(1), _profile(2), TURN),
         returns=(
-            LEAD,
+            ANGLE_ERROR,
             RATIO,
             gives("contact_axial1_m", mark("height of the contact along shaft 1"), "length"),
             gives("contact_radial1_m", mark("distance of the contact from the axis of shaft 1"), "length"),
@@ -335,7 +337,7 @@ CALCULATIONS = (
         doc=mark("turn and wobble of the output shaft of a joint whose cross axes do not meet"),
         source="loop of the joint, exact; Book Fig. 6",
         takes=(
-            _bend("alpha_deg", mark("angle between shaft 1 and the line from pin 1 to the support")),
+            _joint_angle("alpha_deg", mark("angle between shaft 1 and the line from pin 1 to the support")),
             at_least_zero("cross_offset_m", mark("distance of the axes of the cross"), "length"),
             positive("support_distance_m", mark("distance of the output support from pin 1"), "length"),
             given("phi1_deg", mark("input angle of pin 1 from the plane of the shafts"), "angle", axes=(0, 1)),

@@ -16,15 +16,15 @@ from cardan.drive.fields.validity import point_problems
 from cardan.drive.models.geometry import geometry_from_points
 from cardan.errors import Problem
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.questions.motion.motion import Motion, motion, phase_angles
+from cardan.questions.motion.motion import Motion, initial_phases, motion
 from cardan.texts import _, mark
 
 RIGHT = 0.5 * math.pi
 
 
-def bends(**options: Any) -> Given:
-    """Declare the bends of a chain."""
-    doc = _("bend of each joint")
+def joint_angles(**options: Any) -> Given:
+    """Declare the joint angles of a chain."""
+    doc = _("joint angle of each joint")
     return given("alpha_deg", doc, "angle", low=0.0, below=RIGHT, **{"axes": (1, 2)} | options)
 
 
@@ -83,11 +83,11 @@ def drives(values: Values) -> Drives:
     """Return the drives that bends and twists, or points, describe."""
     if values.get("points") is not None:
         place = geometry_from_points(values["points"])
-        bend, twist = place.bend, place.plane_twist
+        joint_angle, twist = place.joint_angle, place.plane_twist
     else:
-        bend, twist = values["alpha"], values.get("beta")
+        joint_angle, twist = values["alpha"], values.get("beta")
     return Drives.from_angles(
-        bend, plane_twist=twist, yoke_angle=values.get("gamma"), start_phase=values.get("psi1", 0.0)
+        joint_angle, plane_twist=twist, yoke_angle=values.get("gamma"), start_phase=values.get("psi1", 0.0)
     )
 
 
@@ -116,19 +116,19 @@ def _extremes(values: Values) -> Values:
     return {
         "ratio_max": found.ratio_max,
         "ratio_min": found.ratio_min,
-        "delta": found.irregularity,
-        "lead_max_deg": found.lead,
-        "phi1_at_lead_max_deg": found.angle_of_lead,
+        "delta": found.speed_fluctuation,
+        "lead_max_deg": found.angle_error,
+        "phi1_at_lead_max_deg": found.angle_of_error,
         "eps_max_over_omega1_sq": found.acceleration,
         "phi1_at_first_negative_eps_extreme_deg": found.angle_of_acceleration,
     }
 
 
 def _fourier(values: Values) -> Values:
-    bend = np.asarray(values["alpha"])
-    book = book_coefficients(bend)
+    joint_angle = np.asarray(values["alpha"])
+    book = book_coefficients(joint_angle)
     return {
-        "c_exact": fourier(bend, values["kmax"]),
+        "c_exact": fourier(joint_angle, values["kmax"]),
         "c11_book_alpha2_over_4": book.c11_quarter,
         "c11_book_series_3terms": book.c11,
         "c12_book_series_2terms": book.c12,
@@ -143,12 +143,12 @@ def _geometry(values: Values) -> Values:
         "axis": place.axis,
         "normal": place.normal,
         "length_m": place.length,
-        "alpha_deg": place.bend,
+        "alpha_deg": place.joint_angle,
         "beta_deg": place.plane_twist,
-        "delta": whole.irregularity,
+        "delta": whole.speed_fluctuation,
         "ratio_max": whole.ratio_max,
         "ratio_min": whole.ratio_min,
-        "psi_mod180_deg": np.remainder(phase_angles(drives(values)), np.pi),
+        "psi_mod180_deg": np.remainder(initial_phases(drives(values)), np.pi),
     }
     if values["phi1"] is None:
         return found
@@ -169,7 +169,7 @@ def _chain(values: Values) -> Values:
         "ratio_to_input": at(moved.shaft_ratio),
         "omega_rad_s": at(moved.shaft_speed) if known else None,
         "eps_rad_s2": at(moved.shaft_acceleration) if known else None,
-        "psi_mod180_deg": np.remainder(phase_angles(drives(values)), np.pi),
+        "psi_mod180_deg": np.remainder(initial_phases(drives(values)), np.pi),
         "cross_vs_driving_yoke_deg": at(moved.cross_driving),
         "cross_vs_driven_yoke_deg": at(moved.cross_driven),
     }
@@ -179,16 +179,16 @@ def _equivalent(values: Values) -> Values:
     whole = drives(values)
     joint = equivalent_joint(whole)
     return {
-        "delta": joint.irregularity,
+        "delta": joint.speed_fluctuation,
         "ratio_max": joint.ratio_max,
         "ratio_min": joint.ratio_min,
-        "delta_of_each_shaft": joint.shaft_irregularity,
-        "book_first_order_delta_80_with_theta": book_series(whole).irregularity,
+        "delta_of_each_shaft": joint.shaft_speed_fluctuation,
+        "book_first_order_delta_80_with_theta": book_series(whole).speed_fluctuation,
         "tau_eq": joint.tau,
-        "alpha_eq_deg": joint.bend,
+        "alpha_eq_deg": joint.joint_angle,
         "psi_eq_mod180_deg": joint.phase,
         "eps_max_over_omega1_sq": joint.max_acceleration,
-        "lead_max_deg": joint.max_lead,
+        "lead_max_deg": joint.max_angle_error,
     }
 
 
@@ -198,7 +198,7 @@ CALCULATIONS = (
         doc=mark("angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross"),
         source="Book (17)-(25), (103)",
         takes=(
-            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             START,
             ANGLE,
             SPEED,
@@ -218,7 +218,7 @@ CALCULATIONS = (
         name="single_joint_extremes",
         doc=mark("largest and smallest ratio, lead and acceleration of one Hooke joint"),
         source="Book Table 4, recomputed",
-        takes=(given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),),
+        takes=(given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),),
         returns=(
             gives("ratio_max", mark("largest speed ratio")),
             gives("ratio_min", mark("smallest speed ratio")),
@@ -235,7 +235,7 @@ CALCULATIONS = (
         doc=mark("Fourier amplitudes of the angle error of one Hooke joint, exact and by the book's series"),
         source="Book (39)-(46)",
         takes=(
-            given("alpha_deg", mark("bend of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
+            given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             given("kmax", mark("how many amplitudes"), kind="whole", low=1, high=10_000, default=5),
         ),
         returns=(
@@ -249,7 +249,7 @@ CALCULATIONS = (
     ),
     Calculation(
         name="geometry_from_points",
-        doc=mark("bends, plane twists and lengths from joint centres, and the motion of the output"),
+        doc=mark("joint angles, plane twists and lengths from joint centres, and the motion of the output"),
         source="Book (87)-(89)",
         takes=(
             points(),
@@ -263,7 +263,7 @@ CALCULATIONS = (
             gives("axis", mark("direction of each shaft")),
             gives("normal", mark("normal of each joint's plane")),
             gives("length_m", mark("length of each shaft"), "length"),
-            gives("alpha_deg", mark("bend of each joint"), "angle"),
+            gives("alpha_deg", mark("joint angle of each joint"), "angle"),
             gives("beta_deg", mark("plane twist of joints 2 to n"), "angle"),
             gives("delta", mark("irregularity")),
             gives("ratio_max", mark("largest speed ratio")),
@@ -280,7 +280,7 @@ CALCULATIONS = (
         name="chain",
         doc=mark("angle, speed and acceleration of every shaft of a chain of joints"),
         source="Book (31)-(33), (38)",
-        takes=(bends(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
+        takes=(joint_angles(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
         returns=(
             gives("phi_deg", mark("angle of each shaft from the start, continuous"), "angle"),
             gives("ratio_to_input", mark("speed ratio of each shaft to the input")),
@@ -295,15 +295,15 @@ CALCULATIONS = (
     ),
     Calculation(
         name="equivalent_joint",
-        doc=mark("the single joint that moves like the whole chain, and the irregularity after each joint"),
+        doc=mark("the single joint that moves like the whole chain, and the speed fluctuation after each joint"),
         source="Book (78)-(80); exact by Möbius pairs",
-        takes=(bends(default=None), twists(), points(default=None), YOKES, START),
+        takes=(joint_angles(default=None), twists(), points(default=None), YOKES, START),
         returns=(
             gives("delta", mark("irregularity")),
             gives("ratio_max", mark("largest speed ratio")),
             gives("ratio_min", mark("smallest speed ratio")),
-            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1")),
-            gives("book_first_order_delta_80_with_theta", mark("irregularity by the book's first order")),
+            gives("delta_of_each_shaft", mark("speed fluctuation of shafts 2 to n+1")),
+            gives("book_first_order_delta_80_with_theta", mark("speed fluctuation by the book's first order")),
             gives("tau_eq", mark("tan² of half the equivalent angle")),
             gives("alpha_eq_deg", mark("equivalent angle"), "angle"),
             gives("psi_eq_mod180_deg", mark("phase of the equivalent joint; None when synchronous"), "angle"),

@@ -52,13 +52,13 @@ def _path(values: Values, times: Any) -> MovingMotion:
 
 def _centres(values: Values) -> Values:
     moved = _path(values, np.atleast_1d(values["t"]))
-    if np.any(moved.shafts.bend >= RIGHT):
+    if np.any(moved.shafts.joint_angle >= RIGHT):
         raise refuse("points0", _("at a given time a joint bends 90° or more"))
     at = _axis_of_time(values)
     return {
         "spin_rad_s": at(moved.spins.spin),
         "spin_acc_rad_s2": at(moved.spins.spin_acceleration),
-        "alpha_deg": at(moved.shafts.bend),
+        "alpha_deg": at(moved.shafts.joint_angle),
         "length_m": at(moved.shafts.length),
         "length_rate_m_s": at(moved.shafts.length_rate),
         "length_acc_m_s2": at(moved.shafts.length_acceleration),
@@ -120,7 +120,12 @@ def _standing(points: Any, movement: Movement) -> Any:
 def _turned(points: Any, gamma: float) -> Values:
     place = geometry_from_points(points)
     whole = equivalent_joint(Drives.from_points(points, yoke_angle=[gamma]))
-    return {"bend": place.bend, "length": place.length[1], "twist": place.plane_twist, "delta": whole.irregularity}
+    return {
+        "joint_angle": place.joint_angle,
+        "length": place.length[1],
+        "twist": place.plane_twist,
+        "delta": whole.speed_fluctuation,
+    }
 
 
 def _hitch(values: Values) -> Values:
@@ -132,8 +137,8 @@ def _hitch(values: Values) -> Values:
     )
     found = _turned(_standing(line, hitch), values["gamma2"])
     return {
-        "alpha12_deg": found["bend"][0],
-        "alpha23_deg": found["bend"][1],
+        "alpha12_deg": found["joint_angle"][0],
+        "alpha23_deg": found["joint_angle"][1],
         "length2_m": found["length"],
         "beta2_deg": found["twist"][0],
         "delta": found["delta"],
@@ -161,7 +166,7 @@ def _arm(values: Values) -> Values:
     return {
         "B2_m": points[2],
         "a3": geometry_from_points(points).axis[-1],
-        "alpha_deg": found["bend"],
+        "alpha_deg": found["joint_angle"],
         "beta_deg": found["twist"],
         "length2_m": found["length"],
         "delta": found["delta"],
@@ -201,7 +206,7 @@ CALCULATIONS = (
         returns=(
             gives("spin_rad_s", mark("spin of each shaft"), "angular_speed"),
             gives("spin_acc_rad_s2", mark("its time derivative"), "angular_acceleration"),
-            gives("alpha_deg", mark("bend of each joint"), "angle"),
+            gives("alpha_deg", mark("joint angle of each joint"), "angle"),
             gives("length_m", mark("length of each shaft"), "length"),
             gives("length_rate_m_s", mark("sliding speed of each shaft"), "speed"),
             gives("length_acc_m_s2", mark("sliding acceleration of each shaft"), "acceleration"),
@@ -247,8 +252,8 @@ CALCULATIONS = (
             given("gamma2_deg", mark("yoke angle of shaft 2"), "angle", default=0.0),
         ),
         returns=(
-            gives("alpha12_deg", mark("bend of joint 1"), "angle"),
-            gives("alpha23_deg", mark("bend of joint 2"), "angle"),
+            gives("alpha12_deg", mark("joint angle of joint 1"), "angle"),
+            gives("alpha23_deg", mark("joint angle of joint 2"), "angle"),
             gives("length2_m", mark("length of the shaft between"), "length"),
             gives("beta2_deg", mark("plane twist"), "angle"),
             gives("delta", mark("irregularity")),
@@ -273,7 +278,7 @@ CALCULATIONS = (
         returns=(
             gives("B2_m", mark("centre of joint 2"), "length"),
             gives("a3", mark("direction of the output shaft")),
-            gives("alpha_deg", mark("bends"), "angle"),
+            gives("alpha_deg", mark("joint angles"), "angle"),
             gives("beta_deg", mark("plane twist"), "angle"),
             gives("length2_m", mark("length of the shaft between"), "length"),
             gives("delta", mark("irregularity")),

@@ -135,7 +135,7 @@ def _uses(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 def _select(values: Values) -> Values:
     need = Need(
         torque=values["torque"],
-        bend=values["angle"],
+        joint_angle=values["angle"],
         speed=values["speed"],
         synchronous=values["synchronous"],
         service_factor=values["service_factor"],
@@ -270,7 +270,7 @@ CALCULATIONS = (
         source=mark("catalogue of types; Book, chapter 1"),
         takes=(
             positive("torque_Nm", mark("torque"), "torque"),
-            angle("angle_deg", mark("bend of the joint")),
+            angle("angle_deg", mark("joint angle of the joint")),
             at_least_zero("speed_rpm", mark("speed"), "angular_speed"),
             given("synchronous", mark("whether the output must turn evenly"), kind="flag", default=False),
             positive("service_factor", mark("factor on the torque"), default=1.0),

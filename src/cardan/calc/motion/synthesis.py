@@ -15,7 +15,7 @@ from cardan.questions.phases.setting import settings
 from cardan.questions.phases.spline_pitch import best_pitched, steps
 from cardan.texts import _, mark
 
-from .kinematics import bends, between, points, twists
+from .kinematics import between, joint_angles, points, twists
 
 RUNNERS_UP = 6
 
@@ -45,16 +45,16 @@ def _continuous(values: Values) -> Values:
     found = phases(_drive(values, "gamma"), fixed=values["fixed_gamma"])
     best = found.settings[0] if found.settings else found.as_built
     return {
-        "delta_min": found.irregularity_min,
-        "delta_max": found.irregularity_max,
+        "delta_min": found.speed_fluctuation_min,
+        "delta_max": found.speed_fluctuation_max,
         "synchronous_feasible": found.feasible,
-        "alpha_eq_min_deg": found.bend_min,
-        "alpha_eq_max_deg": found.bend_max,
+        "alpha_eq_min_deg": found.joint_angle_min,
+        "alpha_eq_max_deg": found.joint_angle_max,
         "gamma_deg": best.yoke_angle,
         "gamma_deg_sets": [one.yoke_angle for one in found.settings],
-        "delta": best.irregularity,
-        "delta_of_each_shaft": best.shaft_irregularity,
-        "psi_mod180_deg": np.remainder(best.phase_angle, np.pi),
+        "delta": best.speed_fluctuation,
+        "delta_of_each_shaft": best.shaft_speed_fluctuation,
+        "psi_mod180_deg": np.remainder(best.initial_phase, np.pi),
         "delta_per_rad": best.sensitivity,
         "limiting_joint": found.limiting_joint,
     }
@@ -67,17 +67,19 @@ def _spline(values: Values) -> Values:
     found = settings(whole, rows, [""] * len(rows), whole.yoke_angle)
     turned = [np.remainder(one.yoke_angle, np.pi) for one in found]
     return {
-        "delta_min": found[0].irregularity,
-        "delta_second_best": found[1].irregularity if len(found) > 1 else None,
+        "delta_min": found[0].speed_fluctuation,
+        "delta_second_best": found[1].speed_fluctuation if len(found) > 1 else None,
         "n_distinct": [steps(z) for z in teeth],
         "gamma_deg": turned[0],
         "gamma_deg_minimisers": [
-            angles for angles, one in zip(turned, found, strict=True) if _ties(one.irregularity, found[0].irregularity)
+            angles
+            for angles, one in zip(turned, found, strict=True)
+            if _ties(one.speed_fluctuation, found[0].speed_fluctuation)
         ],
         "gamma_deg_sets": turned,
-        "delta_of_each_set": [one.irregularity for one in found],
-        "delta_of_each_shaft": found[0].shaft_irregularity,
-        "psi_mod180_deg": np.remainder(found[0].phase_angle, np.pi),
+        "delta_of_each_set": [one.speed_fluctuation for one in found],
+        "delta_of_each_shaft": found[0].shaft_speed_fluctuation,
+        "psi_mod180_deg": np.remainder(found[0].initial_phase, np.pi),
         "delta_per_rad": found[0].sensitivity,
     }
 
@@ -96,7 +98,7 @@ CALCULATIONS = (
         doc=mark("yoke angles that make a chain synchronous or as even as can be, and what they can reach"),
         source="hyperbolic polygon; Book (77)-(86) is its first order",
         takes=(
-            bends(axes=(1,), default=None),
+            joint_angles(axes=(1,), default=None),
             twists(axes=(1,)),
             points(default=None),
             _yokes("gamma_deg", mark("present yoke angle of shafts 2 to n")),
@@ -109,17 +111,17 @@ CALCULATIONS = (
             ),
         ),
         returns=(
-            gives("delta_min", mark("smallest irregularity")),
-            gives("delta_max", mark("largest irregularity")),
+            gives("delta_min", mark("smallest speed fluctuation")),
+            gives("delta_max", mark("largest speed fluctuation")),
             gives("synchronous_feasible", mark("whether the chain can be synchronous")),
             gives("alpha_eq_min_deg", mark("smallest equivalent angle"), "angle"),
             gives("alpha_eq_max_deg", mark("largest equivalent angle"), "angle"),
             gives("gamma_deg", mark("best yoke angles"), "angle"),
             gives("gamma_deg_sets", mark("best yoke angles and their mirror image"), "angle"),
-            gives("delta", mark("irregularity that the best yoke angles leave")),
-            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1 then")),
+            gives("delta", mark("speed fluctuation that the best yoke angles leave")),
+            gives("delta_of_each_shaft", mark("speed fluctuation of shafts 2 to n+1 then")),
             gives("psi_mod180_deg", mark("phase angle of each joint then"), "angle"),
-            gives("delta_per_rad", mark("growth of the irregularity for each yoke turned, per radian")),
+            gives("delta_per_rad", mark("growth of the speed fluctuation for each yoke turned, per radian")),
             gives("limiting_joint", mark("number of the joint that bends too much for the others")),
         ),
         answer=_continuous,
@@ -130,23 +132,23 @@ CALCULATIONS = (
         doc=mark("best yoke angles that spline teeth allow, all looked at"),
         source="enumeration on the exact model",
         takes=(
-            bends(axes=(1,), default=None),
+            joint_angles(axes=(1,), default=None),
             twists(axes=(1,)),
             points(default=None),
             given("spline_teeth", mark("teeth of the spline on shafts 2 to n"), kind="whole", axes=(1,), low=1),
             _yokes("gamma_offset_deg", mark("yoke angle of shafts 2 to n from which the teeth count")),
         ),
         returns=(
-            gives("delta_min", mark("smallest irregularity")),
-            gives("delta_second_best", mark("irregularity of the runner-up")),
+            gives("delta_min", mark("smallest speed fluctuation")),
+            gives("delta_second_best", mark("speed fluctuation of the runner-up")),
             gives("n_distinct", mark("different yoke angles each spline allows")),
             gives("gamma_deg", mark("best yoke angles"), "angle"),
             gives("gamma_deg_minimisers", mark("all equally good sets found"), "angle"),
             gives("gamma_deg_sets", mark("best sets, best first"), "angle"),
-            gives("delta_of_each_set", mark("irregularity each set leaves")),
-            gives("delta_of_each_shaft", mark("irregularity of shafts 2 to n+1 with the best set")),
+            gives("delta_of_each_set", mark("speed fluctuation each set leaves")),
+            gives("delta_of_each_shaft", mark("speed fluctuation of shafts 2 to n+1 with the best set")),
             gives("psi_mod180_deg", mark("phase angle of each joint with the best set"), "angle"),
-            gives("delta_per_rad", mark("growth of the irregularity for each yoke turned, per radian")),
+            gives("delta_per_rad", mark("growth of the speed fluctuation for each yoke turned, per radian")),
         ),
         answer=_spline,
         check=_check,

@@ -179,7 +179,7 @@ CALCULATIONS = (
         doc=mark("orders of the force of an unbalance on a shaft behind a joint"),
         source=mark("exact series of the joint"),
         takes=(
-            at_least_zero("alpha_deg", mark("bend of the joint"), "angle", below=RIGHT, axes=(0, 1)),
+            at_least_zero("alpha_deg", mark("joint angle of the joint"), "angle", below=RIGHT, axes=(0, 1)),
             given("psi_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle", default=0.0),
         ),
         returns=(
@@ -197,7 +197,7 @@ CALCULATIONS = (
         doc=mark("two unbalanced shafts joined by a Hooke joint, the first cracked: where they are after a time"),
         source=mark("article on the cracked shaft (6)-(25), restored; integrated with an account of energy"),
         takes=(
-            at_least_zero("alpha_deg", mark("bend of the joint"), "angle", below=RIGHT),
+            at_least_zero("alpha_deg", mark("joint angle of the joint"), "angle", below=RIGHT),
             given("psi_deg", mark("angle of the driving yoke from the plane of the shafts"), "angle", default=0.0),
             positive("speed_rad_s", mark("speed of the motor"), "angular_speed"),
             given(**_power("breathing_m"), default=1),

@@ -242,7 +242,9 @@ CALCULATIONS: tuple[Calculation, ...] = (
         doc=mark("parameters of Mathieu's equation of a drive with massless joints between two inertias"),
         source=mark("Book (187)-(196), the parametric term put right; exact: shooting and variational equations"),
         takes=(
-            given("alpha_deg", mark("bends of the joints"), "angle", axes=(1,), low=0.0, below=RIGHT, entries=True),
+            given(
+                "alpha_deg", mark("joint angles of the joints"), "angle", axes=(1,), low=0.0, below=RIGHT, entries=True
+            ),
             given("psi_deg", mark("phase angles of the joints"), "angle", axes=(1,), entries=True),
             given(
                 "stiffness_Nm_per_rad",

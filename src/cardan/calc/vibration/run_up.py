@@ -49,8 +49,8 @@ def _answer(values: Values) -> Values:
             "passing_time_s": found.passing_time,
             "steady_peak_abs": found.steady_peak,
         }
-    bend, stiffness, inertia, rise = (values[name] for name in _JOINT)
-    joint = joint_run_up(bend, stiffness, inertia, rise, end, damping=values["damping"], time=time)
+    joint_angle, stiffness, inertia, rise = (values[name] for name in _JOINT)
+    joint = joint_run_up(joint_angle, stiffness, inertia, rise, end, damping=values["damping"], time=time)
     return {
         "torque_Nm": joint.torque if time is not None else None,
         "peak_torque_Nm": joint.peak_torque,
@@ -82,7 +82,7 @@ CALCULATIONS = (
                 default=None,
             ),
             given("equation", mark("the oscillator's equation"), kind="word", choices=(EQUATION,), default=EQUATION),
-            given("alpha_deg", mark("bend of the joint"), "angle", low=0.0, below=RIGHT, default=None),
+            given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT, default=None),
             given(
                 "stiffness_Nm_per_rad",
                 mark("stiffness of the driven shaft"),

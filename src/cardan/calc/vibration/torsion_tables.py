@@ -33,7 +33,7 @@ SHAFTS = rows(
 JOINTS = rows(
     "joints",
     mark("joints between the shafts"),
-    given("alpha_deg", mark("bend"), "angle", low=0.0, below=RIGHT),
+    given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
     given("psi_deg", mark("phase of the driving yoke at the start position"), "angle", default=0.0),
 )
 """Joints between the shafts."""
@@ -115,7 +115,7 @@ def model_of(values: Values) -> TorsionalModel:
             np.zeros(n) if _absent(shaft["ground_damping"]) else shaft["ground_damping"]
             for shaft, n in zip(shafts, counts, strict=True)
         ],
-        bend=np.asarray([joint["alpha"] for joint in joints]),
+        joint_angle=np.asarray([joint["alpha"] for joint in joints]),
         phase=np.asarray([joint["psi"] for joint in joints]),
         torques=[
             Torque(station=int(starts[row["shaft"] - 1]) + row["station"] - 1, law=_LAWS[row["kind"]](row))

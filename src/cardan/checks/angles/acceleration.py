@@ -35,14 +35,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
             continue
         drawn = drawn_swings[..., k]
         most = drawn if moved is None else moved[..., k]
-        yokes = design.yoke_levers if k == 0 or design.joints > 2 else ()
+        yokes = design.yoke_design_variables if k == 0 or design.joints > 2 else ()
         yield Verdict(
             subject=subject,
             title=title,
             limit=limit,
             source=norm.source,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
-            levers=(*yokes, *design.bend_levers, *design.speed_levers),
+            design_variables=(*yokes, *design.joint_angle_design_variables, *design.speed_design_variables),
             note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else ""),
         )
 
@@ -59,7 +59,7 @@ def swings(chain: Chain) -> Array:
     n = chain.joints
     if n == 1:
         return each
-    coast = [largest_acceleration(mobius.bend(Case(chain=chain).between(i, n))) for i in range(1, n)]
+    coast = [largest_acceleration(mobius.joint_angle(Case(chain=chain).between(i, n))) for i in range(1, n)]
     xp = namespace(each)
     inside = xp.max(each[..., :-1], axis=-1), xp.max(xp.stack(coast, axis=-1), axis=-1)
     return xp.stack((each[..., -1], *inside), axis=-1)

@@ -16,13 +16,15 @@ from cardan.texts import _, mark
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    rule = Verdict(source=_("web articles on drive shafts: 6° and 1.5°"), levers=design.bend_levers)
-    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    rule = Verdict(
+        source=_("web articles on drive shafts: 6° and 1.5°"), design_variables=design.joint_angle_design_variables
+    )
+    largest, note = at_its_most(design, lambda joint_angle: np.max(joint_angle, axis=-1, keepdims=True))
     yield replace(
         rule, title=_("largest joint angle, rule of thumb"), value=largest[..., 0], limit=RULE_ANGLE, note=note
     )
     if design.joints == 2:
-        apart, note = at_its_most(design, lambda bend: np.abs(bend[..., :1] - bend[..., 1:]))
+        apart, note = at_its_most(design, lambda joint_angle: np.abs(joint_angle[..., :1] - joint_angle[..., 1:]))
         title = _("difference of the joint angles, rule of thumb")
         yield replace(rule, title=title, value=apart[..., 0], limit=RULE_DIFFERENCE, note=note)
 

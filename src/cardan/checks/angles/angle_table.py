@@ -28,12 +28,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     if np.any(np.asarray(speed) == 0.0):
         return
-    high, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
-    low = np.min(design.bend, axis=-1)
+    high, note = at_its_most(design, lambda joint_angle: np.max(joint_angle, axis=-1, keepdims=True))
+    low = np.min(design.joint_angle, axis=-1)
     if design.drive.movements:
         # √(low² + a/ω²) is kept where high² - low² is at most a/ω²: the largest difference decides. Where a joint
         # comes to bend 90° both are infinite: beside the drawn bend the limit stays a number.
-        apart = at_its_most(design, lambda bend: np.abs(bend[..., :1] ** 2 - bend[..., 1:] ** 2))[0]
+        apart = at_its_most(design, lambda joint_angle: np.abs(joint_angle[..., :1] ** 2 - joint_angle[..., 1:] ** 2))[
+            0
+        ]
         finite = np.isfinite(high) & np.isfinite(apart)
         square = np.where(finite, high, 0.0) ** 2 - np.where(finite, apart, 0.0)
         low = np.where(finite, np.sqrt(np.maximum(square, 0.0)), low[..., None])[..., 0]
@@ -44,13 +46,13 @@ def _judge(design: Design) -> Iterator[Verdict]:
         value=high[..., 0],
         limit=most,
         source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
-        levers=(*design.bend_levers, *design.speed_levers),
+        design_variables=(*design.joint_angle_design_variables, *design.speed_design_variables),
         note=joined(at_top_speed(design), said, note),
     )
 
 
 def _phased(design: Design) -> bool:
-    """Tell whether the yokes of two joints are set so that their bends cancel."""
+    """Tell whether the yokes of two joints are set so that their joint angles cancel."""
     turned = design.chain.turn_before[..., 1]
     return bool(np.all(np.abs(np.cos(turned)) < SET))
 

@@ -19,10 +19,12 @@ def _judge(design: Design) -> Iterator[Verdict]:
         return
     yield Verdict(
         subject=output,
-        value=equivalent_joint(design.chain).max_lead if design.swing is None else design.swing.max_lead[-1],
+        value=equivalent_joint(design.chain).max_angle_error
+        if design.swing is None
+        else design.swing.max_angle_error[-1],
         limit=own,
         source=_("limits of the drive file"),
-        levers=(*design.yoke_levers, *design.bend_levers),
+        design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
     )
 
 

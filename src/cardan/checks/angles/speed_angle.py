@@ -24,10 +24,10 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         yield Verdict(missing=(*(() if limit is not None else (path,)), *(() if running else ("duty.speed",))))
         return
     yield Verdict(
-        value=largest([np.asarray(case.speed) * case.bend[..., i] for case in running]),
+        value=largest([np.asarray(case.speed) * case.joint_angle[..., i] for case in running]),
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
-        levers=(*design.bends_of(i), *design.speed_levers),
+        design_variables=(*design.joint_angles_of(i), *design.speed_design_variables),
         note="" if design.duty.continuous else _("counts in continuous running; this drive runs for short times"),
         advice=not design.duty.continuous,
     )

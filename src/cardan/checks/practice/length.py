@@ -24,7 +24,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         value=length,
         limit=LONGEST,
         source=_("web articles on drive shafts: at most 1.5 m between joints"),
-        levers=design.levers(f"shafts[{k}].length") if design.drive.form != "points" else (),
+        design_variables=design.design_variables(f"shafts[{k}].length") if design.drive.form != "points" else (),
         note=_("a composite tube may be longer") if design.drive.shafts[k].layup is not None else "",
     )
 

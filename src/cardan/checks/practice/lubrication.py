@@ -42,7 +42,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 limit=getattr(row, name) * (SEVERE if upkeep.severe else 1.0) * BELOW,
                 note=_("lubricate with {what}").format(what=row.lubricant)
                 + (_("; severe use halves the interval") if upkeep.severe else ""),
-                levers=(f"duty.upkeep.{name}",),
+                design_variables=(f"duty.upkeep.{name}",),
             )
 
 

@@ -21,7 +21,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             value=design.value(f"shafts[{k}].runout"),
             limit=HEAVY if heavy else STRAIGHT,
             source=_("Book p. 247, trucks of 5 t and more") if heavy else _("web articles on drive shafts: 0.25 mm"),
-            levers=(f"shafts[{k}].runout",),
+            design_variables=(f"shafts[{k}].runout",),
         )
 
 

@@ -41,7 +41,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 value=np.asarray(engaged) - out,
                 limit=TOUCH if own is None else own,
                 source=_("it must not come apart") if own is None else _("limits of the drive file"),
-                levers=(f"{path}.engaged",),
+                design_variables=(f"{path}.engaged",),
                 note=moved if np.all(out > stood + ROUNDING) else "",
             )
         if gap is not None and k in slides:
@@ -51,7 +51,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 value=np.asarray(gap) - back,
                 limit=TOUCH,
                 source=_("it must not bottom"),
-                levers=(f"{path}.gap",),
+                design_variables=(f"{path}.gap",),
                 note=moved if np.all(back > ROUNDING - stood) else "",
             )
 

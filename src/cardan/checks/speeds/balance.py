@@ -32,7 +32,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(missing=tuple(lacking))
         return
     amount = _amount(design, k)
-    levers = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
+    design_variables = tuple(f"shafts[{k}].unbalance[{j}].amount" for j in range(len(shaft.unbalance)))
     slow = design.top_speed is not None and bool(np.all(np.asarray(design.top_speed) < SLOW))
     if grade:
         row = design.known.row(BalanceGrade, grade, field="duty.balance_grade")
@@ -41,7 +41,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             value=amount,
             limit=allowed_unbalance(mass, top, row.speed).whole,
             source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
-            levers=(*levers, *design.speed_levers),
+            design_variables=(*design_variables, *design.speed_design_variables),
             note=_("below 500 rpm makers do not balance") if slow else "",
             advice=slow,
         )
@@ -52,7 +52,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             value=amount,
             limit=limit.max_unbalance,
             source=f"{limit.source}, {limit.note}",
-            levers=levers,
+            design_variables=design_variables,
         )
 
 

@@ -34,7 +34,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             limit=ARTICLE if own is None else own,
             sense="at_least",
             source=source if own is None else _("limits of the drive file"),
-            levers=(*one.levers, *design.speed_levers),
+            design_variables=(*one.design_variables, *design.speed_design_variables),
             note=_note(one),
         )
         application = design.duty.application
@@ -50,7 +50,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
             dimension="share",
             unit="percent",
             source=makers[application],
-            levers=(*(path for path in one.levers if "wear" not in path), *design.speed_levers),
+            design_variables=(
+                *(path for path in one.design_variables if "wear" not in path),
+                *design.speed_design_variables,
+            ),
             note=_computed(one),
         )
 

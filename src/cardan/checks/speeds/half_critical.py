@@ -18,7 +18,7 @@ from .whirl import whirls
 
 def _judge(design: Design) -> Iterator[Verdict]:
     for one in whirls(design):
-        k, speed, lacking, levers = one.shaft, one.speed, one.missing, one.levers
+        k, speed, lacking, design_variables = one.shaft, one.speed, one.missing, one.design_variables
         running = [case.speed for case in design.cases if case.speed is not None]
         between = design.duty.speed_range
         subject, source = (
@@ -38,7 +38,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 value=_nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
                 limit=(low, high),
                 source=source,
-                levers=(*levers, *(path for path in design.speed_levers if "range" not in path)),
+                design_variables=(
+                    *design_variables,
+                    *(path for path in design.speed_design_variables if "range" not in path),
+                ),
             )
         if between is not None:
             nearest = np.clip(middle, design.value("duty.speed_range[0]"), design.value("duty.speed_range[1]"))
@@ -48,7 +51,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
                 value=nearest,
                 limit=(low, high),
                 source=source,
-                levers=levers,
+                design_variables=design_variables,
                 note=_("pass through it quickly") if np.all((nearest > low) & (nearest < high)) else "",
                 advice=True,
             )

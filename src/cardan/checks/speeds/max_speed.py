@@ -16,7 +16,9 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     if limit is None or speed is None:
         yield Verdict(missing=(*design.missing(path), *design.unmoved))
         return
-    yield Verdict(value=speed, limit=limit, source=_("rating of the joint"), levers=design.speed_levers)
+    yield Verdict(
+        value=speed, limit=limit, source=_("rating of the joint"), design_variables=design.speed_design_variables
+    )
 
 
 CHECK = Check(

@@ -27,7 +27,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=0.5 * np.asarray(design.top_speed) * design.value(outer),
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
-        levers=(*design.speed_levers, outer),
+        design_variables=(*design.speed_design_variables, outer),
     )
 
 

@@ -39,7 +39,7 @@ class Whirl:
         k_n, real over computed critical speed.
     exact : bool
         Whether it is that of the whole line, with supports, masses and stretches.
-    missing, levers : tuple of str
+    missing, design_variables : tuple of str
         Paths that lack, and those that move it.
     """
 
@@ -48,7 +48,7 @@ class Whirl:
     wear: Array | float
     exact: bool = False
     missing: tuple[str, ...] = ()
-    levers: tuple[str, ...] = ()
+    design_variables: tuple[str, ...] = ()
 
 
 def whirls(design: Design) -> list[Whirl]:
@@ -72,7 +72,7 @@ def whirls(design: Design) -> list[Whirl]:
         if alone.speed is not None and k in line:
             before = _alone(plain, k).speed
             speed = line[k] * (alone.speed / before)
-            alone = Whirl(shaft=k, speed=speed, wear=alone.wear, exact=True, levers=alone.levers)
+            alone = Whirl(shaft=k, speed=speed, wear=alone.wear, exact=True, design_variables=alone.design_variables)
         elif k not in line and line:
             continue
         found.append(alone)
@@ -105,8 +105,8 @@ def _end(design: Design, plain: Design, k: int, speed: float) -> Whirl:
         if re.match(MOVES, path) and isinstance(now, float):
             power = _power(design.drive, path, k)
             varied = varied * (np.maximum(values / now, 1e-9) ** power if now > 0.0 else np.exp(power * (values - now)))
-    levers = design.levers(*longest.levers, f"shafts[{k}].wear_factor")
-    return Whirl(shaft=k, speed=varied, wear=_wear(design, k), exact=True, levers=levers)
+    design_variables = design.design_variables(*longest.design_variables, f"shafts[{k}].wear_factor")
+    return Whirl(shaft=k, speed=varied, wear=_wear(design, k), exact=True, design_variables=design_variables)
 
 
 @lru_cache(maxsize=256)
@@ -160,6 +160,6 @@ def _alone(design: Design, k: int) -> Whirl:
         return Whirl(shaft=k, speed=None, wear=wear, missing=tuple(lacking))
     section = _longest(found)
     speed: Array = 0.25 * _swiftness(design, section) * (math.pi / length) ** 2
-    levers = [*section.levers, f"shafts[{k}].wear_factor"]
-    levers += [f"shafts[{k}].length"] if design.drive.form != "points" and len(found) == 1 else []
-    return Whirl(shaft=k, speed=speed, wear=wear, levers=design.levers(*levers))
+    design_variables = [*section.design_variables, f"shafts[{k}].wear_factor"]
+    design_variables += [f"shafts[{k}].length"] if design.drive.form != "points" and len(found) == 1 else []
+    return Whirl(shaft=k, speed=speed, wear=wear, design_variables=design.design_variables(*design_variables))

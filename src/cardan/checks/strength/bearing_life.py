@@ -49,12 +49,12 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
             _("ISO 281 over the oscillation of the journals, reliability {share}"),
             share=Quantity(design.duty.reliability, "share", 6, trim=True),
         ),
-        levers=(
+        design_variables=(
             *((given,) if rated else sizes),
             span,
-            *design.bends_of(i),
-            *design.torque_levers,
-            *design.speed_levers,
+            *design.joint_angles_of(i),
+            *design.torque_design_variables,
+            *design.speed_design_variables,
             "duty.life",
         ),
     )
@@ -80,7 +80,7 @@ def _relative(design: Design, i: int) -> Array:
     for case in design.running:
         turned = id(case.chain), case.torque_at
         if turned not in swung:
-            swung[turned] = swing_damage(case.bend[..., i], torque_at=case.torque_at)
+            swung[turned] = swing_damage(case.joint_angle[..., i], torque_at=case.torque_at)
         load = np.asarray(case.share) * case.speed * (np.asarray(case.torque) / strength) ** POWER
         damage = damage + np.stack([np.broadcast_to(load * swing, design.shape) for swing in swung[turned]])
     found: Array = np.max(damage, axis=0)

@@ -36,7 +36,12 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=found.pressure,
         limit=STATIC_PRESSURE,
         source=_("Hertz; 4000 MPa stands behind ISO 76"),
-        levers=(f"joints[{i}].cross.span", *sizes_of(i), f"joints[{i}].cross.journal", *design.torque_levers),
+        design_variables=(
+            f"joints[{i}].cross.span",
+            *sizes_of(i),
+            f"joints[{i}].cross.journal",
+            *design.torque_design_variables,
+        ),
         note=note,
     )
 

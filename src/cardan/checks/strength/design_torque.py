@@ -43,7 +43,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         value=largest([case.torque for case in design.loaded if case.torque is not None]) * design.shock,
         limit=found.design,
         source=_("adhesion of the wheels, μ W r") if adhesion else _("torque of the engine through the gears"),
-        levers=("duty.torque",) if design.duty.torque is not None else design.torque_levers,
+        design_variables=("duty.torque",) if design.duty.torque is not None else design.torque_design_variables,
         note=_("the parts are judged with the torque of the duty"),
     )
 

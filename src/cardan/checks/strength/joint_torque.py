@@ -25,7 +25,11 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=value * design.shock,
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
-        levers=(*(() if rated is None else (path,)), *design.bends_of(i), *design.torque_levers),
+        design_variables=(
+            *(() if rated is None else (path,)),
+            *design.joint_angles_of(i),
+            *design.torque_design_variables,
+        ),
         note=note,
     )
 

@@ -44,12 +44,18 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         yield Verdict(missing=missing)
         return
     found, note = stress(design, i)
-    lever = f"{cross}.journal_length" if design.missing(arm) else arm
+    design_variable = f"{cross}.journal_length" if design.missing(arm) else arm
     yield Verdict(
         value=found.mises,
         limit=design.allowed(strength),
         source=_("Book (264), (265) with the grease bore; yield strength over safety"),
-        levers=(f"{cross}.journal", f"{cross}.span", lever, strength, *design.torque_levers),
+        design_variables=(
+            f"{cross}.journal",
+            f"{cross}.span",
+            design_variable,
+            strength,
+            *design.torque_design_variables,
+        ),
         note=note,
     )
 

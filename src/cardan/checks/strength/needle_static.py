@@ -44,7 +44,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=load,
         limit=capacity,
         source=_("static capacity of the bearing") if rated else "ISO 76",
-        levers=(span, *((given,) if rated else (*sizes, journal)), *design.torque_levers),
+        design_variables=(span, *((given,) if rated else (*sizes, journal)), *design.torque_design_variables),
         note=note,
     )
     turning = [case for case in design.loaded if case.speed is not None and np.all(np.asarray(case.speed) > 0.0)]
@@ -59,7 +59,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=turning[worst].couple[..., i] * design.shock / design.value(span),
         limit=np.minimum(allowed[worst], capacity),
         source=_("Book (266), one oscillation a turn"),
-        levers=(span, *sizes, *design.torque_levers, *design.speed_levers),
+        design_variables=(span, *sizes, *design.torque_design_variables, *design.speed_design_variables),
         note=_("an old rule on the safe side; the life decides"),
         advice=True,
     )

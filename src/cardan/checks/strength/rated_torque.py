@@ -9,7 +9,7 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.joint_rating import LEAST_BEND, NOMINAL, POWER, rated_bend
+from cardan.formulas.joint_rating import LEAST_JOINT_ANGLE, NOMINAL, POWER, rated_joint_angle
 from cardan.maths.arrays import Array
 from cardan.questions.life.bearing_life import CONVENTIONS
 from cardan.texts import _, mark
@@ -33,7 +33,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     if convention == "book":
         rated = rated / NOMINAL
     # Torque that does the damage of the whole duty at its mean speed times joint angle.
-    paces = [np.asarray(one.share) * one.speed * rated_bend(one.bend[..., i]) for one in running]
+    paces = [np.asarray(one.share) * one.speed * rated_joint_angle(one.joint_angle[..., i]) for one in running]
     pace: Array = sum(paces)
     worn: Array = sum(own * one.joint_torque[..., i] ** POWER for own, one in zip(paces, running, strict=True))
     whole: Array = sum(np.asarray(one.share) for one in running)
@@ -41,8 +41,14 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=design.shock * (worn / pace) ** (1.0 / POWER),
         limit=rated * (CONVENTIONS[convention] / (pace / whole * design.value("duty.life"))) ** (1.0 / POWER),
         source=_(SOURCES[convention]),
-        levers=(torque, *design.bends_of(i), *design.torque_levers, *design.speed_levers, "duty.life"),
-        note=_("a joint angle below 3° counts as 3°") if np.any(design.bend[..., i] < LEAST_BEND) else "",
+        design_variables=(
+            torque,
+            *design.joint_angles_of(i),
+            *design.torque_design_variables,
+            *design.speed_design_variables,
+            "duty.life",
+        ),
+        note=_("a joint angle below 3° counts as 3°") if np.any(design.joint_angle[..., i] < LEAST_JOINT_ANGLE) else "",
     )
 
 

@@ -25,7 +25,7 @@ class Section:
     outer, inner : float or array (...) [m]
     length : float or array (...) or None [m]
         Of the stretch; None where the drive does not say it.
-    levers : tuple of str
+    design_variables : tuple of str
         Paths that change its sizes.
     number : int
         Of the stretch, from 1; 0 where the shaft is one.
@@ -35,7 +35,7 @@ class Section:
     outer: Array | float
     inner: Array | float
     length: Array | float | None
-    levers: tuple[str, ...]
+    design_variables: tuple[str, ...]
     number: int = 0
 
     @property
@@ -55,8 +55,10 @@ def sections(design: Design, k: int) -> Iterator[Section]:
     for s, _segment in enumerate(shaft.segments):
         one = f"{path}.segments[{s}]"
         outer, inner, length = (design.value(f"{one}.{name}") for name in ("outer", "inner", "length"))
-        levers = design.levers(f"{one}.outer")
-        yield Section(path=one, outer=outer, inner=inner, length=length, levers=levers, number=s + 1)
+        design_variables = design.design_variables(f"{one}.outer")
+        yield Section(
+            path=one, outer=outer, inner=inner, length=length, design_variables=design_variables, number=s + 1
+        )
     outer = design.value(f"{path}.outer")
     if outer is None:
         return
@@ -64,11 +66,11 @@ def sections(design: Design, k: int) -> Iterator[Section]:
     if shaft.layup is not None:
         thin = design.value(f"{path}.layup.ply_thickness")
         inside = outer - 2.0 * len(shaft.layup.angles) * thin
-        levers = design.levers(f"{path}.outer", f"{path}.layup.ply_thickness")
+        design_variables = design.design_variables(f"{path}.outer", f"{path}.layup.ply_thickness")
     else:
         inside = inner if inner is not None else 0.0 if wall is None else outer - 2.0 * wall
-        levers = design.levers(f"{path}.outer", f"{path}.wall")
-    yield Section(path=path, outer=outer, inner=inside, length=whole, levers=levers)
+        design_variables = design.design_variables(f"{path}.outer", f"{path}.wall")
+    yield Section(path=path, outer=outer, inner=inside, length=whole, design_variables=design_variables)
 
 
 def modulus(design: Design, section: Section, name: str) -> float | Array:

@@ -18,10 +18,10 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         yield Verdict(missing=lacking)
         return
     yield Verdict(
-        value=design.bend[..., i],
+        value=design.joint_angle[..., i],
         limit=critical_swing(*(design.value(path) for path in paths))[0],
         source=_("pure rolling: 360°/(z(1+γ))"),
-        levers=design.bends_of(i),
+        design_variables=design.joint_angles_of(i),
         note=_("below it roller paths do not overlap: false brinelling, and the computed life is optimistic"),
     )
 

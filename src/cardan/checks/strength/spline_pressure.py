@@ -51,7 +51,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         value=found.pressure,
         limit=design.value("limits.spline_pressure"),
         source=_("2T/(d_m z ψ h l); limits of the drive file, no source gives one"),
-        levers=(f"{path}.length", f"{path}.outer", f"{path}.teeth", *design.torque_levers),
+        design_variables=(f"{path}.length", f"{path}.outer", f"{path}.teeth", *design.torque_design_variables),
         note=note,
     )
 

@@ -22,12 +22,12 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(missing=missing)
         return
     found, note = stresses(design, k)
-    levers = (strength, *design.torque_levers)
+    design_variables = (strength, *design.torque_design_variables)
     yield Verdict(
         value=math.sqrt(3.0) * found.core_shear,
         limit=design.allowed(strength),
         source=_("torsion at the root diameter, von Mises; yield strength over safety"),
-        levers=(f"{path}.root", *levers),
+        design_variables=(f"{path}.root", *design_variables),
         note=note,
     )
     yield Verdict(
@@ -35,7 +35,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         value=math.sqrt(3.0) * found.tooth_shear,
         limit=design.allowed(strength),
         source=_("shear at the roots of the teeth, von Mises; yield strength over safety"),
-        levers=(f"{path}.length", f"{path}.tooth_width", *levers),
+        design_variables=(f"{path}.length", f"{path}.tooth_width", *design_variables),
         note=note,
     )
 

@@ -33,7 +33,7 @@ def _of_composite(design: Design, k: int) -> Iterator[Verdict]:
         value=torque * design.shock,
         limit=buckles / design.value("limits.safety"),
         source=_("buckling of the wall, 2π r² t·0.272 (E_x E_y³)^(1/4) (t/r)^(3/2), over safety"),
-        levers=(f"shafts[{k}].layup.ply_thickness", f"shafts[{k}].outer", *design.torque_levers),
+        design_variables=(f"shafts[{k}].layup.ply_thickness", f"shafts[{k}].outer", *design.torque_design_variables),
         note=" ".join(part for part in (note, _("the strength of the plies is not checked")) if part),
     )
 
@@ -70,7 +70,7 @@ def _of_metal(design: Design, k: int) -> Iterator[Verdict]:
             value=torque * design.shock,
             limit=buckles / design.value("limits.safety"),
             source=_("buckling of the wall by Timoshenko and Gere, 11.11, over safety"),
-            levers=(*section.levers, *design.torque_levers),
+            design_variables=(*section.design_variables, *design.torque_design_variables),
             note=note,
         )
 

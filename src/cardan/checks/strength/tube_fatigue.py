@@ -35,13 +35,19 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(missing=lacking)
         return
     safeties = [fatigue(design, k, section, case).safety for case in design.loaded for section in found]
-    sizes = tuple(path for section in found for path in section.levers)
-    notches = design.levers(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion")
+    sizes = tuple(path for section in found for path in section.design_variables)
+    notches = design.design_variables(f"shafts[{k}].notch.bending", f"shafts[{k}].notch.torsion")
     yield Verdict(
         value=np.min(np.stack(np.broadcast_arrays(*safeties)), axis=0),
         limit=design.value("limits.fatigue_safety"),
         source=_("Goodman with Marin's factors, Shigley chapter 6"),
-        levers=(*sizes, strengths[0], *notches, *design.bend_levers, *design.torque_levers),
+        design_variables=(
+            *sizes,
+            strengths[0],
+            *notches,
+            *design.joint_angle_design_variables,
+            *design.torque_design_variables,
+        ),
     )
 
 

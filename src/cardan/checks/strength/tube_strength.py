@@ -39,7 +39,7 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
             value=moment * design.shock / resisting,
             limit=own,
             source=_("Book (261), largest shear stress; limits of the drive file"),
-            levers=(*section.levers, *design.torque_levers),
+            design_variables=(*section.design_variables, *design.torque_design_variables),
             note=note,
         )
     moment, note = design.most(lambda case: case.mises_moment[..., k])
@@ -48,7 +48,7 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
         value=moment * design.shock / resisting,
         limit=design.allowed(strength),
         source=_("torsion with the secondary couples, von Mises; yield strength over safety"),
-        levers=(*section.levers, strength, *design.torque_levers),
+        design_variables=(*section.design_variables, strength, *design.torque_design_variables),
         note=note,
     )
 

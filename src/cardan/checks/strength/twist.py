@@ -26,18 +26,18 @@ def compliance(design: Design, k: int) -> tuple[Array | float | None, tuple[str,
     soft = sum(
         one.length / (modulus(design, one, "shear_modulus") * polar_moment(one.outer, one.inner)) for one in found
     )
-    return soft, tuple(path for one in found for path in one.levers)
+    return soft, tuple(path for one in found for path in one.design_variables)
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
     soft: dict[int, Array | float] = {}
-    levers: list[str] = []
+    design_variables: list[str] = []
     lacking = list(design.unloaded)
     for k in range(design.joints + 1):
         twisted, moving = compliance(design, k)
         if twisted is not None:
             soft[k] = twisted
-            levers += moving
+            design_variables += moving
         elif 0 < k < design.joints:
             found = list(sections(design, k))
             lacking += [] if found else [f"shafts[{k}].outer"]
@@ -52,7 +52,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         value=value,
         limit=RATED_TWIST if own is None else own,
         source=_("Book (262): 9°") if own is None else _("limits of the drive file"),
-        levers=(*levers, *design.torque_levers),
+        design_variables=(*design_variables, *design.torque_design_variables),
         note=note,
     )
 

@@ -48,7 +48,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=found.mises,
         limit=design.allowed(strength),
         source=_("Book (263) with Saint-Venant's torsion; yield strength over safety"),
-        levers=(*sizes, f"joints[{i}].cross.span", strength, *design.torque_levers),
+        design_variables=(*sizes, f"joints[{i}].cross.span", strength, *design.torque_design_variables),
         note=note,
     )
 

@@ -87,10 +87,12 @@ def assembled(
 def moved(drawn: Geometry, points: Array) -> Geometry:
     """Return where a drive lies whose points have moved; straight joints keep the planes they were drawn with."""
     found = geometry_from_points(np.asarray(points, dtype=float))
-    if np.any(found.bend == 0.0):
+    if np.any(found.joint_angle == 0.0):
         kept = [
-            frames.unit(normal - (normal @ axis) * axis) if bend == 0.0 else own
-            for normal, axis, own, bend in zip(drawn.normal, found.axis[1:], found.normal, found.bend, strict=True)
+            frames.unit(normal - (normal @ axis) * axis) if joint_angle == 0.0 else own
+            for normal, axis, own, joint_angle in zip(
+                drawn.normal, found.axis[1:], found.normal, found.joint_angle, strict=True
+            )
         ]
         return replace(found, normal=np.stack(kept))
     return found
@@ -113,7 +115,10 @@ def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Ar
         start = frames.unit(start - (start @ axis) * axis)
         phase = frames.angle_about(axis, np.cross(place.normal[0], axis), start)
         train = Chain(
-            bend=place.bend, plane_twist=place.plane_twist, yoke_angle=train.yoke_angle, start_phase=np.asarray(phase)
+            joint_angle=place.joint_angle,
+            plane_twist=place.plane_twist,
+            yoke_angle=train.yoke_angle,
+            start_phase=np.asarray(phase),
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         found = arms(place, train, angle, drive.joints)
@@ -123,11 +128,11 @@ def standing(drive: Drive, drawn: Geometry, place: Geometry, angle: Array) -> Ar
 
 
 def turns(drive: Drive, build: Build) -> Iterator[int]:
-    """Yield the joints, from 0, that do not turn at their bend with the sizes they are given."""
+    """Yield the joints, from 0, that do not turn at their joint angle with the sizes they are given."""
     for i, joint in enumerate(drive.joints):
         with np.errstate(invalid="ignore", divide="ignore"):
-            lead = joint.deviation(np.linspace(0.0, 6.0, 7), np.asarray(build.place.bend[i]))[0]
-        if not np.all(np.isfinite(lead)):
+            angle_error = joint.deviation(np.linspace(0.0, 6.0, 7), np.asarray(build.place.joint_angle[i]))[0]
+        if not np.all(np.isfinite(angle_error)):
             yield i
 
 

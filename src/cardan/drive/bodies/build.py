@@ -189,7 +189,7 @@ class Build:
             before=self.axis(i + 1),
             after=self.axis(i + 2),
             normal=self.place.normal[i],
-            bend=float(self.place.bend[i]),
+            joint_angle=float(self.place.joint_angle[i]),
             driving=self.arms.driving[i],
             driven=self.arms.driven[i],
             length=float(self.place.length[i + 1]),

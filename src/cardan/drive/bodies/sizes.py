@@ -13,7 +13,7 @@ from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 
 STEEPEST, LEAST = math.radians(42.0), math.radians(13.0)
-"""Yokes leave room for bends between these, and a little more."""
+"""Yokes leave room for joint angles between these, and a little more."""
 
 ROOM = 0.46
 """Share of a shaft between two joints that one yoke takes at most."""
@@ -63,8 +63,8 @@ def sizes(drive: Drive, place: Geometry) -> Sizes:
     """
     lengths = [float(one) for one in place.length]
     usual = _usual(drive, lengths)
-    bends = [float(bend) for bend in place.bend]
-    joints = tuple(_joint(drive, i, usual, bends[i]) for i in range(len(drive.joints)))
+    joint_angles = [float(joint_angle) for joint_angle in place.joint_angle]
+    joints = tuple(_joint(drive, i, usual, joint_angles[i]) for i in range(len(drive.joints)))
     bodies, solid = [], []
     for k, shaft in enumerate(drive.shafts):
         radius = thickest(shaft)
@@ -108,7 +108,7 @@ def _usual(drive: Drive, lengths: Sequence[float]) -> float:
     return drawn
 
 
-def _joint(drive: Drive, i: int, usual: float, bend: float) -> JointSize:
+def _joint(drive: Drive, i: int, usual: float, joint_angle: float) -> JointSize:
     joint = drive.joints[i]
     span = joint.span
     radius = usual if span is None else 0.5 * span
@@ -120,7 +120,7 @@ def _joint(drive: Drive, i: int, usual: float, bend: float) -> JointSize:
     ear = cross.journal_length if cross is not None and cross.journal_length is not None else 0.95 * journal
     ear = min(ear, 0.6 * radius)
     lug = min(1.42 * cap, 0.85 * radius)
-    tilt = min(max(bend, LEAST), STEEPEST) + math.radians(4.0)
+    tilt = min(max(joint_angle, LEAST), STEEPEST) + math.radians(4.0)
     cavity = lug * math.cos(tilt) + (radius + 0.5 * ear) * math.sin(tilt) + 0.05 * radius
     return JointSize(radius=radius, ear=ear, journal=journal, cap=cap, lug=lug, cavity=cavity, given=span is not None)
 

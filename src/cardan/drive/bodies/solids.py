@@ -80,7 +80,7 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence
     driving, driven = [frames.rotate(first, axis[0], start)], []
     for i in range(train.joints):
         if joints and not joints[i].single_cross:
-            driven.append(_driven_mark(joints[i], place, i, driving[-1], np.asarray(train.bend)[i]))
+            driven.append(_driven_mark(joints[i], place, i, driving[-1], np.asarray(train.joint_angle)[i]))
         else:
             driven.append(frames.unit(frames.cross(axis[i + 1], driving[-1])))
         if i + 1 < train.joints:
@@ -88,12 +88,12 @@ def arms(place: Geometry, train: Chain, angle: ArrayLike = 0.0, joints: Sequence
     return Arms(driving=np.stack(driving), driven=np.stack(driven))
 
 
-def _driven_mark(joint: Joint, place: Geometry, i: int, driving: Array, bend: Array) -> Array:
+def _driven_mark(joint: Joint, place: Geometry, i: int, driving: Array, joint_angle: Array) -> Array:
     """Return the direction of the driven mark of a joint that turns by a law of its own, array (..., 3)."""
     normal, before, after = place.normal[i], place.axis[i], place.axis[i + 1]
     across = frames.cross(normal, before)
     theta = np.arctan2(frames.dot(driving, normal), frames.dot(driving, across))
-    turned = theta + joint.deviation(theta, bend)[0] + (0.5 * np.pi if joint.crossed else 0.0)
+    turned = theta + joint.deviation(theta, joint_angle)[0] + (0.5 * np.pi if joint.crossed else 0.0)
     plane = frames.cross(normal, after)
     found: Array = np.cos(turned)[..., None] * plane + np.sin(turned)[..., None] * normal
     return found

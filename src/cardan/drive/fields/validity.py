@@ -83,9 +83,9 @@ def _folds(axes: Sequence[Sequence[float] | None]) -> Iterator[tuple[int, str]]:
             continue
         cosine = sum(x * y for x, y in zip(one, two, strict=True))
         if cosine <= 1e-15:
-            message = _("shafts {one} and {two} enclose {bend:.4g}°; a universal joint needs less than 90°")
-            bend = math.degrees(math.acos(max(-1.0, cosine)))
-            yield i, message.format(one=i, two=i + 1, bend=bend)
+            message = _("shafts {one} and {two} enclose {joint_angle:.4g}°; a universal joint needs less than 90°")
+            joint_angle = math.degrees(math.acos(max(-1.0, cosine)))
+            yield i, message.format(one=i, two=i + 1, joint_angle=joint_angle)
 
 
 def all_shafts(drive: Drive) -> tuple[Shaft, ...]:
@@ -223,7 +223,7 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
     for i, joint in enumerate(drive.joints):
         given += [
             ("points", f"joints[{i}].centre", joint.centre is not None),
-            ("angles", f"joints[{i}].bend", joint.bend is not None),
+            ("angles", f"joints[{i}].joint_angle", joint.joint_angle is not None),
             ("", f"joints[{i}].plane_twist", joint.plane_twist is not None),
         ]
         if form != "points" and joint.move_within is not None:
@@ -243,14 +243,14 @@ def _form_problems(drive: Drive) -> Iterator[Problem]:
         yield Problem(
             "joints",
             _(
-                "no geometry: give the joint centres (joints centre, input.point, output.point), or the bend of every "
+                "no geometry: give the joint centres (joints centre, input.point, output.point), or the angle of every "
                 "joint, or side_slope and plan_slope of every shaft"
             ),
         )
         return
     for owner, path, present in given:
         if not owner and present and form != "angles":
-            yield Problem(path, _("only drives given by bends have plane twists"))
+            yield Problem(path, _("only drives given by joint angles have plane twists"))
         elif owner and owner != form and present:
             yield Problem(
                 path,

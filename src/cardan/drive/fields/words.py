@@ -63,7 +63,7 @@ def in_words(path: str) -> str:
     }
     short = {
         "yoke_angle": _("yoke angle"),
-        "bend": _("joint angle"),
+        "joint_angle": _("joint angle"),
         "centre": _("centre"),
         "size": _("size"),
         "yield_strength": _("yield strength"),

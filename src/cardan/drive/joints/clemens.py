@@ -54,12 +54,12 @@ class Clemens(Joint):
         if self.driven is not None and self.driving is None:
             yield Problem("driving", _("missing; it goes with {other}").format(other="driven"), "missing")
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity for profiles alike, else None."""
         even = self.driven is None or self.driven == self.driving
-        return mobius.turn(0.0 * bend) if even else None
+        return mobius.turn(0.0 * joint_angle) if even else None
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the law of the contact of both profiles."""
         if self.driving is None or self.driven is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
@@ -67,7 +67,7 @@ class Clemens(Joint):
             profile_coupling.Circle(axial=side.axial, radial=side.radial, radius=side.radius)
             for side in (self.driving, self.driven)
         )
-        return profile_coupling.course(angle, bend, one, other)
+        return profile_coupling.course(angle, joint_angle, one, other)
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield the contact of its arms."""
@@ -76,7 +76,7 @@ class Clemens(Joint):
     def solid(self, site: Site) -> None:
         """Add its hubs and its hinged arms, which meet in the bisecting plane."""
         stance, radius = site.stance, site.size.radius
-        tan = np.tan(0.5 * stance.bend)
+        tan = np.tan(0.5 * stance.joint_angle)
         marks, axes = (stance.driving, stance.driven), (stance.before, stance.after)
         for side, mark_, axis in zip(site.sides, marks, axes, strict=True):
             profile = self.driving if side.driving or self.driven is None else self.driven

@@ -1,4 +1,4 @@
-"""Joints that pass the turn on evenly at any bend, whatever they look like inside."""
+"""Joints that pass the turn on evenly at any joint angle, whatever they look like inside."""
 
 from __future__ import annotations
 
@@ -21,6 +21,6 @@ class ConstantVelocity(Joint):
     types: ClassVar[tuple[str, ...]] = ("block_double_disc",)
     fixed: ClassVar[bool] = True
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the identity."""
-        return mobius.turn(0.0 * bend)
+        return mobius.turn(0.0 * joint_angle)

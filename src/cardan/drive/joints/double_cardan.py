@@ -1,4 +1,4 @@
-"""Two Hooke joints close together, with a device that shares the bend between them."""
+"""Two Hooke joints close together, with a device that shares the joint angle between them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class DoubleCardan(Joint):
     centring_ratio: float | None = plain(
         None,
         doc="distance of the centring ball from the joint centre on its own shaft, over the distance of both centres; "
-        "without it the device halves the bend exactly",
+        "without it the device halves the joint angle exactly",
         above=0.0,
         below=1.0,
     )
@@ -47,25 +47,29 @@ class DoubleCardan(Joint):
         "driving", doc="shaft that carries the centring ball: driving or driven", choices=("driving", "driven")
     )
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of both joints together."""
         if self.centring_ratio is None:
-            return mobius.turn(0.0 * bend)
-        xp = namespace(bend)
-        pair = law.pair(bend, xp.asarray(self.centring_ratio, dtype=xp.float64))
+            return mobius.turn(0.0 * joint_angle)
+        xp = namespace(joint_angle)
+        pair = law.pair(joint_angle, xp.asarray(self.centring_ratio, dtype=xp.float64))
         return pair if self.ball_on == "driving" else mobius.inverse(pair)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
-        """Yield how it shares its bend, and the way of its ball."""
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
+        """Yield how it shares its joint angle, and the way of its ball."""
         ratio = self.centring_ratio
         if ratio is None:
             return
-        bends = law.split(bend, ratio)
-        first, second = bends if self.ball_on == "driving" else bends[::-1]
-        yield Inside(key="driving_bend", meaning=_("bend of the joint on the driving side"), value=float(first))
-        yield Inside(key="driven_bend", meaning=_("bend of the joint on the driven side"), value=float(second))
+        joint_angles = law.split(joint_angle, ratio)
+        first, second = joint_angles if self.ball_on == "driving" else joint_angles[::-1]
+        yield Inside(
+            key="driving_joint_angle", meaning=_("joint angle of the joint on the driving side"), value=float(first)
+        )
+        yield Inside(
+            key="driven_joint_angle", meaning=_("joint angle of the joint on the driven side"), value=float(second)
+        )
         text = _("way of the ball along the other shaft, over the distance of both joint centres")
-        way = float(law.slide(bend, ratio) - law.slide(0.0, ratio))
+        way = float(law.slide(joint_angle, ratio) - law.slide(0.0, ratio))
         yield Inside(key="ball_way", meaning=text, value=way, dimension=None)
 
     def half_length(self, apart: float) -> float:
@@ -76,7 +80,7 @@ class DoubleCardan(Joint):
         """Add two crosses, the piece between them and what centres it."""
         stance = site.stance
         size = replace(site.size, cavity=min(site.size.cavity, 0.72 * site.apart))
-        before, behind = self._spread(stance.bend, 2.0 * site.apart)
+        before, behind = self._spread(stance.joint_angle, 2.0 * site.apart)
         one, two = stance.centre - before * stance.before, stance.centre + behind * stance.after
         between = frames.unit(two - one)
         u = stance.driving
@@ -103,11 +107,11 @@ class DoubleCardan(Joint):
         text = site.said(_("ball that centres {joint}"))
         site.add("centring", text, side.track, rod, ball(0.34 * size.radius, 18), shade=0.45)
 
-    def _spread(self, bend: float, apart: float) -> tuple[float, float]:
+    def _spread(self, joint_angle: float, apart: float) -> tuple[float, float]:
         """Return how far both crosses stand from where the shafts meet [m]; ``apart`` is their distance."""
         if self.centring_ratio is None:
-            half = 0.5 * apart / math.cos(0.5 * bend)
+            half = 0.5 * apart / math.cos(0.5 * joint_angle)
             return half, half
         fixed = self.centring_ratio * apart
-        free = float(law.slide(bend, self.centring_ratio)) * apart
+        free = float(law.slide(joint_angle, self.centring_ratio)) * apart
         return (fixed, free) if self.ball_on == "driving" else (free, fixed)

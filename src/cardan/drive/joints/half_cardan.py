@@ -48,14 +48,14 @@ class HalfCardan(Joint):
 
     pairs: int = plain(2, doc="pairs of opposite faces or teeth; between two of them there must be play", low=1)
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of one pair of faces, that of a Hooke joint."""
-        return mobius.hooke(bend)
+        return mobius.hooke(joint_angle)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the play that it needs."""
-        text = _("play that its pairs of faces need to turn at this bend")
-        yield Inside(key="play", meaning=text, value=float(law.play(bend, self.pairs)))
+        text = _("play that its pairs of faces need to turn at this joint angle")
+        yield Inside(key="play", meaning=text, value=float(law.play(joint_angle, self.pairs)))
 
     def solid(self, site: Site) -> None:
         """Add its toothed head and the sleeve round it."""
@@ -117,15 +117,15 @@ class ElasticHalfCardan(Joint):
     stiffness: float | None = quantity("turning_stiffness", None, doc="stiffness against turning", above=0.0)
     damping: float = quantity("turning_damping", 0.0, doc="damping against turning", low=0.0)
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity, None where the links are counted."""
-        return mobius.turn(0.0 * bend) if self.pairs is None else None
+        return mobius.turn(0.0 * joint_angle) if self.pairs is None else None
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the mean of what the pairs of links ask for; `cardan.drive.joints.laws.half_cardan`."""
         if self.pairs is None:
-            return mobius.course(mobius.turn(0.0 * bend), unit_complex(2.0 * angle))
-        tau = mobius.tau(mobius.hooke(bend))
+            return mobius.course(mobius.turn(0.0 * joint_angle), unit_complex(2.0 * angle))
+        tau = mobius.tau(mobius.hooke(joint_angle))
         return shared_turn.course(angle, tau, self.pairs)
 
     @property
@@ -133,11 +133,11 @@ class ElasticHalfCardan(Joint):
         """Its stiffness and damping against turning, where its stiffness is given."""
         return None if self.stiffness is None else (self.stiffness, self.damping)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how its links are strained."""
         if self.pairs is not None:
             text = _("angle by which its links are strained against each other")
-            yield Inside(key="strain", meaning=text, value=float(law.play(bend, self.pairs)))
+            yield Inside(key="strain", meaning=text, value=float(law.play(joint_angle, self.pairs)))
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield a contact: its links give way to all but the torque."""

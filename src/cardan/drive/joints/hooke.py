@@ -37,6 +37,6 @@ class Hooke(Joint):
     single_cross: ClassVar[bool] = True
     refusals: ClassVar[Mapping[str, str]] = {}
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the joint's Möbius map, see `cardan.maths.kernel.mobius`."""
-        return mobius.hooke(bend)
+        return mobius.hooke(joint_angle)

@@ -10,7 +10,7 @@ fields               those of every joint but for `CROSS_ONLY`, see ``foreign``
 ``pair``             None: its law is no Möbius map
 ``deviation``        what follows from ``pair``; a kind without a map gives it
 ``title``            ``kind`` with blanks
-``steepest``         45°, the bend above which no real joint of the kind works
+``steepest``         45°, the joint angle above which no real joint of the kind works
 ``slides``           no: its shafts cannot slide along each other
 ``crossed``          no: its marks lie on one line when it is straight
 ``single_cross``     no: what holds for the cross of a Hooke joint alone does not hold for it
@@ -83,7 +83,7 @@ REFUSALS: Mapping[str, str] = MappingProxyType(
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Joint:
-    """A joint and its place, in one of three forms: its centre, or its bend and plane, or neither (slopes).
+    """A joint and its place, in one of three forms: its centre, or its joint angle and plane, or neither (slopes).
 
     A kind says how it turns by `pair`, or by `deviation` where its map of the circle is no Möbius map. Its marks are a
     line on the driving side and one on the driven side, from which yoke angles count: the yokes of a cross joint.
@@ -128,8 +128,8 @@ class Joint:
     type: str = plain("", doc="type of joint in the catalogue, with its limits")
     size: str = plain("", doc="size of a maker's series in the catalogue, with its dimensions and ratings")
     centre: Point | None = quantity("length", None, doc="joint centre [x, y, z], z up")
-    bend: float | None = quantity(
-        "angle", None, doc="bend angle between the joint's two shafts", low=0.0, below=math.pi / 2
+    joint_angle: float | None = quantity(
+        "angle", None, doc="joint angle between the joint's two shafts", low=0.0, below=math.pi / 2
     )
     plane_twist: float | None = quantity(
         "angle",
@@ -161,38 +161,38 @@ class Joint:
     error: Error | None = plain(None, doc="manufacturing errors of the joint, as measured")
     tolerance: Tolerance | None = plain(None, doc="tolerances of the joint, each to both sides")
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
-        """Return the joint's Möbius map, with real parts, for bends (...) [rad]; None where it has none."""
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
+        """Return the joint's Möbius map, with real parts, for joint angles (...) [rad]; None where it has none."""
         return None
 
-    def near_pair(self, bend: Array) -> mobius.Pair:
+    def near_pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the joint's Möbius map, or the one with the second order of its law: for loads, not for motion."""
-        found = self.pair(bend)
+        found = self.pair(joint_angle)
         if found is not None:
             return found
         theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
         with np.errstate(invalid="ignore", divide="ignore"):
-            each = [self.deviation(theta, one)[0] @ np.sin(2.0 * theta) for one in np.ravel(np.asarray(bend))]
-        tau = np.reshape(np.asarray(each), np.shape(bend)) * (2.0 / PLACES)
+            each = [self.deviation(theta, one)[0] @ np.sin(2.0 * theta) for one in np.ravel(np.asarray(joint_angle))]
+        tau = np.reshape(np.asarray(each), np.shape(joint_angle)) * (2.0 / PLACES)
         root = np.sqrt(1.0 - tau * tau)
         return (1.0 + 0.0j) / root, (-1.0 + 0.0j) * tau / root
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return how far the driven side runs ahead of the driving side, with two derivatives.
 
         Parameters
         ----------
         angle : array (...) [rad]
             θ, angle of the driving mark from the plane of the shafts.
-        bend : array (...) [rad]
+        joint_angle : array (...) [rad]
             α.
 
         Returns
         -------
-        lead, ratio, slope : arrays (...) [rad, 1, 1/rad]
+        angle_error, ratio, slope : arrays (...) [rad, 1, 1/rad]
             T(θ) - θ, T' and T'', T the angle of the driven mark, less a quarter turn where the joint has a cross.
         """
-        pair = self.pair(bend)
+        pair = self.pair(joint_angle)
         if pair is None:
             raise NotImplementedError(self.kind)  # a kind without a map has its own
         return mobius.course(pair, unit_complex(2.0 * angle))
@@ -235,8 +235,8 @@ class Joint:
         """Return what the kind is called."""
         return _(cls.title) if cls.title else cls.kind.replace("_", " ")
 
-    def inside(self, bend: float) -> Iterator[Inside]:
-        """Yield what else moves in it at a bend [rad], as far as its sizes are given."""
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
+        """Yield what else moves in it at a joint angle [rad], as far as its sizes are given."""
         yield from ()
 
     def inner(self, stance: Stance) -> Iterator[inner.InnerPair]:

@@ -49,14 +49,14 @@ class OffsetCross(Joint):
         if self.reach <= self.offset:
             yield Problem("reach", _("is not more than the offset of the pins"), "inconsistent")
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of the turn about the line from the joint centre to the ball: Hooke's, for any offset."""
-        return mobius.hooke(bend)
+        return mobius.hooke(joint_angle)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the wobble of its driven shaft."""
         text = _("half angle of the cone on which the driven shaft wobbles, twice a turn")
-        yield Inside(key="wobble", meaning=text, value=float(law.wobble(bend, self.offset, self.reach)))
+        yield Inside(key="wobble", meaning=text, value=float(law.wobble(joint_angle, self.offset, self.reach)))
 
     def inner(self, stance: Stance) -> Iterator[InnerPair]:
         """Yield both pins, a distance apart."""

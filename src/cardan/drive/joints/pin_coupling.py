@@ -64,38 +64,38 @@ class PinCoupling(Joint):
     def _slants(self) -> tuple[float, float]:
         return self.driving_slant, self.driving_slant if self.driven_slant is None else self.driven_slant
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity for pins alike, nan where they do not reach round a turn; None for unlike pins."""
         one, other = self._slants
         if one != other or self.driving_distance != self.driven_distance:
             return None
-        xp = namespace(bend)
-        low, high = pin_coupling.slant_range(bend)
-        a, b = mobius.turn(0.0 * bend)
+        xp = namespace(joint_angle)
+        low, high = pin_coupling.slant_range(joint_angle)
+        a, b = mobius.turn(0.0 * joint_angle)
         return xp.where((low < one) & (one < high), a, xp.nan), b
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the law of the contact of both pins; nan where they do not reach round a turn."""
         one, other = self._slants
-        low, high = pin_coupling.slant_range(bend)
+        low, high = pin_coupling.slant_range(joint_angle)
         if not bool((low < min(one, other)) & (max(one, other) < high)):
             nothing = angle + math.nan
             return nothing, nothing, nothing
         if self.driving_distance is None or self.driven_distance is None:
             return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
-        found = pin_coupling.pin_contact(angle, bend, self.driving_distance, self.driven_distance, one, other)
+        found = pin_coupling.pin_contact(angle, joint_angle, self.driving_distance, self.driven_distance, one, other)
         return found.deviation, found.ratio, found.ratio_slope
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield which slants turn all round, and way and force of the contact where the distances are given."""
-        low, high = (float(end) for end in pin_coupling.slant_range(bend))
-        text = _("slant above which pins turn all the way round at this bend")
+        low, high = (float(end) for end in pin_coupling.slant_range(joint_angle))
+        text = _("slant above which pins turn all the way round at this joint angle")
         yield Inside(key="least_slant", meaning=text, value=low)
         yield Inside(key="most_slant", meaning=_("slant below which they do"), value=high)
         if self.driving_distance is None or self.driven_distance is None:
             return
         turn, distances = np.arange(360) * deg, (self.driving_distance, self.driven_distance)
-        found = pin_coupling.pin_contact(turn, bend, *distances, *self._slants)
+        found = pin_coupling.pin_contact(turn, joint_angle, *distances, *self._slants)
         text = _("way of the contact along the driving pin")
         yield Inside(key="stroke", meaning=text, value=float(np.ptp(found.first)), dimension="length")
         text = _("largest contact force, without friction, for each N·m of torque, in N")
@@ -111,7 +111,7 @@ class PinCoupling(Joint):
         slants, starts = self._slants, (self.driving_distance or usual, self.driven_distance or usual)
         count = 3 if slants[0] == slants[1] and starts[0] == starts[1] else 1
         for side, slant, start in zip(site.sides, slants, starts, strict=True):
-            long = 1.12 * start / max(np.cos(slant) - np.sin(slant) * np.tan(0.5 * site.stance.bend), 0.35)
+            long = 1.12 * start / max(np.cos(slant) - np.sin(slant) * np.tan(0.5 * site.stance.joint_angle), 0.35)
             thin = 0.09 * start
             tip = [(long - thin, thin), (long - 0.3 * thin, 0.7 * thin), (long, 0.0)]
             pin = revolved([(0.0, 0.0), (0.0, thin), *tip], 14)

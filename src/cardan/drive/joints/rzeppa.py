@@ -17,7 +17,7 @@ from .common import drawn
 from .common.inside import Inside
 from .common.site import Site
 from .joint import Joint, both_or_none
-from .laws import dividing_lever, shared_turn, tilted_plane
+from .laws import pilot_lever, shared_turn, tilted_plane
 from .weiss import ball_places, balls_inside, groove_course, groove_inside
 
 LEVER = ("lever_b", "lever_c")
@@ -59,25 +59,29 @@ class Rzeppa(Joint):
         if self.lever_b is not None and self.groove_radius is not None:
             yield Problem("lever_b", _("the offset grooves place the balls already"), "inconsistent")
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity where nothing is said or the offsets are equal, else None."""
         even = self.lever_b is None and self.driving_offset == self.driven_offset
-        return mobius.turn(0.0 * bend) if even else None
+        return mobius.turn(0.0 * joint_angle) if even else None
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the mean of what the balls ask for."""
         if self.lever_b is not None and self.lever_c is not None:
-            tilt = dividing_lever.plane_error(bend, self.lever_b, self.lever_c)
-            return shared_turn.course(angle, tilted_plane.tau(bend, tilt), shared_turn.places(self.balls))
-        return groove_course(angle, bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+            tilt = pilot_lever.plane_error(joint_angle, self.lever_b, self.lever_c)
+            return shared_turn.course(angle, tilted_plane.tau(joint_angle, tilt), shared_turn.places(self.balls))
+        return groove_course(
+            angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
+        )
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""
         if self.lever_b is not None and self.lever_c is not None:
-            tilt = float(dividing_lever.plane_error(bend, self.lever_b, self.lever_c))
-            yield from balls_inside(tilt, tilted_plane.deviation(ball_places(self.balls), bend, tilt))
+            tilt = float(pilot_lever.plane_error(joint_angle, self.lever_b, self.lever_c))
+            yield from balls_inside(tilt, tilted_plane.deviation(ball_places(self.balls), joint_angle, tilt))
         else:
-            yield from groove_inside(bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+            yield from groove_inside(
+                joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
+            )
 
     @property
     def own_span(self) -> float | None:

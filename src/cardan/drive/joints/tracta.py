@@ -43,16 +43,16 @@ class Tracta(Joint):
         """Yield a distance that stands alone."""
         yield from both_or_none(self, "driving_distance", "driven_distance")
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the map of the joint, the identity where both distances are equal."""
         if self.driving_distance is None or self.driven_distance is None:
-            return mobius.turn(0.0 * bend)
-        return law.pair(bend, self.driving_distance, self.driven_distance)
+            return mobius.turn(0.0 * joint_angle)
+        return law.pair(joint_angle, self.driving_distance, self.driven_distance)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield how far its tongue misses the plane that halves the bend."""
         if self.driving_distance is not None and self.driven_distance is not None:
-            yield missed(float(law.tilt(bend, self.driving_distance, self.driven_distance)))
+            yield missed(float(law.tilt(joint_angle, self.driving_distance, self.driven_distance)))
 
     def solid(self, site: Site) -> None:
         """Add its two forks and the slotted halves between them."""

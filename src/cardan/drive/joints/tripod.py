@@ -41,15 +41,15 @@ class Tripod(Joint):
         "length", None, doc="distance of the tracks from their shaft's axis", above=0.0
     )
 
-    def pair(self, bend: Array) -> mobius.Pair:
+    def pair(self, joint_angle: Array) -> mobius.Pair:
         """Return the identity, exact while the spider's shaft keeps its direction."""
-        return mobius.turn(0.0 * bend)
+        return mobius.turn(0.0 * joint_angle)
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield the circle of its spider."""
         if self.track_radius is not None:
             text = _("radius of the circle that the spider runs round three times a turn")
-            value = float(law.orbit_radius(bend, self.track_radius))
+            value = float(law.orbit_radius(joint_angle, self.track_radius))
             yield Inside(key="orbit", meaning=text, value=value, dimension="length")
 
     @property
@@ -61,14 +61,14 @@ class Tripod(Joint):
         """Add housing, spider and rollers; its spider runs round three times a turn."""
         stance, (one, two) = site.stance, site.sides
         track = self.track_radius or 0.8 * site.size.radius
-        bend, theta, b = stance.bend, stance.theta, stance.after
-        site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, bend))
-        x, y = (np.asarray(part) for part in law.spider_centre(theta, bend, track))
+        joint_angle, theta, b = stance.joint_angle, stance.theta, stance.after
+        site.add_to(one, "housing", site.said(_("housing of {joint}")), _tulip(track, one, joint_angle))
+        x, y = (np.asarray(part) for part in law.spider_centre(theta, joint_angle, track))
         centre = stance.centre + x[:, None] * frames.cross(stance.normal, b) + y[:, None] * stance.normal
         arm = stance.driven
         own = site.along(centre, b, arm)
         text = site.said(_("spider of {joint}"))
-        site.stage.add("spider", two.number, site.path, text, own, _spider(track, bend), role=two.role)
+        site.stage.add("spider", two.number, site.path, text, own, _spider(track, joint_angle), role=two.role)
         thin = 0.34 * track
         stub = revolved([(0.1 * track, 0.0), (0.1 * track, thin), (two.reach, thin), (two.reach, 0.0)], 20)
         site.add_to(two, "driven yoke", text, stub)
@@ -76,12 +76,12 @@ class Tripod(Joint):
         for j in range(3):
             angle = j * 2.0 * np.pi / 3.0
             way = frames.rotate(arm, np.broadcast_to(b, arm.shape), np.full(len(arm), angle))
-            far = np.asarray(law.roller_reach(theta + angle, bend, track))
+            far = np.asarray(law.roller_reach(theta + angle, joint_angle, track))
             moved = site.along(centre + far[:, None] * way, way, frames.cross(np.broadcast_to(b, way.shape), way))
             site.add("roller", site.said(_("roller of {joint}")), moved, roller, shade=0.5)
 
 
-def _tulip(track: float, side: Side, bend: float) -> Surface:
+def _tulip(track: float, side: Side, joint_angle: float) -> Surface:
     """Return the housing of a tripod joint: three lobes round the tracks, open toward the spider."""
     turn = np.arange(60) * (2.0 * np.pi / 60)
     off = np.abs((turn + np.pi / 3.0) % (2.0 * np.pi / 3.0) - np.pi / 3.0)
@@ -90,8 +90,8 @@ def _tulip(track: float, side: Side, bend: float) -> Surface:
     hole = np.where(track * np.sin(off) < 0.96 * roller, inside, 0.78 * track)
     outer = np.maximum(hole + thick, 1.12 * track)
     way = np.stack((np.cos(turn), np.sin(turn)), axis=-1)
-    mouth = -(0.08 * track + track * np.tan(bend))
-    floor = max(0.55 * track + 1.1 * track * np.tan(bend), 0.7 * track)
+    mouth = -(0.08 * track + track * np.tan(joint_angle))
+    floor = max(0.55 * track + 1.1 * track * np.tan(joint_angle), 0.7 * track)
     shell = placed(plate(outer[:, None] * way, mouth, floor, hole[:, None] * way, 0.06 * track), ACROSS)
     lid = placed(plate(outer[:, None] * way, floor - 0.1 * track, floor + 0.3 * track, bevel=0.08 * track), ACROSS)
     reach, body = max(side.reach, floor + 0.5 * track), side.body
@@ -100,11 +100,11 @@ def _tulip(track: float, side: Side, bend: float) -> Surface:
     return joined(shell, lid, hub)
 
 
-def _spider(track: float, bend: float) -> Surface:
+def _spider(track: float, joint_angle: float) -> Surface:
     hub = revolved(
         [(-0.3 * track, 0.0), (-0.3 * track, 0.44 * track), (0.3 * track, 0.44 * track), (0.3 * track, 0.0)], 22
     )
-    far = (1.0 + 2.0 * (1.0 / np.cos(bend) - 1.0)) * 1.24 * track
+    far = (1.0 + 2.0 * (1.0 / np.cos(joint_angle) - 1.0)) * 1.24 * track
     arm = revolved([(0.0, 0.0), (0.0, 0.22 * track), (far, 0.22 * track), (far, 0.0)], 14)
     arms = [about(placed(arm, np.roll(np.eye(3), -1, axis=0)), j * 2.0 * np.pi / 3.0) for j in range(3)]
     return joined(hub, *arms)

@@ -24,7 +24,7 @@ from .laws import offset_grooves, smooth_law
 
 
 def groove_course(
-    angle: Array, bend: Array, first: float | None, second: float | None, radius: float | None, balls: int
+    angle: Array, joint_angle: Array, first: float | None, second: float | None, radius: float | None, balls: int
 ) -> tuple[Array, Array, Array]:
     """Return the mean of what balls in offset grooves ask for; even where both offsets are equal.
 
@@ -32,7 +32,7 @@ def groove_course(
     ----------
     angle : array (...) [rad]
         θ of the first ball.
-    bend : float or array () [rad]
+    joint_angle : float or array () [rad]
         α.
     first, second, radius : float [m]
         Offsets of the groove centres and radius of the grooves.
@@ -43,35 +43,35 @@ def groove_course(
         return 0.0 * angle, 1.0 + 0.0 * angle, 0.0 * angle
     places = np.arange(balls) * (2.0 * np.pi / balls)
 
-    def lead(theta: Array) -> Array:
-        each: Array = offset_grooves.deviation(theta[:, None] + places, bend, first, second, radius)
+    def angle_error(theta: Array) -> Array:
+        each: Array = offset_grooves.deviation(theta[:, None] + places, joint_angle, first, second, radius)
         return np.mean(each, axis=-1)
 
-    return smooth_law.course(angle, lead)
+    return smooth_law.course(angle, angle_error)
 
 
-def balls_inside(tilt: float, leads: Array) -> Iterator[Inside]:
+def balls_inside(tilt: float, angle_errors: Array) -> Iterator[Inside]:
     """Yield by how much the plane of the balls misses the middle, and what they ask for among themselves.
 
     Parameters
     ----------
     tilt : float [rad]
-    leads : array (p, k) [rad]
+    angle_errors : array (p, k) [rad]
         What each of k balls asks for, over a turn.
     """
     yield missed(tilt)
     text = _("play that its balls need, or strain between them")
-    yield Inside(key="ball_spread", meaning=text, value=float(np.max(np.ptp(leads, axis=-1))))
+    yield Inside(key="ball_spread", meaning=text, value=float(np.max(np.ptp(angle_errors, axis=-1))))
 
 
 def groove_inside(
-    bend: float, first: float | None, second: float | None, radius: float | None, balls: int
+    joint_angle: float, first: float | None, second: float | None, radius: float | None, balls: int
 ) -> Iterator[Inside]:
     """Yield what balls in offset grooves do beside turning; nothing where the grooves are not given."""
     if first is None or second is None or radius is None:
         return
-    leads = offset_grooves.deviation(ball_places(balls), bend, first, second, radius)
-    yield from balls_inside(float(offset_grooves.plane_tilt(bend, first, second)), leads)
+    angle_errors = offset_grooves.deviation(ball_places(balls), joint_angle, first, second, radius)
+    yield from balls_inside(float(offset_grooves.plane_tilt(joint_angle, first, second)), angle_errors)
 
 
 def ball_places(balls: int) -> Array:
@@ -105,17 +105,19 @@ class Weiss(Joint):
         """Yield grooves that are half given."""
         yield from both_or_none(self, "driving_offset", "driven_offset", "groove_radius")
 
-    def pair(self, bend: Array) -> mobius.Pair | None:
+    def pair(self, joint_angle: Array) -> mobius.Pair | None:
         """Return the identity where the offsets are equal or not given, else None."""
-        return mobius.turn(0.0 * bend) if self.driving_offset == self.driven_offset else None
+        return mobius.turn(0.0 * joint_angle) if self.driving_offset == self.driven_offset else None
 
-    def deviation(self, angle: Array, bend: Array) -> tuple[Array, Array, Array]:
+    def deviation(self, angle: Array, joint_angle: Array) -> tuple[Array, Array, Array]:
         """Return the mean of what the carrying balls ask for."""
-        return groove_course(angle, bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+        return groove_course(
+            angle, joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls
+        )
 
-    def inside(self, bend: float) -> Iterator[Inside]:
+    def inside(self, joint_angle: float) -> Iterator[Inside]:
         """Yield what its balls do beside turning."""
-        yield from groove_inside(bend, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
+        yield from groove_inside(joint_angle, self.driving_offset, self.driven_offset, self.groove_radius, self.balls)
 
     @property
     def own_span(self) -> float | None:

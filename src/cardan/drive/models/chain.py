@@ -20,13 +20,13 @@ from .laws import NEGLIGIBLE, Laws, alike, lawless, left_over, mixed, refuse_kin
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Chain:
-    """Bends, plane twists and yoke angles of one drive of Hooke joints (n,) or of many (..., n).
+    """Joint angles, plane twists and yoke angles of one drive of Hooke joints (n,) or of many (..., n).
 
     Joints of other kinds stand in it as the Hooke joints that turn alike, see `cardan.drive.models.laws`.
 
     Attributes
     ----------
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_1 … α_n.
     plane_twist : array (..., n-1) [rad]
         β_2 … β_n.
@@ -38,7 +38,7 @@ class Chain:
         The joints as they are, where any is of another kind.
     """
 
-    bend: Array
+    joint_angle: Array
     plane_twist: Array
     yoke_angle: Array
     start_phase: Array
@@ -47,19 +47,19 @@ class Chain:
     @property
     def joints(self) -> int:
         """Number of joints n."""
-        return int(self.bend.shape[-1])
+        return int(self.joint_angle.shape[-1])
 
     @property
     def turn_before(self) -> Array:
         """Angle μ_i added before joint i: μ_1 = ψ_1, μ_i = π/2 - γ_i - β_i; array (..., n) [rad]."""
-        xp = namespace(self.bend)
-        first = xp.broadcast_to(self.start_phase, self.bend.shape[:-1])[..., None]
+        xp = namespace(self.joint_angle)
+        first = xp.broadcast_to(self.start_phase, self.joint_angle.shape[:-1])[..., None]
         between = 0.5 * xp.pi - self.yoke_angle - self.plane_twist
-        return xp.concat((first, xp.broadcast_to(between, (*self.bend.shape[:-1], self.joints - 1))), axis=-1)
+        return xp.concat((first, xp.broadcast_to(between, (*self.joint_angle.shape[:-1], self.joints - 1))), axis=-1)
 
     def products(self) -> list[mobius.Pair]:
         """Return the Möbius pairs of the first 1 … n joints, each from the input shaft on."""
-        return mobius.partial_products(self.bend, self.turn_before)
+        return mobius.partial_products(self.joint_angle, self.turn_before)
 
 
 def chain(drive: Drive) -> Chain:
@@ -95,14 +95,14 @@ def turning_chain(drive: Drive) -> Chain:
 
     Examples
     --------
-    >>> turning_chain(Drive.from_angles([0.3, 0.4])).bend
+    >>> turning_chain(Drive.from_angles([0.3, 0.4])).joint_angle
     array([0.3, 0.4])
     """
     return turning(given_chain(drive), drive.joints)
 
 
 def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Chain:
-    """Return the Hooke joints that turn like joints of any kind with the bends and planes of a chain.
+    """Return the Hooke joints that turn like joints of any kind with the joint angles and planes of a chain.
 
     Parameters
     ----------
@@ -114,9 +114,9 @@ def turning(whole: Chain, joints: Sequence[Joint], *, near: bool = False) -> Cha
     """
     if not mixed(joints):
         return whole
-    bend, twist, start, laws = alike(joints, whole.bend, whole.plane_twist, near=near)
+    joint_angle, twist, start, laws = alike(joints, whole.joint_angle, whole.plane_twist, near=near)
     return Chain(
-        bend=bend,
+        joint_angle=joint_angle,
         plane_twist=twist,
         yoke_angle=whole.yoke_angle,
         start_phase=whole.start_phase + start,
@@ -139,7 +139,10 @@ def nearly_turning_chain(drive: Drive, question: str) -> Chain:
         A joint turns by a law of its own that no Möbius map comes near.
     """
     given = given_chain(drive)
-    left = [left_over(joint, bend) for joint, bend in zip(drive.joints, given.bend.tolist(), strict=True)]
+    left = [
+        left_over(joint, joint_angle)
+        for joint, joint_angle in zip(drive.joints, given.joint_angle.tolist(), strict=True)
+    ]
     check(lawless(i, drive.joints[i], question) for i, rest in enumerate(left) if rest > NEGLIGIBLE)
     return turning(given, drive.joints, near=True)
 
@@ -155,14 +158,15 @@ def as_hooke(drive: Drive) -> Drive:
     Examples
     --------
     >>> from cardan.drive.joints import ConstantVelocity, Hooke
-    >>> [joint.bend for joint in as_hooke(Drive(joints=(Hooke(bend=0.3), ConstantVelocity(bend=0.4)))).joints]
+    >>> pair = Drive(joints=(Hooke(joint_angle=0.3), ConstantVelocity(joint_angle=0.4)))
+    >>> [joint.joint_angle for joint in as_hooke(pair).joints]
     [0.3, 0.0]
     """
     if not mixed(drive.joints):
         return drive
     whole = turning_chain(drive)
     return Drive.from_angles(
-        np.asarray(whole.bend).tolist(),
+        np.asarray(whole.joint_angle).tolist(),
         plane_twists=np.asarray(whole.plane_twist).tolist(),
         yoke_angles=np.asarray(whole.yoke_angle).tolist(),
         start_phase=float(whole.start_phase),
@@ -173,13 +177,13 @@ def as_hooke(drive: Drive) -> Drive:
 def given_chain(drive: Drive) -> Chain:
     """Return bends, planes and yokes of a drive as they are, whatever the kinds of its joints."""
     if drive.form == "angles":
-        bend, twist = given_angles(drive)
+        joint_angle, twist = given_angles(drive)
         twist = twist[1:]
     else:
         place = geometry(drive)
-        bend, twist = place.bend, place.plane_twist
+        joint_angle, twist = place.joint_angle, place.plane_twist
     return Chain(
-        bend=bend,
+        joint_angle=joint_angle,
         plane_twist=twist,
         yoke_angle=np.asarray([shaft.yoke_angle for shaft in drive.shafts[1:-1]], dtype=float),
         start_phase=np.asarray(drive.input.start_phase, dtype=float),

@@ -1,4 +1,4 @@
-"""Bends and plane twists of many polylines of which few coordinates vary: coordinate by coordinate, not drive by drive.
+"""Joint angles and plane twists of polylines of which few coordinates vary: by coordinate, not drive by drive.
 
 What is the same in all of them is a number, not an array, and costs nothing.
 """
@@ -29,7 +29,7 @@ class Columns:
 
     Attributes
     ----------
-    bend : tuple
+    joint_angle : tuple
         α_1 … α_n [rad].
     plane_twist : tuple
         β_2 … β_n [rad].
@@ -37,7 +37,7 @@ class Columns:
         Of shafts 1 to n+1 [m].
     """
 
-    bend: tuple[Number, ...]
+    joint_angle: tuple[Number, ...]
     plane_twist: tuple[Number, ...]
     length: tuple[Number, ...]
 
@@ -60,7 +60,7 @@ def columns(points: Sequence[Vector], count: int) -> Columns:
     Examples
     --------
     >>> found = columns([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, np.asarray([1.0, 0.0]), 0.0)], 2)
-    >>> np.rad2deg(found.bend[0])
+    >>> np.rad2deg(found.joint_angle[0])
     array([45.,  0.])
     """
     with np.errstate(all="ignore"):  # points that coincide have no direction, straight joints no plane
@@ -74,7 +74,7 @@ def _columns(points: Sequence[Vector], count: int) -> Columns:
     across = [_cross(a, b) for a, b in pairwise(axis)]
     sine = [_norm(one) for one in across]
     cosine = [_dot(a, b) for a, b in pairwise(axis)]
-    bend: list[Number] = [np.arctan2(s, c) for s, c in zip(sine, cosine, strict=True)]
+    joint_angle: list[Number] = [np.arctan2(s, c) for s, c in zip(sine, cosine, strict=True)]
     normal = [_over(one, size) for one, size in zip(across, sine, strict=True)]
     twist: list[Number] = [
         np.arctan2(_dot(along, _cross(a, b)), _dot(a, b))
@@ -85,9 +85,9 @@ def _columns(points: Sequence[Vector], count: int) -> Columns:
     if rows.size:
         whole = np.stack([_rows(value, rows) for point in points for value in point], axis=-1)
         exact = polyline(whole.reshape(rows.size, len(points), 3))
-        bend = [_put(one, rows, exact.bend[:, k], count) for k, one in enumerate(bend)]
+        joint_angle = [_put(one, rows, exact.joint_angle[:, k], count) for k, one in enumerate(joint_angle)]
         twist = [_put(one, rows, exact.plane_twist[:, k], count) for k, one in enumerate(twist)]
-    return Columns(bend=tuple(bend), plane_twist=tuple(twist), length=tuple(length))
+    return Columns(joint_angle=tuple(joint_angle), plane_twist=tuple(twist), length=tuple(length))
 
 
 def table(values: Sequence[Number], count: int) -> Array:

@@ -24,7 +24,7 @@ UNTURNED = 1e-12
 STEEP = 1.57
 """A shaft that rises or turns aside by more [rad] has no slope that a file could give."""
 
-GEOMETRY = ("centre", "bend", "plane_twist", "move_within", "point", "length", "side_slope", "plan_slope")
+GEOMETRY = ("centre", "joint_angle", "plane_twist", "move_within", "point", "length", "side_slope", "plan_slope")
 """Fields that belong to a form of the geometry."""
 
 
@@ -53,7 +53,7 @@ def in_form(drive: Drive, form: Form) -> Drive:
     Examples
     --------
     >>> drive = Drive.from_points([(0, 0, 0), (1, 0, 0), (2, 1, 0)])
-    >>> round(math.degrees(in_form(drive, "angles").joints[0].bend), 12)
+    >>> round(math.degrees(in_form(drive, "angles").joints[0].joint_angle), 12)
     45.0
     """
     if form == drive.form:
@@ -108,7 +108,7 @@ def _shifted(movement: Movement, origin: Array) -> Movement:
 
 def _phased(other: Drive, old: Geometry) -> Drive:
     """Return the drive with its start phase from the new plane of a straight first joint."""
-    if old.bend[0] > STRAIGHT:
+    if old.joint_angle[0] > STRAIGHT:
         return other
     shift = float(angle_about(old.axis[0], geometry(other).normal[0], old.normal[0]))
     return replace(other, input=replace(other.input, start_phase=other.input.start_phase + shift))
@@ -121,7 +121,7 @@ def _to_points(drive: Drive, place: Geometry) -> Drive:
         input=replace(drive.input, point=points[0]),
         output=replace(drive.output, point=points[-1]),
         joints=tuple(
-            replace(joint, centre=point, bend=None, plane_twist=None)
+            replace(joint, centre=point, joint_angle=None, plane_twist=None)
             for joint, point in zip(drive.joints, points[1:-1], strict=True)
         ),
         shafts=tuple(replace(s, length=None, side_slope=None, plan_slope=None) for s in drive.shafts),
@@ -136,8 +136,8 @@ def _to_angles(drive: Drive, place: Geometry) -> Drive:
         input=replace(drive.input, point=None),
         output=replace(drive.output, point=None),
         joints=tuple(
-            replace(joint, centre=None, bend=float(bend), plane_twist=twist)
-            for joint, bend, twist in zip(drive.joints, place.bend, twists, strict=True)
+            replace(joint, centre=None, joint_angle=float(joint_angle), plane_twist=twist)
+            for joint, joint_angle, twist in zip(drive.joints, place.joint_angle, twists, strict=True)
         ),
         shafts=tuple(
             replace(shaft, length=length, side_slope=None, plan_slope=None)
@@ -168,7 +168,7 @@ def _to_slopes(drive: Drive, place: Geometry) -> Drive:
         drive,
         input=replace(drive.input, point=None),
         output=replace(drive.output, point=None),
-        joints=tuple(replace(joint, centre=None, bend=None, plane_twist=None) for joint in drive.joints),
+        joints=tuple(replace(joint, centre=None, joint_angle=None, plane_twist=None) for joint in drive.joints),
         shafts=tuple(
             replace(
                 shaft,

@@ -8,13 +8,13 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import axis_points
-from cardan.errors import BendLimitError, Problem
+from cardan.errors import JointAngleLimitError, Problem
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import frames
 from cardan.texts import _
 
 STRAIGHT = 1e-12
-"""Below this bend [rad] a joint counts as straight: its plane is undefined, the plane before it is kept."""
+"""Below this joint angle [rad] a joint counts as straight: its plane is undefined, the plane before it is kept."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -31,7 +31,7 @@ class Geometry:
         Directions a_i of the shafts along the power flow.
     normal : array (..., n, 3)
         Normals N_i of the joints' planes.
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_i.
     plane_twist : array (..., n-1) [rad]
         β_2 … β_n in (-π, π].
@@ -43,7 +43,7 @@ class Geometry:
     length: Array
     axis: Array
     normal: Array
-    bend: Array
+    joint_angle: Array
     plane_twist: Array
     assumed: tuple[str, ...] = ()
 
@@ -58,7 +58,7 @@ def geometry_from_points(points: Array) -> Geometry:
 
     Raises
     ------
-    BendLimitError
+    JointAngleLimitError
         Two shafts enclose 90 degrees or more; ``where`` is the mask of the joints (..., n).
 
     Notes
@@ -71,7 +71,7 @@ def geometry_from_points(points: Array) -> Geometry:
     --------
     >>> import numpy as np
     >>> g = geometry_from_points(np.asarray([[0.0, 0, 0], [1, 0, 0], [2, 1, 0]]))
-    >>> np.rad2deg(g.bend)
+    >>> np.rad2deg(g.joint_angle)
     array([45.])
     """
     axis = frames.unit(points[..., 1:, :] - points[..., :-1, :])
@@ -80,7 +80,7 @@ def geometry_from_points(points: Array) -> Geometry:
 
 
 def polyline(points: Array) -> Geometry:
-    """Return what `geometry_from_points` does and refuse nothing: who asks has to look at the bends himself.
+    """Return what `geometry_from_points` does and refuse nothing: who asks has to look at the joint angles himself.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def polyline(points: Array) -> Geometry:
     Examples
     --------
     >>> import numpy as np
-    >>> np.rad2deg(polyline(np.asarray([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])).bend)
+    >>> np.rad2deg(polyline(np.asarray([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])).joint_angle)
     array([135.])
     """
     xp = namespace(points)
@@ -101,11 +101,11 @@ def polyline(points: Array) -> Geometry:
     sine = frames.norm(across)
     cosine = frames.dot(axis[..., :-1, :], axis[..., 1:, :])
     straight = sine <= STRAIGHT
-    bend = xp.where(straight, 0.0 * sine, xp.atan2(sine, cosine))
+    joint_angle = xp.where(straight, 0.0 * sine, xp.atan2(sine, cosine))
     safe = xp.where(straight, 1.0 + 0.0 * sine, sine)
     normal = _fill(axis, across / safe[..., None], straight)
     twist = frames.angle_about(axis[..., 1:-1, :], normal[..., :-1, :], normal[..., 1:, :])
-    return Geometry(points=points, length=length, axis=axis, normal=normal, bend=bend, plane_twist=twist)
+    return Geometry(points=points, length=length, axis=axis, normal=normal, joint_angle=joint_angle, plane_twist=twist)
 
 
 def _refuse_right_angles(cosine: Array) -> None:
@@ -116,7 +116,7 @@ def _refuse_right_angles(cosine: Array) -> None:
     n = cosine.shape[-1]
     flat = xp.reshape(bad, (-1, n))
     joints = [i for i in range(n) if bool(xp.any(flat[:, i]))]
-    raise BendLimitError(
+    raise JointAngleLimitError(
         [
             Problem(
                 "points",
@@ -146,12 +146,12 @@ def _fill(axis: Array, normal: Array, straight: Array) -> Array:
     return xp.stack(filled, axis=-2)
 
 
-def points_from_angles(bend: Array, plane_twist: Array, length: Array, *, first_twist: Array = 0.0) -> Array:
-    """Return the points of a drive with given bends, joint 1 at the origin, shaft 1 along x.
+def points_from_angles(joint_angle: Array, plane_twist: Array, length: Array, *, first_twist: Array = 0.0) -> Array:
+    """Return the points of a drive with given joint angles, joint 1 at the origin, shaft 1 along x.
 
     Parameters
     ----------
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_1 … α_n.
     plane_twist : array (..., n-1) [rad]
         β_2 … β_n.
@@ -164,15 +164,15 @@ def points_from_angles(bend: Array, plane_twist: Array, length: Array, *, first_
     -------
     array (..., n+2, 3) [m]
     """
-    xp = namespace(bend, plane_twist, length)
-    zero = 0.0 * bend[..., 0]
+    xp = namespace(joint_angle, plane_twist, length)
+    zero = 0.0 * joint_angle[..., 0]
     axis = xp.stack((zero + 1.0, zero, zero), axis=-1)
     normal = frames.rotate(xp.stack((zero, zero + 1.0, zero), axis=-1), axis, zero + first_twist)
     points = [-length[..., 0, None] * axis, 0.0 * axis]
-    for i in range(bend.shape[-1]):
+    for i in range(joint_angle.shape[-1]):
         if i:
             normal = frames.rotate(normal, axis, plane_twist[..., i - 1])
-        axis = frames.rotate(axis, normal, bend[..., i])
+        axis = frames.rotate(axis, normal, joint_angle[..., i])
         points.append(points[-1] + length[..., i + 1, None] * axis)
     return xp.stack(points, axis=-2)
 
@@ -194,8 +194,8 @@ def geometry(drive: Drive) -> Geometry:
         points = np.concatenate((-steps[:1], np.zeros((1, 3)), np.cumsum(steps[1:], axis=0)))
         found = geometry_from_points(points)
         return Geometry(**{**vars(found), "assumed": assumed})
-    bend, twist = given_angles(drive)
-    points = points_from_angles(bend, twist[1:], length, first_twist=twist[0])
+    joint_angle, twist = given_angles(drive)
+    points = points_from_angles(joint_angle, twist[1:], length, first_twist=twist[0])
     found = geometry_from_points(points)
     normal = _normals(found.axis, twist)
     return Geometry(
@@ -203,7 +203,7 @@ def geometry(drive: Drive) -> Geometry:
         length=length,
         axis=found.axis,
         normal=normal,
-        bend=bend,
+        joint_angle=joint_angle,
         plane_twist=twist[1:],
         assumed=assumed,
     )
@@ -211,8 +211,8 @@ def geometry(drive: Drive) -> Geometry:
 
 def given_angles(drive: Drive) -> tuple[Array, Array]:
     """Return bends and plane twists (n,) of a drive that is given by them [rad]."""
-    bend = np.asarray([joint.bend for joint in drive.joints], dtype=float)
-    return bend, np.asarray([joint.plane_twist or 0.0 for joint in drive.joints])
+    joint_angle = np.asarray([joint.joint_angle for joint in drive.joints], dtype=float)
+    return joint_angle, np.asarray([joint.plane_twist or 0.0 for joint in drive.joints])
 
 
 def _normals(axis: Array, twist: Array) -> Array:

@@ -2,7 +2,7 @@
 
 The map of such a joint is tan θ' = κ tan θ. Where κ ≥ 1 it is that of a Hooke joint with cos α = 1/κ; where κ < 1 that
 of one with cos α = κ whose driving yoke stands a quarter turn ahead. So a chain of mixed kinds is a chain of Hooke
-joints with other bends and plane twists, and all that is known of those holds for it.
+joints with other joint angles and plane twists, and all that is known of those holds for it.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NEGLIGIBLE = 1e-6
 """What a joint may leave beside its nearest map [rad] to be taken by it: a fifth of a second of arc."""
 
 STEP = 1e-5
-"""Step [rad] of the bend in the central difference of `growth`; what it leaves is of order 1e-10."""
+"""Step [rad] of the joint angle in the central difference of `growth`; what it leaves is of order 1e-10."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -36,7 +36,7 @@ class Laws:
 
     Attributes
     ----------
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_i, bends of the joints themselves.
     steepness : array (..., n)
         κ_i of tan θ' = κ tan θ.
@@ -48,7 +48,7 @@ class Laws:
         Which joints are of another kind.
     """
 
-    bend: Array
+    joint_angle: Array
     steepness: Array
     growth: Array
     ahead: Array
@@ -61,7 +61,7 @@ def mixed(joints: Sequence[Joint]) -> bool:
     Examples
     --------
     >>> from cardan.drive.joints import Hooke
-    >>> mixed([Hooke(bend=0.1)])
+    >>> mixed([Hooke(joint_angle=0.1)])
     False
     """
     return any(not joint.single_cross for joint in joints)
@@ -72,13 +72,13 @@ def unmapped(joints: Sequence[Joint]) -> tuple[int, ...]:
     return tuple(i for i, joint in enumerate(joints) if not joint.has_map)
 
 
-def left_over(joint: Joint, bend: float) -> float:
+def left_over(joint: Joint, joint_angle: float) -> float:
     """Return how far the turn of a joint is at most from that of its nearest Möbius map [rad]; 0 where it has a map.
 
     Parameters
     ----------
     joint : Joint
-    bend : float [rad]
+    joint_angle : float [rad]
 
     Examples
     --------
@@ -93,10 +93,12 @@ def left_over(joint: Joint, bend: float) -> float:
     if joint.has_map:
         return 0.0
     theta = np.arange(PLACES) * (2.0 * np.pi / PLACES)
-    alpha = np.asarray(bend)
+    alpha = np.asarray(joint_angle)
     with np.errstate(invalid="ignore", divide="ignore"):
-        lead = joint.deviation(theta, alpha)[0] - mobius.lead(joint.near_pair(alpha), unit_complex(2.0 * theta))
-    return float(np.max(np.abs(lead)))
+        angle_error = joint.deviation(theta, alpha)[0] - mobius.angle_error(
+            joint.near_pair(alpha), unit_complex(2.0 * theta)
+        )
+    return float(np.max(np.abs(angle_error)))
 
 
 def refuse_kinds(drive: Drive, question: str, key: str = "cross") -> None:
@@ -143,7 +145,7 @@ def lawless(i: int, joint: Joint, question: str) -> Problem:
 
 
 def alike(
-    joints: Sequence[Joint], bend: Array, plane_twist: Array, *, near: bool = False
+    joints: Sequence[Joint], joint_angle: Array, plane_twist: Array, *, near: bool = False
 ) -> tuple[Array, Array, Array, Laws]:
     """Return bends, plane twists and start of the Hooke joints that turn like joints of other kinds.
 
@@ -151,7 +153,7 @@ def alike(
     ----------
     joints : sequence of n Joint
         All with a Möbius map.
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_i.
     plane_twist : array (..., n-1) [rad]
         β_2 … β_n.
@@ -160,7 +162,7 @@ def alike(
 
     Returns
     -------
-    bend, plane_twist : arrays (..., n), (..., n-1) [rad]
+    joint_angle, plane_twist : arrays (..., n), (..., n-1) [rad]
         Of the Hooke joints, with the same yoke angles.
     start : array (...) [rad]
         What to add to the start phase.
@@ -177,10 +179,10 @@ def alike(
     The driving yoke of the Hooke joint stands λ ahead of the driving mark, and so does the driven one, which stands a
     quarter turn ahead of its own: β_i becomes β_i + (π/2 - q_{i-1}) + λ_{i-1} - λ_i, q = π/2 for a cross, else 0.
     """
-    xp = namespace(bend)
+    xp = namespace(joint_angle)
     columns: list[tuple[Array, ...]] = []
     for i, joint in enumerate(joints):
-        alpha = bend[..., i]
+        alpha = joint_angle[..., i]
         here = _steepness(joint, alpha, i, near)
         tau = (here - 1.0) / (here + 1.0)
         if joint.single_cross:
@@ -193,29 +195,29 @@ def alike(
     quarter = xp.asarray([0.0 if joint.crossed else 0.5 * np.pi for joint in joints[:-1]], dtype=xp.float64)
     twist = plane_twist + quarter + aheads[..., :-1] - aheads[..., 1:]
     own = tuple(not joint.single_cross for joint in joints)
-    laws = Laws(bend=bend, steepness=steepness, growth=growths, ahead=aheads, own=own)
+    laws = Laws(joint_angle=joint_angle, steepness=steepness, growth=growths, ahead=aheads, own=own)
     return equal, twist, aheads[..., 0], laws
 
 
-def _steepness(joint: Joint, bend: Array, i: int, near: bool) -> Array:
+def _steepness(joint: Joint, joint_angle: Array, i: int, near: bool) -> Array:
     """Return κ = (1 + τ)/(1 - τ), τ = -b/a, of a joint with a Möbius map."""
-    xp = namespace(bend)
-    pair = joint.near_pair(bend) if near else joint.pair(bend)
+    xp = namespace(joint_angle)
+    pair = joint.near_pair(joint_angle) if near else joint.pair(joint_angle)
     if pair is None:
         text = _("its kind, {kind}, turns by a law of its own; this question needs one of the form tan θ' = κ tan θ")
         raise InputError([Problem(f"joints[{i}].kind", text.format(kind=joint.kind), "unknown_kind")])
     a, b = (xp.real(part) for part in pair)
     found: Array = (a - b) / (a + b)
-    _turns(joint, bend, found, i)
+    _turns(joint, joint_angle, found, i)
     return found
 
 
-def _turns(joint: Joint, bend: Array, values: Array, i: int) -> None:
+def _turns(joint: Joint, joint_angle: Array, values: Array, i: int) -> None:
     """Refuse a joint that does not turn at its bend."""
-    xp = namespace(bend, values)
+    xp = namespace(joint_angle, values)
     stuck = ~xp.isfinite(values)
     if bool(xp.any(stuck)):
-        most = float(xp.max(xp.where(stuck, bend, 0.0)))
-        text = _("a joint of kind {kind} with these sizes does not turn at its bend of {bend:.6g}°")
-        message = text.format(kind=joint.kind, bend=np.degrees(most))
-        raise InputError([Problem(f"joints[{i}].bend", message, "out_of_range")], where=stuck)
+        most = float(xp.max(xp.where(stuck, joint_angle, 0.0)))
+        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+        message = text.format(kind=joint.kind, joint_angle=np.degrees(most))
+        raise InputError([Problem(f"joints[{i}].joint_angle", message, "out_of_range")], where=stuck)

@@ -155,13 +155,13 @@ def train_of_points(
     1
     """
     place = geometry_from_points(points)
-    xp = place.bend.__array_namespace__()
+    xp = place.joint_angle.__array_namespace__()
     gamma = xp.zeros_like(place.plane_twist) if yoke_angle is None else yoke_angle
     whole = Chain(
-        bend=place.bend,
+        joint_angle=place.joint_angle,
         plane_twist=place.plane_twist,
         yoke_angle=xp.broadcast_to(xp.asarray(gamma, dtype=xp.float64), place.plane_twist.shape),
-        start_phase=xp.broadcast_to(xp.asarray(start_phase, dtype=xp.float64), place.bend.shape[:-1]),
+        start_phase=xp.broadcast_to(xp.asarray(start_phase, dtype=xp.float64), place.joint_angle.shape[:-1]),
     )
     return Train(points=points, chain=whole, **parts)  # type: ignore[arg-type]
 

@@ -77,14 +77,14 @@ def motion_columns(motion: Motion) -> dict[str, Any]:
     columns: dict[str, Any] = {"angle_deg": motion.angle * deg}
     for k in range(1, motion.shaft_angle.shape[-2]):
         columns[f"shaft_{k + 1}_angle_deg"] = motion.shaft_angle[k] * deg
-        columns[f"shaft_{k + 1}_lead_deg"] = motion.lead[k] * deg
+        columns[f"shaft_{k + 1}_angle_error_deg"] = motion.angle_error[k] * deg
         columns[f"shaft_{k + 1}_ratio"] = motion.shaft_ratio[k]
         columns[f"shaft_{k + 1}_ratio_slope_per_rad"] = motion.shaft_slope[k]
         if motion.speed is not None:
             columns[f"shaft_{k + 1}_speed_rpm"] = motion.shaft_speed[k] * 30.0 / np.pi
             columns[f"shaft_{k + 1}_acceleration_rad_s2"] = motion.shaft_acceleration[k]
-    for i in range(motion.joint_angle.shape[-2]):
-        columns[f"joint_{i + 1}_angle_deg"] = motion.joint_angle[i] * deg
+    for i in range(motion.yoke_rotation.shape[-2]):
+        columns[f"joint_{i + 1}_yoke_rotation_deg"] = motion.yoke_rotation[i] * deg
         if not motion.crossed or motion.crossed[i]:
             columns[f"joint_{i + 1}_cross_driving_deg"] = motion.cross_driving[i] * deg
             columns[f"joint_{i + 1}_cross_driven_deg"] = motion.cross_driven[i] * deg
@@ -95,13 +95,13 @@ def articulation_columns(result: Articulation) -> dict[str, Any]:
     """Return an articulation as columns over time."""
     deg = 180.0 / np.pi
     columns: dict[str, Any] = {"time_s": result.times}
-    for i in range(result.bend.shape[-1]):
-        columns[f"joint_{i + 1}_bend_deg"] = result.bend[:, i] * deg
+    for i in range(result.joint_angle.shape[-1]):
+        columns[f"joint_{i + 1}_joint_angle_deg"] = result.joint_angle[:, i] * deg
     for i in range(result.plane_twist.shape[-1]):
         columns[f"joint_{i + 2}_plane_twist_deg"] = result.plane_twist[:, i] * deg
     for k in range(result.length.shape[-1]):
         columns[f"shaft_{k + 1}_length_mm"] = result.length[:, k] * 1e3
-    columns["irregularity"] = result.irregularity
+    columns["speed_fluctuation"] = result.speed_fluctuation
     if result.shaft_speed is not None and result.shaft_acceleration is not None:
         for k in range(result.shaft_speed.shape[-1]):
             columns[f"shaft_{k + 1}_speed_rad_s"] = result.shaft_speed[:, k]

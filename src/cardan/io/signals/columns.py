@@ -250,5 +250,5 @@ def title_of(name: str, quantity: str, place: str, direction: str) -> str:
     """
     words = [one for one in (place, direction) if one]
     given = "" if name == "_".join(words) or name in (quantity, "") else name
-    lead = "" if quantity == "pulses" and WORDS.get(given.lower()) == ("pulses",) else quantity
-    return "_".join(one for one in (lead, given, *words, SI[quantity]) if one)
+    angle_error = "" if quantity == "pulses" and WORDS.get(given.lower()) == ("pulses",) else quantity
+    return "_".join(one for one in (angle_error, given, *words, SI[quantity]) if one)

@@ -113,11 +113,11 @@ def cosine(r: Array) -> Array:
     return 1.0 - (0.5 * z - z * z * _polynomial(COSINE, z))
 
 
-def bend_cosine(bend: Array) -> Array:
+def joint_angle_cosine(joint_angle: Array) -> Array:
     """Return cos α for 0 ≤ α < π/2, with full relative accuracy near π/2."""
-    xp = namespace(bend)
-    small = bend < 0.5 * RIGHT_ANGLE[0]
-    return xp.where(small, cosine(bend), sine((RIGHT_ANGLE[0] - bend) + RIGHT_ANGLE[1]))
+    xp = namespace(joint_angle)
+    small = joint_angle < 0.5 * RIGHT_ANGLE[0]
+    return xp.where(small, cosine(joint_angle), sine((RIGHT_ANGLE[0] - joint_angle) + RIGHT_ANGLE[1]))
 
 
 def within_half_turn(angle: Array) -> Array:

@@ -17,8 +17,8 @@ CONSTANT, FALLING, SWINGING, ASYNCHRONOUS = range(4)
 """Kinds of torques, in the plan."""
 
 
-def _wave(x: Any, v: Any, a: Any, u: Any, value: Any, rate: Any, bend: Any) -> tuple[Any, Any, Any]:
-    return x + u * value, v + u * rate, a + u * bend
+def _wave(x: Any, v: Any, a: Any, u: Any, value: Any, rate: Any, joint_angle: Any) -> tuple[Any, Any, Any]:
+    return x + u * value, v + u * rate, a + u * joint_angle
 
 
 def _moving(v: Any, a: Any, omega: Any, even: Any) -> tuple[Any, Any]:
@@ -63,7 +63,7 @@ def moment_at(plan: Any, own: Any, work: Any, table: Any, at: int, phi: float) -
     omega = even + BYTES
     u = w
     x = u + BYTES * rank * n
-    rate, bend = x + BYTES * rank, x + BYTES * 2 * rank
+    rate, joint_angle = x + BYTES * rank, x + BYTES * 2 * rank
     ahead = x + BYTES * 3 * rank
     line = BYTES * stations
     f1, f2, f3 = ahead + line, ahead + 2 * line, ahead + 3 * line
@@ -78,11 +78,11 @@ def moment_at(plan: Any, own: Any, work: Any, table: Any, at: int, phi: float) -
         if r >= first:
             for k in range(n):
                 _wave_of(
-                    (x + p, rate + p, bend + p, u + BYTES * (r * n + k)),
+                    (x + p, rate + p, joint_angle + p, u + BYTES * (r * n + k)),
                     (table[at + k], table[at + n + k], table[at + 2 * n + k]),
-                    (x + p, rate + p, bend + p),
+                    (x + p, rate + p, joint_angle + p),
                 )
-        _moving_of((rate + p, bend + p, omega, even), (), (rate + p, bend + p))
+        _moving_of((rate + p, joint_angle + p, omega, even), (), (rate + p, joint_angle + p))
     for k in range(stations):
         p = BYTES * k
         r = plan[of + k]
@@ -126,7 +126,7 @@ def moment_at(plan: Any, own: Any, work: Any, table: Any, at: int, phi: float) -
         _gather(
             (
                 *(mass + q, left + q, damping + d, stiffness + d, inertia + p, f1 + p, f2 + p, f3 + p),
-                *(on + p, along + p, across + p, ground + p, rate + q, bend + q),
+                *(on + p, along + p, across + p, ground + p, rate + q, joint_angle + q),
             ),
             (),
             (mass + q, left + q, damping + d, stiffness + d),

@@ -22,14 +22,14 @@ def joint(
     turn = within_half_turn(ahead + psi + phi)
     s, c = sine(turn), cosine(turn)
     s2, c2 = 2.0 * s * c, 1.0 - 2.0 * s * s
-    lead = argument_right(tau * s2, 1.0 - tau * c2)
+    angle_error = argument_right(tau * s2, 1.0 - tau * c2)
     below = 1.0 / (1.0 - square * c * c)
     t1 = cos * below
     bent = square * below
     t2 = -(t1 * bent * s2)
     t3 = 2.0 * t1 * bent * (bent * s2 * s2 - c2)
     return (
-        ahead + lead - start,
+        ahead + angle_error - start,
         t1 * f1,
         t2 * f1 * f1 + t1 * f2,
         t3 * f1 * f1 * f1 + 3.0 * t2 * f1 * f2 + t1 * f3,
@@ -67,12 +67,14 @@ def swinging(on: Any, along: Any, ahead: Any, amplitude: Any, phase: Any, half_o
     return on + amplitude * (2.0 * s * c), along + 2.0 * half_order * amplitude * (1.0 - 2.0 * s * s)
 
 
-def asynchronous(on: Any, across: Any, turning: Any, synchronous: Any, pullout: Any, bend: Any) -> tuple[Any, Any]:
-    """Return torque and slope by speed with those of Kloss's formula added; ``bend`` is the pull-out slip."""
+def asynchronous(
+    on: Any, across: Any, turning: Any, synchronous: Any, pullout: Any, joint_angle: Any
+) -> tuple[Any, Any]:
+    """Return torque and slope by speed with those of Kloss's formula added; ``joint_angle`` is the pull-out slip."""
     slip = 1.0 - turning / synchronous
-    size = slip * slip + bend * bend
-    scale = 2.0 * pullout * bend / size
-    return on + scale * slip, across - scale * (bend * bend - slip * slip) / (size * synchronous)
+    size = slip * slip + joint_angle * joint_angle
+    scale = 2.0 * pullout * joint_angle / size
+    return on + scale * slip, across - scale * (joint_angle * joint_angle - slip * slip) / (size * synchronous)
 
 
 def gather(
@@ -89,17 +91,17 @@ def gather(
     across: Any,
     ground: Any,
     rate: Any,
-    bend: Any,
+    joint_angle: Any,
 ) -> tuple[Any, Any, Any, Any]:
     """Return mass, balance, damping and stiffness of a coordinate with those of one station added."""
     heavy, drag = inertia * f1, ground - across
     swing = heavy * f2 * rate
     return (
         mass + heavy * f1,
-        left + heavy * f1 * bend + swing * rate - f1 * on,
+        left + heavy * f1 * joint_angle + swing * rate - f1 * on,
         damping + 2.0 * swing + f1 * f1 * drag,
         stiffness
-        + 2.0 * heavy * f2 * bend
+        + 2.0 * heavy * f2 * joint_angle
         + inertia * (f2 * f2 + f1 * f3) * rate * rate
         - f2 * on
         + f1 * f2 * rate * drag
@@ -108,8 +110,8 @@ def gather(
 
 
 def couple(
-    damping: Any, stiffness: Any, first: Any, other: Any, other_bend: Any, rate: Any, c: Any, b: Any, sign: Any
+    damping: Any, stiffness: Any, first: Any, other: Any, other_joint_angle: Any, rate: Any, c: Any, b: Any, sign: Any
 ) -> tuple[Any, Any]:
     """Return damping and stiffness between two coordinates with those of an element added; ``sign`` is -1 across it."""
     lever = sign * first
-    return damping + b * lever * other, stiffness + lever * (c * other + b * other_bend * rate)
+    return damping + b * lever * other, stiffness + lever * (c * other + b * other_joint_angle * rate)

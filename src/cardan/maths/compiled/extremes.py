@@ -1,4 +1,4 @@
-"""Kernel: irregularity, equivalent joint and extremes of many chains, without positions."""
+"""Kernel: speed fluctuation, equivalent joint and extremes of many chains, without positions."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from .lanes import BYTES, INPUT, LANES, OUTPUT, SOURCES, address, compiled, step
 from .pairs import BLOCK, pair_block, room
 
 RESULTS = 6
-"""Irregularity, τ, equivalent angle, phase, largest ratio, largest acceleration."""
+"""SpeedFluctuation, τ, equivalent angle, phase, largest ratio, largest acceleration."""
 
 
 def reached(ar: Any, ai: Any, br: Any, bi: Any) -> tuple[Any, Any, Any, Any, Any, Any]:
     """Return what a chain reaches over a turn; see `cardan.maths.compiled.plain.extremes`."""
     xp = namespace(ar)
     far, near = xp.sqrt(ar * ar + ai * ai), xp.sqrt(br * br + bi * bi)
-    irregularity = 4.0 * far * near
+    speed_fluctuation = 4.0 * far * near
     tau = near / far
     ratio_max = (far + near) * (far + near)
     phase = -0.5 * argument(br * ai - bi * ar, -(br * ar + bi * ai))
     phase = xp.where(phase < 0.0, phase + np.pi, phase)
     c = 1.0 / ratio_max
-    square = irregularity * c
+    square = speed_fluctuation * c
     size = 1.0 + c * c
     k = square / size
     root = xp.sqrt(1.0 + 8.0 * k * k)
     x, short = 4.0 * k / (1.0 + root), 4.0 * c * c / (size * (1.0 + 2.0 * k + root))
     below = 2.0 * c * c + size * k * short
     steepest = 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / (below * below)
-    return irregularity, tau, 2.0 * arctangent_unit(xp.sqrt(tau)), phase, ratio_max, steepest
+    return speed_fluctuation, tau, 2.0 * arctangent_unit(xp.sqrt(tau)), phase, ratio_max, steepest
 
 
 _reached = step(reached)
@@ -46,13 +46,13 @@ def _build(sources: int) -> Any:
         *(OUTPUT, OUTPUT, OUTPUT, OUTPUT, OUTPUT, OUTPUT),
     )
     def kernel(
-        bend: Any,
+        joint_angle: Any,
         plane_twist: Any,
         yoke_angle: Any,
         start_phase: Any,
         first: int,
         last: int,
-        irregularity: Any,
+        speed_fluctuation: Any,
         tau: Any,
         equivalent: Any,
         phase: Any,
@@ -60,12 +60,12 @@ def _build(sources: int) -> Any:
         acceleration: Any,
     ) -> None:
         _sources = sources  # part of the key on disk
-        scratch = room(bend.shape[1])
+        scratch = room(joint_angle.shape[1])
         edge = np.empty(RESULTS * LANES)
         wide = 8 * BLOCK
         for block in range(first, last, BLOCK):
             count = min(BLOCK, last - block)
-            pair_block(bend, plane_twist, yoke_angle, start_phase, block, count, scratch)
+            pair_block(joint_angle, plane_twist, yoke_angle, start_phase, block, count, scratch)
             for group in range((count + LANES - 1) // LANES):
                 a = address(scratch) + BYTES * group
                 begin = block + LANES * group
@@ -74,7 +74,7 @@ def _build(sources: int) -> Any:
                 if lanes == LANES:
                     at = 8 * begin
                     whole = (
-                        *(address(irregularity) + at, address(tau) + at, address(equivalent) + at),
+                        *(address(speed_fluctuation) + at, address(tau) + at, address(equivalent) + at),
                         *(address(phase) + at, address(ratio_max) + at, address(acceleration) + at),
                     )
                     _reached(pair, (), whole)
@@ -82,7 +82,7 @@ def _build(sources: int) -> Any:
                     p = address(edge)
                     _reached(pair, (), (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES))
                     for lane in range(lanes):
-                        irregularity[begin + lane] = edge[lane]
+                        speed_fluctuation[begin + lane] = edge[lane]
                         tau[begin + lane] = edge[LANES + lane]
                         equivalent[begin + lane] = edge[2 * LANES + lane]
                         phase[begin + lane] = edge[3 * LANES + lane]

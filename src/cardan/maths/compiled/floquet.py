@@ -22,8 +22,8 @@ ENOUGH = 1e-5
 """Newton step, over the motion, whose square is rounding: the last one."""
 
 
-def _inner(stiffness: Any, damping: Any, mass: Any, omega: Any, value: Any, rate: Any, bend: Any) -> tuple[Any]:
-    return (stiffness * value + omega * (damping * rate + omega * (mass * bend)),)
+def _inner(stiffness: Any, damping: Any, mass: Any, omega: Any, value: Any, rate: Any, joint_angle: Any) -> tuple[Any]:
+    return (stiffness * value + omega * (damping * rate + omega * (mass * joint_angle)),)
 
 
 def _same(one: Any) -> tuple[Any]:

@@ -10,7 +10,7 @@ from numba import njit
 
 from cardan.maths.arrays import namespace
 
-from .approximations import LARGEST_ANGLE, bend_cosine, cosine, sine, within_half_turn
+from .approximations import LARGEST_ANGLE, cosine, joint_angle_cosine, sine, within_half_turn
 from .lanes import BYTES, LANES, address, step
 
 BLOCK = 64
@@ -28,19 +28,19 @@ def room(joints: int) -> Any:
     return np.empty(STATE + 2 * BLOCK * joints)
 
 
-def joint(bend: Any, turn: Any, ar: Any, ai: Any, br: Any, bi: Any) -> tuple[Any, Any, Any, Any]:
+def joint(joint_angle: Any, turn: Any, ar: Any, ai: Any, br: Any, bi: Any) -> tuple[Any, Any, Any, Any]:
     """Return the pair of a chain and one more joint.
 
     Notes
     -----
     (cos²(α/2), -sin²(α/2))/√cos α, with sin²(α/2) = sin²α/(2(1 + cos α)), after a turn by μ.
     """
-    xp = namespace(bend)
+    xp = namespace(joint_angle)
     mu = within_half_turn(turn)
     c, s = cosine(mu), sine(mu)
     ar, ai = ar * c - ai * s, ar * s + ai * c
     br, bi = br * c - bi * s, br * s + bi * c
-    cos, sin = bend_cosine(bend), sine(bend)
+    cos, sin = joint_angle_cosine(joint_angle), sine(joint_angle)
     share = 0.5 / ((1.0 + cos) * xp.sqrt(cos))
     p, q = (1.0 + cos) * (1.0 + cos) * share, sin * sin * share
     return p * ar - q * br, p * ai + q * bi, p * br - q * ar, p * bi + q * ai
@@ -51,20 +51,20 @@ _joint = step(joint)
 
 @njit(nogil=True, error_model="numpy")
 def pair_block(
-    bend: Any, plane_twist: Any, yoke_angle: Any, start_phase: Any, first: int, count: int, scratch: Any
+    joint_angle: Any, plane_twist: Any, yoke_angle: Any, start_phase: Any, first: int, count: int, scratch: Any
 ) -> None:
     """Put the pairs of chains ``first`` to ``first + count`` at the head of ``scratch``; part of other kernels.
 
     Unused lanes of the block hold the last chain.
     """
-    joints = bend.shape[1]
+    joints = joint_angle.shape[1]
     for lane in range(BLOCK):
         row = first + min(lane, count - 1)
         for i in range(joints):
             mu = start_phase[row] if i == 0 else _RIGHT - yoke_angle[row, i - 1] - plane_twist[row, i - 1]
             if abs(mu) > LARGEST_ANGLE:
                 mu = math.atan2(math.sin(mu), math.cos(mu))
-            scratch[STATE + 2 * BLOCK * i + lane] = bend[row, i]
+            scratch[STATE + 2 * BLOCK * i + lane] = joint_angle[row, i]
             scratch[STATE + 2 * BLOCK * i + BLOCK + lane] = mu
         scratch[lane] = 1.0
         for part in range(1, 4):

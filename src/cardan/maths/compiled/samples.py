@@ -31,7 +31,7 @@ def link(phase: Any, e1: Any, e2: Any, e3: Any, e4: Any, cb: Any, sb: Any) -> tu
 
     Notes
     -----
-    α_1, α_2, α_3 are right angles but for their errors, α_4 is the bend but for its own; see
+    α_1, α_2, α_3 are right angles but for their errors, α_4 is the joint angle but for its own; see
     `cardan.maths.kernel.loops.fourth_angle`.
     """
     c1, s1, c2, c3, s3 = -sine(e1), cosine(e1), -sine(e2), -sine(e3), cosine(e3)
@@ -142,7 +142,7 @@ def _build(sources: int) -> Any:
         errors: Any,
         known: Any,
         slot: Any,
-        bend: Any,
+        joint_angle: Any,
         between: Any,
         table: Any,
         count: int,
@@ -154,7 +154,7 @@ def _build(sources: int) -> Any:
         keep: Any,
     ) -> None:
         _sources = sources  # part of the key on disk
-        joints, positions = bend.size // 2, table.size // SHARED
+        joints, positions = joint_angle.size // 2, table.size // SHARED
         own, links, state = np.empty(SEATS * LANES), np.empty(_LINK * LANES * joints), np.empty(_STATE * LANES)
         way, rest = np.empty(2 * LANES), np.empty(positions * LANES)
         at_own, at_links, at_state, at_way = address(own), address(links), address(state), address(way)
@@ -177,7 +177,7 @@ def _build(sources: int) -> Any:
                 p = at_links + j * _LINK * BYTES
                 _link_of(
                     (at_own, at_own + BYTES, at_own + 2 * BYTES, at_own + 3 * BYTES, at_own + 4 * BYTES),
-                    (bend[2 * j], bend[2 * j + 1]),
+                    (joint_angle[2 * j], joint_angle[2 * j + 1]),
                     (p, p + BYTES, p + 2 * BYTES, p + 3 * BYTES, p + 4 * BYTES, p + 5 * BYTES, p + 6 * BYTES),
                 )
             _begin(state)

@@ -195,11 +195,11 @@ def swinging(
     return constant(amplitude * swing(order * angle + phase), speed, torque, power)
 
 
-def hinge(value: Array, speed: Array, place: Array, bend: Array) -> Array:
-    """Add to a value that is straight in the speed a bend at a place: bend·max(0, Ḟ - place)."""
+def hinge(value: Array, speed: Array, place: Array, joint_angle: Array) -> Array:
+    """Add to a value that is straight in the speed a joint angle at a place: bend·max(0, Ḟ - place)."""
     xp = namespace(speed)
     over = speed - place
-    return value + bend * xp.where(over > 0.0, over, 0.0)
+    return value + joint_angle * xp.where(over > 0.0, over, 0.0)
 
 
 def forced(time: Array, angle: Array, speed: Array, acceleration: Array) -> tuple[Array, Array]:

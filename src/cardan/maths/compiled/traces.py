@@ -85,7 +85,7 @@ def _build(sources: int) -> Any:
         *(OUTPUT, OUTPUT, OUTPUT),
     )
     def kernel(
-        bend: Any,
+        joint_angle: Any,
         plane_twist: Any,
         yoke_angle: Any,
         start_phase: Any,
@@ -102,7 +102,7 @@ def _build(sources: int) -> Any:
         out_rate: Any,
     ) -> None:
         _sources = sources  # part of the key on disk
-        scratch, shared = room(bend.shape[1]), np.empty(_SHARED * BLOCK)
+        scratch, shared = room(joint_angle.shape[1]), np.empty(_SHARED * BLOCK)
         edge, line = np.empty(3 * LANES), np.empty(3 * LANES)
         at, to, wide = address(scratch), address(shared), 8 * BLOCK
         at_edge, at_line = address(edge), address(line)
@@ -115,7 +115,7 @@ def _build(sources: int) -> Any:
             lane = (row - first) % BLOCK
             if lane == 0:
                 count = min(BLOCK, last - row)
-                pair_block(bend, plane_twist, yoke_angle, start_phase, row, count, scratch)
+                pair_block(joint_angle, plane_twist, yoke_angle, start_phase, row, count, scratch)
                 for group in range((count + LANES - 1) // LANES):
                     a, p = at + BYTES * group, to + BYTES * group
                     _per_chain(

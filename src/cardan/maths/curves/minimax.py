@@ -104,8 +104,8 @@ def least_peak(curves: Curves, start: Array) -> LeastPeak:
         return z[-1] - known(z)[0] / size
 
     def slope(z: Array) -> Array:
-        bend = known(z)[1]
-        return np.column_stack([-bend / size, np.ones(len(bend))])
+        joint_angle = known(z)[1]
+        return np.column_stack([-joint_angle / size, np.ones(len(joint_angle))])
 
     count = len(start)
     solve: Any = minimize

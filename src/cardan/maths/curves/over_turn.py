@@ -162,9 +162,9 @@ def _highest(table: Array, step: float) -> tuple[Array, Array]:
     other = np.max(narrow, axis=-1)
     edge = np.clip(place, 1, at.size - 2)
     three = np.take_along_axis(wide, edge[..., None] + np.arange(-1, 2), axis=-1)
-    bend = three[..., 0] - 2.0 * three[..., 1] + three[..., 2]
+    joint_angle = three[..., 0] - 2.0 * three[..., 1] + three[..., 2]
     slope = 0.5 * (three[..., 2] - three[..., 0])
-    shift = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0)
+    shift = np.where(joint_angle < 0.0, -slope / np.where(joint_angle < 0.0, joint_angle, 1.0), 0.0)
     inner = (np.abs(shift) <= 1.0) & (place == edge)
     value = np.where(inner, three[..., 1] + 0.5 * slope * np.where(inner, shift, 0.0), value)
     where = at[place] + np.where(inner, shift, 0.0) / FINE

@@ -27,19 +27,19 @@ def series_at(coefficient: Array, phase: ArrayLike) -> tuple[Array, Array, Array
 
     Examples
     --------
-    >>> value, rate, _bend = series_at(np.asarray([[1.0, 0.0, -2j]]), [0.0, np.pi / 4])
+    >>> value, rate, _joint_angle = series_at(np.asarray([[1.0, 0.0, -2j]]), [0.0, np.pi / 4])
     >>> value[:, 0], rate[:, 0]
     (array([1., 3.]), array([4., 0.]))
     """
     order = np.arange(coefficient.shape[-1])
     wave = np.exp(1j * np.asarray(phase, dtype=float)[:, None] * order)
     factors = (wave, 1j * order * wave, -(order**2) * wave)
-    value, rate, bend = (
+    value, rate, joint_angle = (
         np.matmul(factor.real, coefficient.real.swapaxes(-1, -2))
         - np.matmul(factor.imag, coefficient.imag.swapaxes(-1, -2))
         for factor in factors
     )
-    return value, rate, bend
+    return value, rate, joint_angle
 
 
 def sampled_series(samples: Array) -> Array:
@@ -64,7 +64,7 @@ def extremes(coefficient: Array) -> tuple[Array, Array]:
     >>> [float(one.round(12)) for one in extremes(np.asarray([1.0, 2.0 * np.exp(0.3j), 0.0]))]
     [-1.0, 3.0]
     """
-    lead = coefficient.shape[:-1]
+    outer = coefficient.shape[:-1]
     flat = coefficient.reshape(-1, coefficient.shape[-1])
     size = np.abs(flat)
     if not size.size or not np.isfinite(size).all():
@@ -84,10 +84,10 @@ def extremes(coefficient: Array) -> tuple[Array, Array]:
         level = values[np.arange(len(flat)), best]
         for _round in range(ROUNDS):
             wave = flat * np.exp(1j * place[:, None] * order)
-            slope, bend = -np.sum(order * wave.imag, axis=-1), -np.sum(order**2 * wave.real, axis=-1)
-            safe = np.where(side * bend < 0.0, bend, -side)
-            step = np.where(side * bend < 0.0, -slope / safe, 0.0)
+            slope, joint_angle = -np.sum(order * wave.imag, axis=-1), -np.sum(order**2 * wave.real, axis=-1)
+            safe = np.where(side * joint_angle < 0.0, joint_angle, -side)
+            step = np.where(side * joint_angle < 0.0, -slope / safe, 0.0)
             place = place + np.clip(step, -2.0 * np.pi / count, 2.0 * np.pi / count)
         refined = np.sum((flat * np.exp(1j * place[:, None] * order)).real, axis=-1)
         ends.append(side * np.maximum(side * refined, side * level))
-    return ends[0].reshape(lead), ends[1].reshape(lead)
+    return ends[0].reshape(outer), ends[1].reshape(outer)

@@ -249,8 +249,8 @@ def driven(cosine: Array, sine: Array, along: Array, across: Array) -> tuple[Arr
     Examples
     --------
     >>> import numpy as np
-    >>> bends = np.radians([90, 90, 90, 30])
-    >>> c, s, carried = driven(np.cos(bends), np.sin(bends), np.asarray(1.0), np.asarray(0.0))
+    >>> joint_angles = np.radians([90, 90, 90, 30])
+    >>> c, s, carried = driven(np.cos(joint_angles), np.sin(joint_angles), np.asarray(1.0), np.asarray(0.0))
     >>> bool(abs(s) < 1e-15), float(carried[0])
     (True, 1.15470054)
     """
@@ -341,12 +341,12 @@ def closure(alpha: Array, angle: Array, length: Array, slide: Array) -> Array:
     return xp.max(xp.abs(whole - xp.eye(4, dtype=xp.float64)), axis=(-2, -1))
 
 
-def influence(bend: ArrayLike, angle: ArrayLike, *, branch: ArrayLike = IDEAL) -> Array:
+def influence(joint_angle: ArrayLike, angle: ArrayLike, *, branch: ArrayLike = IDEAL) -> Array:
     """Return the influence coefficients of a perfect universal joint in closed form.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α = α_4.
     angle : array (...) [rad]
         φ_1, from the plane of the shafts.
@@ -369,8 +369,8 @@ def influence(bend: ArrayLike, angle: ArrayLike, *, branch: ArrayLike = IDEAL) -
     >>> influence(np.asarray(0.5), np.asarray(0.0))[2].round(4) + 0.0
     array([-1.1395,  0.    , -1.1395, -0.5463,  0.    ])
     """
-    xp = namespace(bend, angle, branch)
-    alpha, phi = real(bend, xp), real(angle, xp)
+    xp = namespace(joint_angle, angle, branch)
+    alpha, phi = real(joint_angle, xp), real(angle, xp)
     c, s, cp, sp = xp.cos(alpha), xp.sin(alpha), xp.cos(phi), xp.sin(phi)
     square = sp * sp + (c * cp) ** 2
     near = -real(branch, xp) / xp.sqrt(square)

@@ -16,13 +16,13 @@ Pair: TypeAlias = tuple[Array, Array]
 """The first row (a, b) of a matrix in SU(1,1)."""
 
 
-def hooke(bend: Array) -> Pair:
+def hooke(joint_angle: Array) -> Pair:
     """Return the pair of a Hooke joint, its angle counted from the plane of its shafts.
 
     Parameters
     ----------
-    bend : array (...) [rad]
-        Bend angle α in [0, π/2).
+    joint_angle : array (...) [rad]
+        Joint angle α in [0, π/2).
 
     Notes
     -----
@@ -36,9 +36,9 @@ def hooke(bend: Array) -> Pair:
     >>> print(a, abs(b))
     (1+0j) 0.0
     """
-    xp = namespace(bend)
-    root = xp.sqrt(xp.cos(bend))
-    half = 0.5 * bend
+    xp = namespace(joint_angle)
+    root = xp.sqrt(xp.cos(joint_angle))
+    half = 0.5 * joint_angle
     return complex_of(xp.cos(half) ** 2 / root, xp), complex_of(-(xp.sin(half) ** 2) / root, xp)
 
 
@@ -98,7 +98,7 @@ def ratio_slope(pair: Pair, w: Array) -> Array:
     return 4.0 * xp.imag(xp.conj(k) * xp.conj(pair[1]) * w) / _square(k) ** 2
 
 
-def lead(pair: Pair, w: Array) -> Array:
+def angle_error(pair: Pair, w: Array) -> Array:
     """Return how far the output runs ahead of the input, apart from a constant; continuous over any number of turns.
 
     Notes
@@ -111,7 +111,7 @@ def lead(pair: Pair, w: Array) -> Array:
 
 
 def course(pair: Pair, w: Array) -> tuple[Array, Array, Array]:
-    """Return `lead`, `ratio` and `ratio_slope` at once, for half the work.
+    """Return `angle_error`, `ratio` and `ratio_slope` at once, for half the work.
 
     Notes
     -----
@@ -120,8 +120,8 @@ def course(pair: Pair, w: Array) -> tuple[Array, Array, Array]:
     Examples
     --------
     >>> import numpy as np
-    >>> lead, ratio, slope = course(hooke(np.asarray(0.5)), np.asarray([1.0 + 0.0j]))
-    >>> print(lead, ratio * np.cos(0.5), slope)
+    >>> angle_error, ratio, slope = course(hooke(np.asarray(0.5)), np.asarray([1.0 + 0.0j]))
+    >>> print(angle_error, ratio * np.cos(0.5), slope)
     [0.] [1.] [0.]
     """
     a, b = pair
@@ -140,8 +140,8 @@ def tau(pair: Pair) -> Array:
     return xp.abs(b) / xp.abs(a)
 
 
-def bend(pair: Pair) -> Array:
-    """Return the bend angle α of the equivalent joint [rad], accurate for small ones."""
+def joint_angle(pair: Pair) -> Array:
+    """Return the joint angle α of the equivalent joint [rad], accurate for small ones."""
     xp = namespace(*pair)
     return 2.0 * xp.atan(xp.sqrt(tau(pair)))
 
@@ -158,7 +158,7 @@ def phase(pair: Pair) -> Array:
     return -0.5 * argument(-b / a)
 
 
-def irregularity(pair: Pair) -> Array:
+def speed_fluctuation(pair: Pair) -> Array:
     """Return δ = i_max - i_min = 4 |a| |b|."""
     a, b = pair
     xp = namespace(a, b)
@@ -176,13 +176,13 @@ def vertex(pair: Pair) -> Array:
     return -b / a
 
 
-def partial_products(bend: Array, turn_before: Array) -> list[Pair]:
+def partial_products(joint_angle: Array, turn_before: Array) -> list[Pair]:
     """Return the pairs of the first 1, 2, … n joints of a chain of Hooke joints.
 
     Parameters
     ----------
-    bend : array (..., n) [rad]
-        Bend angles.
+    joint_angle : array (..., n) [rad]
+        Joint angles.
     turn_before : array (..., n) [rad]
         Angle μ_i added before joint i.
 
@@ -190,10 +190,10 @@ def partial_products(bend: Array, turn_before: Array) -> list[Pair]:
     -------
     list of n Pair, each (...)
     """
-    xp = namespace(bend, turn_before)
+    xp = namespace(joint_angle, turn_before)
     products: list[Pair] = []
-    for i in range(bend.shape[-1]):
-        (c, d), e = hooke(bend[..., i]), unit_complex(turn_before[..., i])
+    for i in range(joint_angle.shape[-1]):
+        (c, d), e = hooke(joint_angle[..., i]), unit_complex(turn_before[..., i])
         step = c * e, d * xp.conj(e)
         products.append(compose(step, products[-1]) if products else step)
     return products

@@ -165,7 +165,7 @@ def close(
     Examples
     --------
     >>> sides = [mobius.hooke(angle) for angle in (0.2, 0.25, 0.3, 0.2)]
-    >>> float(mobius.irregularity(close(sides).pair)) < 1e-15
+    >>> float(mobius.speed_fluctuation(close(sides).pair)) < 1e-15
     True
     """
     lengths = [mobius.length(side) for side in sides]

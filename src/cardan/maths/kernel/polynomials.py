@@ -42,8 +42,8 @@ def product(one: Array, other: Array) -> Array:
     >>> product(np.asarray([1.0, 1.0]), np.asarray([-1.0, 1.0]))
     array([-1.,  0.,  1.])
     """
-    lead = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
-    total = np.zeros((*lead, one.shape[-1] + other.shape[-1] - 1))
+    outer = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
+    total = np.zeros((*outer, one.shape[-1] + other.shape[-1] - 1))
     for k in range(one.shape[-1]):
         total[..., k : k + other.shape[-1]] += one[..., k, None] * other
     return total

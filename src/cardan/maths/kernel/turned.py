@@ -1,6 +1,6 @@
 """A driven yoke's angle by the coordinate that turns it, through any number of joints, from one pair of waves.
 
-A chain of joints is kinematically one joint of irregularity τ and phase ψ, so the angle F of every driven station
+A chain of joints is kinematically one joint of speed fluctuation τ and phase ψ, so the angle F of every driven station
 follows from sin 2q and cos 2q of its coordinate alone. Written on the array-API standard: one drive as plain numbers,
 many as arrays or as lanes of a kernel.
 """
@@ -12,12 +12,12 @@ from cardan.maths.arrays import Array, namespace
 from . import mobius
 
 
-def equivalent(bend: Array, phase: Array) -> tuple[Array, Array, Array]:
+def equivalent(joint_angle: Array, phase: Array) -> tuple[Array, Array, Array]:
     """Return what joints in series come to: F_k = T(F_{k-1} + ψ_k; α_k) - T(ψ_k; α_k) from F_0 = q to the last.
 
     Parameters
     ----------
-    bend, phase : array (..., m) [rad]
+    joint_angle, phase : array (..., m) [rad]
         α_k and ψ_k of the joints.
 
     Returns
@@ -36,14 +36,14 @@ def equivalent(bend: Array, phase: Array) -> tuple[Array, Array, Array]:
     >>> bool(tau < 1e-15)  # a Z drive turns evenly
     True
     """
-    xp = namespace(bend, phase)
-    pair = mobius.compose(mobius.hooke(bend[..., 0]), mobius.turn(phase[..., 0]))
-    for k in range(1, bend.shape[-1]):
+    xp = namespace(joint_angle, phase)
+    pair = mobius.compose(mobius.hooke(joint_angle[..., 0]), mobius.turn(phase[..., 0]))
+    for k in range(1, joint_angle.shape[-1]):
         # Behind a joint angles count from its start again.
         begin = mobius.apply(pair, 1.0 + 0.0j)
         back = mobius.turn(-0.5 * xp.atan2(xp.imag(begin), xp.real(begin)))
         pair = mobius.compose(mobius.turn(phase[..., k]), mobius.compose(back, pair))
-        pair = mobius.compose(mobius.hooke(bend[..., k]), pair)
+        pair = mobius.compose(mobius.hooke(joint_angle[..., k]), pair)
     a, b = pair
     tau = xp.abs(b) / xp.abs(a)
     straight = tau < 1e-300
@@ -52,7 +52,7 @@ def equivalent(bend: Array, phase: Array) -> tuple[Array, Array, Array]:
     return tau, xp.where(straight, 1.0, xp.real(zero)), xp.where(straight, 0.0, xp.imag(zero))
 
 
-def lead(cosine: Array, sine: Array, tau: Array) -> Array:
+def angle_error(cosine: Array, sine: Array, tau: Array) -> Array:
     """Return how far the driven side runs ahead at θ, cos 2θ and sin 2θ given: arg(1 - τ e^(-2iθ))."""
     xp = namespace(cosine, sine)
     return xp.atan2(tau * sine, 1.0 - tau * cosine)

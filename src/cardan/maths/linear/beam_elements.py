@@ -32,8 +32,8 @@ def assembled(whole: Line, elements: Array, nodes: Array, slopes: Array) -> Arra
     """
     at = layout(whole)
     size = len(at.deflection) + len(at.slope)
-    lead = np.broadcast_shapes(elements.shape[:-3], nodes.shape[:-1], slopes.shape[:-1])
-    full = np.zeros((*lead, size, size))
+    outer = np.broadcast_shapes(elements.shape[:-3], nodes.shape[:-1], slopes.shape[:-1])
+    full = np.zeros((*outer, size, size))
     # Neighbours share entries, beams two apart do not: each half of them can be added at once.
     for half in (slice(0, None, 2), slice(1, None, 2)):
         rows = at.element[half]

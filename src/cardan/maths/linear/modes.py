@@ -44,12 +44,12 @@ def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
 
     size = stiffness.shape[-1]
     wanted = min(count, size)
-    lead = np.broadcast_shapes(stiffness.shape[:-2], inertia.shape[:-2])
-    roots, vectors = np.full((*lead, count), np.nan), np.full((*lead, size, count), np.nan)
+    outer = np.broadcast_shapes(stiffness.shape[:-2], inertia.shape[:-2])
+    roots, vectors = np.full((*outer, count), np.nan), np.full((*outer, size, count), np.nan)
     if not wanted:
         return roots, vectors
-    one, other = (np.broadcast_to(part, (*lead, size, size)) for part in (stiffness, inertia))
-    for at in np.ndindex(lead):
+    one, other = (np.broadcast_to(part, (*outer, size, size)) for part in (stiffness, inertia))
+    for at in np.ndindex(outer):
         inverse, shape = eigh(other[at], one[at], subset_by_index=[size - wanted, size - 1], check_finite=False)
         inverse, shape = inverse[::-1], shape[:, ::-1]
         there = inverse > NONE * abs(inverse[0])

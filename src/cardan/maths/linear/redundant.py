@@ -73,21 +73,21 @@ def least_energy(matrix: Array, load: Array, compliance: Array, gap: Array) -> t
     """
     xp = namespace(matrix, load, compliance, gap)
     m, u = matrix.shape[-2:]
-    lead = broadcast_shapes(matrix.shape[:-2], compliance.shape[:-2])
-    whole = broadcast_shapes(lead, load.shape[:-1], gap.shape[:-1])
-    a = xp.broadcast_to(matrix, (*lead, m, u))
-    c = xp.broadcast_to(compliance, (*lead, u, u))
+    outer = broadcast_shapes(matrix.shape[:-2], compliance.shape[:-2])
+    whole = broadcast_shapes(outer, load.shape[:-1], gap.shape[:-1])
+    a = xp.broadcast_to(matrix, (*outer, m, u))
+    c = xp.broadcast_to(compliance, (*outer, u, u))
     largest = xp.max(xp.abs(c), axis=(-2, -1), keepdims=True)
     scale = xp.where(largest > 0.0, largest, 1.0)
     top = xp.concat((c / scale, xp.matrix_transpose(a)), axis=-1)
-    bottom = xp.concat((a, xp.zeros((*lead, m, m), dtype=xp.float64)), axis=-1)
+    bottom = xp.concat((a, xp.zeros((*outer, m, m), dtype=xp.float64)), axis=-1)
     bordered = xp.concat((top, bottom), axis=-2)
     right = xp.concat(
         (xp.broadcast_to(gap, (*whole, u)) / scale[..., 0], xp.broadcast_to(load, (*whole, m))),
         axis=-1,
     )
-    if whole and (not lead or lead[-1] == 1):
-        matrices = bordered[..., 0, :, :] if lead else bordered
+    if whole and (not outer or outer[-1] == 1):
+        matrices = bordered[..., 0, :, :] if outer else bordered
         found = xp.matrix_transpose(xp.linalg.solve(matrices, xp.matrix_transpose(right)))
     else:
         found = xp.linalg.solve(bordered, right[..., None])[..., 0]

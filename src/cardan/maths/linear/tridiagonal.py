@@ -105,11 +105,11 @@ def response(
     xp = np if xp is NUMBERS else xp
     m, k, force, d, g, gd = (xp.asarray(one) for one in given)
     w = real(omega, xp)
-    lead = tuple(np.broadcast_shapes(*(tuple(one.shape[:-1]) for one in (m, k, force, d, g, gd) if one.ndim)))
+    outer = tuple(np.broadcast_shapes(*(tuple(one.shape[:-1]) for one in (m, k, force, d, g, gd) if one.ndim)))
     n, f = int(m.shape[-1]), int(w.shape[0])
-    how = chosen(method, xp, math.prod(lead) * n * f >= LARGE) if attached is None else None
+    how = chosen(method, xp, math.prod(outer) * n * f >= LARGE) if attached is None else None
     if isinstance(how, Compiled):
-        return _compiled(lead, (m, g.real, g.imag, gd, force.real, force.imag), (k.real, k.imag, d), w, how.threads)
+        return _compiled(outer, (m, g.real, g.imag, gd, force.real, force.imag), (k.real, k.imag, d), w, how.threads)
     own = _places(m, g, gd, w, n)
     if attached is not None:
         own = [one + attached[..., s, :] for s, one in enumerate(own)]
@@ -117,10 +117,10 @@ def response(
     couplings = [_at(k, s) + turning * _at(d, s) if _given(d) else _at(k, s) for s in range(n - 1)]
     loads = [_at(force, s) for s in range(n)]
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = _swept(own, couplings, loads, (*lead, f), guarded=False)
+        found = _swept(own, couplings, loads, (*outer, f), guarded=False)
         if bool(xp.all(xp.isfinite(found.displacement))):
             return found
-        return _swept(own, couplings, loads, (*lead, f), guarded=True)
+        return _swept(own, couplings, loads, (*outer, f), guarded=True)
 
 
 def _at(values: Array, place: int) -> Array:
@@ -197,21 +197,21 @@ def _swept(
 
 
 def _compiled(
-    lead: tuple[int, ...], places: tuple[Array, ...], couplings: tuple[Array, ...], omega: Array, threads: int | None
+    outer: tuple[int, ...], places: tuple[Array, ...], couplings: tuple[Array, ...], omega: Array, threads: int | None
 ) -> Response:
     from cardan.maths.compiled.lanes import LANES
     from cardan.maths.compiled.tridiagonal import NUMBERS, kernel
 
     n, f = int(places[0].shape[-1]), omega.size
-    rows, groups = math.prod(lead), -(-f // LANES)
-    table = np.zeros((*lead, n, NUMBERS))
+    rows, groups = math.prod(outer), -(-f // LANES)
+    table = np.zeros((*outer, n, NUMBERS))
     for column, values in enumerate(places):
         table[..., column] = values
     for column, values in enumerate(couplings, start=len(places)):
         table[..., :-1, column] = values
     padded = np.ones(groups * LANES)
     padded[:f] = omega
-    moved, flow = (np.empty((*lead, n, groups * LANES), dtype=complex) for _result in range(2))
+    moved, flow = (np.empty((*outer, n, groups * LANES), dtype=complex) for _result in range(2))
     numbers = table.reshape(-1), n, padded, moved.view(float).reshape(-1), flow.view(float).reshape(-1)
 
     def work(first: int, last: int) -> None:
@@ -254,13 +254,13 @@ def modes(mass: ArrayLike, coupling: ArrayLike, ground: ArrayLike = 0.0) -> tupl
     """
     m = np.asarray(mass, dtype=float)
     k, g = np.asarray(coupling, dtype=float), np.asarray(ground, dtype=float)
-    lead = np.broadcast_shapes(m.shape[:-1], k.shape[:-1], g.shape[:-1])
+    outer = np.broadcast_shapes(m.shape[:-1], k.shape[:-1], g.shape[:-1])
     n = m.shape[-1]
-    m, k, g = (np.broadcast_to(one, (*lead, size)) for one, size in ((m, n), (k, n - 1), (g, n)))
+    m, k, g = (np.broadcast_to(one, (*outer, size)) for one, size in ((m, n), (k, n - 1), (g, n)))
     bare = m == 0.0
     if not np.any(bare):
         return _modes(m, k, g)
-    omega, shape = np.full((*lead, n), np.inf), np.full((*lead, n, n), np.nan)
+    omega, shape = np.full((*outer, n), np.inf), np.full((*outer, n, n), np.nan)
     for pattern in np.unique(bare.reshape(-1, n), axis=0):
         rows = np.all(bare == pattern, axis=-1)
         omega[rows], shape[rows] = _condensed(m[rows], k[rows], g[rows], pattern)

@@ -77,9 +77,9 @@ def stages(x: Array, v: Array, inner: Array, h: Array, heavy: Array) -> tuple[Ar
     twice = table[:-1] @ table[:-1]
     h = h[:, None, None]
     once = h * np.matmul(table[:-1], inner)
-    bend = h**2 * np.matmul(twice, inner)
+    joint_angle = h**2 * np.matmul(twice, inner)
     x0, v0 = x[:, None], v[:, None]
-    place = np.where(heavy, x0 + h * points[:, None] * v0 + bend, x0 + once)
+    place = np.where(heavy, x0 + h * points[:, None] * v0 + joint_angle, x0 + once)
     return place, np.where(heavy, v0 + once, inner), np.where(heavy, inner, 0.0)
 
 

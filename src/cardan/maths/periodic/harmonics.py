@@ -200,10 +200,10 @@ def _bases(harmonics: int) -> tuple[Array, Array, Array]:
     one, nothing = np.ones((samples, 1)), np.zeros((samples, 1))
     value = np.concatenate([one, cosine, sine], axis=-1)
     rate = np.concatenate([nothing, -order * sine, order * cosine], axis=-1)
-    bend = np.concatenate([nothing, -(order**2) * cosine, -(order**2) * sine], axis=-1)
+    joint_angle = np.concatenate([nothing, -(order**2) * cosine, -(order**2) * sine], axis=-1)
     back = value.T * (2.0 / samples)
     back[0] *= 0.5
-    return phase, np.stack([value, rate, bend]), back
+    return phase, np.stack([value, rate, joint_angle]), back
 
 
 def _newton(

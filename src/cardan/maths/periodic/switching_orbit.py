@@ -316,14 +316,14 @@ def _first_guess(plan: Plan, omega: float, curve: Curve, heavy: Array) -> Guess:
         ]
         + [plan.times[-1:]]
     )
-    x, rate, _bend = curve.at(omega * ends)
+    x, rate, _joint_angle = curve.at(omega * ends)
     middle = (ends[:-1, None] + np.diff(ends)[:, None] * points).ravel()
-    _x, inner_rate, inner_bend = (one.reshape(len(ends) - 1, STAGES, -1) for one in curve.at(omega * middle))
+    _x, inner_rate, inner_joint_angle = (one.reshape(len(ends) - 1, STAGES, -1) for one in curve.at(omega * middle))
     return Guess(
         times=plan.times.copy(),
         x=x,
         v=omega * rate,
-        inner=np.where(heavy, omega**2 * inner_bend, omega * inner_rate),
+        inner=np.where(heavy, omega**2 * inner_joint_angle, omega * inner_rate),
         force=float(curve.force),
     )
 

@@ -1,7 +1,8 @@
 """A spring with two stiffnesses that turns with the angle θ and gives way more or less with it.
 
 Displacements are complex, z = x + iy. With the share f(θ) in [0, 1] the stiffness along the turning axis is
-k(1 - fΔ_ξ), across it k(1 - fΔ_η); with s = ½(Δ_ξ + Δ_η) and d = ½(Δ_ξ - Δ_η) the force is k[z - f(s z + d e^(2iθ) z̄)].
+k(1 - fΔ_ξ), across it k(1 - fΔ_η); with s = ½(Δ_ξ + Δ_η) and d = ½(Δ_ξ - Δ_η) the force is k[z - f(s z + d e^(2iθ)
+z̄)].
 """
 
 from __future__ import annotations

@@ -156,8 +156,8 @@ def sensitivity(drive: Drive | Drives | Chain, angle: ArrayLike, *, located: Seq
     array([1.1547, 0.    , 1.1547, 0.5774, 0.    ])
     """
     moved = motion(drive, angle)
-    xp = namespace(moved.bend)
-    own = -loops.influence(moved.bend[..., None], moved.joint_angle)[..., 2, :]
+    xp = namespace(moved.joint_angle)
+    own = -loops.influence(moved.joint_angle[..., None], moved.yoke_rotation)[..., 2, :]
     weight, rows = None, []
     for j in reversed(range(own.shape[-3])):
         row = own[..., j, :, :] if weight is None else weight[..., None] * own[..., j, :, :]
@@ -212,15 +212,15 @@ def transmission_error(
     (array([0.05]), array([0.05]))
     """
     chain = crosses(drive, _("errors and tolerances"))
-    xp = namespace(chain.bend, turns, ways)
+    xp = namespace(chain.joint_angle, turns, ways)
     phi = xp.asarray(one_turn()) if angle is None else real(angle, xp)
     phi = phi if phi.ndim else phi[None]
     held = located_shafts(drive) if located is None else tuple(located)
     turned, shifted = _given(drive, chain.joints, turns, ways, errors, xp)
     mu = chain.turn_before
     start = xp.cos(mu[..., :1] + phi), xp.sin(mu[..., :1] + phi)
-    ideal, linear = walk(links(chain.bend, None), mu, None, start, carry=((turned, ()), (shifted, held)))
-    actual, exact = walk(links(chain.bend, turned), mu, turned[..., 0], start, carry=((shifted, held),))
+    ideal, linear = walk(links(chain.joint_angle, None), mu, None, start, carry=((turned, ()), (shifted, held)))
+    actual, exact = walk(links(chain.joint_angle, turned), mu, turned[..., 0], start, carry=((shifted, held),))
     error = ahead(actual, ideal)
     shape = (error + exact[-1][0]).shape
 
@@ -299,11 +299,11 @@ def ahead(direction: tuple[Array, Array], other: tuple[Array, Array]) -> Array:
     )
 
 
-def links(bend: Array, turned: Array | None) -> tuple[Array, Array]:
+def links(joint_angle: Array, turned: Array | None) -> tuple[Array, Array]:
     """Return cosines and sines of α_1 … α_4 of each joint's loop, arrays (..., n, 4), perfect or with errors."""
-    xp = namespace(bend, turned)
-    right = 0.5 * xp.pi + 0.0 * bend
-    alpha = xp.stack((right, right, right, bend), axis=-1)
+    xp = namespace(joint_angle, turned)
+    right = 0.5 * xp.pi + 0.0 * joint_angle
+    alpha = xp.stack((right, right, right, joint_angle), axis=-1)
     alpha = alpha if turned is None else alpha + turned[..., 1:]
     return xp.cos(alpha), xp.sin(alpha)
 

@@ -131,11 +131,11 @@ class Exact:
         method: Method | None = None,
     ) -> None:
         whole = chain(drive)
-        self.bend, self.mu, self.held = whole.bend, whole.turn_before, located_shafts(drive)
+        self.joint_angle, self.mu, self.held = whole.joint_angle, whole.turn_before, located_shafts(drive)
         self.known, self.seats = known, np.flatnonzero(limits)
         self.shifts = bool(np.any(limits[:, 5:]) or np.any(known[:, 5:]))
         self.start = np.cos(self.mu[:1] + phi), np.sin(self.mu[:1] + phi)
-        self.ideal = walk(links(whole.bend, None), self.mu, None, self.start)[0]
+        self.ideal = walk(links(whole.joint_angle, None), self.mu, None, self.start)[0]
         most = np.abs(centre.error) + np.sum(np.abs(sensitivity(drive, phi)) * limits[:, :5], axis=(-2, -1)) * TAIL
         mild = bool(np.max(most) < REACH) and not self.shifts
         self.method = chosen(method, np, samples * len(phi) >= LARGE and mild) if mild else None
@@ -161,7 +161,7 @@ class Exact:
         """Return error of the output angle and shift, arrays (m, p), for errors (m, n, 10)."""
         turned = errors[..., :5]
         carry = ((errors[..., 5:], self.held),) if self.shifts else ()
-        direction, carried = walk(links(self.bend, turned), self.mu, turned[..., 0], self.start, carry=carry)
+        direction, carried = walk(links(self.joint_angle, turned), self.mu, turned[..., 0], self.start, carry=carry)
         error = ahead(direction, self.ideal)
         return error, carried[-1][0] if carry else np.zeros_like(error)
 
@@ -169,7 +169,7 @@ class Exact:
         """Add a batch by the kernel; false, and nothing added, where a joint cannot be assembled."""
         from cardan.maths.compiled.samples import kernel
 
-        count, positions, joints = len(errors), len(self.start[0]), len(self.bend)
+        count, positions, joints = len(errors), len(self.start[0]), len(self.joint_angle)
         phi = one_turn(positions)
         shared = (*self.start, *self.ideal, sums[0].centre, np.cos(phi), np.sin(phi), np.cos(2 * phi), np.sin(2 * phi))
         table = np.stack(shared, axis=-1).reshape(-1)
@@ -180,7 +180,7 @@ class Exact:
             np.ascontiguousarray(errors.T).reshape(-1),
             np.ascontiguousarray(self.known[:, :5]).reshape(-1),
             slot,
-            np.stack((np.cos(self.bend), np.sin(self.bend)), axis=-1).reshape(-1),
+            np.stack((np.cos(self.joint_angle), np.sin(self.joint_angle)), axis=-1).reshape(-1),
             np.stack((np.cos(self.mu[1:]), np.sin(self.mu[1:])), axis=-1).reshape(-1),
             table,
         )

@@ -234,7 +234,7 @@ def cracked_rotor(
         if progress is not None and progress(some.stop / ratio.size) == "stop":
             cancelled = some.stop < ratio.size
             break
-    lead = turning.shape
+    outer = turning.shape
     return CrackedRotor(
         mass=float(mass),
         stiffness=float(stiffness),
@@ -243,10 +243,10 @@ def cracked_rotor(
         unbalance=float(unbalance),
         speed=turning,
         order=order,
-        amplitude=amplitude.reshape(*lead, order.size),
-        left_out=left_out.reshape(lead),
-        multiplier=multiplier.reshape(*lead, 4),
-        residual=missed.reshape(lead),
+        amplitude=amplitude.reshape(*outer, order.size),
+        left_out=left_out.reshape(outer),
+        multiplier=multiplier.reshape(*outer, 4),
+        residual=missed.reshape(outer),
         cancelled=cancelled,
     )
 

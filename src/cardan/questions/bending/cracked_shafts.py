@@ -70,7 +70,7 @@ class CrackedShafts:
 
     Attributes
     ----------
-    bend : float [rad]
+    joint_angle : float [rad]
         α.
     phase : float [rad]
         ψ of the driving yoke at the start.
@@ -99,7 +99,7 @@ class CrackedShafts:
         Whether ``progress`` stopped the run; the curves end there.
     """
 
-    bend: float
+    joint_angle: float
     phase: float
     speed: float
     crack: Crack
@@ -137,7 +137,7 @@ class CrackedShafts:
 def cracked_shafts(
     first: WhirlingShaft,
     second: WhirlingShaft,
-    bend: float,
+    joint_angle: float,
     speed: float,
     end: float,
     *,
@@ -155,7 +155,7 @@ def cracked_shafts(
     ----------
     first, second : WhirlingShaft
         The driving and the driven one.
-    bend : float [rad]
+    joint_angle : float [rad]
         α in [0, π/2).
     speed : float [rad/s]
         Ω of the motor, positive.
@@ -200,12 +200,12 @@ def cracked_shafts(
     """
     positive = {"speed": speed, "end": end, "drive_stiffness": drive_stiffness}
     others = {"drive_damping": drive_damping, "gravity": gravity}
-    problems = _problems((first, second), positive, others, bend)
+    problems = _problems((first, second), positive, others, joint_angle)
     problems += not_finite({"phase": phase})
     check(problems + ([] if time is None else bad_times(time, end)))
     model = _Model(
         shafts=(first, second),
-        bend=float(bend),
+        joint_angle=float(joint_angle),
         phase=float(phase),
         crack=crack,
         speed=float(speed),
@@ -216,7 +216,7 @@ def cracked_shafts(
     free = [math.sqrt(one.stiffness / one.whole) for one in (first, second)]
     stiff = [math.sqrt(drive_stiffness / first.inertia), drive_damping / first.inertia]
     stiff += [one.damping / one.whole for one in (first, second)]
-    uneven = speed * max(2.0 / math.cos(bend), math.sqrt(1.0 + crack.breathing))
+    uneven = speed * max(2.0 / math.cos(joint_angle), math.sqrt(1.0 + crack.breathing))
     at = np.sort(instants(time, end, max(*free, speed) / (2.0 * math.pi)))
     grid = np.union1d(0.0, at)
     states, cancelled = followed(
@@ -231,15 +231,18 @@ def cracked_shafts(
 
 
 def _problems(
-    shafts: tuple[WhirlingShaft, WhirlingShaft], positive: dict[str, float], others: dict[str, float], bend: float
+    shafts: tuple[WhirlingShaft, WhirlingShaft],
+    positive: dict[str, float],
+    others: dict[str, float],
+    joint_angle: float,
 ) -> list[Problem]:
     """Return what is wrong with the numbers."""
     problems = not_positive(positive)
     for name, shaft in zip(("first", "second"), shafts, strict=True):
         problems += not_positive({f"{name}.{key}": getattr(shaft, key) for key in ("mass", "stiffness", "inertia")})
         others |= {f"{name}.{key}": getattr(shaft, key) for key in ("damping", "unbalance_mass", "unbalance_radius")}
-    if not 0.0 <= bend < 0.5 * math.pi:
-        problems.append(Problem("bend", _("needs to be at least 0 and below 90°"), "out_of_range"))
+    if not 0.0 <= joint_angle < 0.5 * math.pi:
+        problems.append(Problem("joint_angle", _("needs to be at least 0 and below 90°"), "out_of_range"))
     return problems + negative(others)
 
 
@@ -248,7 +251,7 @@ class _Model:
     """The equations; a state is θ, θ̇, x and y of both discs, their rates, and the energy brought in."""
 
     shafts: tuple[WhirlingShaft, WhirlingShaft]
-    bend: float
+    joint_angle: float
     phase: float
     crack: Crack
     speed: float
@@ -259,7 +262,7 @@ class _Model:
         """Return the function from time and state to the rates of the state."""
         (one, two), (spring, damper), g, motor = self.shafts, self.drive, self.gravity, self.speed
         losses, power = self.crack.losses, self.crack.breathing
-        a, b = (complex(part) for part in mobius.hooke(np.asarray(self.bend)))
+        a, b = (complex(part) for part in mobius.hooke(np.asarray(self.joint_angle)))
         share, size = b.conjugate() / a.conjugate(), abs(a) ** 2
         start, begin = cmath.exp(2j * self.phase), cmath.phase(1.0 + share * cmath.exp(2j * self.phase))
         out_1, out_2, whole_1, whole_2 = one.unbalance, two.unbalance, one.whole, two.whole
@@ -316,9 +319,9 @@ class _Model:
     def result(self, time: Array, states: Array, cancelled: bool) -> CrackedShafts:
         """Return the curves, and the account of energy."""
         theta, turning = states[:, 0], states[:, 1]
-        pair, shift = mobius.hooke(np.asarray(self.bend)), np.exp(2j * self.phase)
-        lead, ratio, _slope = mobius.course(pair, shift * np.exp(2j * theta))
-        second = theta + lead - mobius.lead(pair, np.asarray(shift))
+        pair, shift = mobius.hooke(np.asarray(self.joint_angle)), np.exp(2j * self.phase)
+        angle_error, ratio, _slope = mobius.course(pair, shift * np.exp(2j * theta))
+        second = theta + angle_error - mobius.angle_error(pair, np.asarray(shift))
         angle, rate = np.column_stack((theta, second)), np.column_stack((turning, ratio * turning))
         z, v = (states[:, k : k + 4 : 2] + 1j * states[:, k + 1 : k + 4 : 2] for k in (2, 6))
         unit = np.exp(1j * theta)
@@ -339,7 +342,7 @@ class _Model:
         missing = float(np.max(np.abs(total - total[0] - brought)))
         scale = max(*changes, 1e-6 * float(kinetic[0]))
         return CrackedShafts(
-            bend=self.bend,
+            joint_angle=self.joint_angle,
             phase=self.phase,
             speed=self.speed,
             crack=self.crack,

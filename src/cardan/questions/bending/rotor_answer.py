@@ -143,7 +143,7 @@ def answer_of_joined(drive: Drive, first: Rotor, second: Rotor, result: CrackedS
             one=first.shaft,
             two=second.shaft,
             speed=Quantity(result.speed, "angular_speed", 3),
-            angle=Quantity(result.bend, "angle", decimals=1),
+            angle=Quantity(result.joint_angle, "angle", decimals=1),
             size=Quantity(largest, "displacement", 3),
         ),
         tables=(table,),

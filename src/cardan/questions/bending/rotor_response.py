@@ -273,7 +273,7 @@ def joined_rotors(
     found = cracked_shafts(
         shafts[0],
         shafts[1],
-        float(place.bend[joint - 1]),
+        float(place.joint_angle[joint - 1]),
         abs(float(turning)),
         turns * 2.0 * math.pi / abs(float(turning)),
         crack=first.crack,

@@ -20,7 +20,7 @@ FAULTS = {
     "unbalance": "F01",
     "lost_weight": "F01",
     "bent": "F02",
-    "bends": "F10",
+    "joint_angles": "F10",
     "phase": "F11",
     "half_critical": "F12",
     "tight_joint": "F13",
@@ -123,7 +123,7 @@ def expected_orders(
     Examples
     --------
     >>> from cardan.io import example
-    >>> found = expected_orders(example("truck-supports"), "bends")
+    >>> found = expected_orders(example("truck-supports"), "joint_angles")
     >>> sorted({line.order for line in found.orders if line.direction == "radial"})
     [1.0, 2.0, 4.0]
     """

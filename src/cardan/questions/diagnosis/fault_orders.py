@@ -24,8 +24,8 @@ TIMES = 4.0
 RUNOUT, PLAY = 0.4e-3, 0.1e-3
 """Run-out of a bent tube and play of a worn joint, spline or bearing, at severity 1 [m]."""
 
-WRONG_BEND, WRONG_PHASE = 5.0 * deg, 30.0 * deg
-"""What a bend is too large by and a yoke is turned by, at severity 1."""
+WRONG_JOINT_ANGLE, WRONG_PHASE = 5.0 * deg, 30.0 * deg
+"""What a joint angle is too large by and a yoke is turned by, at severity 1."""
 
 TIGHT = 0.1
 """Friction couple of a tight joint over the torque."""
@@ -140,17 +140,18 @@ def _ends(chosen: int, force: float) -> dict[int, float]:
     return {chosen: 0.5 * force, chosen + 1: 0.5 * force}
 
 
-def _couples(base: Plant, bend: Array) -> dict[int, float]:
+def _couples(base: Plant, joint_angle: Array) -> dict[int, float]:
     """Return the forces of the secondary couples of all joints, that of each over its shorter shaft."""
     length = [
-        float(min(base.length[max(k - 1, 0)], base.length[min(k, base.length.size - 1)])) for k in range(bend.size)
+        float(min(base.length[max(k - 1, 0)], base.length[min(k, base.length.size - 1)]))
+        for k in range(joint_angle.size)
     ]
-    return {k: base.torque * math.tan(float(one)) / length[k] for k, one in enumerate(bend)}
+    return {k: base.torque * math.tan(float(one)) / length[k] for k, one in enumerate(joint_angle)}
 
 
 def _turning(base: Plant, uneven: float, source: str = UNEVEN) -> Iterator[ExpectedOrder]:
     """Yield what an uneven output makes: its speed, and the torque that its inertia takes at both ends."""
-    top, last = base.speed[1], base.bend.size - 1
+    top, last = base.speed[1], base.joint_angle.size - 1
     house = base.housings[-1]
     yield _line(house, "torsion", 2.0, 2.0 * top * uneven, 1.0, source)
     swing = 4.0 * base.inertia * top**2 * uneven / ARM
@@ -165,18 +166,27 @@ def in_order(base: Plant, fault: str, severity: float) -> Iterator[ExpectedOrder
         yield from _spread(
             base, _ends(k, force), order=1.0, power=2.0, source=f"{GRADES}; {BOOK}", axial=0.15, amplified=True
         )
-    bend = base.bend
-    if fault == "bends":
-        bend = bend + np.where(
-            np.arange(bend.size) == bend.size - 1, WRONG_BEND * severity, 0.5 * WRONG_BEND * severity
+    joint_angle = base.joint_angle
+    if fault == "joint_angles":
+        joint_angle = joint_angle + np.where(
+            np.arange(joint_angle.size) == joint_angle.size - 1,
+            WRONG_JOINT_ANGLE * severity,
+            0.5 * WRONG_JOINT_ANGLE * severity,
         )
     by_torque = (0.0, 0.0, 1.0)
     yield from _spread(
-        base, _couples(base, bend), order=2.0, power=0.0, source=SECONDARY, axial=0.1, torque=by_torque, amplified=True
+        base,
+        _couples(base, joint_angle),
+        order=2.0,
+        power=0.0,
+        source=SECONDARY,
+        axial=0.1,
+        torque=by_torque,
+        amplified=True,
     )
-    small = {k: 0.05 * one for k, one in _couples(base, bend).items()}
+    small = {k: 0.05 * one for k, one in _couples(base, joint_angle).items()}
     yield from _spread(base, small, order=4.0, power=0.0, source=SECONDARY, torque=by_torque)
-    yield from _turning(base, base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.bend))) ** 2)
+    yield from _turning(base, base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.joint_angle))) ** 2)
 
 
 def _nothing(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
@@ -204,16 +214,16 @@ def _bent(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
         yield _line(house, "axial", order, share * force / house.mass, 2.0, TRADE)
 
 
-def _bends(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
-    last = float(base.bend[-1])
+def _joint_angles(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
+    last = float(base.joint_angle[-1])
     yield from _turning(
-        base, abs(math.tan(0.5 * (last + 0.5 * WRONG_BEND * severity)) ** 2 - math.tan(0.5 * last) ** 2)
+        base, abs(math.tan(0.5 * (last + 0.5 * WRONG_JOINT_ANGLE * severity)) ** 2 - math.tan(0.5 * last) ** 2)
     )
 
 
 def _phase(base: Plant, severity: float, chosen: int) -> Iterator[ExpectedOrder]:
     turn = min(WRONG_PHASE * severity, 0.5 * math.pi)
-    uneven = 2.0 * math.sin(turn) * math.tan(0.5 * float(base.bend[-1])) ** 2
+    uneven = 2.0 * math.sin(turn) * math.tan(0.5 * float(base.joint_angle[-1])) ** 2
     yield from _turning(base, uneven)
 
 
@@ -284,7 +294,7 @@ MAKERS = {
     "unbalance": _unbalance,
     "lost_weight": _lost_weight,
     "bent": _bent,
-    "bends": _bends,
+    "joint_angles": _joint_angles,
     "phase": _phase,
     "half_critical": _nothing,
     "tight_joint": _tight,

@@ -373,7 +373,7 @@ def _sideways(out: dict[str, float], radial: list[Track], axial: list[Track], hi
 
 def _uneven(out: dict[str, float], signal: Signal, shaft: Rotation, base: Plant) -> None:
     """Fill in how unevenly the output turns, over what the joints make and a small tolerance of their yokes."""
-    usual = base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.bend))) ** 2
+    usual = base.uneven + 0.03 * math.tan(0.5 * float(np.max(base.joint_angle))) ** 2
     for k, channel in enumerate(signal.channels):
         if k == signal.tacho or channel.quantity not in ("angle", "angular_speed") or usual <= 0.0:
             continue

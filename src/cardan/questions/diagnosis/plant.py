@@ -69,7 +69,7 @@ class Plant:
         Of the shafts between two joints.
     inertia : float [kg·m²]
         Of these shafts together about their axes.
-    bend : array (n,) [rad]
+    joint_angle : array (n,) [rad]
         Of every joint.
     uneven : float [rad]
         Amplitude of order 2 of the angle of the output: |τ| of the equivalent joint.
@@ -93,7 +93,7 @@ class Plant:
     mass: Array
     length: Array
     inertia: float
-    bend: Array
+    joint_angle: Array
     uneven: float
     allowed: Array
     critical: float
@@ -162,7 +162,7 @@ def plant(drive: Drive) -> Plant:
         mass=masses,
         length=np.asarray(length),
         inertia=inertia or float(np.sum(masses)) * 1e-3,
-        bend=np.asarray(place.bend, dtype=float),
+        joint_angle=np.asarray(place.joint_angle, dtype=float),
         uneven=float(np.abs(equivalent_joint(drive).vertex[-1])),
         allowed=_allowed(drive, masses, high),
         critical=_critical(drive, assumed),

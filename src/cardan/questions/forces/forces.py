@@ -89,7 +89,7 @@ def forces(
     xp = namespace(whole.points, angle)
     phi = positions(angle, xp)
     if isinstance(drive, Drive) and movement is None:
-        _refuse_locked(whole, np.asarray(whole.chain.bend))
+        _refuse_locked(whole, np.asarray(whole.chain.joint_angle))
     if movement is None:
 
         def asked(one: Train) -> Forces:
@@ -166,24 +166,24 @@ def kinetostatics(
         speed=1.0 if speed is None else speed,
         acceleration=0.0 if speed is None else acceleration,
     )
-    lead = tuple(place.bend.shape[:-1])
+    outer = tuple(place.joint_angle.shape[:-1])
     given = real(torque, xp)
-    if given.ndim and given.ndim == len(lead):
+    if given.ndim and given.ndim == len(outer):
         given = given[..., None]
     used = replace(whole, inertia=None, cross_inertia=None) if still else whole
     if used.drag is not None:
-        hold = used.drag * xp.tan(place.bend)
+        hold = used.drag * xp.tan(place.joint_angle)
         used = replace(used, drag=xp.where(hold < 1.0, used.drag + 0.0 * hold, xp.full_like(hold, xp.nan)))
     wave = _harmonics(harmonics, torque_at, whole, angle)
-    carried = _carried(used, moved, given + wave + xp.zeros((*lead, angle.shape[0]), dtype=xp.float64), torque_at)
+    carried = _carried(used, moved, given + wave + xp.zeros((*outer, angle.shape[0]), dtype=xp.float64), torque_at)
     return forces_from(used, moved, whole.points[..., None, :, :], None, angle, carried, still=still, field=field)
 
 
-def _refuse_locked(whole: Train, bend: Array) -> None:
+def _refuse_locked(whole: Train, joint_angle: Array) -> None:
     """Refuse a drive that does not turn, as the friction of a joint reaches what turns it; bends (..., n)."""
     if whole.drag is None:
         return
-    steepest = np.max(np.reshape(bend, (-1, whole.joints)), axis=0)
+    steepest = np.max(np.reshape(joint_angle, (-1, whole.joints)), axis=0)
     hold = np.asarray(whole.drag) * np.tan(steepest)
     text = _("friction locks joint {number}: over the journals it reaches {share:.3g} of what turns it")
     check(
@@ -246,7 +246,7 @@ def _moving(
         start=start,
         normal=place.normal[0],
     )
-    _refuse_locked(whole, np.asarray(found.shafts.bend))
+    _refuse_locked(whole, np.asarray(found.shafts.joint_angle))
     stand = swinging(found.axes, found.spins)
     points = np.asarray(found.points[0]).copy()
     points[:, 0] = points[:, 1] - place.length[0] * found.shafts.axis[:, 0]

@@ -36,16 +36,18 @@ def kind_arms(chain: Chain, axis: Array, normal: Array, found: Motion) -> tuple[
     """
     laws = chain.laws
     assert laws is not None
-    theta, ratio = (np.moveaxis(np.asarray(part), -2, -1) for part in (found.joint_angle, found.shaft_ratio))
+    theta, ratio = (np.moveaxis(np.asarray(part), -2, -1) for part in (found.yoke_rotation, found.shaft_ratio))
     steps = ratio[..., 1:] / ratio[..., :-1]
     before, after, plane = axis[..., None, :-1, :], axis[..., None, 1:, :], normal[..., None, :, :]
     across, beyond = frames.cross(plane, before), frames.cross(plane, after)
     sine, cosine = np.sin(theta)[..., None], np.cos(theta)[..., None]
     driving = cosine * across + sine * plane
-    steep, growth, bend = (np.asarray(part)[..., None, :] for part in (laws.steepness, laws.growth, laws.bend))
+    steep, growth, joint_angle = (
+        np.asarray(part)[..., None, :] for part in (laws.steepness, laws.growth, laws.joint_angle)
+    )
     turned = np.arctan2(steep * np.sin(theta), np.cos(theta))[..., None]
     marked = np.cos(turned) * beyond + np.sin(turned) * plane
     driven = np.where(np.asarray(laws.own)[:, None], marked, frames.unit(frames.cross(after, driving)))
-    aside, swept = lean(theta, steps, bend, steep, growth)
+    aside, swept = lean(theta, steps, joint_angle, steep, growth)
     way = frames.unit(before + aside[..., None] * across - swept[..., None] * plane)
     return driving, driven, np.where(np.asarray(laws.own)[:, None], way, frames.cross(driving, driven))

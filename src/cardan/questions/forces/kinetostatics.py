@@ -332,8 +332,8 @@ def _cross_swing(train: Train, stand: Stand, i: int, arms: tuple[Array, Array, A
 
     Notes
     -----
-    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn with
-    the cross, so Euler's equations give Ḣ.
+    Ω_c = Ω_i + p u with p = (Ω_{i+1} - Ω_i)·u; Ω̇_c = Ω̇_i + ṗ u + p Ω_i×u. u, v and n are principal axes that turn
+    with the cross, so Euler's equations give Ḣ.
     """
     if train.cross_inertia is None:
         return None

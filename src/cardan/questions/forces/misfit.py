@@ -148,8 +148,8 @@ def conditions(acting: Actions, layout: Layout, arms: Crosses) -> Array:
     rows, free = balance(acting), sliding(layout, arms)
     if free is None:
         return rows
-    lead = free.shape[:-2]
-    return xp.concat((xp.broadcast_to(rows, (*lead, *rows.shape[-2:])), free), axis=-2)
+    outer = free.shape[:-2]
+    return xp.concat((xp.broadcast_to(rows, (*outer, *rows.shape[-2:])), free), axis=-2)
 
 
 def misfit(
@@ -179,11 +179,11 @@ def misfit(
     """
     xp = namespace(acting.force, arms.driving)
     off, rate = gap
-    lead = off.shape[:-2]
-    rest = xp.zeros((*lead, len(layout.unknowns) - 3 * layout.joints), dtype=xp.float64)
+    outer = off.shape[:-2]
+    rest = xp.zeros((*outer, len(layout.unknowns) - 3 * layout.joints), dtype=xp.float64)
 
     def joined(joints: Array) -> Array:
-        return xp.concat((xp.reshape(joints, (*lead, 3 * layout.joints)), rest), axis=-1)
+        return xp.concat((xp.reshape(joints, (*outer, 3 * layout.joints)), rest), axis=-1)
 
     matrix = conditions(acting, layout, arms)
     given = joined(off) + housing

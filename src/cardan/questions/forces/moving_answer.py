@@ -12,7 +12,7 @@ from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
-from cardan.questions.motion.equivalence import WARN_BEND
+from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
 from cardan.texts import _, plural
 from cardan.units import deg
 
@@ -140,9 +140,9 @@ def _supports(drive: Drive, result: MovingForces) -> Table:
 
 def _remarks(result: MovingForces) -> Iterator[Remark]:
     steepest = float(np.max(_joint_angles(result)))
-    if steepest > WARN_BEND * deg:
+    if steepest > WARN_JOINT_ANGLE * deg:
         text = _("Warning: a joint angle reaches {angle} on the way; above {limit} no real cross joint works.")
-        limit = Quantity(WARN_BEND * deg, "angle", trim=True)
+        limit = Quantity(WARN_JOINT_ANGLE * deg, "angle", trim=True)
         yield Remark(text=say(text, angle=Quantity(steepest, "angle", decimals=1), limit=limit), tone="warning")
     if result.cancelled:
         yield Remark(text=_("Warning: stopped; this is of the turns looked at by then."), tone="warning")

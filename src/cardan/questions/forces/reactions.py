@@ -105,8 +105,8 @@ def frame(train: Train, stand: Stand, points: Array) -> Frame:
     layout = layout_of(train)
     length = frames.norm(points[..., 1:, :] - points[..., :-1, :])
     position = xp.zeros(0, dtype=xp.float64) if train.position is None else train.position
-    lead = tuple(stand.axis.shape[:-2])
-    place = xp.broadcast_to(position[..., None, :], (*lead, position.shape[-1]))
+    outer = tuple(stand.axis.shape[:-2])
+    place = xp.broadcast_to(position[..., None, :], (*outer, position.shape[-1]))
     acting = actions(stand.axis, length, layout, place, _cut(train))
     rows = balance(acting)
     free = (
@@ -115,9 +115,9 @@ def frame(train: Train, stand: Stand, points: Array) -> Frame:
         else None
     )
     if free is not None:
-        lead = broadcast_shapes(rows.shape[:-2], free.shape[:-2])
+        outer = broadcast_shapes(rows.shape[:-2], free.shape[:-2])
         rows = xp.concat(
-            (xp.broadcast_to(rows, (*lead, *rows.shape[-2:])), xp.broadcast_to(free, (*lead, *free.shape[-2:]))),
+            (xp.broadcast_to(rows, (*outer, *rows.shape[-2:])), xp.broadcast_to(free, (*outer, *free.shape[-2:]))),
             axis=-2,
         )
     return Frame(layout=layout, acting=acting, matrix=rows, points=points)
@@ -243,9 +243,9 @@ def forces_of(frame: Frame, unknowns: Array) -> tuple[Array, Array, Array]:
     """Return joint forces (..., p, n, 3), forces (..., p, k, 3) and couples (..., p, k, 3) of the supports."""
     xp = namespace(unknowns)
     n = frame.layout.joints
-    lead = unknowns.shape[:-1]
-    joint = xp.reshape(unknowns[..., : 3 * n], (*lead, n, 3))
-    none = xp.zeros((*lead, 3), dtype=xp.float64)
+    outer = unknowns.shape[:-1]
+    joint = xp.reshape(unknowns[..., : 3 * n], (*outer, n, 3))
+    none = xp.zeros((*outer, 3), dtype=xp.float64)
     reaction, couple = [], []
     for k, (shaft, holds) in enumerate(frame.layout.bearings):
         force, turn = none, none
@@ -259,7 +259,7 @@ def forces_of(frame: Frame, unknowns: Array) -> tuple[Array, Array, Array]:
         reaction.append(force)
         couple.append(turn)
     if not reaction:
-        empty = xp.zeros((*lead, 0, 3), dtype=xp.float64)
+        empty = xp.zeros((*outer, 0, 3), dtype=xp.float64)
         return joint, empty, empty
     return joint, xp.stack(reaction, axis=-2), xp.stack(couple, axis=-2)
 

@@ -66,12 +66,14 @@ def swing_couple(
     return SwingCouple(gyroscopic=gyroscopic + zero, transverse=across + zero)
 
 
-def parallel_ends(bend: Jet, angle: ArrayLike, *, speed: ArrayLike, yoke_angle: float = 0.0) -> tuple[Jet, Spins]:
-    """Return axes and spins of a double joint in a plane whose end shafts stay parallel while its bends swing.
+def parallel_ends(
+    joint_angle: Jet, angle: ArrayLike, *, speed: ArrayLike, yoke_angle: float = 0.0
+) -> tuple[Jet, Spins]:
+    """Return axes and spins of a double joint in a plane whose end shafts stay parallel while its joint angles swing.
 
     Parameters
     ----------
-    bend : Jet (...) [rad, rad/s, rad/s²]
+    joint_angle : Jet (...) [rad, rad/s, rad/s²]
         α of joint 1; joint 2 bends back by as much.
     angle : array (...) [rad]
         φ_1 from the plane of the joints.
@@ -87,8 +89,8 @@ def parallel_ends(bend: Jet, angle: ArrayLike, *, speed: ArrayLike, yoke_angle: 
     spins : Spins
         Their spins.
     """
-    xp = namespace(bend[0])
-    alpha, rate, curve = (real(part, xp) for part in bend)
+    xp = namespace(joint_angle[0])
+    alpha, rate, curve = (real(part, xp) for part in joint_angle)
     none = 0.0 * alpha
     c, s = xp.cos(alpha), xp.sin(alpha)
     x = xp.stack((none + 1.0, none, none), axis=-1)

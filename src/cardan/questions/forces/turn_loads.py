@@ -24,7 +24,7 @@ LOOK = 120
 """Places in half a turn at which loads are looked at, before a curve is laid through the largest."""
 
 STRAIGHT = 1e-9
-"""Sine of the bend below which a joint passes on a torque as a straight one."""
+"""Sine of the joint angle below which a joint passes on a torque as a straight one."""
 
 LONGEST = 12
 """Turns over which torques that swing out of step with the turning are followed at most."""
@@ -44,7 +44,7 @@ class LoadCase:
         Size of the input speed.
     share : float
         Share of the whole time; 0 for a peak, and for the duty beside its duty cycle.
-    bend : float or None [rad]
+    joint_angle : float or None [rad]
         Bend of every joint, where it is not that of the drive.
     torque_at : str
         ``output`` or ``input``.
@@ -58,7 +58,7 @@ class LoadCase:
     torque: float
     speed: float | None = None
     share: float = 1.0
-    bend: float | None = None
+    joint_angle: float | None = None
     torque_at: str = "output"
     harmonics: tuple[Harmonic, ...] = ()
     scale: float = 0.0
@@ -146,8 +146,8 @@ def turn_loads(
     places = round(look * period / math.pi)
     angle = np.arange(places) * (period / places)
     found = motion(chain, angle)
-    ratio, theta = found.shaft_ratio, found.joint_angle
-    bend = np.asarray(found.bend, dtype=float)[..., None]
+    ratio, theta = found.shaft_ratio, found.yoke_rotation
+    joint_angle = np.asarray(found.joint_angle, dtype=float)[..., None]
     end = -1 if torque_at == "output" else 0
     mean = np.asarray(torque, dtype=float)[..., None]
     turned = found.shaft_angle[..., end, :]
@@ -160,17 +160,17 @@ def turn_loads(
     size = np.abs(passing)
     before, after = size[..., :-1, :], size[..., 1:, :]
     if chain.laws is None:
-        lean = np.sqrt(1.0 + (np.tan(bend) * np.sin(theta)) ** 2)
+        lean = np.sqrt(1.0 + (np.tan(joint_angle) * np.sin(theta)) ** 2)
         couple = before * lean
-        on_driving = before * np.tan(bend) * np.abs(np.sin(theta))
-        on_driven = couple * np.sin(bend) * np.abs(np.cos(theta))
+        on_driving = before * np.tan(joint_angle) * np.abs(np.sin(theta))
+        on_driven = couple * np.sin(joint_angle) * np.abs(np.cos(theta))
     else:
         one, other = across(chain.laws, theta, ratio[..., 1:, :] / ratio[..., :-1, :])
         couple, on_driving, on_driven = before * np.hypot(1.0, one), before * one, before * other
     # K² = T² + M_b² on either shaft, so 4 M_b² + 3 T² = 4 K² - T².
     mises = (np.sqrt(4.0 * couple**2 - one**2) for one in (before, after))
     high = peak(passing)
-    ends = _at_ends(*(peak(one) for one in mises)) if bend.shape[-2] else math.sqrt(3.0) * np.abs(high)
+    ends = _at_ends(*(peak(one) for one in mises)) if joint_angle.shape[-2] else math.sqrt(3.0) * np.abs(high)
     return TurnLoads(
         low=-peak(-passing),
         high=high,
@@ -203,14 +203,16 @@ def across(laws: Laws, theta: Array, ratio: Array) -> tuple[Array, Array]:
     (e, N×e, N): T (1, (1 - i cos α)/(i sin α), -f_α/i), and across the driven shaft ((cos α - i)/(i sin α), f_α/i) T:
     T tan(α/2) across both where i = 1 and f_α = 0, and for a Hooke joint T tan α |sin φ|.
     """
-    bend, steep, growth = (np.asarray(part)[..., None] for part in (laws.bend, laws.steepness, laws.growth))
-    aside, swept = lean(theta, ratio, bend, steep, growth)
+    joint_angle, steep, growth = (
+        np.asarray(part)[..., None] for part in (laws.joint_angle, laws.steepness, laws.growth)
+    )
+    aside, swept = lean(theta, ratio, joint_angle, steep, growth)
     # (cos α - i)/sin α = (1 - i cos α)/sin α cos α - i sin α, without a difference of near numbers
-    other = aside * np.cos(bend) - np.sin(bend)
+    other = aside * np.cos(joint_angle) - np.sin(joint_angle)
     return np.hypot(aside, swept), np.hypot(other, swept)
 
 
-def lean(theta: Array, ratio: Array, bend: Array, steepness: Array, growth: Array) -> tuple[Array, Array]:
+def lean(theta: Array, ratio: Array, joint_angle: Array, steepness: Array, growth: Array) -> tuple[Array, Array]:
     """Return the parts of a joint's couple along N×e and against N, over that along e, arrays like ``theta``.
 
     Parameters
@@ -219,39 +221,39 @@ def lean(theta: Array, ratio: Array, bend: Array, steepness: Array, growth: Arra
         Angle of the driving mark.
     ratio : array
         Speed ratio of the joint.
-    bend, steepness, growth : arrays
+    joint_angle, steepness, growth : arrays
         α, κ and dκ/dα, in the shape of the angles.
 
     Notes
     -----
     (1 - i cos α)/(i sin α) = tan(α/2) - (i - 1)/(i sin α), and f_α/i with f = arctan(κ tan θ).
     """
-    sine, cosine, bent = np.sin(theta), np.cos(theta), np.sin(bend)
+    sine, cosine, bent = np.sin(theta), np.cos(theta), np.sin(joint_angle)
     swept = growth * sine * cosine / (cosine**2 + (steepness * sine) ** 2)
     uneven = np.where(bent > STRAIGHT, (ratio - 1.0) / np.where(bent > STRAIGHT, bent, 1.0), 0.0)
-    return np.tan(0.5 * bend) - uneven / ratio, swept / ratio
+    return np.tan(0.5 * joint_angle) - uneven / ratio, swept / ratio
 
 
-def at_bend(chain: Chain, bend: Array, joints: Sequence[Joint]) -> Chain:
-    """Return a chain with other bends of its joints, array (..., n) [rad], its planes and yokes as they are.
+def at_joint_angle(chain: Chain, joint_angle: Array, joints: Sequence[Joint]) -> Chain:
+    """Return a chain with other joint angles of its joints, array (..., n) [rad], its planes and yokes as they are.
 
     Parameters
     ----------
     chain : Chain (..., n)
         As the joints are given, not as they turn.
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
     joints : sequence of n Joint
         Their kinds.
     """
-    wide = np.broadcast_shapes(bend.shape, chain.bend.shape)
-    return turning(replace(chain, bend=np.broadcast_to(bend, wide)), joints, near=True)
+    wide = np.broadcast_shapes(joint_angle.shape, chain.joint_angle.shape)
+    return turning(replace(chain, joint_angle=np.broadcast_to(joint_angle, wide)), joints, near=True)
 
 
 def case_loads(drive: Drive, case: LoadCase) -> TurnLoads:
     """Return the largest loads of a drive over a turn in one way of running."""
     given = given_chain(drive)
-    own = given.bend if case.bend is None else np.full(np.shape(given.bend), case.bend)
-    whole = at_bend(given, own, drive.joints)
+    own = given.joint_angle if case.joint_angle is None else np.full(np.shape(given.joint_angle), case.joint_angle)
+    whole = at_joint_angle(given, own, drive.joints)
     return turn_loads(whole, case.torque, torque_at=case.torque_at, harmonics=case.harmonics, scale=case.scale)
 
 
@@ -288,7 +290,7 @@ def load_cases(duty: Duty) -> Iterator[LoadCase]:
             torque=block.torque,
             speed=abs(block.speed),
             share=block.share,
-            bend=block.bend,
+            joint_angle=block.joint_angle,
             harmonics=duty.harmonics if scale else (),
             scale=scale,
         )

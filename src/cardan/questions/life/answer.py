@@ -101,7 +101,7 @@ def _joints(drive: Drive, result: Life) -> Table:
             Column(
                 key="joint_angle",
                 heading=_("joint angle"),
-                values=result.share @ result.bend,
+                values=result.share @ result.joint_angle,
                 dimension="angle",
                 decimals=2,
             ),
@@ -172,13 +172,13 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
 
 def _everything(result: Life) -> Table:
     """Return every part and joint."""
-    parts, joints = result.bend.shape
+    parts, joints = result.joint_angle.shape
     every: Mapping[str, tuple[Any, str]] = {
         "share": (np.repeat(result.share, joints), "share"),
         "torque": (np.repeat([part.torque for part in result.parts], joints), "torque"),
         "speed": (np.repeat([part.speed for part in result.parts], joints), "angular_speed"),
         "joint_torque": (result.torque, "torque"),
-        "joint_angle": (result.bend, "angle"),
+        "joint_angle": (result.joint_angle, "angle"),
         "journal_force": (result.journal_force, "force"),
         "iso_driving": (result.driving, "duration"),
         "iso_driven": (result.driven, "duration"),

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from cardan.formulas.joint_rating import HOUR, NOMINAL, POWER, RATED_LIFE, RATED_SPEED_ANGLE, lasting, rated_bend
+from cardan.formulas.joint_rating import HOUR, NOMINAL, POWER, RATED_LIFE, RATED_SPEED_ANGLE, lasting, rated_joint_angle
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.units import deg, rpm
 
@@ -75,7 +75,7 @@ class BearingLife:
 
 
 def bearing_life(
-    capacity: ArrayLike, arm: ArrayLike, torque: ArrayLike, *, speed: ArrayLike, bend: ArrayLike, torque_at: str
+    capacity: ArrayLike, arm: ArrayLike, torque: ArrayLike, *, speed: ArrayLike, joint_angle: ArrayLike, torque_at: str
 ) -> BearingLife:
     """Return the life L_10 of the bearings of one joint by ISO 281.
 
@@ -89,7 +89,7 @@ def bearing_life(
         M, constant on the shaft that ``torque_at`` names; without it the life is infinite.
     speed : array (...) [rad/s]
         n, not zero.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         0 < α < π/2; infinite lives at zero, where nothing rolls and ISO 281 rates nothing.
     torque_at : str
         Where the torque is constant, ``input`` or ``output``.
@@ -105,11 +105,11 @@ def bearing_life(
 
     Examples
     --------
-    >>> found = bearing_life(20e3, 0.040, 800.0, speed=1000 * rpm, bend=30 * deg, torque_at="input")
+    >>> found = bearing_life(20e3, 0.040, 800.0, speed=1000 * rpm, joint_angle=30 * deg, torque_at="input")
     >>> print(f"{found.simple / 3600:.3f} {found.driving / 3600:.3f} {found.driven / 3600:.3f} h")
     503.968 426.418 361.413 h
     """
-    c, r, load, n, alpha = floats(capacity, arm, torque, speed, bend)
+    c, r, load, n, alpha = floats(capacity, arm, torque, speed, joint_angle)
     xp = namespace(alpha, load)
     share = xp.abs(load) / (2.0 * r * c)
     driving, driven = swing_damage(alpha, torque_at=torque_at)
@@ -120,12 +120,12 @@ def bearing_life(
     return BearingLife(simple=simple, driving=one, driven=two)
 
 
-def swing_damage(bend: ArrayLike, *, torque_at: str) -> tuple[Array, Array]:
+def swing_damage(joint_angle: ArrayLike, *, torque_at: str) -> tuple[Array, Array]:
     """Return the damage of a turn in the bearings of the driving and of the driven yoke, for Q = C at the mean load.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         0 ≤ α < π/2.
     torque_at : str
         Where the torque is constant, ``input`` or ``output``.
@@ -146,7 +146,7 @@ def swing_damage(bend: ArrayLike, *, torque_at: str) -> tuple[Array, Array]:
     >>> print(f"{driving / (2 / 6):.6f} {driven / (2 / 6):.6f}")
     1.181864 1.394439
     """
-    (alpha,) = floats(bend)
+    (alpha,) = floats(joint_angle)
     xp = namespace(alpha)
     node, weight = (xp.asarray(row) for row in _rule())
     end = xp.asinh(xp.tan(alpha))
@@ -162,7 +162,7 @@ def maker_life(
     torque: ArrayLike,
     *,
     speed: ArrayLike,
-    bend: ArrayLike,
+    joint_angle: ArrayLike,
     convention: str,
     shock: ArrayLike = 1.0,
 ) -> Array:
@@ -176,7 +176,7 @@ def maker_life(
         M; infinite life without it.
     speed : array (...) [rad/s]
         n, not zero.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α; below 3° counted as 3°.
     convention : str
         A name of `CONVENTIONS`. Constants of makers differ, some by a factor of two: never mix rating and formula.
@@ -185,13 +185,13 @@ def maker_life(
 
     Examples
     --------
-    >>> print(f"{maker_life(1000.0, 1000.0, speed=100 * rpm, bend=3 * deg, convention='Tc') / 3600:.6f} h")
+    >>> print(f"{maker_life(1000.0, 1000.0, speed=100 * rpm, joint_angle=3 * deg, convention='Tc') / 3600:.6f} h")
     5000.000000 h
     """
-    rated, load, n, alpha, f = floats(rating, torque, speed, bend, shock)
+    rated, load, n, alpha, f = floats(rating, torque, speed, joint_angle, shock)
     xp = namespace(load)
     share = xp.abs(load) * f / rated
-    return lasting(CONVENTIONS[convention] / (xp.abs(n) * rated_bend(alpha)), share**POWER)
+    return lasting(CONVENTIONS[convention] / (xp.abs(n) * rated_joint_angle(alpha)), share**POWER)
 
 
 def reliability_factor(reliability: ArrayLike) -> Array:

@@ -32,7 +32,7 @@ class BearingLoads:
 
     Attributes
     ----------
-    bend : array (b, n) [rad]
+    joint_angle : array (b, n) [rad]
         Bend of each joint.
     torque : array (b, n) [N·m]
         Mean torque that enters each joint, over the turning of its driving shaft.
@@ -42,7 +42,7 @@ class BearingLoads:
         Mean of \\|dδ/dφ_1\\| K^(10/3), δ the swing in the driving and in the driven yoke, K the couple of the cross.
     """
 
-    bend: Array
+    joint_angle: Array
     torque: Array
     couple: Array
     driving: Array
@@ -74,10 +74,14 @@ def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[Bloc
     a cross stops in a yoke.
     """
     found: list[BearingLoads | None] = [None] * len(parts)
-    bends = [part.bend for part in parts]
-    for bend in dict.fromkeys(bends):
-        own = [k for k, one in enumerate(bends) if one == bend]
-        chain = machine.chain if bend is None else replace(machine.chain, bend=np.full(len(drive.joints), bend))
+    joint_angles = [part.joint_angle for part in parts]
+    for joint_angle in dict.fromkeys(joint_angles):
+        own = [k for k, one in enumerate(joint_angles) if one == joint_angle]
+        chain = (
+            machine.chain
+            if joint_angle is None
+            else replace(machine.chain, joint_angle=np.full(len(drive.joints), joint_angle))
+        )
         model = _model(drive, machine, duty, chain, [parts[k] for k in own])
         for k, one in zip(own, _of_chain(model), strict=True):
             found[k] = one
@@ -93,7 +97,7 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
     none = np.zeros(n + 1)
     drag = np.zeros(n) if machine.drag is None else machine.drag
     text = _("friction locks joint {number}: over the journals it reaches {share:.3g} of what turns it")
-    hold = drag * np.tan(chain.bend)
+    hold = drag * np.tan(chain.joint_angle)
     check(
         Problem(f"joints[{i}].friction", text.format(number=i + 1, share=float(hold[i])))
         for i in np.flatnonzero(hold >= 1.0)
@@ -117,7 +121,7 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
 
 
 def _of_chain(model: Model) -> list[BearingLoads]:
-    """Return the loads of cases that share their bends, one by one."""
+    """Return the loads of cases that share their joint angles, one by one."""
     n, cases = model.chain.joints, model.torque.size
     period = 2.0 * np.pi * model.turns if model.harmonics else np.pi
     places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(round(period / np.pi)))
@@ -137,10 +141,10 @@ def _of_chain(model: Model) -> list[BearingLoads]:
 
     mean = mean_between(rows, places, period=period, rests=RESTS)
     driving, driven, torque = (mean[:, k * n : (k + 1) * n] for k in range(3))
-    bend = np.asarray(model.chain.bend, dtype=float)
+    joint_angle = np.asarray(model.chain.joint_angle, dtype=float)
     return [
         BearingLoads(
-            bend=bend,
+            joint_angle=joint_angle,
             torque=torque[k],
             couple=scale[k],
             driving=driving[k] * size[k] ** POWER,

@@ -58,7 +58,7 @@ def damage_shares(life: ArrayLike, share: ArrayLike) -> Array:
 
 
 def equivalent_torque(
-    torque: ArrayLike, share: ArrayLike, *, speed: ArrayLike = 1.0, bend: ArrayLike = 1.0, power: float = POWER
+    torque: ArrayLike, share: ArrayLike, *, speed: ArrayLike = 1.0, joint_angle: ArrayLike = 1.0, power: float = POWER
 ) -> Array:
     """Return the constant torque that damages bearings as much as a duty cycle, at its mean of speed times bend.
 
@@ -68,7 +68,7 @@ def equivalent_torque(
         M_i.
     share : array (..., k)
         N_i, shares of the time.
-    speed, bend : arrays (..., k)
+    speed, joint_angle : arrays (..., k)
         n_i and α_i, or 1 where they are the same in all parts.
     power : float
         Exponent of the life.
@@ -82,7 +82,7 @@ def equivalent_torque(
     >>> print(equivalent_torque([100.0, 200.0], [0.5, 0.5]).round(4))
     167.1266
     """
-    load, shares, n, alpha = floats(torque, share, speed, bend)
+    load, shares, n, alpha = floats(torque, share, speed, joint_angle)
     xp = namespace(load)
     weight = shares * xp.abs(n) * alpha + 0.0 * load
     whole = xp.sum(weight, axis=-1)

@@ -223,7 +223,7 @@ def history_figure(found: Life) -> Figure:
 
 def _unlimited(found: Life) -> Figure:
     """Return a figure that says that nothing is damaged."""
-    at = np.arange(1.0, found.bend.shape[1] + 1.0)
+    at = np.arange(1.0, found.joint_angle.shape[1] + 1.0)
     forces = np.nan_to_num(np.max(found.journal_force, axis=0))
     return Figure(
         name="life",

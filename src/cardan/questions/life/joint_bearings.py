@@ -73,7 +73,7 @@ def joint_bearings(drive: Drive) -> tuple[JointBearings, tuple[Missing, ...]]:
     >>> from cardan.drive.joint_parts import Needles
     >>> from cardan.drive.joints import Hooke
     >>> needles = Needles(count=22, diameter=2.5e-3, length=14e-3)
-    >>> joint = Hooke(bend=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles)
+    >>> joint = Hooke(joint_angle=0.1, cross=Cross(span=0.08, journal=0.016), needles=needles)
     >>> bearings, missing = joint_bearings(Drive(joints=(joint,)))
     >>> print(bearings.capacity.round(0), bearings.assumed)
     [18514.] ('joints[0].needles.capacity', 'joints[0].needles.static_capacity')

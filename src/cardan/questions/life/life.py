@@ -38,7 +38,7 @@ class Life:
         Parts of the duty cycle; one for a steady duty, one a level for a measured torque.
     share : array (b,)
         Their shares of the time.
-    bend : array (b, n) [rad]
+    joint_angle : array (b, n) [rad]
         Bend of each joint in each part.
     torque : array (b, n) [N·m]
         Mean torque that enters each joint, without the factor for shocks.
@@ -71,7 +71,7 @@ class Life:
 
     parts: tuple[Block, ...]
     share: Array
-    bend: Array
+    joint_angle: Array
     torque: Array
     journal_force: Array
     bearings: JointBearings
@@ -141,13 +141,13 @@ class Life:
     def equivalent_torque(self) -> Array:
         """Constant torque that damages each joint as much at its mean speed times bend, array (n,) [N·m]."""
         speed = np.asarray([part.speed for part in self.parts])
-        return equivalent_torque(self.torque.T, self.share, speed=speed, bend=self.bend.T)
+        return equivalent_torque(self.torque.T, self.share, speed=speed, joint_angle=self.joint_angle.T)
 
     @property
     def speed_angle(self) -> Array:
         """Mean of speed times bend of each joint, array (n,) [rad²/s]."""
         speed = np.asarray([abs(part.speed) for part in self.parts])
-        found: Array = np.sum((self.share * speed)[:, None] * self.bend, axis=0)
+        found: Array = np.sum((self.share * speed)[:, None] * self.joint_angle, axis=0)
         return found
 
     @property
@@ -206,7 +206,8 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     -----
     ISO 281: L = a_1 10^6 turns/D, D = (1/2π) ∮ \\|dδ/dφ\\| (f_d Q/C)^(10/3) dφ, with the swing δ and the load
     Q = K/d of the journals over the turn from the torque flow of the whole drive, friction and inertia counted. Makers
-    and the book take the mean torque and the bend, at least 3°. Parts of a duty cycle add their damage, Book (268).
+    and the book take the mean torque and the joint angle, at least 3°. Parts of a duty cycle add their damage, Book
+    (268).
 
     Examples
     --------
@@ -214,7 +215,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     >>> from cardan.drive.joint_parts import Needles
     >>> from cardan.drive.joints import Hooke
     >>> from cardan.units import deg, mm, rpm
-    >>> joint = Hooke(bend=12 * deg, cross=Cross(span=80 * mm), needles=Needles(capacity=20e3))
+    >>> joint = Hooke(joint_angle=12 * deg, cross=Cross(span=80 * mm), needles=Needles(capacity=20e3))
     >>> found = life(Drive(joints=(joint,)), Duty(speed=1000 * rpm, torque=800.0))
     >>> for name in ("driving", "driven", "simple", "book"):
     ...     print(f"{name} {getattr(found, name)[0, 0] / 3600:.1f} h")
@@ -240,7 +241,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     found = Life(
         parts=parts,
         share=share / np.sum(share),
-        bend=loads.bend,
+        joint_angle=loads.joint_angle,
         torque=loads.torque,
         journal_force=used.shock_factor * loads.couple / bearings.span,
         bearings=bearings,
@@ -302,11 +303,16 @@ def _lives(
     speed = np.abs(np.asarray([part.speed for part in parts]))[:, None]
     whole = factor * MILLION * 2.0 * math.pi / speed
     strength = (bearings.span * bearings.capacity / shock) ** POWER
-    mean = (np.abs(loads.torque)) ** POWER * 2.0 * loads.bend / math.pi
-    maker = np.full(loads.bend.shape, np.nan)
+    mean = (np.abs(loads.torque)) ** POWER * 2.0 * loads.joint_angle / math.pi
+    maker = np.full(loads.joint_angle.shape, np.nan)
     for i, convention in enumerate(bearings.convention):
         if convention in ("Tc", "CR"):
-            case = {"speed": speed[:, 0], "bend": loads.bend[:, i], "convention": convention, "shock": shock}
+            case = {
+                "speed": speed[:, 0],
+                "joint_angle": loads.joint_angle[:, i],
+                "convention": convention,
+                "shock": shock,
+            }
             maker[:, i] = maker_life(bearings.rating[i], loads.torque[:, i], **case)
     own = np.asarray([convention == "book" for convention in bearings.convention])
     nominal = np.where(own, bearings.rating, nominal_torque(bearings.capacity, 0.5 * bearings.span))
@@ -315,7 +321,7 @@ def _lives(
         "driven": lasting(whole * strength, loads.driven),
         "simple": lasting(whole * strength, mean),
         "maker": factor * maker,
-        "book": factor * book_life(nominal, loads.torque, speed=speed, bend=loads.bend, shock=shock),
+        "book": factor * book_life(nominal, loads.torque, speed=speed, joint_angle=loads.joint_angle, shock=shock),
     }
 
 

@@ -9,14 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cardan.answers.quantity import Quantity, Text, say
-from cardan.formulas.joint_rating import LEAST_BEND, LIFE_RANGE, ROUNDING, SPEED_ANGLE_RANGE, rated_bend, within
+from cardan.formulas.joint_rating import (
+    LEAST_JOINT_ANGLE,
+    LIFE_RANGE,
+    ROUNDING,
+    SPEED_ANGLE_RANGE,
+    rated_joint_angle,
+    within,
+)
 from cardan.maths.arrays import Array, ArrayLike, floats
 from cardan.texts import _
 
 if TYPE_CHECKING:
     from .life import Life
 
-LEAST = Quantity(LEAST_BEND, "angle", trim=True)
+LEAST = Quantity(LEAST_JOINT_ANGLE, "angle", trim=True)
 """As what smaller joint angles count."""
 
 HEAVY = 0.5
@@ -42,15 +49,15 @@ class Caution:
     message: Text
 
 
-def clamped(bend: ArrayLike) -> Array:
-    """Tell whether book and makers count a bend as 3°, array (...) of bool.
+def clamped(joint_angle: ArrayLike) -> Array:
+    """Tell whether book and makers count a joint angle as 3°, array (...) of bool.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
     """
-    (alpha,) = floats(bend)
-    return alpha < LEAST_BEND * (1.0 - ROUNDING)
+    (alpha,) = floats(joint_angle)
+    return alpha < LEAST_JOINT_ANGLE * (1.0 - ROUNDING)
 
 
 def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
@@ -59,7 +66,7 @@ def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
     Parameters
     ----------
     speed_angle : array (...) [rad²/s]
-        With the bend that the book counts.
+        With the joint angle that the book counts.
     life : array (...) [s]
     """
     return ~(within(speed_angle, SPEED_ANGLE_RANGE) & within(life, LIFE_RANGE))
@@ -68,13 +75,13 @@ def extrapolated(speed_angle: ArrayLike, life: ArrayLike) -> Array:
 def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
     """Yield what to mind about the lives of a drive; ``beyond`` tells that the reliability is outside its table."""
     running = found.share > 0.0
-    bend = found.bend[running]
+    joint_angle = found.joint_angle[running]
     speed = np.abs(np.asarray([part.speed for part in found.parts]))[running, None]
     book = found.of("book")
-    for i in range(bend.shape[1]):
-        least = float(np.min(bend[:, i]))
+    for i in range(joint_angle.shape[1]):
+        least = float(np.min(joint_angle[:, i]))
         own = found.bearings
-        if np.any(bend[:, i] == 0.0) and own.rated[i]:
+        if np.any(joint_angle[:, i] == 0.0) and own.rated[i]:
             text = _("joint {number} is straight: its needles do not roll, and ISO 281 rates no life for that")
             yield Caution(code="no_swing", joint=i + 1, message=say(text, number=i + 1))
         angle = Quantity(least, "angle", 3)
@@ -86,12 +93,12 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
             said = say(text, number=i + 1, angle=angle, limit=Quantity(float(own.critical_swing[i]), "angle", 3))
             yield Caution(code="small_oscillation", joint=i + 1, message=said)
         figures = ~np.isnan(found.book[:, i]) | ~np.isnan(found.maker[:, i])
-        if np.any(clamped(bend[:, i])) and np.any(figures):
+        if np.any(clamped(joint_angle[:, i])) and np.any(figures):
             text = _("joint {number} has a joint angle of {angle}; handbook and makers count it as {least}")
             said = say(text, number=i + 1, angle=angle, least=LEAST)
             yield Caution(code="angle_clamped_3deg", joint=i + 1, message=said)
         whole = book[i]
-        if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_bend(bend[:, i]), whole)):
+        if np.isfinite(whole) and np.any(extrapolated(speed[:, 0] * rated_joint_angle(joint_angle[:, i]), whole)):
             text = _("joint {number} is outside the handbook's tables, 10 to 35 000 rpm·° and 100 to 100 000 h")
             yield Caution(code="extrapolated", joint=i + 1, message=say(text, number=i + 1))
         most = float(np.max(found.journal_force[running, i]))

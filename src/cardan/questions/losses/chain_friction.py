@@ -87,8 +87,8 @@ def stance(chain: Chain, angle: Array) -> Stance:
     length is the inverse speed ratio; between joints the vector turns by μ. The same product as that of Möbius pairs,
     in real numbers.
     """
-    xp = namespace(chain.bend, angle)
-    alpha, mu = chain.bend[..., None], chain.turn_before[..., None]
+    xp = namespace(chain.joint_angle, angle)
+    alpha, mu = chain.joint_angle[..., None], chain.turn_before[..., None]
     x, y = xp.cos(angle), xp.sin(angle)
     leans, ratios = [], [1.0 / (x * x + y * y)]
     for i in range(chain.joints):
@@ -115,7 +115,7 @@ def kinks(chain: Chain) -> Array:
     array (..., 2n) [rad]
         In (-π, π], each good modulo π: where some θ_i is a multiple of π/2.
     """
-    xp = namespace(chain.bend)
+    xp = namespace(chain.joint_angle)
     mu = chain.turn_before
     found = []
     for i in range(chain.joints):
@@ -125,7 +125,7 @@ def kinks(chain: Chain) -> Array:
                 cosine, sine = xp.cos(mu[..., k]), xp.sin(mu[..., k])
                 x, y = cosine * x + sine * y, cosine * y - sine * x
                 if k:
-                    root = xp.sqrt(xp.cos(chain.bend[..., k - 1]))
+                    root = xp.sqrt(xp.cos(chain.joint_angle[..., k - 1]))
                     x, y = x / root, root * y
             found.append(xp.atan2(y, x))
     return xp.stack(found, axis=-1)
@@ -165,9 +165,9 @@ def chain_friction(
     0.988600148 0.988633125
     """
     chain = crosses(drive, _("losses"))
-    xp = namespace(chain.bend, drag)
+    xp = namespace(chain.joint_angle, drag)
     kappa = _each_joint(drag, chain, xp)
-    locked = kappa * xp.tan(chain.bend) >= 1.0
+    locked = kappa * xp.tan(chain.joint_angle) >= 1.0
     stuck = xp.any(locked, axis=-1)
     held = xp.where(stuck[..., None], xp.full_like(kappa, xp.nan), kappa)
     sense = -1.0 if backwards else 1.0
@@ -194,7 +194,7 @@ def chain_friction(
     given_drives = (torque_at == "input") != backwards
     return ChainFriction(
         efficiency=1.0 - lost if given_drives else 1.0 / (1.0 + lost),
-        first_order=xp.prod(joint_friction(chain.bend, kappa, torque_at="output").first_order, axis=-1),
+        first_order=xp.prod(joint_friction(chain.joint_angle, kappa, torque_at="output").first_order, axis=-1),
         driving_loss=mean[..., 2 : 2 + n],
         driven_loss=mean[..., 2 + n :],
         residual=xp.abs(xp.abs(first - last) - lost),

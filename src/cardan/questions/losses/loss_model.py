@@ -143,7 +143,7 @@ def moving(model: Model, angle: Array) -> Motion:
     def spread(rows: Array) -> Array:
         return np.moveaxis(np.reshape(rows, (rows.shape[0], *angle.shape)), 0, -2)
 
-    names = ("shaft_angle", "shaft_ratio", "shaft_slope", "joint_angle")
+    names = ("shaft_angle", "shaft_ratio", "shaft_slope", "yoke_rotation")
     return replace(flat, angle=angle, **{name: spread(getattr(flat, name)) for name in names})
 
 
@@ -218,11 +218,11 @@ def mean_powers(model: Model) -> Powers:
     """
     period = np.pi if not model.harmonics else 2.0 * np.pi * model.turns
     count = round(period / np.pi)
-    lead = np.broadcast_shapes(np.shape(model.speed), np.shape(model.torque))
+    outer = np.broadcast_shapes(np.shape(model.speed), np.shape(model.torque))
     places = np.ravel(kinks(model.chain)[:, None] + np.pi * np.arange(count))
-    turning = _reversals(model, lead, period) if model.harmonics or np.any(model.inertia + model.resisting) else None
+    turning = _reversals(model, outer, period) if model.harmonics or np.any(model.inertia + model.resisting) else None
     if turning is not None:
-        places = np.concatenate((np.broadcast_to(places, (*lead, places.size)), turning), axis=-1)
+        places = np.concatenate((np.broadcast_to(places, (*outer, places.size)), turning), axis=-1)
     names = tuple(Powers.__dataclass_fields__)
     widths: list[int] = []
 
@@ -231,7 +231,7 @@ def mean_powers(model: Model) -> Powers:
         parts = [getattr(found, name) for name in names]
         parts = [part[..., None, :] if name in ENDS else part for name, part in zip(names, parts, strict=True)]
         widths[:] = [part.shape[-2] for part in parts]
-        return np.concatenate([np.broadcast_to(part, (*lead, *part.shape[-2:])) for part in parts], axis=-2)
+        return np.concatenate([np.broadcast_to(part, (*outer, *part.shape[-2:])) for part in parts], axis=-2)
 
     rests = RESTS if model.holding is None else HELD
     mean = mean_between(rows, places, period=period, rests=rests)
@@ -240,17 +240,17 @@ def mean_powers(model: Model) -> Powers:
     return Powers(**whole)
 
 
-def _reversals(model: Model, lead: tuple[int, ...], period: float) -> Array | None:
+def _reversals(model: Model, outer: tuple[int, ...], period: float) -> Array | None:
     """Return where the couple of any joint passes through zero, array (..., m), padded with zeros; None if nowhere."""
     grid = np.linspace(0.0, period, round(LOOK * period / np.pi) + 1)
 
     def couple(angle: Array) -> Array:
         without = replace(model, holding=None)
         found = flowing(without, moving(model, angle))[0].couple
-        return np.broadcast_to(found, (*lead, *found.shape[-2:]))
+        return np.broadcast_to(found, (*outer, *found.shape[-2:]))
 
     value = couple(grid)
-    passed = np.reshape(value[..., :-1] * value[..., 1:] < 0.0, (*lead, -1))
+    passed = np.reshape(value[..., :-1] * value[..., 1:] < 0.0, (*outer, -1))
     most = int(np.max(np.sum(passed, axis=-1), initial=0))
     if not most:
         return None
@@ -258,7 +258,7 @@ def _reversals(model: Model, lead: tuple[int, ...], period: float) -> Array | No
     real = np.take_along_axis(passed, order, axis=-1)
     joint, cell = np.divmod(order, grid.size - 1)
     low, high = grid[cell], grid[cell + 1]
-    start = np.take_along_axis(np.reshape(value[..., :-1], (*lead, -1)), order, axis=-1)
+    start = np.take_along_axis(np.reshape(value[..., :-1], (*outer, -1)), order, axis=-1)
     for _half in range(HALVINGS):
         middle = 0.5 * (low + high)
         now = np.take_along_axis(couple(middle), joint[..., None, :], axis=-2)[..., 0, :]

@@ -172,7 +172,7 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     >>> from cardan.drive.joints import Hooke
     >>> from cardan.drive.cross import Cross
     >>> from cardan.units import deg, mm, rpm
-    >>> joint = Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
+    >>> joint = Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
     >>> found = losses(Drive(joints=(joint,)), Duty(speed=3000 * rpm, torque=100.0))
     >>> print(f"{found.efficiency:.6f}, {found.joints[0]:.1f} W of {found.input_power / 1000:.2f} kW")
     0.994284, 180.6 W of 31.60 kW
@@ -180,13 +180,13 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     chosen = drive.duty if duty is None else duty
     parts, uncounted = counted(drive, chosen, movement)
     model = model_of(drive, chosen, parts)
-    locked = tuple(int(i) + 1 for i in np.flatnonzero(model.drag * np.tan(model.chain.bend) >= 1.0))
+    locked = tuple(int(i) + 1 for i in np.flatnonzero(model.drag * np.tan(model.chain.joint_angle) >= 1.0))
     if locked:
         model = replace(model, drag=np.full_like(model.drag, np.nan), holding=None)
     mean = mean_powers(model)
     angle = np.linspace(0.0, 2.0 * np.pi, TURN)
     course = powers(model, angle)
-    rule = joint_friction(model.chain.bend, model.drag)
+    rule = joint_friction(model.chain.joint_angle, model.drag)
     return Losses(
         speed=float(model.speed),
         torque=float(model.torque),
@@ -253,7 +253,7 @@ def loss_map(
     >>> from cardan.drive.joints import Hooke
     >>> from cardan.drive.cross import Cross
     >>> from cardan.units import deg, mm
-    >>> joint = Hooke(bend=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
+    >>> joint = Hooke(joint_angle=20 * deg, friction=0.05, cross=Cross(span=80 * mm, journal=20 * mm))
     >>> found = loss_map(Drive(joints=(joint,)), [100.0, 200.0], [50.0, -50.0])
     >>> print(found.efficiency.round(6).tolist(), found.heat.round(1).tolist())
     [[0.994284, 0.994284], [0.994284, 0.994284]] [[28.7, 28.6], [57.5, 57.2]]
@@ -267,7 +267,7 @@ def loss_map(
             f"joints[{i}].friction",
             _("joint {number} locks: friction over the journals reaches 1").format(number=i + 1),
         )
-        for i in np.flatnonzero(model.drag * np.tan(model.chain.bend) >= 1.0)
+        for i in np.flatnonzero(model.drag * np.tan(model.chain.joint_angle) >= 1.0)
     )
     mean = mean_powers(model)
     joints = mean.driving + mean.driven

@@ -76,13 +76,15 @@ def torque_flow(
     >>> torque_flow(single, np.asarray([0.02]), np.asarray([100.0, 100.0])).entering[0]
     array([115.20816286,  88.71710727])
     """
-    xp = namespace(moved.bend, drag, torque)
-    lean_driving, lean_driven = swings(xp.sin(moved.joint_angle), xp.cos(moved.joint_angle), moved.bend[..., None])
+    xp = namespace(moved.joint_angle, drag, torque)
+    lean_driving, lean_driven = swings(
+        xp.sin(moved.yoke_rotation), xp.cos(moved.yoke_rotation), moved.joint_angle[..., None]
+    )
     cos_driving, cos_driven = (1.0 / xp.sqrt(1.0 + lean * lean) for lean in (lean_driving, lean_driven))
     driving, driven = drag[..., None] * lean_driving, drag[..., None] * lean_driven
     way = sense if isinstance(sense, float | int) else xp.asarray(sense)[..., None]
     own = xp.zeros_like(moved.shaft_ratio) if drawn is None else drawn
-    n = moved.joint_angle.shape[-2]
+    n = moved.yoke_rotation.shape[-2]
     entering, leaving, couples = [], [], []
     if torque_at == "output":
         leaving.append(torque)

@@ -102,7 +102,7 @@ def marks(drive: Drive, place: Geometry, angle: float) -> tuple[Array, Array]:
     Notes
     -----
     u_1 = rot(a_1, φ_1+ψ_1)(N_1 × a_1); a cross holds v = unit(a_{i+1} × u), any other joint carries its mark around the
-    normal of its plane by the bend; u_{i+1} = rot(a_{i+1}, -γ) v.
+    normal of its plane by the joint angle; u_{i+1} = rot(a_{i+1}, -γ) v.
     """
     axis, normal = place.axis, place.normal
     turn = np.asarray(angle + drive.input.start_phase)
@@ -113,7 +113,7 @@ def marks(drive: Drive, place: Geometry, angle: float) -> tuple[Array, Array]:
         if joint.crossed:
             arm = frames.unit(frames.cross(axis[i + 1], mark))
         else:
-            arm = frames.rotate(mark, normal[i], np.asarray(place.bend[i]))
+            arm = frames.rotate(mark, normal[i], np.asarray(place.joint_angle[i]))
         driven.append(arm)
         mark = frames.rotate(arm, axis[i + 1], np.asarray(-drive.shafts[i + 1].yoke_angle))
     return np.asarray(driving), np.asarray(driven)
@@ -191,7 +191,7 @@ def _joints(drive: Drive, place: Geometry, driving: Array, driven: Array) -> Ite
             before=place.axis[i],
             after=place.axis[i + 1],
             normal=place.normal[i],
-            bend=float(place.bend[i]),
+            joint_angle=float(place.joint_angle[i]),
             driving=driving[i],
             driven=driven[i],
             length=float(place.length[i + 1]),

@@ -40,9 +40,9 @@ class Release:
     mobility: int
 
     @property
-    def verdict(self) -> Literal["cure", "spoil", "free"]:
+    def verdict(self) -> Literal["remedy", "spoil", "free"]:
         """Whether it takes a redundant constraint away, lets something loose, or was free before."""
-        return "cure" if self.redundant < 0 else "spoil" if self.mobility > 0 else "free"
+        return "remedy" if self.redundant < 0 else "spoil" if self.mobility > 0 else "free"
 
 
 def release(mechanism: Mechanism, joint: str, way: Way, axis: ArrayLike) -> Release:

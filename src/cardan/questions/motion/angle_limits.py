@@ -87,7 +87,7 @@ def angle_limits(
     high, low = xp.maximum(first, second), xp.minimum(first, second)
     cosine = xp.cos(high) / xp.cos(low) if phased else xp.cos(first) * xp.cos(second)
     sine = xp.sqrt(xp.sin(high + low) * xp.sin(high - low)) / xp.cos(low) if phased else None
-    bend = xp.acos(cosine) if sine is None else xp.atan2(sine, cosine)
+    joint_angle = xp.acos(cosine) if sine is None else xp.atan2(sine, cosine)
     reach = limit / square
     nothing = 0.0 * (first + reach)
     if phased:
@@ -100,7 +100,7 @@ def angle_limits(
     return AngleLimits(
         residual=xp.sqrt(small) / speed,
         torsional=small,
-        torsional_exact=square * largest_acceleration(bend),
+        torsional_exact=square * largest_acceleration(joint_angle),
         inertia_drive=one,
         inertia_coast=two,
         least=least,

@@ -22,7 +22,7 @@ from cardan.texts import _, plural
 from cardan.units import deg
 
 from .equivalence import SYNCHRONOUS, EquivalentJoint, equivalent_joint
-from .figures.equivalence import irregularity_figure, orders_figure
+from .figures.equivalence import orders_figure, speed_fluctuation_figure
 from .figures.motion import motion_figure
 from .kinds import beside_turning, steep_joints
 from .motion import Motion, motion
@@ -80,7 +80,7 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     >>> sentence(drive, each_shaft(drive)).told(USUAL)
     '2 joints; equivalent joint angle 16.12°, speed fluctuation δ = 8.023 %.'
     """
-    share = float(each.irregularity[-1])
+    share = float(each.speed_fluctuation[-1])
     even = is_rounding(drive, share)
     text = _("{count}; equivalent joint angle {angle}, speed fluctuation δ = {share}.")
     if each_uniform(drive):
@@ -98,7 +98,7 @@ def sentence(drive: Drive, each: Evenness) -> Say:
     return say(
         text,
         count=plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints)),
-        angle=Quantity(float(each.bend[-1]), "angle", decimals=2),
+        angle=Quantity(float(each.joint_angle[-1]), "angle", decimals=2),
         share=Quantity(share, "share"),
     )
 
@@ -107,13 +107,13 @@ def _figures(drive: Drive, result: Turning) -> tuple[Figure, ...]:
     figures = [motion_figure(result.motion)]
     if not unmapped(drive.joints) and not is_rounding(drive, result.fluctuation):
         whole = equivalent_joint(drive)
-        figures += [irregularity_figure(whole), orders_figure(whole)]
+        figures += [speed_fluctuation_figure(whole), orders_figure(whole)]
     return tuple(figures)
 
 
 def _joints(drive: Drive) -> Table:
     chain = given_chain(drive)
-    start = np.rad2deg(motion(drive, [0.0]).joint_angle[:, 0])
+    start = np.rad2deg(motion(drive, [0.0]).yoke_rotation[:, 0])
     kinds = [Column(key="kind", heading=_("kind"), values=[joint.kind for joint in drive.joints])]
     return Table(
         name="joints",
@@ -124,7 +124,7 @@ def _joints(drive: Drive) -> Table:
             Column(
                 key="joint_angle",
                 heading=_("joint angle"),
-                values=np.asarray(chain.bend),
+                values=np.asarray(chain.joint_angle),
                 dimension="angle",
                 decimals=2,
             ),
@@ -150,10 +150,10 @@ def _shafts(drive: Drive, result: Turning) -> Table:
     each, behind = result.each, drive.shafts[1:]
     last = len(drive.shafts)
     named = [shaft.name or (_("output") if shaft.number == last else "") for shaft in behind]
-    still = [bool(share < SYNCHRONOUS) for share in each.irregularity]
+    still = [bool(share < SYNCHRONOUS) for share in each.speed_fluctuation]
     known = result.motion.speed is not None
     steep = _largest(result)
-    places = [_places(float(share)) for share in each.irregularity]
+    places = [_places(float(share)) for share in each.speed_fluctuation]
 
     def ratios(values: Array) -> list[Quantity]:
         return [Quantity(float(one), decimals=most) for one, most in zip(values, places, strict=True)]
@@ -186,13 +186,13 @@ def _shafts(drive: Drive, result: Turning) -> Table:
             Column(
                 key="speed_fluctuation",
                 heading="δ",
-                values=np.asarray(each.irregularity),
+                values=np.asarray(each.speed_fluctuation),
                 dimension="share",
             ),
             Column(key="ratio_min", heading=_("min ratio"), values=ratios(each.ratio_min)),
             Column(key="ratio_max", heading=_("max ratio"), values=ratios(each.ratio_max)),
-            Column(key="", heading=_("angle error ±"), values=tidy(each.max_lead), dimension="angle", digits=4),
-            Column(key="angle_error", values=np.asarray(each.max_lead), dimension="angle", depth="data"),
+            Column(key="", heading=_("angle error ±"), values=tidy(each.max_angle_error), dimension="angle", digits=4),
+            Column(key="angle_error", values=np.asarray(each.max_angle_error), dimension="angle", depth="data"),
             Column(
                 key="",
                 heading=_("acceleration ±") if known else _("acceleration ±ε/ω₁²"),
@@ -245,7 +245,7 @@ def _orders_table(drive: Drive, each: Evenness) -> Table:
 
 def _turn(listed: Motion, result: Turning) -> Table:
     """Return how the drive turns at the positions that people read one by one."""
-    lead, ratio, steep = listed.lead[-1], listed.shaft_ratio, _accelerations(listed)[-1]
+    angle_error, ratio, steep = listed.angle_error[-1], listed.shaft_ratio, _accelerations(listed)[-1]
     most = _largest(result)[-1] if result.fluctuation >= SYNCHRONOUS else math.inf
     known = listed.speed is not None
     between = range(2, ratio.shape[-2])
@@ -253,7 +253,7 @@ def _turn(listed: Motion, result: Turning) -> Table:
         title=_("Over the input angle"),
         columns=(
             Column(key="angle", heading=_("input angle"), values=listed.angle, dimension="angle", digits=7, trim=True),
-            Column(key="angle_error", heading=_("angle error"), values=lead, dimension="angle", decimals=3),
+            Column(key="angle_error", heading=_("angle error"), values=angle_error, dimension="angle", decimals=3),
             Column(key="ratio", heading=_("ratio"), values=ratio[-1], decimals=4),
             Column(
                 key="acceleration",
@@ -317,7 +317,7 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
         yield Remark(
             text=say(
                 text,
-                error=Quantity(float(each.max_lead[-1]), "angle"),
+                error=Quantity(float(each.max_angle_error[-1]), "angle"),
                 speed=Quantity(float(speed or 0.0), "angular_speed"),
                 steep=Quantity(float(_largest(result)[-1]), "angular_acceleration"),
             )
@@ -349,7 +349,7 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
 
 def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
     each, speed, even = result.each, result.motion.speed, result.fluctuation < SYNCHRONOUS
-    share, allowed = result.fluctuation, drive.limits.irregularity
+    share, allowed = result.fluctuation, drive.limits.speed_fluctuation
     tone: Tone = "plain" if allowed is None else "good" if share <= allowed else "failed"
     yield KeyFigure(
         name="speed_fluctuation",
@@ -360,8 +360,8 @@ def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
         tone=tone,
     )
     angles = {
-        "equivalent_joint_angle": (_("equivalent joint angle of the drive"), each.bend),
-        "angle_error": (_("angle error of the output, ±"), each.max_lead),
+        "equivalent_joint_angle": (_("equivalent joint angle of the drive"), each.joint_angle),
+        "angle_error": (_("angle error of the output, ±"), each.max_angle_error),
     }
     for name, (title, values) in angles.items():
         yield KeyFigure(name=name, title=title, value=Quantity(0.0 if even else float(values[-1]), "angle"))
@@ -384,9 +384,9 @@ def _facts(result: Turning) -> dict[str, Any]:
         "speed": Quantity(None if speed is None else float(speed), "angular_speed"),
         "synchronous": result.fluctuation < SYNCHRONOUS,
         "speed_fluctuation": Quantity(result.fluctuation, "share"),
-        "equivalent_joint_angle": Quantity(float(each.bend[-1]), "angle"),
+        "equivalent_joint_angle": Quantity(float(each.joint_angle[-1]), "angle"),
         "ratio_min": float(each.ratio_min[-1]),
         "ratio_max": float(each.ratio_max[-1]),
-        "angle_error": Quantity(float(each.max_lead[-1]), "angle"),
+        "angle_error": Quantity(float(each.max_angle_error[-1]), "angle"),
         "max_acceleration_per_speed_squared": float(each.max_acceleration[-1]),
     }

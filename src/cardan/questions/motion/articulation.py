@@ -16,7 +16,7 @@ from cardan.drive.fields.validity import movement_problems
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.movement import Movement
-from cardan.errors import BendLimitError, Problem, check, refuse
+from cardan.errors import JointAngleLimitError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.paths import Path
 from cardan.maths.ties import foremost_on
@@ -41,10 +41,10 @@ class Worst:
     Attributes
     ----------
     what : str
-        ``bend`` [rad], ``irregularity``, ``moving_irregularity``, ``speed_error``, ``acceleration`` [rad/s²],
-        ``length_max`` [m], ``length_min`` [m].
+        ``joint_angle`` [rad], ``speed_fluctuation``, ``moving_speed_fluctuation``, ``speed_error``, ``acceleration``
+        [rad/s²], ``length_max`` [m], ``length_min`` [m].
     number : int
-        Number of the joint (``bend``) or shaft.
+        Number of the joint (``joint_angle``) or shaft.
     time : float [s]
         When.
     value : float
@@ -67,13 +67,13 @@ class Articulation:
         Instants.
     points : array (t, n+2, 3) [m]
         B_0 … B_{n+1}.
-    bend : array (t, n) [rad]
+    joint_angle : array (t, n) [rad]
         α_i.
     plane_twist : array (t, n-1) [rad]
-        β_i, continuous where the planes turn; it jumps by π where a bend passes through zero.
+        β_i, continuous where the planes turn; it jumps by π where a joint angle passes through zero.
     length, length_rate, length_acceleration : arrays (t, n+1) [m, m/s, m/s²]
         L_i of every shaft and its time derivatives. On the end shafts only the direction of the axis counts.
-    shaft_irregularity : array (t, n)
+    shaft_speed_fluctuation : array (t, n)
         δ of shafts 2 … n+1 if the drive stood still at that instant.
     speed, acceleration : float [rad/s, rad/s²]
         ω_1 at the first instant of the movement and ε_1; speed is None when the drive does not say.
@@ -84,7 +84,7 @@ class Articulation:
         Exact extremes of ω_i over all yoke positions at each instant.
     acceleration_low, acceleration_high : arrays (t, n+1) [rad/s²] or None
         The same of ε_i.
-    moving_irregularity : array (t,)
+    moving_speed_fluctuation : array (t,)
         (ω_max - ω_min)/\\|ω_1\\| of the output over all yoke positions at each instant, the movement counted; nan
         without a speed.
     speed_error : array (t,)
@@ -103,12 +103,12 @@ class Articulation:
 
     times: Array
     points: Array
-    bend: Array
+    joint_angle: Array
     plane_twist: Array
     length: Array
     length_rate: Array
     length_acceleration: Array
-    shaft_irregularity: Array
+    shaft_speed_fluctuation: Array
     speed: float | None
     acceleration: float
     shaft_speed: Array | None
@@ -117,7 +117,7 @@ class Articulation:
     speed_high: Array | None
     acceleration_low: Array | None
     acceleration_high: Array | None
-    moving_irregularity: Array
+    moving_speed_fluctuation: Array
     speed_error: Array
     status: Array
     splines: tuple[LengthCompensation, ...]
@@ -126,14 +126,14 @@ class Articulation:
     assumed: tuple[str, ...] = ()
 
     @property
-    def irregularity(self) -> Array:
+    def speed_fluctuation(self) -> Array:
         """δ of the output if the drive stood still at each instant, array (t,)."""
-        return self.shaft_irregularity[..., -1]
+        return self.shaft_speed_fluctuation[..., -1]
 
     @property
     def envelope(self) -> dict[str, tuple[Array, Array]]:
-        """Least and greatest over the instants: bend (n,), plane_twist (n-1,), length (n+1,), irregularity ()."""
-        tables = {name: getattr(self, name) for name in ("bend", "plane_twist", "length", "irregularity")}
+        """Least and greatest over the instants: bend (n,), plane_twist (n-1,), length (n+1,), speed fluctuation ()."""
+        tables = {name: getattr(self, name) for name in ("joint_angle", "plane_twist", "length", "speed_fluctuation")}
         good = self.status < Position.IMPOSSIBLE
         return {
             name: (np.min(table[good], axis=0, initial=np.inf), np.max(table[good], axis=0, initial=-np.inf))
@@ -174,12 +174,12 @@ def articulation(
     ------
     InputError
         No movement, one that does not fit the drive, or instants outside a table.
-    BendLimitError
+    JointAngleLimitError
         A joint bends 90 degrees or more at every instant.
 
     Notes
     -----
-    Steep and impossible instants do not stop the series, they carry a status. `irregularity` freezes each instant;
+    Steep and impossible instants do not stop the series, they carry a status. `speed_fluctuation` freezes each instant;
     `shaft_speed`, `shaft_acceleration` and the ranges count how the centres move, see `moving_centres`. The start
     phase counts at time zero (the first time of tables that do not hold zero).
 
@@ -194,7 +194,7 @@ def articulation(
     >>> drive = Drive.from_points([[-1, 0, 0], [-0.4, 0, 0], [0.4, 0, 0], [1, 0, 0]])
     >>> turn = Hitch(moves=("joints[1]", "output"), pivot=(0, 0, 0), yaw=40 * deg, frequency=1.0)
     >>> found = articulation(drive, turn)
-    >>> round(float(found.bend.max() / deg), 6), bool(found.irregularity.max() < 1e-14)
+    >>> round(float(found.joint_angle.max() / deg), 6), bool(found.speed_fluctuation.max() < 1e-14)
     (20.0, True)
     """
     refuse_kinds(drive, _("motion while the points move"), "articulation")
@@ -204,19 +204,19 @@ def articulation(
     ask = Question(drive, place, path, omega, drive.duty.acceleration, start)
     found = ask.answer(at)
     if np.all(found.status == Position.IMPOSSIBLE):
-        raise BendLimitError(
+        raise JointAngleLimitError(
             [Problem("movements", _("at every instant a joint bends 90° or more; a universal joint needs less"))]
         )
     splines = _splines(drive, place, found)
     return Articulation(
         times=at,
         points=found.points,
-        bend=found.bend,
+        joint_angle=found.joint_angle,
         plane_twist=found.plane_twist,
         length=found.shafts.length,
         length_rate=found.shafts.length_rate,
         length_acceleration=found.shafts.length_acceleration,
-        shaft_irregularity=found.shaft_irregularity,
+        shaft_speed_fluctuation=found.shaft_speed_fluctuation,
         speed=omega,
         acceleration=drive.duty.acceleration,
         shaft_speed=found.shaft_speed,
@@ -225,7 +225,7 @@ def articulation(
         speed_high=None if found.speed_range is None else found.speed_range[1],
         acceleration_low=None if found.acceleration_range is None else found.acceleration_range[0],
         acceleration_high=None if found.acceleration_range is None else found.acceleration_range[1],
-        moving_irregularity=found.unevenness,
+        moving_speed_fluctuation=found.unevenness,
         speed_error=found.speed_error,
         status=found.status,
         splines=splines,
@@ -317,8 +317,8 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
             all=found.times.size,
             time=Quantity(first, "time", trim=True),
         )
-    for i in range(found.bend.shape[1]):
-        column = found.bend[:, i]
+    for i in range(found.joint_angle.shape[1]):
+        column = found.joint_angle[:, i]
         joint = drive.joints[i]
         beyond = np.nonzero(column > joint.steepest)[0]
         if beyond.size:
@@ -345,11 +345,11 @@ def _warnings(drive: Drive, place: Geometry, found: Instants, splines: Sequence[
 
 def _worst(ask: Question, found: Instants, splines: Sequence[LengthCompensation], *, refine: bool) -> Iterator[Worst]:
     """Yield the worst instants, sharpened between the instants where there are finer ones to be asked for."""
-    n = found.bend.shape[1]
+    n = found.joint_angle.shape[1]
     wanted: list[tuple[str, int, Callable[[Instants], Array]]] = [
-        *(("bend", i + 1, _bend(i)) for i in range(n)),
-        ("irregularity", n + 1, lambda some: some.shaft_irregularity[:, -1]),
-        ("moving_irregularity", n + 1, lambda some: some.unevenness),
+        *(("joint_angle", i + 1, _joint_angle(i)) for i in range(n)),
+        ("speed_fluctuation", n + 1, lambda some: some.shaft_speed_fluctuation[:, -1]),
+        ("moving_speed_fluctuation", n + 1, lambda some: some.unevenness),
         ("speed_error", n + 1, lambda some: some.speed_error),
         ("acceleration", n + 1, lambda some: some.largest_acceleration),
     ]
@@ -381,5 +381,5 @@ def _largest(
     return float(times[k]), float(table[k]), (float(times[max(k - 1, 0)]), float(times[min(k + 1, times.size - 1)]))
 
 
-def _bend(i: int) -> Callable[[Instants], Array]:
-    return lambda found: found.bend[:, i]
+def _joint_angle(i: int) -> Callable[[Instants], Array]:
+    return lambda found: found.joint_angle[:, i]

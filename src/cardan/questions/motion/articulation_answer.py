@@ -26,9 +26,9 @@ from .length import LengthCompensation
 __all__ = ["answer", "ask", "lacking"]
 
 KEYS = {
-    "bend": "joint_angle",
-    "irregularity": "speed_fluctuation",
-    "moving_irregularity": "moving_speed_fluctuation",
+    "joint_angle": "joint_angle",
+    "speed_fluctuation": "speed_fluctuation",
+    "moving_speed_fluctuation": "moving_speed_fluctuation",
 }
 """What a worst instant is called for programs, where that is not its name in Python."""
 
@@ -74,7 +74,7 @@ def _time(value: float) -> Quantity:
 
 def _sentence(found: Articulation) -> Say:
     span = _time(found.times[-1] - found.times[0])
-    worst = _worst(found, "irregularity")
+    worst = _worst(found, "speed_fluctuation")
     if worst is None:
         return say(_("at no instant of {span} the drive can turn."), span=span)
     if worst.value < SYNCHRONOUS:
@@ -88,8 +88,8 @@ def _sentence(found: Articulation) -> Say:
 
 
 def _joints(drive: Drive, found: Articulation) -> Table:
-    low, high = found.envelope["bend"]
-    when = {one.number: one.time for one in found.worst if one.what == "bend"}
+    low, high = found.envelope["joint_angle"]
+    when = {one.number: one.time for one in found.worst if one.what == "joint_angle"}
     return Table(
         name="joints",
         records=True,
@@ -184,9 +184,9 @@ def _state(drive: Drive, one: LengthCompensation) -> Cell:
 
 def _worst_instants(found: Articulation) -> Table:
     names = {
-        "bend": _("angle of joint {number}"),
-        "irregularity": _("speed fluctuation of the output if it stopped there"),
-        "moving_irregularity": _("speed fluctuation of the output while moving, peak to peak"),
+        "joint_angle": _("angle of joint {number}"),
+        "speed_fluctuation": _("speed fluctuation of the output if it stopped there"),
+        "moving_speed_fluctuation": _("speed fluctuation of the output while moving, peak to peak"),
         "speed_error": _("speed error of the output"),
         "acceleration": _("acceleration of the output"),
         "length_max": _("longest shaft {number}"),
@@ -209,7 +209,7 @@ def _worst_instants(found: Articulation) -> Table:
 
 
 def _value(one: Worst) -> Quantity:
-    if one.what == "bend":
+    if one.what == "joint_angle":
         return Quantity(one.value, "angle", decimals=2)
     if one.what.startswith("length"):
         return Quantity(one.value, "length", decimals=1)
@@ -224,7 +224,7 @@ def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
         bad = what in failed or not _turns(found)
         tone: Tone = "failed" if bad else "warning"
         yield Remark(text=say(_("Failed: {what}.") if bad else _("Warning: {what}."), what=what), tone=tone)
-    moving, frozen = _worst(found, "moving_irregularity"), _worst(found, "irregularity")
+    moving, frozen = _worst(found, "moving_speed_fluctuation"), _worst(found, "speed_fluctuation")
     if moving is not None and frozen is not None:
         text = _("Including the articulation rate: δ = {share} peak to peak, at {time}.")
         if moving.value < SYNCHRONOUS:
@@ -242,8 +242,8 @@ def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
 
 def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
     places = {
-        "irregularity": _("if it stopped there, at {time}"),
-        "moving_irregularity": _("while moving, at {time}"),
+        "speed_fluctuation": _("if it stopped there, at {time}"),
+        "moving_speed_fluctuation": _("while moving, at {time}"),
     }
     for one in found.worst:
         if one.what in places:
@@ -274,13 +274,13 @@ def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
 
 
 def _history(found: Articulation) -> Table:
-    n = found.bend.shape[1]
+    n = found.joint_angle.shape[1]
 
     def column(key: str, values: Any, dimension: str = "", unit: str = "") -> Column:
         return Column(key=key, values=values, dimension=dimension, unit=unit)
 
     columns = [column("time", found.times, "time"), column("status", found.status)]
-    columns += [column(f"joint_{k + 1}_joint_angle", found.bend[:, k], "angle") for k in range(n)]
+    columns += [column(f"joint_{k + 1}_joint_angle", found.joint_angle[:, k], "angle") for k in range(n)]
     columns += [column(f"joint_{k + 2}_plane_twist", found.plane_twist[:, k], "angle") for k in range(n - 1)]
     for k in range(1, n):
         name = f"shaft_{k + 1}"
@@ -289,9 +289,11 @@ def _history(found: Articulation) -> Table:
             column(f"{name}_sliding", found.length_rate[:, k], "speed", "mm_s"),
             column(f"{name}_sliding_acceleration", found.length_acceleration[:, k], "acceleration", "mm_s2"),
         ]
-    columns += [column(f"shaft_{k + 2}_speed_fluctuation", found.shaft_irregularity[:, k], "share") for k in range(n)]
+    columns += [
+        column(f"shaft_{k + 2}_speed_fluctuation", found.shaft_speed_fluctuation[:, k], "share") for k in range(n)
+    ]
     if found.speed_low is not None and found.speed_high is not None:
-        columns += [column("moving_speed_fluctuation", found.moving_irregularity, "share")]
+        columns += [column("moving_speed_fluctuation", found.moving_speed_fluctuation, "share")]
         for k in range(1, n + 1):
             columns += [
                 column(f"shaft_{k + 1}_speed_min", found.speed_low[:, k], "angular_speed"),
@@ -301,7 +303,7 @@ def _history(found: Articulation) -> Table:
 
 
 def _facts(drive: Drive, found: Articulation) -> dict[str, Any]:
-    scales = {"bend": ("deg", deg), "length_min": ("mm", mm), "length_max": ("mm", mm)}
+    scales = {"joint_angle": ("deg", deg), "length_min": ("mm", mm), "length_max": ("mm", mm)}
     units = [scales.get(one.what, ("", 1.0)) for one in found.worst]
     return {
         "speed": Quantity(found.speed, "angular_speed"),

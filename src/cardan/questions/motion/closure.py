@@ -24,14 +24,14 @@ class Closure:
         Number of the joint with the longest side.
     others : float
         Sum of the other sides.
-    bend_allowed : float [rad]
-        Largest bend of that joint that the others can cancel.
+    joint_angle_allowed : float [rad]
+        Largest joint angle of that joint that the others can cancel.
     """
 
     length: Array
     longest: int
     others: float
-    bend_allowed: float
+    joint_angle_allowed: float
 
     @property
     def closes(self) -> bool:
@@ -60,12 +60,12 @@ def closure(drive: Drive) -> Closure:
     --------
     >>> from cardan.units import deg
     >>> found = closure(Drive.from_angles([10 * deg, 30 * deg, 20 * deg]))
-    >>> found.closes, found.longest, round(found.bend_allowed / deg, 2)
+    >>> found.closes, found.longest, round(found.joint_angle_allowed / deg, 2)
     (False, 2, 22.27)
     """
-    length = -np.log(np.cos(np.asarray(turning_chain(drive).bend)))
+    length = -np.log(np.cos(np.asarray(turning_chain(drive).joint_angle)))
     longest = int(np.argmax(length))
     others = float(np.sum(length) - length[longest])
     # cos x = e^-S, as 2 asin √((1 - e^-S)/2): accurate for small bends.
     allowed = 2.0 * math.asin(math.sqrt(-0.5 * math.expm1(-others)))
-    return Closure(length=length, longest=longest + 1, others=others, bend_allowed=allowed)
+    return Closure(length=length, longest=longest + 1, others=others, joint_angle_allowed=allowed)

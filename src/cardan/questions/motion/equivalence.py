@@ -11,13 +11,13 @@ from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 
 SYNCHRONOUS = 1e-13
-"""Below this irregularity a drive is synchronous to rounding and its equivalent joint has no phase."""
+"""Below this speed fluctuation a drive is synchronous to rounding and its equivalent joint has no phase."""
 
 SPECK = 1e-6
-"""Irregularity that coordinates rounded to a micrometre leave: nobody notices it, and to call a drive uneven for it
+"""SpeedFluctuation that coordinates rounded to a micrometre leave: nobody notices it, and to call a drive uneven for it
 would mislead."""
 
-WARN_BEND = 45.0
+WARN_JOINT_ANGLE = 45.0
 """Bend [deg] above which no real cross joint works."""
 
 
@@ -29,14 +29,14 @@ class EquivalentJoint:
     ----------
     pair : Pair (...)
         Möbius pair of the whole drive.
-    shaft_irregularity : array (..., n)
+    shaft_speed_fluctuation : array (..., n)
         δ of shafts 2 … n+1.
     vertex : complex array (..., n+1)
         Corners of the phase polygon in the unit disk, from the origin on; the last one is the origin when synchronous.
     """
 
     pair: mobius.Pair
-    shaft_irregularity: Array
+    shaft_speed_fluctuation: Array
     vertex: Array
 
     @property
@@ -45,21 +45,21 @@ class EquivalentJoint:
         return mobius.tau(self.pair)
 
     @property
-    def bend(self) -> Array:
+    def joint_angle(self) -> Array:
         """Equivalent angle α_eq, array (...) [rad]."""
-        return mobius.bend(self.pair)
+        return mobius.joint_angle(self.pair)
 
     @property
     def phase(self) -> Array:
         """Phase ψ_eq in [0, π), array (...) [rad]; nan where the drive is synchronous to rounding."""
-        xp = namespace(self.shaft_irregularity)
+        xp = namespace(self.shaft_speed_fluctuation)
         angle = mobius.phase(self.pair)
-        return xp.where(self.irregularity < SYNCHRONOUS, xp.nan + angle, xp.remainder(angle, xp.pi + 0.0 * angle))
+        return xp.where(self.speed_fluctuation < SYNCHRONOUS, xp.nan + angle, xp.remainder(angle, xp.pi + 0.0 * angle))
 
     @property
-    def irregularity(self) -> Array:
+    def speed_fluctuation(self) -> Array:
         """δ = i_max - i_min = (ω_max - ω_min)/ω_1, array (...); Book (79)."""
-        return self.shaft_irregularity[..., -1]
+        return self.shaft_speed_fluctuation[..., -1]
 
     @property
     def ratio_max(self) -> Array:
@@ -74,22 +74,22 @@ class EquivalentJoint:
         return 1.0 / self.ratio_max
 
     @property
-    def max_lead(self) -> Array:
+    def max_angle_error(self) -> Array:
         """Largest |φ_out - φ_in| about its mean, arcsin τ, array (...) [rad]."""
-        xp = namespace(self.shaft_irregularity)
+        xp = namespace(self.shaft_speed_fluctuation)
         return xp.asin(self.tau)
 
     @property
     def max_acceleration(self) -> Array:
         """Largest |ε_out|/ω_1² at uniform input, array (...)."""
-        return largest_acceleration(self.bend)
+        return largest_acceleration(self.joint_angle)
 
     def harmonics(self, count: int) -> Array:
         """Return the amplitudes τ^k/k of orders 2, 4 … 2·count of the angle error, array (..., count) [rad].
 
         The ratio has 2 τ^k there. Exact: a chain has no other harmonics than those of one joint.
         """
-        xp = namespace(self.shaft_irregularity)
+        xp = namespace(self.shaft_speed_fluctuation)
         k = xp.arange(1, count + 1, dtype=xp.float64)
         return self.tau[..., None] ** k / k
 
@@ -105,7 +105,7 @@ def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     Returns
     -------
     EquivalentJoint
-        bend, phase, irregularity, ratio_max … : arrays (...).
+        bend, phase, speed fluctuation, ratio_max … : arrays (...).
 
     Notes
     -----
@@ -115,21 +115,21 @@ def equivalent_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> round(float(equivalent_joint(Drive.from_angles([12 * deg, 20 * deg])).bend / deg), 4)
+    >>> round(float(equivalent_joint(Drive.from_angles([12 * deg, 20 * deg])).joint_angle / deg), 4)
     16.1193
     """
     chain = kinematics(drive)
-    xp = namespace(chain.bend)
+    xp = namespace(chain.joint_angle)
     products = chain.products()
     corners = [mobius.vertex(pair) for pair in products]
     return EquivalentJoint(
         pair=products[-1],
-        shaft_irregularity=xp.stack([mobius.irregularity(pair) for pair in products], axis=-1),
+        shaft_speed_fluctuation=xp.stack([mobius.speed_fluctuation(pair) for pair in products], axis=-1),
         vertex=xp.stack([0.0 * corners[0], *corners], axis=-1),
     )
 
 
-def largest_acceleration(bend: Array) -> Array:
+def largest_acceleration(joint_angle: Array) -> Array:
     """Return the largest |ε_2|/ω_1² of a joint at uniform input, array (...).
 
     Notes
@@ -137,31 +137,31 @@ def largest_acceleration(bend: Array) -> Array:
     4 c s² √(1-x²)/((1+c²)² (1-k x)²), k = s²/(1+c²), x = 4k/(1+√(1+8k²)); Book Table 4, recomputed. Evaluated with
     1-k = 2c²/(1+c²) and 1-x = 2(1-k)/(1+2k+√(1+8k²)), which keep all digits near 90°.
     """
-    xp = namespace(bend)
-    c, square = xp.cos(bend), xp.sin(bend) ** 2
-    k, x, short = _extreme(bend)
+    xp = namespace(joint_angle)
+    c, square = xp.cos(joint_angle), xp.sin(joint_angle) ** 2
+    k, x, short = _extreme(joint_angle)
     below = (1.0 + c * c) * (2.0 * c * c / (1.0 + c * c) + k * short)
     return 4.0 * c * square * xp.sqrt(short * (1.0 + x)) / below**2
 
 
-def angle_of_largest_acceleration(bend: Array) -> Array:
+def angle_of_largest_acceleration(joint_angle: Array) -> Array:
     """Return the first joint angle θ at which ε_2 has its (negative) extreme, array (...) [rad]; cos 2θ = x."""
-    xp = namespace(bend)
-    _k, x, short = _extreme(bend)
+    xp = namespace(joint_angle)
+    _k, x, short = _extreme(joint_angle)
     return xp.atan2(xp.sqrt(short), xp.sqrt(1.0 + x))
 
 
-def angle_of_largest_lead(bend: Array) -> Array:
+def angle_of_largest_error(joint_angle: Array) -> Array:
     """Return the joint angle θ at which the driven shaft leads most, tan θ = √cos α, array (...) [rad]."""
-    xp = namespace(bend)
-    return xp.atan(xp.sqrt(xp.cos(bend)))
+    xp = namespace(joint_angle)
+    return xp.atan(xp.sqrt(xp.cos(joint_angle)))
 
 
-def _extreme(bend: Array) -> tuple[Array, Array, Array]:
+def _extreme(joint_angle: Array) -> tuple[Array, Array, Array]:
     """Return k, x and 1-x of `largest_acceleration`."""
-    xp = namespace(bend)
-    c = xp.cos(bend) ** 2
-    k = xp.sin(bend) ** 2 / (1.0 + c)
+    xp = namespace(joint_angle)
+    c = xp.cos(joint_angle) ** 2
+    k = xp.sin(joint_angle) ** 2 / (1.0 + c)
     root = xp.sqrt(1.0 + 8.0 * k * k)
     return k, 4.0 * k / (1.0 + root), 4.0 * c / ((1.0 + c) * (1.0 + 2.0 * k + root))
 
@@ -177,12 +177,12 @@ def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     Returns
     -------
     EquivalentJoint
-        bend, irregularity, max_lead, max_acceleration … : arrays (..., n), for shafts 2 … n+1.
+        bend, speed fluctuation, max_angle_error, max_acceleration … : arrays (..., n), for shafts 2 … n+1.
 
     Examples
     --------
     >>> from cardan.units import deg
-    >>> after_each_joint(Drive.from_angles([12 * deg, 20 * deg])).bend / deg
+    >>> after_each_joint(Drive.from_angles([12 * deg, 20 * deg])).joint_angle / deg
     array([12.       , 16.1192533])
     """
     whole = equivalent_joint(drive)
@@ -190,5 +190,5 @@ def after_each_joint(drive: Drive | Drives | Chain) -> EquivalentJoint:
     xp = namespace(whole.vertex)
     pair = (xp.stack([a for a, _b in products], axis=-1), xp.stack([b for _a, b in products], axis=-1))
     return EquivalentJoint(
-        pair=pair, shaft_irregularity=whole.shaft_irregularity[..., None], vertex=whole.vertex[..., 1:, None]
+        pair=pair, shaft_speed_fluctuation=whole.shaft_speed_fluctuation[..., None], vertex=whole.vertex[..., 1:, None]
     )

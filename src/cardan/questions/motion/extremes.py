@@ -28,20 +28,20 @@ LARGE = 100_000
 _PIECE = 4096
 """Drives that are worth a thread, or that stay in the caches of the plain form."""
 
-_NAMES = ("irregularity", "tau", "bend", "any_phase", "ratio_max", "max_acceleration")
+_NAMES = ("speed_fluctuation", "tau", "joint_angle", "any_phase", "ratio_max", "max_acceleration")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Extremes:
-    """Irregularity, equivalent joint and extremes of many drives; the axes (...) are those of the drives.
+    """SpeedFluctuation, equivalent joint and extremes of many drives; the axes (...) are those of the drives.
 
     Attributes
     ----------
-    irregularity : array (...)
+    speed_fluctuation : array (...)
         δ = i_max - i_min.
     tau : array (...)
         τ = tan²(α_eq/2); orders 2, 4 … 2k of the ratio have the amplitudes 2 τ^k.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Equivalent angle α_eq.
     any_phase : array (...) [rad]
         Phase ψ_eq in [0, π], also where the drive is synchronous and it means nothing; see `phase`.
@@ -51,9 +51,9 @@ class Extremes:
         Largest \\|ε_out\\|/ω_1² at uniform input.
     """
 
-    irregularity: Array
+    speed_fluctuation: Array
     tau: Array
-    bend: Array
+    joint_angle: Array
     any_phase: Array
     ratio_max: Array
     max_acceleration: Array
@@ -62,7 +62,7 @@ class Extremes:
     def phase(self) -> Array:
         """Phase ψ_eq in [0, π], array (...) [rad]; nan where the drive is synchronous to rounding."""
         xp = namespace(self.tau)
-        return xp.where(self.irregularity < SYNCHRONOUS, xp.nan * self.tau, self.any_phase)
+        return xp.where(self.speed_fluctuation < SYNCHRONOUS, xp.nan * self.tau, self.any_phase)
 
     @property
     def ratio_min(self) -> Array:
@@ -70,7 +70,7 @@ class Extremes:
         return 1.0 / self.ratio_max
 
     @property
-    def max_lead(self) -> Array:
+    def max_angle_error(self) -> Array:
         """Largest \\|φ_out - φ_in\\| about its mean, array (...) [rad]."""
         xp = namespace(self.tau)
         return xp.asin(self.tau)
@@ -91,7 +91,7 @@ class Extremes:
 
 
 def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, method: Method | None = None) -> Extremes:
-    """Return irregularity, equivalent joint and extremes of many drives.
+    """Return speed fluctuation, equivalent joint and extremes of many drives.
 
     What `equivalent_joint` tells of the output shaft, in one pass over memory: for batches of a million.
 
@@ -107,7 +107,7 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
     Returns
     -------
     Extremes
-        irregularity, tau, bend, phase, ratio_max, max_acceleration : arrays (...).
+        speed_fluctuation, tau, joint_angle, phase, ratio_max, max_acceleration : arrays (...).
 
     Raises
     ------
@@ -121,19 +121,19 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
 
     Examples
     --------
-    >>> extremes(Drives.from_angles([[0.0, 0.2], [0.2, 0.3]])).irregularity
+    >>> extremes(Drives.from_angles([[0.0, 0.2], [0.2, 0.3]])).speed_fluctuation
     array([0.04027227, 0.05111933])
     """
     chain = kinematics(drives)
-    xp = namespace(chain.bend)
-    lead = tuple(chain.bend.shape[:-1])
-    size = prod(lead)
+    xp = namespace(chain.joint_angle)
+    outer = tuple(chain.joint_angle.shape[:-1])
+    size = prod(outer)
     how = chosen(method, xp, size >= LARGE)
     if xp is not np:
         if out is not None:
             raise refuse("out", _("only results held in NumPy arrays can be written over"))
         return Extremes(**dict(zip(_NAMES, plain.extremes(chain.products()[-1]), strict=True)))
-    room = buffers(_NAMES, lead, out)
+    room = buffers(_NAMES, outer, out)
     if size:
         if isinstance(how, Compiled):
             _compiled(rows_of(chain), room, threads=how.threads)
@@ -144,9 +144,9 @@ def extremes(drives: Drives | Drive | Chain, *, out: Extremes | None = None, met
 
 def _plain(chain: Chain, room: tuple[Array, ...]) -> None:
     turn_before = chain.turn_before
-    for first in range(0, int(chain.bend.shape[0]), _PIECE):
+    for first in range(0, int(chain.joint_angle.shape[0]), _PIECE):
         part = slice(first, first + _PIECE)
-        pair = mobius.partial_products(chain.bend[part], turn_before[part])[-1]
+        pair = mobius.partial_products(chain.joint_angle[part], turn_before[part])[-1]
         for place, values in zip(room, plain.extremes(pair), strict=True):
             place.reshape(-1)[part] = values
 
@@ -157,6 +157,6 @@ def _compiled(chain: Chain, room: tuple[Array, ...], *, threads: int | None) -> 
     places = [place.reshape(-1) for place in room]
 
     def work(first: int, last: int) -> None:
-        kernel(chain.bend, chain.plane_twist, chain.yoke_angle, chain.start_phase, first, last, *places)
+        kernel(chain.joint_angle, chain.plane_twist, chain.yoke_angle, chain.start_phase, first, last, *places)
 
-    share(work, int(chain.bend.shape[0]), threads=threads, least=_PIECE)
+    share(work, int(chain.joint_angle.shape[0]), threads=threads, least=_PIECE)

@@ -38,9 +38,9 @@ class Instants:
     times: Array
     points: Array
     shafts: Shafts
-    bend: Array
+    joint_angle: Array
     plane_twist: Array
-    shaft_irregularity: Array
+    shaft_speed_fluctuation: Array
     shaft_speed: Array | None
     shaft_acceleration: Array | None
     speed_range: tuple[Array, Array] | None
@@ -106,7 +106,7 @@ class Question:
         impossible = _impossible(points)
         frozen = geometry_from_points(np.where(impossible[:, None, None], _straight(points), points))
         chain = Chain(
-            bend=frozen.bend,
+            joint_angle=frozen.joint_angle,
             plane_twist=frozen.plane_twist,
             yoke_angle=gamma,
             start_phase=np.asarray(self.drive.input.start_phase),
@@ -123,7 +123,7 @@ class Question:
                 gains = acceleration_range(
                     axes, yoke_angle=gamma, speed=omega, acceleration=self.acceleration, even=even
                 )
-        steep = np.any(frozen.bend > [joint.steepest for joint in self.drive.joints], axis=-1)
+        steep = np.any(frozen.joint_angle > [joint.steepest for joint in self.drive.joints], axis=-1)
         status = np.where(impossible, Position.IMPOSSIBLE, np.where(steep, Position.STEEP, Position.FINE))
 
         def held(table: Array) -> Array:
@@ -133,9 +133,9 @@ class Question:
             times=times,
             points=points,
             shafts=shafts,
-            bend=held(frozen.bend),
+            joint_angle=held(frozen.joint_angle),
             plane_twist=held(np.unwrap(frozen.plane_twist, axis=0)),
-            shaft_irregularity=held(equivalent_joint(turning(chain, self.drive.joints)).shaft_irregularity),
+            shaft_speed_fluctuation=held(equivalent_joint(turning(chain, self.drive.joints)).shaft_speed_fluctuation),
             shaft_speed=None if motion is None else held(motion.spins.spin),
             shaft_acceleration=None if motion is None else held(motion.spins.spin_acceleration),
             speed_range=None if speeds is None else (held(speeds[0]), held(speeds[1])),

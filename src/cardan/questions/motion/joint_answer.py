@@ -23,7 +23,7 @@ from cardan.units import deg
 
 from .figures.joint_law import joint_figures
 from .joint_inside import joint_inside
-from .joint_law import JointBends, JointTurn, joint_bends, joint_turn, types_of
+from .joint_law import JointAngles, JointTurn, joint_angles, joint_turn, types_of
 from .kinds import quantity_of
 
 __all__ = ["Beside", "Named", "answer", "answer_of_kinds", "ask", "sentence_of", "written"]
@@ -65,9 +65,9 @@ class Beside:
     speed: float | None = None
 
     @cached_property
-    def bends(self) -> tuple[JointBends, ...]:
+    def joint_angles(self) -> tuple[JointAngles, ...]:
         """How each fluctuates over its joint angle."""
-        return tuple(joint_bends(one.joint) for one in self.turns)
+        return tuple(joint_angles(one.joint) for one in self.turns)
 
     @property
     def names(self) -> list[str]:
@@ -80,14 +80,14 @@ class Beside:
         return None if self.speed is None else self.speed**2
 
 
-def ask(named: Sequence[Named], bend: float, *, speed: float | None = None) -> Beside:
+def ask(named: Sequence[Named], joint_angle: float, *, speed: float | None = None) -> Beside:
     """Return joints beside each other.
 
     Parameters
     ----------
     named : sequence of Named
         At least one.
-    bend : float [rad]
+    joint_angle : float [rad]
         Joint angle of all.
     speed : float, optional [rad/s]
         Constant speed of the driving shafts.
@@ -97,19 +97,19 @@ def ask(named: Sequence[Named], bend: float, *, speed: float | None = None) -> B
     InputError
         As of `cardan.questions.motion.joint_law.joint_turn`.
     """
-    turns = tuple(joint_turn(one.joint, bend) for one in named)
+    turns = tuple(joint_turn(one.joint, joint_angle) for one in named)
     return Beside(named=tuple(named), turns=turns, speed=speed)
 
 
 def answer(result: Beside) -> Answer:
     """Return what there is to say of joints beside each other."""
-    beyond = any(one.bend > one.joint.steepest for one in result.turns)
+    beyond = any(one.joint_angle > one.joint.steepest for one in result.turns)
     return Answer(
         name="joint",
         title=_("Joints by themselves"),
         sentence=_sentence(result),
         tone="warning" if beyond else "plain",
-        figures=lambda: joint_figures(result.turns, result.bends, result.names),
+        figures=lambda: joint_figures(result.turns, result.joint_angles, result.names),
         tables=tuple(_tables(result)),
         remarks=tuple(_remarks(result)),
         facts=_facts(result),
@@ -122,13 +122,13 @@ def _angle(value: float, digits: int = 3) -> Quantity:
 
 
 def _sentence(result: Beside) -> Say:
-    turns, names, at = result.turns, result.names, _angle(result.turns[0].bend)
+    turns, names, at = result.turns, result.names, _angle(result.turns[0].joint_angle)
     if len(turns) == 1:
         (one,) = turns
         text = _("{name} at {angle}: the output turns exactly uniformly.")
         if one.error:
             text = _("{name} at {angle}: output angle error ±{error}, speed fluctuation δ = {share}.")
-        share = Quantity(one.irregularity, "share")
+        share = Quantity(one.speed_fluctuation, "share")
         return say(text, name=names[0], angle=at, error=_angle(one.error, 4), share=share)
     uniform = sum(not one.error for one in turns)
     if uniform == len(turns):
@@ -183,13 +183,13 @@ def _columns(angle_error: Any, share: Any, acceleration: Any) -> tuple[Column, .
 
 def _compared(result: Beside) -> Table:
     turns, squared = result.turns, result.squared
-    tones: list[Tone] = ["warning" if one.bend > one.joint.steepest else "plain" for one in turns]
+    tones: list[Tone] = ["warning" if one.joint_angle > one.joint.steepest else "plain" for one in turns]
     return Table(
         columns=(
             Column(key="joint", heading=_("joint"), values=result.names, left=True),
             *_columns(
                 [one.error for one in turns],
-                [one.irregularity for one in turns],
+                [one.speed_fluctuation for one in turns],
                 None if squared is None else [one.acceleration * squared for one in turns],
             ),
             Column(key="order", heading=_("order"), values=[one.order if one.error else None for one in turns]),
@@ -207,8 +207,10 @@ def _compared(result: Beside) -> Table:
 
 def _over_angles(result: Beside) -> Table:
     (turn,), squared = result.turns, result.squared
-    known = sorted({*(one for one in SHOWN if one * deg <= turn.joint.steepest), round(math.degrees(turn.bend), 9)})
-    found = joint_bends(turn.joint, [one * deg for one in known])
+    known = sorted(
+        {*(one for one in SHOWN if one * deg <= turn.joint.steepest), round(math.degrees(turn.joint_angle), 9)}
+    )
+    found = joint_angles(turn.joint, [one * deg for one in known])
     return Table(
         title=_("Over the joint angle"),
         columns=(
@@ -219,13 +221,13 @@ def _over_angles(result: Beside) -> Table:
                 dimension="angle",
                 digits=3,
             ),
-            *_columns(found.error, found.irregularity, None if squared is None else found.acceleration * squared),
+            *_columns(found.error, found.speed_fluctuation, None if squared is None else found.acceleration * squared),
         ),
     )
 
 
 def _inside(turn: JointTurn) -> tuple[Inside, ...]:
-    return joint_inside(turn.joint, turn.bend)
+    return joint_inside(turn.joint, turn.joint_angle)
 
 
 def _inner(inner: Sequence[tuple[str, Inside]], *, several: bool) -> Table:
@@ -249,7 +251,7 @@ def _types(found: Sequence[JointType], result: Beside) -> Table:
             Column(
                 key="max_joint_angle",
                 heading=_("joint angle to"),
-                values=[one.max_bend for one in found],
+                values=[one.max_joint_angle for one in found],
                 dimension="angle",
                 digits=3,
             ),
@@ -273,21 +275,21 @@ def _types(found: Sequence[JointType], result: Beside) -> Table:
 
 def _verdict(row: JointType, turn: JointTurn, speed: float | None) -> Cell:
     """Return in words whether a type of the catalogue allows joint angle and speed."""
-    if row.max_bend is not None and turn.bend > row.max_bend * SLACK:
+    if row.max_joint_angle is not None and turn.joint_angle > row.max_joint_angle * SLACK:
         return Cell(value=_("joint angle too large"), tone="failed")
     if row.max_speed_angle is not None and speed is not None:
-        if abs(speed) * turn.bend > row.max_speed_angle * SLACK:
+        if abs(speed) * turn.joint_angle > row.max_speed_angle * SLACK:
             return Cell(value=_("too fast at this joint angle, if it runs for long"), tone="failed")
-        if row.max_bend is None:
+        if row.max_joint_angle is None:
             return Cell(value=_("speed allowed, joint angle not given"), tone="warning")
-    if row.max_bend is None:
+    if row.max_joint_angle is None:
         return Cell(value=_("the source gives no joint angle"), tone="warning")
     return Cell(value=_("allowed"), tone="good")
 
 
 def _remarks(result: Beside) -> Iterator[Remark]:
     for one, turn in zip(result.named, result.turns, strict=True):
-        if turn.bend > turn.joint.steepest:
+        if turn.joint_angle > turn.joint.steepest:
             text = _("{name}: the law holds, but real joints of this kind work to {angle} only.")
             yield Remark(text=say(text, name=one.name, angle=_angle(turn.joint.steepest)), tone="warning")
     pairs = zip(result.named, result.turns, strict=True)
@@ -311,7 +313,7 @@ def _curves(result: Beside) -> Table:
     columns = [Column(key="angle", values=result.turns[0].angle, dimension="angle")]
     for name, one in zip((label.replace(" ", "_") for label in result.names), result.turns, strict=True):
         columns += [
-            Column(key=f"{name}_angle_error", values=one.lead, dimension="angle"),
+            Column(key=f"{name}_angle_error", values=one.angle_error, dimension="angle"),
             Column(key=f"{name}_ratio", values=one.ratio),
             Column(key=f"{name}_slope", values=one.slope),
         ]
@@ -321,7 +323,7 @@ def _curves(result: Beside) -> Table:
 def _facts(result: Beside) -> dict[str, Any]:
     squared = result.squared
     return {
-        "joint_angle": Quantity(result.turns[0].bend, "angle"),
+        "joint_angle": Quantity(result.turns[0].joint_angle, "angle"),
         "speed": Quantity(result.speed, "angular_speed"),
         "joints": [
             {
@@ -329,7 +331,7 @@ def _facts(result: Beside) -> dict[str, Any]:
                 "name": one.name,
                 "sizes": one.sizes,
                 "angle_error": Quantity(turn.error, "angle"),
-                "speed_fluctuation": Quantity(turn.irregularity, "share"),
+                "speed_fluctuation": Quantity(turn.speed_fluctuation, "share"),
                 "acceleration_over_speed_squared": turn.acceleration,
                 "acceleration": Quantity(
                     None if squared is None else turn.acceleration * squared, "angular_acceleration"
@@ -340,17 +342,17 @@ def _facts(result: Beside) -> dict[str, Any]:
                 "types": [row.id for row in types_of(turn.joint.kind)],
                 "turn": {
                     "angle": Quantity(turn.angle, "angle"),
-                    "angle_error": Quantity(np.asarray(turn.lead), "angle"),
+                    "angle_error": Quantity(np.asarray(turn.angle_error), "angle"),
                     "ratio": turn.ratio,
                     "slope": turn.slope,
                 },
                 "over_joint_angle": {
-                    "joint_angle": Quantity(over.bend, "angle"),
+                    "joint_angle": Quantity(over.joint_angle, "angle"),
                     "angle_error": Quantity(over.error, "angle"),
-                    "speed_fluctuation": Quantity(over.irregularity, "share"),
+                    "speed_fluctuation": Quantity(over.speed_fluctuation, "share"),
                 },
             }
-            for one, turn, over in zip(result.named, result.turns, result.bends, strict=True)
+            for one, turn, over in zip(result.named, result.turns, result.joint_angles, strict=True)
         ],
     }
 
@@ -376,7 +378,7 @@ def answer_of_kinds() -> Answer:
 
     long = [f"{doc} [{keys}]" if keys else doc for doc, keys in zip(docs, sizes, strict=True)]
     text = plural("{count} kind of joint.", "{count} kinds of joints.", len(kinds)).format(count=len(kinds))
-    words = ("cardan", "joint", "hooke", "double_cardan", "centring_ratio=0.5", "--bend-deg", "30")
+    words = ("cardan", "joint", "hooke", "double_cardan", "centring_ratio=0.5", "--joint-angle-deg", "30")
     return Answer(
         name="joint",
         title=_("Kinds of joints"),

@@ -49,18 +49,18 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
     turns, ratios, slopes = [phi], [np.ones_like(phi)], [np.zeros_like(phi)]
     before = []
     for i, joint in enumerate(drive.joints):
-        bend = np.asarray(whole.bend)[i]
+        joint_angle = np.asarray(whole.joint_angle)[i]
         before.append(theta)
         with np.errstate(invalid="ignore", divide="ignore"):  # what does not turn is not a number, and said so
-            lead, ratio, slope = joint.deviation(theta, bend)
-            start = joint.deviation(psi, bend)[0]
-        stuck = not all(bool(np.all(np.isfinite(part))) for part in (lead, ratio, slope, start))
-        text = _("a joint of kind {kind} with these sizes does not turn at its bend of {bend:.6g}°")
-        said = text.format(kind=joint.kind, bend=np.degrees(bend))
-        check([Problem(f"joints[{i}].bend", said, "out_of_range")] if stuck else [])
+            angle_error, ratio, slope = joint.deviation(theta, joint_angle)
+            start = joint.deviation(psi, joint_angle)[0]
+        stuck = not all(bool(np.all(np.isfinite(part))) for part in (angle_error, ratio, slope, start))
+        text = _("a joint of kind {kind} with these sizes does not turn at its joint angle of {joint_angle:.6g}°")
+        said = text.format(kind=joint.kind, joint_angle=np.degrees(joint_angle))
+        check([Problem(f"joints[{i}].joint_angle", said, "out_of_range")] if stuck else [])
         slopes.append(slope * ratios[-1] ** 2 + ratio * slopes[-1])
         ratios.append(ratio * ratios[-1])
-        turned, begun = theta + lead, psi + start
+        turned, begun = theta + angle_error, psi + start
         turns.append(turned - begun)
         if i + 1 < len(drive.joints):
             shift = (0.5 * np.pi if joint.crossed else 0.0) - whole.yoke_angle[i] - whole.plane_twist[i]
@@ -70,8 +70,8 @@ def followed(drive: Drive, angle: Array) -> dict[str, Any]:
         "shaft_angle": np.stack(turns),
         "shaft_ratio": np.stack(ratios),
         "shaft_slope": np.stack(slopes),
-        "joint_angle": np.stack(before),
-        "bend": np.asarray(whole.bend),
+        "yoke_rotation": np.stack(before),
+        "joint_angle": np.asarray(whole.joint_angle),
         "followed": True,
         "crossed": tuple(joint.single_cross for joint in drive.joints),
     }

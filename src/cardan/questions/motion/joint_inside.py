@@ -6,14 +6,14 @@ from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inside import Inside
 
 
-def joint_inside(joint: Joint, bend: float) -> tuple[Inside, ...]:
-    """Return what else moves inside a joint at a bend, as far as its sizes are given.
+def joint_inside(joint: Joint, joint_angle: float) -> tuple[Inside, ...]:
+    """Return what else moves inside a joint at a joint angle, as far as its sizes are given.
 
     Parameters
     ----------
     joint : Joint
         A joint of any kind.
-    bend : float [rad]
+    joint_angle : float [rad]
         α in [0, π/2).
 
     Returns
@@ -29,4 +29,4 @@ def joint_inside(joint: Joint, bend: float) -> tuple[Inside, ...]:
     >>> print(f"{orbit.meaning}: {1e3 * orbit.value:.4f} mm")
     radius of the circle that the spider runs round three times a turn: 0.6418 mm
     """
-    return tuple(joint.inside(bend))
+    return tuple(joint.inside(joint_angle))

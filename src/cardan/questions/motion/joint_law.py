@@ -1,4 +1,4 @@
-"""How one joint of any kind turns by itself: over a turn at a bend, over bends, and what else moves in it."""
+"""How one joint of any kind turns by itself: over a turn at one angle, over angles, and what else moves in it."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class JointTurn:
     Attributes
     ----------
     joint : Joint
-    bend : float [rad]
+    joint_angle : float [rad]
         α.
     angle : array (p,) [rad]
         Angle of the driving side from the plane of the shafts.
-    lead : array (p,) [rad]
+    angle_error : array (p,) [rad]
         How far the driven side runs ahead.
     ratio : array (p,)
         Speed ratio.
@@ -45,20 +45,20 @@ class JointTurn:
     """
 
     joint: Joint
-    bend: float
+    joint_angle: float
     angle: Array
-    lead: Array
+    angle_error: Array
     ratio: Array
     slope: Array
 
     @property
     def error(self) -> float:
         """Half of what lies between the greatest lead and the greatest lag [rad]."""
-        found = 0.5 * float(np.ptp(self.lead))
+        found = 0.5 * float(np.ptp(self.angle_error))
         return 0.0 if found < EVEN else found
 
     @property
-    def irregularity(self) -> float:
+    def speed_fluctuation(self) -> float:
         """Largest less smallest speed ratio."""
         found = float(np.ptp(self.ratio))
         return 0.0 if found < EVEN else found
@@ -66,49 +66,49 @@ class JointTurn:
     @property
     def acceleration(self) -> float:
         """Greatest acceleration of the driven side over the square of a constant speed."""
-        return float(np.max(np.abs(self.slope))) if self.irregularity else 0.0
+        return float(np.max(np.abs(self.slope))) if self.speed_fluctuation else 0.0
 
     @property
     def order(self) -> int:
         """How often a turn the driven side mostly runs ahead and back; 0 where it turns evenly."""
         if not self.error:
             return 0
-        wave = np.abs(np.fft.rfft(self.lead[:-1]))
+        wave = np.abs(np.fft.rfft(self.angle_error[:-1]))
         return int(np.argmax(wave[1:])) + 1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class JointBends:
+class JointAngles:
     """One joint over its bends.
 
     Attributes
     ----------
     joint : Joint
-    bend : array (m,) [rad]
+    joint_angle : array (m,) [rad]
         α; not a number in the others where the joint does not turn.
     error : array (m,) [rad]
         Half of what lies between the greatest lead and the greatest lag of a turn.
-    irregularity : array (m,)
+    speed_fluctuation : array (m,)
         Largest less smallest speed ratio.
     acceleration : array (m,)
         Greatest acceleration over the square of a constant speed.
     """
 
     joint: Joint
-    bend: Array
+    joint_angle: Array
     error: Array
-    irregularity: Array
+    speed_fluctuation: Array
     acceleration: Array
 
 
-def joint_turn(joint: Joint, bend: float, angle: ArrayLike | None = None) -> JointTurn:
+def joint_turn(joint: Joint, joint_angle: float, angle: ArrayLike | None = None) -> JointTurn:
     """Return how one joint of any kind turns at a bend.
 
     Parameters
     ----------
     joint : Joint
         A joint of any kind.
-    bend : float [rad]
+    joint_angle : float [rad]
         α in [0, π/2), whatever bend the joint itself says.
     angle : array (p,) [rad], optional
         Angles of the driving side from the plane of the shafts; a turn by default.
@@ -120,66 +120,76 @@ def joint_turn(joint: Joint, bend: float, angle: ArrayLike | None = None) -> Joi
     Raises
     ------
     InputError
-        The bend is 90 degrees or more, or the joint does not turn at it.
+        The joint angle is 90 degrees or more, or the joint does not turn at it.
 
     Examples
     --------
     >>> from cardan.drive.joints import DoubleCardan, Hooke
     >>> for joint in (Hooke(), DoubleCardan(centring_ratio=0.5)):
     ...     found = joint_turn(joint, 30 * deg)
-    ...     print(f"{found.error / deg:.4f}° {found.irregularity:.5f}, order {found.order}")
+    ...     print(f"{found.error / deg:.4f}° {found.speed_fluctuation:.5f}, order {found.order}")
     4.1172° 0.28868, order 2
     0.1400° 0.00977, order 2
     """
-    if not 0.0 <= bend < 0.5 * math.pi:
+    if not 0.0 <= joint_angle < 0.5 * math.pi:
         text = _("{value}° is not at least 0° and below 90°")
-        raise refuse("bend", text.format(value=f"{bend / deg:.6g}"), "out_of_range")
+        raise refuse("joint_angle", text.format(value=f"{joint_angle / deg:.6g}"), "out_of_range")
     phi = np.asarray(TURN if angle is None else angle, dtype=float)
-    law = _law(joint, bend, phi)
+    law = _law(joint, joint_angle, phi)
     if not all(np.all(np.isfinite(one)) for one in law):
-        text = _("a joint of kind {kind} with these sizes does not turn at {bend}°")
-        raise refuse("bend", text.format(kind=joint.kind, bend=f"{bend / deg:.6g}"), "out_of_range")
-    return JointTurn(joint=joint, bend=bend, angle=phi, lead=law[0], ratio=law[1], slope=law[2])
+        text = _("a joint of kind {kind} with these sizes does not turn at {joint_angle}°")
+        raise refuse(
+            "joint_angle", text.format(kind=joint.kind, joint_angle=f"{joint_angle / deg:.6g}"), "out_of_range"
+        )
+    return JointTurn(joint=joint, joint_angle=joint_angle, angle=phi, angle_error=law[0], ratio=law[1], slope=law[2])
 
 
-def joint_bends(joint: Joint, bends: ArrayLike | None = None) -> JointBends:
+def joint_angles(joint: Joint, joint_angles: ArrayLike | None = None) -> JointAngles:
     """Return how uneven one joint of any kind is over its bends.
 
     Parameters
     ----------
     joint : Joint
         A joint of any kind.
-    bends : array (m,) [rad], optional
+    joint_angles : array (m,) [rad], optional
         Bends α in [0, π/2); by default from 0 to the steepest its kind works at.
 
     Returns
     -------
-    JointBends
+    JointAngles
         arrays (m,).
 
     Examples
     --------
     >>> from cardan.drive.joints import DoubleCardan
-    >>> joint_bends(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).irregularity
+    >>> joint_angles(DoubleCardan(centring_ratio=0.5), [10 * deg, 30 * deg, 50 * deg]).speed_fluctuation
     array([0.00011651, 0.00977419, 0.08078532])
     """
-    alpha = np.linspace(0.0, min(joint.steepest, 75.0 * deg), 31) if bends is None else np.asarray(bends, dtype=float)
+    alpha = (
+        np.linspace(0.0, min(joint.steepest, 75.0 * deg), 31)
+        if joint_angles is None
+        else np.asarray(joint_angles, dtype=float)
+    )
     rows = []
-    for bend in alpha:
-        law = _law(joint, float(bend), COARSE)
-        found = JointTurn(joint=joint, bend=float(bend), angle=COARSE, lead=law[0], ratio=law[1], slope=law[2])
+    for joint_angle in alpha:
+        law = _law(joint, float(joint_angle), COARSE)
+        found = JointTurn(
+            joint=joint, joint_angle=float(joint_angle), angle=COARSE, angle_error=law[0], ratio=law[1], slope=law[2]
+        )
         turns = bool(np.all(np.isfinite(law[0])))
-        rows.append((found.error, found.irregularity, found.acceleration) if turns else (math.nan,) * 3)
-    error, irregularity, acceleration = np.asarray(rows, dtype=float).reshape(-1, 3).T
-    return JointBends(joint=joint, bend=alpha, error=error, irregularity=irregularity, acceleration=acceleration)
+        rows.append((found.error, found.speed_fluctuation, found.acceleration) if turns else (math.nan,) * 3)
+    error, speed_fluctuation, acceleration = np.asarray(rows, dtype=float).reshape(-1, 3).T
+    return JointAngles(
+        joint=joint, joint_angle=alpha, error=error, speed_fluctuation=speed_fluctuation, acceleration=acceleration
+    )
 
 
-def _law(joint: Joint, bend: float, angle: Array) -> tuple[Array, Array, Array]:
+def _law(joint: Joint, joint_angle: float, angle: Array) -> tuple[Array, Array, Array]:
     """Return lead, ratio and slope over angles, each (p,); not numbers where the joint does not turn."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        found = joint.deviation(angle, np.asarray(bend))
-    lead, ratio, slope = (np.broadcast_to(np.asarray(one, dtype=float), angle.shape) for one in found)
-    return lead, ratio, slope
+        found = joint.deviation(angle, np.asarray(joint_angle))
+    outer, ratio, slope = (np.broadcast_to(np.asarray(one, dtype=float), angle.shape) for one in found)
+    return outer, ratio, slope
 
 
 def types_of(kind: str, known: Catalogue | None = None) -> tuple[JointType, ...]:

@@ -28,7 +28,7 @@ def kind_name(joint: Joint) -> str:
     return joint.in_words()
 
 
-def steep(joint: Joint, number: int, bend: float) -> Say | None:
+def steep(joint: Joint, number: int, joint_angle: float) -> Say | None:
     """Return what to say of a joint at a greater joint angle than one of its kind reaches, None where it is not.
 
     Parameters
@@ -36,10 +36,10 @@ def steep(joint: Joint, number: int, bend: float) -> Say | None:
     joint : Joint
     number : int
         Its number.
-    bend : float [rad]
+    joint_angle : float [rad]
         Its joint angle.
     """
-    if bend <= joint.steepest * (1.0 + 1e-12):
+    if joint_angle <= joint.steepest * (1.0 + 1e-12):
         return None
     text = _("joint {number} has a joint angle of {angle}; above {limit} no real joint of its kind, {kind}, works.")
     if joint.single_cross:
@@ -47,13 +47,13 @@ def steep(joint: Joint, number: int, bend: float) -> Say | None:
     return say(
         text,
         number=number,
-        angle=Quantity(bend, "angle", decimals=1),
+        angle=Quantity(joint_angle, "angle", decimals=1),
         limit=Quantity(joint.steepest, "angle", 6, trim=True),
         kind=kind_name(joint),
     )
 
 
-def too_steep(joint: Joint, number: int, bend: float) -> str:
+def too_steep(joint: Joint, number: int, joint_angle: float) -> str:
     """Return the same in words, in the usual units; "" where there is nothing to say.
 
     Examples
@@ -62,24 +62,26 @@ def too_steep(joint: Joint, number: int, bend: float) -> str:
     >>> too_steep(Hooke(), 1, 0.5), too_steep(Tripod(), 2, 0.5)
     ('', 'Joint 2 has a joint angle of 28.6°; above 26° no real joint of its kind, tripod, works.')
     """
-    found = steep(joint, number, bend)
+    found = steep(joint, number, joint_angle)
     said = "" if found is None else found.told(USUAL)
     return said[:1].upper() + said[1:]
 
 
 def steep_joints(drive: Drive) -> Iterator[Remark]:
     """Yield a warning for every joint at a greater joint angle than one of its kind reaches."""
-    for number, (joint, bend) in enumerate(zip(drive.joints, given_chain(drive).bend, strict=True), start=1):
-        found = steep(joint, number, float(bend))
+    for number, (joint, joint_angle) in enumerate(
+        zip(drive.joints, given_chain(drive).joint_angle, strict=True), start=1
+    ):
+        found = steep(joint, number, float(joint_angle))
         if found is not None:
             yield Remark(text=say(_("Warning: {what}"), what=found), tone="warning")
 
 
 def inside(drive: Drive) -> Iterator[tuple[int, Inside]]:
     """Yield what else moves inside the joints of a drive, with the number of the joint."""
-    bends = given_chain(drive).bend.tolist()
-    for number, (joint, bend) in enumerate(zip(drive.joints, bends, strict=True), start=1):
-        for one in joint_inside(joint, bend):
+    joint_angles = given_chain(drive).joint_angle.tolist()
+    for number, (joint, joint_angle) in enumerate(zip(drive.joints, joint_angles, strict=True), start=1):
+        for one in joint_inside(joint, joint_angle):
             yield number, one
 
 

@@ -36,9 +36,9 @@ class Motion:
         ω_i/ω_1.
     shaft_slope : array (..., n+1, p) [1/rad]
         Derivative of the speed ratio by φ_1.
-    joint_angle : array (..., n, p) [rad]
+    yoke_rotation : array (..., n, p) [rad]
         θ_i, angle of the driving yoke or mark of joint i from the plane of the joint.
-    bend : array (..., n) [rad]
+    joint_angle : array (..., n) [rad]
         α_i.
     crossed : tuple of bool (n)
         Which joints are Hooke joints, whose crosses turn as the properties below tell; all of them when empty.
@@ -54,8 +54,8 @@ class Motion:
     shaft_angle: Array
     shaft_ratio: Array
     shaft_slope: Array
+    yoke_rotation: Array
     joint_angle: Array
-    bend: Array
     speed: ArrayLike | None = None
     acceleration: ArrayLike = 0.0
     crossed: tuple[bool, ...] = ()
@@ -77,7 +77,7 @@ class Motion:
         return self.shaft_slope[..., -1, :]
 
     @property
-    def lead(self) -> Array:
+    def angle_error(self) -> Array:
         """How far each shaft runs ahead of the input, φ_i - φ_1, array (..., n+1, p) [rad]."""
         return self.shaft_angle - self.angle
 
@@ -94,30 +94,30 @@ class Motion:
     @property
     def cross_driving(self) -> Array:
         """Turn η' of each cross in its driving yoke about u_i, array (..., n, p) [rad]; tan η' = tan α sin θ."""
-        xp = namespace(self.bend)
-        return self._of_crosses(xp.atan(xp.tan(self.bend)[..., None] * xp.sin(self.joint_angle)))
+        xp = namespace(self.joint_angle)
+        return self._of_crosses(xp.atan(xp.tan(self.joint_angle)[..., None] * xp.sin(self.yoke_rotation)))
 
     @property
     def cross_driven(self) -> Array:
         """Turn η'' of each cross in its driven yoke about v_{i+1}, array (..., n, p) [rad]; sin η'' = -sin α cos θ."""
-        xp = namespace(self.bend)
-        return self._of_crosses(-xp.asin(xp.sin(self.bend)[..., None] * xp.cos(self.joint_angle)))
+        xp = namespace(self.joint_angle)
+        return self._of_crosses(-xp.asin(xp.sin(self.joint_angle)[..., None] * xp.cos(self.yoke_rotation)))
 
     @property
     def cross_driving_rate(self) -> Array:
         """dη'/dφ_1, array (..., n, p)."""
-        xp = namespace(self.bend)
-        tangent = xp.tan(self.bend)[..., None]
-        sine, cosine = xp.sin(self.joint_angle), xp.cos(self.joint_angle)
+        xp = namespace(self.joint_angle)
+        tangent = xp.tan(self.joint_angle)[..., None]
+        sine, cosine = xp.sin(self.yoke_rotation), xp.cos(self.yoke_rotation)
         return self._of_crosses(self.shaft_ratio[..., :-1, :] * tangent * cosine / (1.0 + (tangent * sine) ** 2))
 
     @property
     def cross_driven_rate(self) -> Array:
         """dη''/dφ_1, array (..., n, p)."""
-        xp = namespace(self.bend)
-        sine = xp.sin(self.bend)[..., None]
-        across = xp.sqrt(1.0 - (sine * xp.cos(self.joint_angle)) ** 2)
-        return self._of_crosses(self.shaft_ratio[..., :-1, :] * sine * xp.sin(self.joint_angle) / across)
+        xp = namespace(self.joint_angle)
+        sine = xp.sin(self.joint_angle)[..., None]
+        across = xp.sqrt(1.0 - (sine * xp.cos(self.yoke_rotation)) ** 2)
+        return self._of_crosses(self.shaft_ratio[..., :-1, :] * sine * xp.sin(self.yoke_rotation) / across)
 
     def _of_crosses(self, values: Array) -> Array:
         """Return values (..., n, p) with nan for joints that are no Hooke joints."""
@@ -161,7 +161,7 @@ def motion(
 
     Raises
     ------
-    BendLimitError
+    JointAngleLimitError
         A joint bends 90 degrees or more.
     InputError
         A joint with its sizes does not turn at its bend.
@@ -189,40 +189,40 @@ def motion(
     if isinstance(drive, Drive) and unmapped(drive.joints):
         return Motion(**followed(drive, positions(angle, np)), **given)
     chain = kinematics(drive)
-    xp = namespace(chain.bend, angle)
+    xp = namespace(chain.joint_angle, angle)
     phi = positions(angle, xp)
     w = unit_complex(phi)
     w = w * w
     start = xp.ones_like(w[..., :1])
     ratios, slopes, turns = [xp.ones_like(phi)], [xp.zeros_like(phi)], [phi]
     before: list[Array] = []
-    shape = (*chain.bend.shape[:-1], phi.shape[0])
+    shape = (*chain.joint_angle.shape[:-1], phi.shape[0])
     mu = chain.turn_before
     psi = mu[..., 0]
     for i, (a, b) in enumerate(chain.products()):
         pair = (a[..., None], b[..., None])
-        begin = mobius.lead(pair, start)
+        begin = mobius.angle_error(pair, start)
         before.append(xp.broadcast_to(turns[-1] + psi[..., None], shape))
-        lead, ratio, slope = mobius.course(pair, w)
-        turns.append(phi + (lead - begin))
+        angle_error, ratio, slope = mobius.course(pair, w)
+        turns.append(phi + (angle_error - begin))
         ratios.append(ratio)
         slopes.append(slope)
         if i + 1 < chain.joints:
-            psi = _next_phase(psi, chain.bend[..., i]) + mu[..., i + 1]
+            psi = _next_phase(psi, chain.joint_angle[..., i]) + mu[..., i + 1]
     at, laws = xp.stack(before, axis=-2), chain.laws
     return Motion(
         angle=phi,
         shaft_angle=_stacked(turns, shape, xp),
         shaft_ratio=_stacked(ratios, shape, xp),
         shaft_slope=_stacked(slopes, shape, xp),
-        joint_angle=at if laws is None else at - laws.ahead[..., None],
-        bend=chain.bend if laws is None else laws.bend,
+        yoke_rotation=at if laws is None else at - laws.ahead[..., None],
+        joint_angle=chain.joint_angle if laws is None else laws.joint_angle,
         crossed=() if laws is None else tuple(not own for own in laws.own),
         **given,
     )
 
 
-def phase_angles(drive: Drive | Drives | Chain) -> Array:
+def initial_phases(drive: Drive | Drives | Chain) -> Array:
     """Return the phase angles ψ_i, the joint angles θ_i at the start; array (..., n) [rad].
 
     Notes
@@ -230,19 +230,19 @@ def phase_angles(drive: Drive | Drives | Chain) -> Array:
     Book (31), (38) with the term it drops: ψ_i = π/2 - γ_i - β_i + T(ψ_{i-1}), tan T(θ) = tan θ/cos α.
     """
     chain = kinematics(drive)
-    xp = namespace(chain.bend)
+    xp = namespace(chain.joint_angle)
     mu = chain.turn_before
     phases = [mu[..., 0]]
     for i in range(1, chain.joints):
-        phases.append(_next_phase(phases[-1], chain.bend[..., i - 1]) + mu[..., i])
+        phases.append(_next_phase(phases[-1], chain.joint_angle[..., i - 1]) + mu[..., i])
     found = xp.stack(phases, axis=-1)
     return found if chain.laws is None else found - chain.laws.ahead
 
 
-def _next_phase(psi: Array, bend: Array) -> Array:
+def _next_phase(psi: Array, joint_angle: Array) -> Array:
     """Return T(ψ), the driven angle of a joint at the driving angle ψ, unwrapped; Book (17)-(19)."""
     w = unit_complex(2.0 * psi)
-    return psi + mobius.lead(mobius.hooke(bend), w)
+    return psi + mobius.angle_error(mobius.hooke(joint_angle), w)
 
 
 def positions(angle: ArrayLike | None, xp: object) -> Array:

@@ -39,7 +39,7 @@ class Shafts:
     length_acceleration: Array
 
     @property
-    def bend(self) -> Array:
+    def joint_angle(self) -> Array:
         """α_i of every joint, array (..., n) [rad]."""
         return frames.angle_between(self.axis[..., :-1, :], self.axis[..., 1:, :])
 
@@ -266,7 +266,8 @@ def moving_centres(
 
     Examples
     --------
-    A joint whose output shaft swings, at rest in the mean position (no bend): the rate alone makes no difference there.
+    A joint whose output shaft swings, at rest in the mean position (no joint angle): the rate alone makes no difference
+    there.
 
     >>> import numpy as np
     >>> points = [[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]

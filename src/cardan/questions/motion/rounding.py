@@ -39,7 +39,7 @@ def is_rounding(drive: Drive, share: float, length: Array | None = None) -> bool
     """
     if unmapped(drive.joints):
         return share < SYNCHRONOUS
-    limit = drive.limits.irregularity
+    limit = drive.limits.speed_fluctuation
     sides = closure(drive).length if length is None else length
     together = 2.0 * math.sinh(float(np.sum(sides)))
     undone = len(drive.joints) > 1 and share < UNDONE * together

@@ -50,8 +50,8 @@ def speed_range(
     Examples
     --------
     >>> import numpy as np
-    >>> bend = np.deg2rad(20.0)
-    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(bend), np.sin(bend), 0.0]])
+    >>> joint_angle = np.deg2rad(20.0)
+    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(joint_angle), np.sin(joint_angle), 0.0]])
     >>> low, high = speed_range((a, 0.0 * a, 0.0 * a), yoke_angle=[], speed=100.0)
     >>> low, high
     (array([100.        ,  93.96926208]), array([100.        , 106.41777725]))
@@ -97,8 +97,8 @@ def acceleration_range(
 
     Examples
     --------
-    >>> bend = np.deg2rad(20.0)
-    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(bend), np.sin(bend), 0.0]])
+    >>> joint_angle = np.deg2rad(20.0)
+    >>> a = np.asarray([[1.0, 0.0, 0.0], [np.cos(joint_angle), np.sin(joint_angle), 0.0]])
     >>> low, high = acceleration_range((a, 0.0 * a, 0.0 * a), yoke_angle=[], speed=1.0)
     >>> np.round(high, 7)
     array([0.       , 0.1249656])

@@ -25,11 +25,11 @@ class Swing:
 
     Attributes
     ----------
-    irregularity : array (n)
+    speed_fluctuation : array (n)
         δ = i_max - i_min.
     ratio_min, ratio_max : arrays (n)
         Least and largest speed ratio.
-    max_lead : array (n) [rad]
+    max_angle_error : array (n) [rad]
         Half of what the shaft runs ahead and back.
     max_acceleration : array (n)
         Largest \\|ε\\|/ω_1² at uniform input.
@@ -37,22 +37,22 @@ class Swing:
         Amplitudes of the angle error once, twice … a turn.
     """
 
-    irregularity: Array
+    speed_fluctuation: Array
     ratio_min: Array
     ratio_max: Array
-    max_lead: Array
+    max_angle_error: Array
     max_acceleration: Array
     amplitude: Array
 
     @property
-    def shaft_irregularity(self) -> Array:
+    def shaft_speed_fluctuation(self) -> Array:
         """δ of shafts 2 … n+1, array (n)."""
-        return self.irregularity
+        return self.speed_fluctuation
 
     @property
-    def bend(self) -> Array:
-        """Bend of the Hooke joint with the same irregularity sin α tan α, array (n) [rad]."""
-        half = 0.5 * self.irregularity
+    def joint_angle(self) -> Array:
+        """Joint angle of the Hooke joint with the same speed fluctuation sin α tan α, array (n) [rad]."""
+        half = 0.5 * self.speed_fluctuation
         found: Array = np.arccos(np.clip(np.sqrt(1.0 + half * half) - half, 0.0, 1.0))
         return found
 
@@ -85,19 +85,19 @@ def swing(drive: Drive) -> Swing:
 
     >>> from cardan.units import deg
     >>> found = swing(Drive.from_angles([20 * deg]))
-    >>> print(f"{found.irregularity[0]:.6f} {found.bend[0] / deg:.4f}", [one for one, _size in found.orders(2)])
+    >>> print(f"{found.speed_fluctuation[0]:.6f} {found.joint_angle[0] / deg:.4f}", [one for one, _ in found.orders(2)])
     0.124485 20.0000 [2, 4]
     """
     angle = np.arange(PLACES) * (2.0 * np.pi / PLACES)
     found = motion(drive, angle)
-    ratio, slope, lead = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.lead))
+    ratio, slope, angle_error = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.angle_error))
     high, low = peak(ratio), -peak(-ratio)
-    wave = np.abs(np.fft.rfft(lead)) * (2.0 / PLACES)
+    wave = np.abs(np.fft.rfft(angle_error)) * (2.0 / PLACES)
     return Swing(
-        irregularity=high - low,
+        speed_fluctuation=high - low,
         ratio_min=low,
         ratio_max=high,
-        max_lead=0.5 * (peak(lead) + peak(-lead)),
+        max_angle_error=0.5 * (peak(angle_error) + peak(-angle_error)),
         max_acceleration=np.maximum(peak(slope), peak(-slope)),
         amplitude=wave[:, 1 : PLACES // 8],
     )
@@ -113,6 +113,7 @@ def each_shaft(drive: Drive) -> Evenness:
     Returns
     -------
     EquivalentJoint or Swing
-        bend, irregularity, ratio_min, ratio_max, max_lead, max_acceleration : arrays (n), for shafts 2 … n+1.
+        joint_angle, speed_fluctuation, ratio_min, ratio_max, max_angle_error, max_acceleration : arrays (n), for shafts
+        2 … n+1.
     """
     return swing(drive) if unmapped(drive.joints) else after_each_joint(drive)

@@ -105,13 +105,13 @@ def traces(
            [1.02588626, 0.98915572]])
     """
     chain = kinematics(drives)
-    xp = namespace(chain.bend, angle)
+    xp = namespace(chain.joint_angle, angle)
     phi = positions(angle, xp)
     duty = drives.duty if isinstance(drives, Drive) else None
-    lead = tuple(chain.bend.shape[:-1])
-    omega = _each(speed, duty.speed if duty else None, 1.0, lead, xp)
-    epsilon = _each(acceleration, duty.acceleration if duty else None, 0.0, lead, xp)
-    shape = (*lead, int(phi.shape[0]))
+    outer = tuple(chain.joint_angle.shape[:-1])
+    omega = _each(speed, duty.speed if duty else None, 1.0, outer, xp)
+    epsilon = _each(acceleration, duty.acceleration if duty else None, 0.0, outer, xp)
+    shape = (*outer, int(phi.shape[0]))
     size = prod(shape)
     how = chosen(method, xp, size >= LARGE)
     if xp is not np:
@@ -132,26 +132,26 @@ def _written(angle: Array, results: tuple[Array, ...]) -> Traces:
     return Traces(angle=angle, output_angle=results[0], ratio=results[1], acceleration=results[2])
 
 
-def _each(given: ArrayLike | None, own: float | None, default: float, lead: tuple[int, ...], xp: object) -> Array:
+def _each(given: ArrayLike | None, own: float | None, default: float, outer: tuple[int, ...], xp: object) -> Array:
     value = given if given is not None else own if own is not None else default
-    return xp.broadcast_to(real(value, xp), lead)  # type: ignore[attr-defined]
+    return xp.broadcast_to(real(value, xp), outer)  # type: ignore[attr-defined]
 
 
 def rows_of(chain: Chain) -> Chain:
     """Return a chain with one leading axis."""
-    n, lead = chain.joints, chain.bend.shape[:-1]
-    rows = prod(lead)
+    n, outer = chain.joints, chain.joint_angle.shape[:-1]
+    rows = prod(outer)
     return Chain(
-        bend=chain.bend.reshape(rows, n),
-        plane_twist=np.broadcast_to(chain.plane_twist, (*lead, n - 1)).reshape(rows, n - 1),
-        yoke_angle=np.broadcast_to(chain.yoke_angle, (*lead, n - 1)).reshape(rows, n - 1),
-        start_phase=np.broadcast_to(chain.start_phase, lead).reshape(rows),
+        joint_angle=chain.joint_angle.reshape(rows, n),
+        plane_twist=np.broadcast_to(chain.plane_twist, (*outer, n - 1)).reshape(rows, n - 1),
+        yoke_angle=np.broadcast_to(chain.yoke_angle, (*outer, n - 1)).reshape(rows, n - 1),
+        start_phase=np.broadcast_to(chain.start_phase, outer).reshape(rows),
     )
 
 
 def _plain(chain: Chain, phi: Array, speed: Array, acceleration: Array, room: tuple[Array, ...]) -> None:
     w = unit_complex(2.0 * phi)
-    rows = int(chain.bend.shape[0])
+    rows = int(chain.joint_angle.shape[0])
     a, b = chain.products()[-1]
     piece = max(1, _CACHE // phi.size)
     for first in range(0, rows, piece):
@@ -171,8 +171,8 @@ def _compiled(
 
     def work(first: int, last: int) -> None:
         kernel(
-            *(chain.bend, chain.plane_twist, chain.yoke_angle, chain.start_phase, speed, acceleration),
+            *(chain.joint_angle, chain.plane_twist, chain.yoke_angle, chain.start_phase, speed, acceleration),
             *(*shared, phi.size, first, last, *places),
         )
 
-    share(work, int(chain.bend.shape[0]), threads=threads, least=max(1, _THREAD // phi.size))
+    share(work, int(chain.joint_angle.shape[0]), threads=threads, least=max(1, _THREAD // phi.size))

@@ -32,7 +32,7 @@ class Turning:
     @property
     def fluctuation(self) -> float:
         """Speed fluctuation δ of the output."""
-        return float(self.each.irregularity[-1])
+        return float(self.each.speed_fluctuation[-1])
 
 
 def turning(

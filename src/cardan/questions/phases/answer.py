@@ -75,7 +75,7 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
         name="phasing",
         title=_("Phasing of the yokes"),
         sentence=_sentence(drive, result),
-        tone="good" if is_uniform(drive, result.as_built.irregularity) else "plain",
+        tone="good" if is_uniform(drive, result.as_built.speed_fluctuation) else "plain",
         figures=lambda: phasing_figures(result),
         tables=(
             *((settings_table(drive, shown),) if several else ()),
@@ -101,7 +101,7 @@ def every_setting(found: Phasing) -> tuple[YokeSetting, ...]:
 
 
 def _sentence(drive: Drive, found: Phasing) -> Say:
-    now, least = found.as_built.irregularity, found.irregularity_min
+    now, least = found.as_built.speed_fluctuation, found.speed_fluctuation_min
     if len(drive.joints) == 1:
         text = _("one joint, speed fluctuation δ = {now}; a single joint has no yokes to phase.")
     elif each_uniform(drive):
@@ -136,7 +136,7 @@ def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
     """Return yoke angles and what they leave, row by row, or column by column where there are many shafts."""
     numbers = range(2, len(drive.joints) + 1)
     title = _("Yoke angles γ, and the speed fluctuation δ that they leave")
-    tones = ["good" if one.irregularity < SYNCHRONOUS else "plain" for one in shown]
+    tones = ["good" if one.speed_fluctuation < SYNCHRONOUS else "plain" for one in shown]
     if len(numbers) <= WIDEST:
         return Table(
             title=title,
@@ -156,7 +156,7 @@ def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
                     key="speed_fluctuation",
                     heading="δ",
                     values=[
-                        Cell(value=float(one.irregularity), tone=tone)  # type: ignore[arg-type]
+                        Cell(value=float(one.speed_fluctuation), tone=tone)  # type: ignore[arg-type]
                         for one, tone in zip(shown, tones, strict=True)
                     ],
                     dimension="share",
@@ -164,7 +164,7 @@ def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
                 Column(
                     key="worst_shaft",
                     heading=_("worst shaft between"),
-                    values=[float(np.max(one.shaft_irregularity[:-1])) for one in shown],
+                    values=[float(np.max(one.shaft_speed_fluctuation[:-1])) for one in shown],
                     dimension="share",
                     depth="full",
                 ),
@@ -178,7 +178,7 @@ def settings_table(drive: Drive, shown: Sequence[YokeSetting]) -> Table:
                 Column(
                     key=one.label,
                     heading=one.label,
-                    values=[*one.yoke_angle.tolist(), Quantity(one.irregularity, "share")],
+                    values=[*one.yoke_angle.tolist(), Quantity(one.speed_fluctuation, "share")],
                     dimension="angle",
                     decimals=2,
                 )
@@ -198,7 +198,7 @@ def _steps(found: Phasing) -> str:
 
 
 def _poses(found: Phasing, shown: Sequence[YokeSetting]) -> Table:
-    some = [one for one in shown if len(one.pose_irregularity) == len(found.poses)]
+    some = [one for one in shown if len(one.pose_speed_fluctuation) == len(found.poses)]
     return Table(
         title=_("Speed fluctuation δ in each pose"),
         columns=(
@@ -207,7 +207,7 @@ def _poses(found: Phasing, shown: Sequence[YokeSetting]) -> Table:
                 Column(
                     key=name,
                     heading=f"{k} {name}" if len(name) <= 20 else f"{k} {name[:19]}…",
-                    values=[float(one.pose_irregularity[k - 1]) for one in some],
+                    values=[float(one.pose_speed_fluctuation[k - 1]) for one in some],
                     dimension="share",
                 )
                 for k, name in enumerate(found.poses, 1)
@@ -256,18 +256,18 @@ def _everything(drive: Drive, found: Phasing) -> Table:
     return Table(
         columns=(
             Column(key="setting", values=[one.label for one in every]),
-            column("speed_fluctuation", (float(one.irregularity) for one in every)),
+            column("speed_fluctuation", (float(one.speed_fluctuation) for one in every)),
             *(
                 column(f"shaft_{k}_yoke_angle", (float(one.yoke_angle[k - 2]) for one in every), "angle")
                 for k in between
             ),
             *(column(f"shaft_{k}_change", (float(one.change[k - 2]) for one in every), "angle") for k in between),
             *(
-                column(f"shaft_{k}_speed_fluctuation", (float(one.shaft_irregularity[k - 2]) for one in every))
+                column(f"shaft_{k}_speed_fluctuation", (float(one.shaft_speed_fluctuation[k - 2]) for one in every))
                 for k in range(2, n + 2)
             ),
             *(
-                column(f"pose_{name}_speed_fluctuation", (float(one.pose_irregularity[k]) for one in every))
+                column(f"pose_{name}_speed_fluctuation", (float(one.pose_speed_fluctuation[k]) for one in every))
                 for k, name in enumerate(found.poses)
             ),
         )
@@ -329,9 +329,9 @@ def _proof(drive: Drive, found: Phasing) -> Text:
         "longest": seen.longest,
         "long": Quantity(float(seen.length[seen.longest - 1]), decimals=places),
         "others": Quantity(seen.others, decimals=places),
-        "low": Quantity(found.irregularity_min, "share", 3),
-        "high": Quantity(found.irregularity_max, "share", 3),
-        "angle": Quantity(seen.bend_allowed, "angle", decimals=2),
+        "low": Quantity(found.speed_fluctuation_min, "share", 3),
+        "high": Quantity(found.speed_fluctuation_max, "share", 3),
+        "angle": Quantity(seen.joint_angle_allowed, "angle", decimals=2),
     }
     if len(drive.joints) == 1:
         text = f"{text} {_('One side never comes back to its start.')}"
@@ -344,7 +344,7 @@ def _proof(drive: Drive, found: Phasing) -> Text:
         text = f"{text} {more}"
     else:
         text = f"{text} {_('The yoke angles are the corners.')} {_closing(drive, found, closes=seen.closes)}"
-        if not seen.closes and not is_rounding(drive, found.irregularity_min):
+        if not seen.closes and not is_rounding(drive, found.speed_fluctuation_min):
             alike = not drive.joints[seen.longest - 1].single_cross
             more = _("It could be closed if that joint had a joint angle of {angle}.")
             if alike:
@@ -362,7 +362,7 @@ def _closing(drive: Drive, found: Phasing, *, closes: bool) -> str:
             "The longest side, joint {longest} with {long}, is no longer than the others together, {others}: the path "
             "can be closed, exactly and for all harmonics at once."
         )
-    if is_rounding(drive, found.irregularity_min):
+    if is_rounding(drive, found.speed_fluctuation_min):
         return _(
             "The longest side, joint {longest}, is as long as the others together but for the rounding of the figures "
             "that describe the drive: what it leaves, {low}, is not a fluctuation of the design."
@@ -380,9 +380,9 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             alone = _("A single joint always fluctuates; a second one at the same joint angle can cancel it.")
             yield Remark(text=alone, tone="next")
         return
-    if found.limiting_joint is None or not found.free or is_rounding(drive, found.irregularity_min):
+    if found.limiting_joint is None or not found.free or is_rounding(drive, found.speed_fluctuation_min):
         return
-    bend = float(given_chain(drive).bend[found.limiting_joint - 1])
+    joint_angle = float(given_chain(drive).joint_angle[found.limiting_joint - 1])
     if len(found.limiting_joints) > 1:
         text: Text = say(
             _(
@@ -391,14 +391,14 @@ def _limits(drive: Drive, found: Phasing) -> Iterator[Remark]:
             ),
             tied=", ".join(str(k) for k in found.limiting_joints),
             number=found.limiting_joint,
-            angle=Quantity(bend, "angle", decimals=2),
+            angle=Quantity(joint_angle, "angle", decimals=2),
         )
     else:
-        text = excess(found, len(drive.joints), bend, plain=drive.joints[found.limiting_joint - 1].single_cross)
-    yield Remark(text=text, tone="plain" if found.irregularity_min < LITTLE else "warning")
+        text = excess(found, len(drive.joints), joint_angle, plain=drive.joints[found.limiting_joint - 1].single_cross)
+    yield Remark(text=text, tone="plain" if found.speed_fluctuation_min < LITTLE else "warning")
 
 
-def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> Text:
+def excess(found: Phasing, joints: int, joint_angle: float, *, plain: bool = True) -> Text:
     """Return in one sentence which joint keeps a drive from being uniform, and at what joint angle it would not.
 
     Parameters
@@ -407,7 +407,7 @@ def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> T
         What the yokes can do; a single joint fluctuates more than the others can undo.
     joints : int
         Number of joints.
-    bend : float [rad]
+    joint_angle : float [rad]
         Angle of that joint.
     plain : bool
         Whether it is a Hooke joint; of another kind no angle is named.
@@ -416,13 +416,13 @@ def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> T
     -----
     The side L = -ln cos α of that joint is asinh(δ/2) too long.
     """
-    left = Quantity(found.irregularity_min, "share", 3)
+    left = Quantity(found.speed_fluctuation_min, "share", 3)
     if not plain:
         text = _("Joint {number} fluctuates more than the others can undo. What remains is {left}.")
         return say(text, number=found.limiting_joint, left=left)
-    spare = math.asinh(0.5 * found.irregularity_min)
-    closing = math.acos(min(1.0, math.cos(bend) * math.exp(spare)))
-    decimals = next((d for d in (2, 3, 4, 5) if round(closing / deg, d) != round(bend / deg, d)), 6)
+    spare = math.asinh(0.5 * found.speed_fluctuation_min)
+    closing = math.acos(min(1.0, math.cos(joint_angle) * math.exp(spare)))
+    decimals = next((d for d in (2, 3, 4, 5) if round(closing / deg, d) != round(joint_angle / deg, d)), 6)
     text = plural(
         "The angle of joint {number} is too large for the other one: at {closing} instead of {now} the drive could be "
         "uniform. What remains is {left}.",
@@ -430,7 +430,7 @@ def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> T
         "uniform. What remains is {left}.",
         joints - 1,
     )
-    if found.irregularity_min < LITTLE:
+    if found.speed_fluctuation_min < LITTLE:
         text = plural(
             "The angle of joint {number} is a little too large for the other one: at {closing} instead of {now} the "
             "drive could be uniform. What remains is {left}.",
@@ -442,7 +442,7 @@ def excess(found: Phasing, joints: int, bend: float, *, plain: bool = True) -> T
         text,
         number=found.limiting_joint,
         closing=Quantity(closing, "angle", decimals=decimals),
-        now=Quantity(bend, "angle", decimals=decimals),
+        now=Quantity(joint_angle, "angle", decimals=decimals),
         left=left,
     )
 
@@ -498,7 +498,7 @@ def spread(found: Phasing) -> Iterator[Remark]:
         return
     if not found.feasible:
         text = _("The free yokes reach every speed fluctuation from {low:bare} to {high}.")
-        low, high = Quantity(found.irregularity_min, "share"), Quantity(found.irregularity_max, "share")
+        low, high = Quantity(found.speed_fluctuation_min, "share"), Quantity(found.speed_fluctuation_max, "share")
         yield Remark(text=say(text, low=low, high=high))
         return
     numbers = sorted((*found.free, *found.fixed))
@@ -515,10 +515,10 @@ def spread(found: Phasing) -> Iterator[Remark]:
 
 
 def _keys(found: Phasing) -> Iterator[KeyFigure]:
-    least = min((one.irregularity for one in found.settings), default=found.as_built.irregularity)
+    least = min((one.speed_fluctuation for one in found.settings), default=found.as_built.speed_fluctuation)
     title = _("least speed fluctuation δ by other yoke angles")
     yield KeyFigure(name="least_speed_fluctuation", title=title, value=Quantity(float(least), "share"))
-    share = found.as_built.pose_irregularity
+    share = found.as_built.pose_speed_fluctuation
     if share.size:
         worst = int(foremost(share))
         yield KeyFigure(
@@ -532,11 +532,11 @@ def _keys(found: Phasing) -> Iterator[KeyFigure]:
 def _facts(drive: Drive, found: Phasing) -> dict[str, Any]:
     return {
         "synchronous_possible": found.feasible,
-        "speed_fluctuation_as_specified": Quantity(found.as_built.irregularity, "share"),
-        "speed_fluctuation_min": Quantity(found.irregularity_min, "share"),
-        "speed_fluctuation_max": Quantity(found.irregularity_max, "share"),
-        "equivalent_joint_angle_min": Quantity(found.bend_min, "angle"),
-        "equivalent_joint_angle_max": Quantity(found.bend_max, "angle"),
+        "speed_fluctuation_as_specified": Quantity(found.as_built.speed_fluctuation, "share"),
+        "speed_fluctuation_min": Quantity(found.speed_fluctuation_min, "share"),
+        "speed_fluctuation_max": Quantity(found.speed_fluctuation_max, "share"),
+        "equivalent_joint_angle_min": Quantity(found.joint_angle_min, "angle"),
+        "equivalent_joint_angle_max": Quantity(found.joint_angle_max, "angle"),
         "limiting_joint": found.limiting_joint,
         "limiting_joints": list(found.limiting_joints),
         "free_shafts": list(found.free),
@@ -557,13 +557,13 @@ def setting_facts(one: YokeSetting) -> dict[str, Any]:
 
     return {
         "label": one.label,
-        "speed_fluctuation": Quantity(one.irregularity, "share"),
+        "speed_fluctuation": Quantity(one.speed_fluctuation, "share"),
         "yoke_angle": each(one.yoke_angle, "angle"),
         "change": each(one.change, "angle"),
         "sensitivity_per_deg": np.asarray(one.sensitivity, dtype=float) * deg,
-        "initial_yoke_position": each(one.phase_angle, "angle"),
-        "shaft_speed_fluctuation": each(one.shaft_irregularity, "share"),
-        "pose_speed_fluctuation": each(one.pose_irregularity, "share"),
+        "initial_yoke_position": each(one.initial_phase, "angle"),
+        "shaft_speed_fluctuation": each(one.shaft_speed_fluctuation, "share"),
+        "pose_speed_fluctuation": each(one.pose_speed_fluctuation, "share"),
     }
 
 
@@ -582,7 +582,7 @@ def with_applied(said: Answer, setting: YokeSetting, file: str, values: Mapping[
         What changed in it, by paths with units.
     """
     text = _("{path}: setting {label} written, speed fluctuation δ = {share}.")
-    done = say(text, path=file, label=setting.label, share=Quantity(setting.irregularity, "share"))
+    done = say(text, path=file, label=setting.label, share=Quantity(setting.speed_fluctuation, "share"))
     step = Remark(text=_("Look at the new drive:"), command=("cardan", "report", file), tone="next")
     kept = [remark for remark in said.remarks if remark.tone != "next"]
     facts = {**said.facts, "applied": {"setting": setting.label, "file": file, "values": values}}

@@ -29,19 +29,19 @@ class YokeAngles:
     ----------
     yoke_angle : array (..., n-1) [rad]
         γ of shafts 2 … n in (-π/2, π/2].
-    irregularity : array (...)
+    speed_fluctuation : array (...)
         δ that they leave.
     feasible : bool array (...)
         Whether the drive is synchronous with them.
-    irregularity_min, irregularity_max : array (...)
+    speed_fluctuation_min, speed_fluctuation_max : array (...)
         δ that the yokes of the drive can reach, by the lengths alone.
     """
 
     yoke_angle: Array
-    irregularity: Array
+    speed_fluctuation: Array
     feasible: Array
-    irregularity_min: Array
-    irregularity_max: Array
+    speed_fluctuation_min: Array
+    speed_fluctuation_max: Array
 
 
 def synchronous_yokes(
@@ -88,13 +88,15 @@ def synchronous_yokes(
     chain = kinematics(drive)
     n = chain.joints
     _check(n, fixed, weights)
-    single = isinstance(chain.bend, np.ndarray) and chain.bend.ndim == 1
-    bends, twists, yokes = (_columns(x, single) for x in (chain.bend, chain.plane_twist, chain.yoke_angle))
+    single = isinstance(chain.joint_angle, np.ndarray) and chain.joint_angle.ndim == 1
+    joint_angles, twists, yokes = (
+        _columns(x, single) for x in (chain.joint_angle, chain.plane_twist, chain.yoke_angle)
+    )
     between = [0.5 * math.pi - t for t in twists]
     sides: list[mobius.Pair] = []
     free: list[int] = []
-    for i, bend in enumerate(bends):
-        joint = mobius.hooke(bend)
+    for i, joint_angle in enumerate(joint_angles):
+        joint = mobius.hooke(joint_angle)
         if i and i + 1 in fixed:
             held = mobius.turn(between[i - 1] - yokes[i - 1])
             sides[-1] = mobius.compose(joint, mobius.compose(held, sides[-1]))
@@ -119,7 +121,7 @@ def synchronous_yokes(
         yokes[k] = between[k] - turn
     xp = namespace(low)
     found: Array = [wrapped(yoke) for yoke in yokes]
-    left, least, most = mobius.irregularity(closure.pair), 2.0 * xp.sinh(low), 2.0 * xp.sinh(high)
+    left, least, most = mobius.speed_fluctuation(closure.pair), 2.0 * xp.sinh(low), 2.0 * xp.sinh(high)
     if single:
         found, left, least, most = np.asarray(found), np.asarray(left), np.asarray(least), np.asarray(most)
     elif found:
@@ -127,7 +129,11 @@ def synchronous_yokes(
     else:
         found = chain.yoke_angle
     return YokeAngles(
-        yoke_angle=found, irregularity=left, feasible=least <= EVEN, irregularity_min=least, irregularity_max=most
+        yoke_angle=found,
+        speed_fluctuation=left,
+        feasible=least <= EVEN,
+        speed_fluctuation_min=least,
+        speed_fluctuation_max=most,
     )
 
 

@@ -135,8 +135,8 @@ def blocks(chain: Chain, yoke_angle: Array, free: Sequence[int]) -> Blocks:
     between = 0.5 * np.pi - chain.plane_twist
     sides: list[Pair] = []
     joints: list[tuple[int, ...]] = []
-    for i, bend in enumerate(chain.bend.tolist()):
-        joint = mobius.hooke(bend)
+    for i, joint_angle in enumerate(chain.joint_angle.tolist()):
+        joint = mobius.hooke(joint_angle)
         if i == 0 or i - 1 in free:
             sides.append(joint)
             joints.append((i,))

@@ -22,7 +22,7 @@ STARTS = 4
 """Best members from which it starts."""
 
 SHUT = 1e-14
-"""A setting found by search counts as synchronous below this irregularity."""
+"""A setting found by search counts as synchronous below this speed fluctuation."""
 
 MOST_SEARCHED = 40
 """With more free yokes than this the best member looked at is taken as it is."""
@@ -87,7 +87,7 @@ def onto_closure(figure: Blocks, choice: Choice, yoke_angle: Array) -> Array:
 
 
 def _leftover(choice: Choice, yoke_angle: Array) -> float:
-    return float(mobius.irregularity(with_yokes(choice.chain, yoke_angle).products()[-1]))
+    return float(mobius.speed_fluctuation(with_yokes(choice.chain, yoke_angle).products()[-1]))
 
 
 def _followed(figure: Blocks, choice: Choice, goal: Goal, start: Array) -> Array:

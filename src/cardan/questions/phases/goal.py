@@ -1,4 +1,4 @@
-"""What to choose among yoke settings that leave the same irregularity."""
+"""What to choose among yoke settings that leave the same speed fluctuation."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Choice:
 
 @dataclass(frozen=True, kw_only=True)
 class LeastIntermediate:
-    """Least irregularity of the intermediate shafts, Σ w δ over shafts 2 … n.
+    """Least speed fluctuation of the intermediate shafts, Σ w δ over shafts 2 … n.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class LeastIntermediate:
         ``blur`` rounds the corners that δ has where it vanishes.
         """
         xp = namespace(yoke_angle)
-        uneven = equivalent_joint(with_yokes(choice.chain, yoke_angle)).shaft_irregularity[..., :-1]
+        uneven = equivalent_joint(with_yokes(choice.chain, yoke_angle)).shaft_speed_fluctuation[..., :-1]
         weight = choice.weight if self.weights is None else xp.asarray(self.weights, dtype=xp.float64)
         return xp.sum(weight * xp.sqrt(uneven * uneven + blur * blur), axis=-1)
 

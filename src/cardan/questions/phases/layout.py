@@ -1,4 +1,4 @@
-"""Where should the joints stand so that the drive can be synchronous with the smallest bends?"""
+"""Where should the joints stand so that the drive can be synchronous with the smallest joint angles?"""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ class Layout:
         The drive in its new layout, with the best yoke angles set.
     points : array (n+2, 3) [m]
         Input point, joint centres, output point.
-    bend_before, bend : array (n,) [rad]
+    joint_angle_before, joint_angle : array (n,) [rad]
         Bends as described and in the new layout.
     length_before, length : array (n+1,) [m]
         Shaft lengths as described and in the new layout.
     moved : array (n,) [m]
         How far each joint moved.
-    irregularity : float
+    speed_fluctuation : float
         δ of the new drive.
     feasible : bool
         Whether the new drive is synchronous.
@@ -58,12 +58,12 @@ class Layout:
 
     drive: Drive
     points: Array
-    bend_before: Array
-    bend: Array
+    joint_angle_before: Array
+    joint_angle: Array
     length_before: Array
     length: Array
     moved: Array
-    irregularity: float
+    speed_fluctuation: float
     feasible: bool
     phasing: Phasing
     status: Status
@@ -84,8 +84,8 @@ def layout(
     drive : Drive
         Given by points; at least one joint has a box ``move_within``. Shafts with ``yoke_fixed`` keep their yokes.
     weights : sequence of n floats, optional
-        Minimise Σ w (2 sin α/2)² over the joints; the largest bend by default, and then the sum with equal weights
-        among the layouts that have it.
+        Minimise Σ w (2 sin α/2)² over the joints; the largest joint angle by default, and then the sum with equal
+        weights among the layouts that have it.
     shortest : float, optional
         Least distance between neighbouring points [m]; by default a fifth of what it is as described.
     goal : Goal
@@ -105,9 +105,9 @@ def layout(
 
     Notes
     -----
-    Sought are the smallest bends under L_i ≤ Σ L_j of the others, L = -ln cos α, for every joint i (joints with held
-    yokes between them count as one): the exact condition of `phases`. Sequential quadratic programming from several
-    starts, always the same ones; the answer is a minimum near one of them.
+    Sought are the smallest joint angles under L_i ≤ Σ L_j of the others, L = -ln cos α, for every joint i (joints with
+    held yokes between them count as one): the exact condition of `phases`. Sequential quadratic programming from
+    several starts, always the same ones; the answer is a minimum near one of them.
 
     Examples
     --------
@@ -136,7 +136,7 @@ def layout(
     )
     points, complete = best_points(search, progress)
     if complete and not search.possible(points):
-        text = _("nowhere within the boxes does every joint bend less than 90° and every shaft have its least length")
+        text = _("nowhere within the boxes does every joint angle less than 90° and every shaft have its least length")
         raise refuse("joints", text)
     joints = tuple(
         replace(joint, centre=tuple(float(x) for x in centre))  # type: ignore[arg-type]
@@ -152,17 +152,17 @@ def layout(
                 shafts[k + 1] = replace(shafts[k + 1], yoke_angle=angle)
         moved = replace(moved, shafts=tuple(shafts))
     after = geometry(moved)
-    left = phasing.settings[0].irregularity if phasing.settings else phasing.as_built.irregularity
+    left = phasing.settings[0].speed_fluctuation if phasing.settings else phasing.as_built.speed_fluctuation
     ended = Status.CONVERGED if phasing.feasible else Status.INFEASIBLE
     return Layout(
         drive=moved,
         points=after.points,
-        bend_before=before.bend,
-        bend=after.bend,
+        joint_angle_before=before.joint_angle,
+        joint_angle=after.joint_angle,
         length_before=before.length,
         length=after.length,
         moved=np.linalg.norm(after.points - before.points, axis=-1)[1:-1],
-        irregularity=left,
+        speed_fluctuation=left,
         feasible=phasing.feasible,
         phasing=phasing,
         status=ended if complete else Status.CANCELLED,

@@ -69,10 +69,10 @@ def _sentence(drive: Drive, found: Layout) -> Say:
     return say(
         text,
         count=plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints)),
-        now=Quantity(float(equivalent_joint(drive).irregularity), "share"),
-        least=Quantity(found.irregularity, "share"),
-        angle=Quantity(float(found.bend.max()), "angle", decimals=2),
-        old=Quantity(float(found.bend_before.max()), "angle", decimals=2),
+        now=Quantity(float(equivalent_joint(drive).speed_fluctuation), "share"),
+        least=Quantity(found.speed_fluctuation, "share"),
+        angle=Quantity(float(found.joint_angle.max()), "angle", decimals=2),
+        old=Quantity(float(found.joint_angle_before.max()), "angle", decimals=2),
     )
 
 
@@ -87,11 +87,11 @@ def _joints(found: Layout) -> Table:
             Column(
                 key="joint_angle_before",
                 heading=_("joint angle, was"),
-                values=found.bend_before,
+                values=found.joint_angle_before,
                 dimension="angle",
                 decimals=2,
             ),
-            Column(key="joint_angle", heading=_("now"), values=found.bend, dimension="angle", decimals=2),
+            Column(key="joint_angle", heading=_("now"), values=found.joint_angle, dimension="angle", decimals=2),
             Column(key="moved", heading=_("moved by"), values=found.moved, dimension="length", decimals=1),
             *(
                 Column(key=key, heading=heading, values=where[:, k], dimension="length", decimals=1)
@@ -120,9 +120,9 @@ def _facts(found: Layout) -> dict[str, Any]:
     return {
         "status": str(found.status),
         "synchronous_possible": found.feasible,
-        "speed_fluctuation": Quantity(found.irregularity, "share"),
-        "joint_angle_before": Quantity(found.bend_before, "angle"),
-        "joint_angle": Quantity(found.bend, "angle"),
+        "speed_fluctuation": Quantity(found.speed_fluctuation, "share"),
+        "joint_angle_before": Quantity(found.joint_angle_before, "angle"),
+        "joint_angle": Quantity(found.joint_angle, "angle"),
         "length_before": Quantity(found.length_before, "length"),
         "length": Quantity(found.length, "length"),
         "points": Quantity(found.points, "length"),

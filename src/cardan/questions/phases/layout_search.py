@@ -1,4 +1,4 @@
-"""The search behind `layout`: smallest bends under the polygon's triangle inequality."""
+"""The search behind `layout`: smallest joint angles under the polygon's triangle inequality."""
 
 from __future__ import annotations
 
@@ -101,14 +101,14 @@ class Search:
         """Return the sides of the polygon: joints with held yokes between them are one."""
         place = geometry_from_points(points)
         turn = Chain(
-            bend=place.bend,
+            joint_angle=place.joint_angle,
             plane_twist=place.plane_twist,
             yoke_angle=self.yoke_angle,
             start_phase=np.asarray(0.0),
         ).turn_before
         sides: list[mobius.Pair] = []
-        for i in range(place.bend.shape[-1]):
-            joint = mobius.hooke(place.bend[..., i])
+        for i in range(place.joint_angle.shape[-1]):
+            joint = mobius.hooke(place.joint_angle[..., i])
             if i == 0 or i - 1 in self.free:
                 sides.append(joint)
             else:

@@ -36,9 +36,9 @@ class Phasing:
         The drive as described.
     feasible : bool
         Whether the free yokes can make it synchronous, exactly and in all harmonics.
-    irregularity_min, irregularity_max : float
+    speed_fluctuation_min, speed_fluctuation_max : float
         δ that the free yokes can reach, and everything between.
-    bend_min, bend_max : float [rad]
+    joint_angle_min, joint_angle_max : float [rad]
         The same as equivalent angles.
     free, fixed : tuple of int
         Numbers of the shafts whose yokes may be turned, and of those held.
@@ -51,24 +51,24 @@ class Phasing:
     spline_refusal : str
         Why the settings with spline teeth could not be enumerated; empty when they could.
     limiting_joint : int or None
-        Number of the joint whose bend is too large for the others, where not feasible.
+        Number of the joint whose joint angle is too large for the others, where not feasible.
     limiting_joints : tuple of int
         The same with the joints that held yokes tie to it.
     poses : tuple of str
         Names of the poses that the settings are judged in.
     pose_settings : tuple of YokeSetting
-        The setting with the least irregularity in the worst pose, and that with the least mean over the poses' shares
-        of time; empty when there are no poses.
+        The setting with the least speed fluctuation in the worst pose, and that with the least mean over the poses'
+        shares of time; empty when there are no poses.
     complete : bool
         False when ``progress`` stopped the search; what was found by then is kept.
     """
 
     as_built: YokeSetting
     feasible: bool
-    irregularity_min: float
-    irregularity_max: float
-    bend_min: float
-    bend_max: float
+    speed_fluctuation_min: float
+    speed_fluctuation_max: float
+    joint_angle_min: float
+    joint_angle_max: float
     free: tuple[int, ...]
     fixed: tuple[int, ...]
     settings: tuple[YokeSetting, ...]
@@ -83,9 +83,11 @@ class Phasing:
 
     @property
     def reach(self) -> float:
-        """Largest irregularity met, in the drive and in its poses: the scale by which growth is more than rounding."""
+        """Largest fluctuation met, in the drive and in its poses: the scale by which growth is more than rounding."""
         every = (self.as_built, *self.settings, *self.pose_settings)
-        return max(self.irregularity_max, *(float(np.max(one.pose_irregularity, initial=0.0)) for one in every))
+        return max(
+            self.speed_fluctuation_max, *(float(np.max(one.pose_speed_fluctuation, initial=0.0)) for one in every)
+        )
 
 
 def phases(
@@ -132,7 +134,7 @@ def phases(
     --------
     >>> from cardan.units import deg
     >>> found = phases(Drive.from_angles([10 * deg, 15 * deg, 17 * deg]))
-    >>> found.feasible, [s.irregularity < 1e-14 for s in found.settings]
+    >>> found.feasible, [s.speed_fluctuation < 1e-14 for s in found.settings]
     (True, [True, True])
     """
     whole = nearly_turning_chain(drive, _("yoke angles"))
@@ -161,17 +163,17 @@ def phases(
     return Phasing(
         as_built=evaluated(as_built[None], [_("as specified")])[0],
         feasible=feasible,
-        irregularity_min=2.0 * math.sinh(low),
-        irregularity_max=2.0 * math.sinh(high),
-        bend_min=_bend(low),
-        bend_max=_bend(high),
+        speed_fluctuation_min=2.0 * math.sinh(low),
+        speed_fluctuation_max=2.0 * math.sinh(high),
+        joint_angle_min=_joint_angle(low),
+        joint_angle_max=_joint_angle(high),
         free=tuple(k + 2 for k in free),
         fixed=tuple(sorted(held)),
         settings=evaluated(rows, [chr(ord("A") + k) for k in range(len(rows))]) if whole.joints > 1 else (),
         spline_settings=evaluated(pitched, _spline_labels(teeth, len(pitched))),
         spline_steps={k + 2: steps(z) for k, z in teeth.items()},
         spline_refusal=refusal,
-        limiting_joint=foremost_of(limiting, lambda i: float(whole.bend[i])) + 1 if limiting else None,
+        limiting_joint=foremost_of(limiting, lambda i: float(whole.joint_angle[i])) + 1 if limiting else None,
         limiting_joints=tuple(i + 1 for i in limiting),
         poses=names,
         pose_settings=evaluated(posed, [_("least in the worst pose"), _("least mean of the poses")][: len(posed)]),
@@ -179,7 +181,7 @@ def phases(
     )
 
 
-def _bend(length: float) -> float:
+def _joint_angle(length: float) -> float:
     return 2.0 * math.atan(math.sqrt(math.tanh(0.5 * length)))
 
 

@@ -1,7 +1,7 @@
 """One set of yoke angles for several poses of a drive.
 
 A drive that is synchronous in one pose is not so in another. The yokes are the same in all: sought are those with the
-smallest irregularity in the worst pose, and those with the smallest mean over the poses by their share of time.
+smallest speed fluctuation in the worst pose, and those with the smallest mean over the poses by their share of time.
 """
 
 from __future__ import annotations
@@ -36,20 +36,20 @@ Progress = Callable[[float], object]
 def stacked(poses: Sequence[Chain]) -> Chain:
     """Return the drive in its poses as one batch (p, n)."""
     return Chain(
-        bend=np.stack([pose.bend for pose in poses]),
+        joint_angle=np.stack([pose.joint_angle for pose in poses]),
         plane_twist=np.stack([pose.plane_twist for pose in poses]),
         yoke_angle=np.stack([pose.yoke_angle for pose in poses]),
         start_phase=np.stack([np.asarray(pose.start_phase) for pose in poses]),
     )
 
 
-def irregularities(poses: Chain, yoke_angle: Array) -> Array:
+def speed_fluctuations(poses: Chain, yoke_angle: Array) -> Array:
     """Return δ of yoke settings (..., n-1) [rad] in every pose, array (..., p)."""
-    return equivalent_joint(with_yokes(poses, _each(poses, yoke_angle))).irregularity
+    return equivalent_joint(with_yokes(poses, _each(poses, yoke_angle))).speed_fluctuation
 
 
 def _each(poses: Chain, yoke_angle: Array) -> Array:
-    shape = (*yoke_angle.shape[:-1], poses.bend.shape[0], yoke_angle.shape[-1])
+    shape = (*yoke_angle.shape[:-1], poses.joint_angle.shape[0], yoke_angle.shape[-1])
     return np.broadcast_to(yoke_angle[..., None, :], shape)
 
 
@@ -61,7 +61,7 @@ def best_for_poses(
     known: Array,
     progress: Progress | None = None,
 ) -> tuple[Array, Array, bool]:
-    """Return the settings with the least worst and with the least mean irregularity over the poses.
+    """Return the settings with the least worst and with the least mean speed_fluctuation over the poses.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def best_for_poses(
     Returns
     -------
     worst, mean : array (n-1,) [rad]
-        Yoke angles for the least worst and the least mean irregularity.
+        Yoke angles for the least worst and the least mean speed_fluctuation.
     complete : bool
         False when stopped.
     """
@@ -89,7 +89,7 @@ def best_for_poses(
         return yoke_angle, yoke_angle, True
     rows = np.concatenate((yoke_angle[None], known, np.repeat(yoke_angle[None], SAMPLES, axis=0)))
     rows[-SAMPLES:, list(free)] = np.random.default_rng(len(free)).uniform(0.0, np.pi, (SAMPLES, len(free)))
-    uneven = irregularities(poses, rows)
+    uneven = speed_fluctuations(poses, rows)
     answers: list[Array] = []
     total = 2 * STARTS
     for number, (judge, search) in enumerate(((_worst, _min_max), (_mean, _least_mean))):
@@ -100,7 +100,7 @@ def best_for_poses(
                 answers.append(best)
                 return answers[0], answers[-1], False
             found = search(poses, share, start, list(free), max(least, 1e-9))
-            value = float(judge(irregularities(poses, found), share))
+            value = float(judge(speed_fluctuations(poses, found), share))
             if value < least:
                 best, least = found, value
         answers.append(best)

@@ -13,7 +13,7 @@ from cardan.maths.arrays import Array, namespace, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.maths.kernel.mobius import Pair
 from cardan.questions.motion.equivalence import SYNCHRONOUS, equivalent_joint
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.units import deg
 
 
@@ -27,11 +27,11 @@ class YokeSetting:
         What to call it in a table.
     yoke_angle : array (n-1,) [rad]
         γ of shafts 2 … n in (-π/2, π/2].
-    irregularity : float
+    speed_fluctuation : float
         δ of the output.
-    shaft_irregularity : array (n,)
+    shaft_speed_fluctuation : array (n,)
         δ of shafts 2 … n+1.
-    phase_angle : array (n,) [rad]
+    initial_phase : array (n,) [rad]
         ψ of each joint.
     sensitivity : array (n-1,) [1/rad]
         Growth of δ when the yoke of shaft 2 … n is turned, see `sensitivity`.
@@ -41,20 +41,20 @@ class YokeSetting:
         Corners of the phase polygon in the unit disk.
     change : array (n-1,) [rad]
         Turn from the yoke angles as built, in (-π/2, π/2].
-    pose_irregularity : array (p,)
+    pose_speed_fluctuation : array (p,)
         δ in each pose; empty when the drive has none.
     """
 
     label: str
     yoke_angle: Array
-    irregularity: float
-    shaft_irregularity: Array
-    phase_angle: Array
+    speed_fluctuation: float
+    shaft_speed_fluctuation: Array
+    initial_phase: Array
     sensitivity: Array
     one_off: Array
     vertex: Array
     change: Array
-    pose_irregularity: Array = field(default_factory=lambda: np.zeros(0))
+    pose_speed_fluctuation: Array = field(default_factory=lambda: np.zeros(0))
 
 
 STEP = 1e-9
@@ -101,9 +101,9 @@ def wrapped(angle: Array) -> Array:
 
 def with_yokes(chain: Chain, yoke_angle: Array) -> Chain:
     """Return the chain with other yoke angles, array (..., n-1) [rad]; leading axes make a batch."""
-    xp = namespace(chain.bend, yoke_angle)
+    xp = namespace(chain.joint_angle, yoke_angle)
     return Chain(
-        bend=xp.broadcast_to(chain.bend, (*yoke_angle.shape[:-1], chain.joints)),
+        joint_angle=xp.broadcast_to(chain.joint_angle, (*yoke_angle.shape[:-1], chain.joints)),
         plane_twist=chain.plane_twist,
         yoke_angle=yoke_angle,
         start_phase=chain.start_phase,
@@ -127,8 +127,8 @@ def turned(chain: Chain) -> tuple[Pair, Array, Array]:
     """
     before = chain.products()
     turn = chain.turn_before
-    xp = namespace(chain.bend)
-    after = mobius.hooke(chain.bend[..., -1])
+    xp = namespace(chain.joint_angle)
+    after = mobius.hooke(chain.joint_angle[..., -1])
     da, db = [], []
     for j in range(chain.joints - 1, 0, -1):
         spin = unit_complex(turn[..., j])
@@ -136,14 +136,16 @@ def turned(chain: Chain) -> tuple[Pair, Array, Array]:
         p, q = after
         da.append(-1j * (p * spin * a - q * xp.conj(spin * b)))
         db.append(-1j * (p * spin * b - q * xp.conj(spin * a)))
-        after = mobius.compose(mobius.compose(after, mobius.turn(turn[..., j])), mobius.hooke(chain.bend[..., j - 1]))
+        after = mobius.compose(
+            mobius.compose(after, mobius.turn(turn[..., j])), mobius.hooke(chain.joint_angle[..., j - 1])
+        )
     return before[-1], _stack(da, chain), _stack(db, chain)
 
 
 def _stack(columns: list[Array], chain: Chain) -> Array:
-    xp = namespace(chain.bend)
+    xp = namespace(chain.joint_angle)
     if not columns:
-        return xp.zeros((*chain.bend.shape[:-1], 0), dtype=xp.complex128)
+        return xp.zeros((*chain.joint_angle.shape[:-1], 0), dtype=xp.complex128)
     return xp.stack(columns[::-1], axis=-1)
 
 
@@ -155,7 +157,7 @@ def sensitivity(chain: Chain) -> Array:
 
     Notes
     -----
-    δ = 4 \\|a\\| \\|b\\|, exactly differentiated. At closure the slope is 4 \\|a\\| \\|db/dγ\\|, for small bends
+    δ = 4 \\|a\\| \\|b\\|, exactly differentiated. At closure the slope is 4 \\|a\\| \\|db/dγ\\|, for small joint angles
     8 \\|Σ_{k≥j} τ_k e^{2iΨ_k}\\|.
 
     Examples
@@ -166,7 +168,7 @@ def sensitivity(chain: Chain) -> Array:
     array([0.00434...])
     """
     (a, b), da, db = turned(chain)
-    xp = namespace(chain.bend)
+    xp = namespace(chain.joint_angle)
     size_a, size_b = xp.abs(a)[..., None], xp.abs(b)[..., None]
     closed = 4.0 * size_a * size_b < SYNCHRONOUS
     along_b = xp.real(xp.conj(b)[..., None] * db) / xp.where(closed, 1.0 + 0.0 * size_b, size_b)
@@ -200,8 +202,8 @@ def growth(chain: Chain, yoke_angle: Array, error: float = deg) -> Array:
     """
     count = yoke_angle.shape[-1]
     off = error * np.concatenate((np.eye(count), -np.eye(count)))
-    moved = equivalent_joint(with_yokes(chain, yoke_angle[..., None, :] + off)).irregularity
-    here = equivalent_joint(with_yokes(chain, yoke_angle)).irregularity
+    moved = equivalent_joint(with_yokes(chain, yoke_angle[..., None, :] + off)).speed_fluctuation
+    here = equivalent_joint(with_yokes(chain, yoke_angle)).speed_fluctuation
     found: Array = np.max(moved.reshape(*moved.shape[:-1], 2, count), axis=-2) - here[..., None]
     return found
 
@@ -227,24 +229,24 @@ def settings(
     tidy = wrapped(yoke_angle)
     batch = with_yokes(chain, tidy)
     joint = equivalent_joint(batch)
-    psi = phase_angles(batch)
+    psi = initial_phases(batch)
     slope = sensitivity(batch)
     off = np.max([growth(one, tidy) for one in (chain, *poses)], axis=0)
     change = wrapped(tidy - as_built)
-    posed = [equivalent_joint(with_yokes(pose, tidy)).irregularity for pose in poses]
+    posed = [equivalent_joint(with_yokes(pose, tidy)).speed_fluctuation for pose in poses]
     each = np.stack(posed, axis=-1) if posed else np.zeros((len(labels), 0))
     return tuple(
         YokeSetting(
             label=label,
             yoke_angle=tidy[s],
-            irregularity=float(joint.irregularity[s]),
-            shaft_irregularity=joint.shaft_irregularity[s],
-            phase_angle=psi[s],
+            speed_fluctuation=float(joint.speed_fluctuation[s]),
+            shaft_speed_fluctuation=joint.shaft_speed_fluctuation[s],
+            initial_phase=psi[s],
             sensitivity=slope[s],
             one_off=off[s],
             vertex=joint.vertex[s],
             change=change[s],
-            pose_irregularity=each[s],
+            pose_speed_fluctuation=each[s],
         )
         for s, label in enumerate(labels)
     )

@@ -2,8 +2,8 @@
 
 A shaft with z teeth lets its yokes stand in steps of 360°/z from where they are; modulo 180° these are z places, z/2
 when z is even. All settings of all shafts are enumerated. Where they are too many, the chain is cut in two and only the
-halves are enumerated: each setting of a half is a point of the hyperbolic disk, the irregularity of the whole is the
-distance between a point of the one and a point of the other half, and the nearest pairs come from a search tree.
+halves are enumerated: each setting of a half is a point of the hyperbolic disk, the speed fluctuation of the whole is
+the distance between a point of the one and a point of the other half, and the nearest pairs come from a search tree.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ LIMIT = 1 << 20
 """Most points of one half, and most settings where yokes to be set freely stand between."""
 
 TIE = 1e-12
-"""Irregularities nearer than this are equal; the setting nearer to the present one comes first."""
+"""SpeedFluctuations nearer than this are equal; the setting nearer to the present one comes first."""
 
 
 def steps(teeth: int) -> int:
@@ -62,7 +62,7 @@ def best_pitched(
     *,
     count: int = 6,
 ) -> Array:
-    """Return the settings with the smallest irregularity that splines allow, best first.
+    """Return the settings with the smallest speed fluctuation that splines allow, best first.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def best_pitched(
     run = _run(chain, range(chain.joints), places)
     if math.prod(run.counts) <= DIRECT:
         pair = _enumerated(chain, yoke_angle, places, run)
-        index = _smallest(mobius.irregularity(pair), run, places, yoke_angle, count)
+        index = _smallest(mobius.speed_fluctuation(pair), run, places, yoke_angle, count)
     else:
         index = _met(chain, yoke_angle, places, run, count)
     return _rows(yoke_angle, places, run.pitched, run.counts, index)
@@ -105,11 +105,11 @@ def _run(chain: Chain, joints: range, places: Mapping[int, Array]) -> _Run:
 
 def _enumerated(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run) -> Pair:
     """Return the pairs of all settings of a run of joints, the last yoke changing fastest."""
-    bend = chain.bend.tolist()
-    a, b = (np.asarray([part]) for part in mobius.hooke(bend[run.joints.start]))
+    joint_angle = chain.joint_angle.tolist()
+    a, b = (np.asarray([part]) for part in mobius.hooke(joint_angle[run.joints.start]))
     for i in run.joints[1:]:
         a, b = _turned((a, b), _turns(chain, yoke_angle, places, i - 1))
-        a, b = mobius.compose(mobius.hooke(np.asarray(bend[i])), (a, b))
+        a, b = mobius.compose(mobius.hooke(np.asarray(joint_angle[i])), (a, b))
     return a, b
 
 
@@ -190,7 +190,7 @@ def _met(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run
     i, j = (np.concatenate(x) for x in zip(*found, strict=True))
     index = np.unique(i * len(v) + j)
     i, j = index // len(v), index % len(v)
-    whole = mobius.irregularity(mobius.compose((p[j], q[j]), (a[i], b[i])))
+    whole = mobius.speed_fluctuation(mobius.compose((p[j], q[j]), (a[i], b[i])))
     kept = np.argsort(whole, kind="stable")[: 8 * count]
     return _ordered(index[kept], whole[kept], run.pitched, run.counts, places, yoke_angle)[:count]
 

@@ -12,10 +12,10 @@ from cardan.drive.joints.laws import half_cardan
 from cardan.units import deg
 
 
-def output(phi, bend):
+def output(phi, joint_angle):
     """Return the angle of a bell whose face stays at right angles to the diameter of the tongue."""
     diameter = np.array([np.cos(phi), np.sin(phi), 0.0])
-    tilted = Rotation.from_euler("y", bend).as_matrix()
+    tilted = Rotation.from_euler("y", joint_angle).as_matrix()
 
     def miss(psi):
         return diameter @ tilted @ np.array([-np.sin(psi), np.cos(psi), 0.0])
@@ -25,19 +25,19 @@ def output(phi, bend):
 
 @settings(max_examples=30)
 @given(st.floats(0.0, 360.0), st.floats(0.5, 60.0), st.integers(1, 6))
-def test_every_pair_asks_for_what_its_face_says(angle, bend, pairs):
-    phi, bend = angle * deg, bend * deg
+def test_every_pair_asks_for_what_its_face_says(angle, joint_angle, pairs):
+    phi, joint_angle = angle * deg, joint_angle * deg
     places = phi + np.pi / pairs * np.arange(pairs)
-    expected = [output(place, bend) - place for place in places]
-    got = half_cardan.demands(phi, bend, pairs)
+    expected = [output(place, joint_angle) - place for place in places]
+    got = half_cardan.demands(phi, joint_angle, pairs)
     np.testing.assert_allclose(got, expected, atol=1e-13)
 
 
 @given(st.floats(0.0, 360.0), st.floats(0.5, 70.0), st.integers(1, 6))
-def test_elastic_pairs_turn_by_the_mean(angle, bend, pairs):
-    phi, bend = angle * deg, bend * deg
-    mean = half_cardan.demands(phi, bend, pairs).mean()
-    assert half_cardan.deviation(phi, bend, pairs) == pytest.approx(mean, abs=1e-14)
+def test_elastic_pairs_turn_by_the_mean(angle, joint_angle, pairs):
+    phi, joint_angle = angle * deg, joint_angle * deg
+    mean = half_cardan.demands(phi, joint_angle, pairs).mean()
+    assert half_cardan.deviation(phi, joint_angle, pairs) == pytest.approx(mean, abs=1e-14)
 
 
 @pytest.mark.parametrize("pairs", [1, 2, 3])
@@ -50,11 +50,11 @@ def test_the_ratio_is_the_slope_of_the_turn(pairs):
 
 def test_the_play_is_the_greatest_difference_of_two_pairs():
     phi = np.linspace(0, np.pi, 20001)
-    for bend in (2 * deg, 10 * deg, 40 * deg):
-        square = np.ptp(half_cardan.demands(phi, bend, 2), axis=-1).max()
-        assert half_cardan.play(bend, 2) == pytest.approx(square, rel=1e-7)
-        many = np.ptp(half_cardan.demands(phi[:200], bend, 90), axis=-1).max()
-        assert many <= half_cardan.play(bend, 90) <= many * 1.001
+    for joint_angle in (2 * deg, 10 * deg, 40 * deg):
+        square = np.ptp(half_cardan.demands(phi, joint_angle, 2), axis=-1).max()
+        assert half_cardan.play(joint_angle, 2) == pytest.approx(square, rel=1e-7)
+        many = np.ptp(half_cardan.demands(phi[:200], joint_angle, 90), axis=-1).max()
+        assert many <= half_cardan.play(joint_angle, 90) <= many * 1.001
     assert half_cardan.play(0.3, 1) == 0.0
 
 

@@ -17,28 +17,28 @@ def turned(v, axis, angle):
     return v * np.cos(angle) + np.cross(axis, v) * np.sin(angle) + axis * (axis @ v) * (1 - np.cos(angle))
 
 
-def pins(phi, psi, bend, a, b, one, two):
+def pins(phi, psi, joint_angle, a, b, one, two):
     """Return starts and directions of both pins: shaft 1 from below along z, shaft 2 leaves it toward y."""
-    away1, away2 = np.array([0.0, 0.0, -1.0]), np.array([0.0, np.sin(bend), np.cos(bend)])
-    inner1, inner2 = np.array([0.0, 1.0, 0.0]), np.array([0.0, np.cos(bend), -np.sin(bend)])
+    away1, away2 = np.array([0.0, 0.0, -1.0]), np.array([0.0, np.sin(joint_angle), np.cos(joint_angle)])
+    inner1, inner2 = np.array([0.0, 1.0, 0.0]), np.array([0.0, np.cos(joint_angle), -np.sin(joint_angle)])
     d1 = turned(-np.cos(one) * away1 + np.sin(one) * inner1, away1, phi)
     d2 = turned(-np.cos(two) * away2 + np.sin(two) * inner2, -away2, psi)
     return a * away1, d1, b * away2, d2
 
 
-def closed(phi, bend, a, b, one, two):
+def closed(phi, joint_angle, a, b, one, two):
     """Return φ2 - φ1, x, y and the place of the contact."""
 
     def gap(u):
-        start1, d1, start2, d2 = pins(phi, phi + u[0], bend, a, b, one, two)
+        start1, d1, start2, d2 = pins(phi, phi + u[0], joint_angle, a, b, one, two)
         return (start1 + u[1] * a * d1 - start2 - u[2] * a * d2) / a
 
-    x = pin_coupling.stroke(bend, 1.0, 0.5 * (one + two))
+    x = pin_coupling.stroke(joint_angle, 1.0, 0.5 * (one + two))
     found = least_squares(gap, [0.0, x[0], x[0]], xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=200)
     if np.linalg.norm(found.fun) > 1e-11 or min(found.x[1:]) <= 0:
         found = least_squares(gap, [0.0, x[1], x[1]], xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=200)
     assert np.linalg.norm(found.fun) < 1e-11
-    start1, d1, _start2, _d2 = pins(phi, phi, bend, a, b, one, two)
+    start1, d1, _start2, _d2 = pins(phi, phi, joint_angle, a, b, one, two)
     return found.x[0], a * found.x[1], a * found.x[2], start1 + a * found.x[1] * d1
 
 
@@ -50,42 +50,46 @@ def closed(phi, bend, a, b, one, two):
     st.floats(0.2, 0.8),
     st.floats(-0.05, 0.05),
 )
-def test_the_pins_meet_where_space_says(angle, bend, unequal, within, apart):
-    low, high = pin_coupling.slant_range(bend * deg)
+def test_the_pins_meet_where_space_says(angle, joint_angle, unequal, within, apart):
+    low, high = pin_coupling.slant_range(joint_angle * deg)
     one = low + within * (high - low)
     two = low + (within + apart) * (high - low)
-    given_as = (angle * deg, bend * deg, 0.05, 0.05 * (1 + unequal), one, two)
+    given_as = (angle * deg, joint_angle * deg, 0.05, 0.05 * (1 + unequal), one, two)
     found = pin_coupling.pin_contact(*given_as)
-    lead, x, y, _place = closed(*given_as)
+    angle_error, x, y, _place = closed(*given_as)
     assume(x > 0 and y > 0)
     # Least squares stops at 1e-15 of the gap; near the ends of the range the lines cross at small angles.
-    assert found.deviation == pytest.approx(lead, abs=1e-9)
+    assert found.deviation == pytest.approx(angle_error, abs=1e-9)
     assert found.first == pytest.approx(x, rel=1e-8)
     assert found.second == pytest.approx(y, rel=1e-8)
 
 
 @settings(max_examples=40)
 @given(st.floats(0.0, 360.0), st.floats(0.0, 80.0), st.floats(0.02, 0.98))
-def test_pins_alike_run_evenly_within_the_range_of_slants(angle, bend, within):
-    low, high = pin_coupling.slant_range(bend * deg)
+def test_pins_alike_run_evenly_within_the_range_of_slants(angle, joint_angle, within):
+    low, high = pin_coupling.slant_range(joint_angle * deg)
     slant = low + within * (high - low)
-    found = pin_coupling.pin_contact(angle * deg, bend * deg, 0.04, 0.04, slant, slant)
+    found = pin_coupling.pin_contact(angle * deg, joint_angle * deg, 0.04, 0.04, slant, slant)
     assert found.deviation == pytest.approx(0.0, abs=1e-11)
     assert found.ratio == pytest.approx(1.0, abs=1e-9)
     assert found.ratio_slope == pytest.approx(0.0, abs=1e-7)
-    half = 0.5 * bend * deg
+    half = 0.5 * joint_angle * deg
     x = 0.04 / (np.cos(slant) + np.sin(slant) * np.cos(angle * deg) * np.tan(half))
     assert found.first == pytest.approx(x, rel=1e-9)
-    least, most = pin_coupling.stroke(bend * deg, 0.04, slant)
+    least, most = pin_coupling.stroke(joint_angle * deg, 0.04, slant)
     assert least * (1 - 1e-9) <= found.first <= most * (1 + 1e-9)
 
 
 def test_pins_alike_have_closed_forms():
     phi = np.linspace(0.1, 2 * np.pi, 40)  # in the plane of the shafts the normal of the general form is 0/0
-    for bend, slant in ((30 * deg, 40 * deg), (70 * deg, 37 * deg), (5 * deg, 80 * deg)):
-        found = pin_coupling.pin_contact(phi[:-1], bend, 0.04, 0.04, slant, slant)
-        np.testing.assert_allclose(found.first, pin_coupling.along_alike(phi[:-1], bend, 0.04, slant), rtol=1e-10)
-        np.testing.assert_allclose(found.force, pin_coupling.force_alike(phi[:-1], bend, 0.04, slant), rtol=1e-10)
+    for joint_angle, slant in ((30 * deg, 40 * deg), (70 * deg, 37 * deg), (5 * deg, 80 * deg)):
+        found = pin_coupling.pin_contact(phi[:-1], joint_angle, 0.04, 0.04, slant, slant)
+        np.testing.assert_allclose(
+            found.first, pin_coupling.along_alike(phi[:-1], joint_angle, 0.04, slant), rtol=1e-10
+        )
+        np.testing.assert_allclose(
+            found.force, pin_coupling.force_alike(phi[:-1], joint_angle, 0.04, slant), rtol=1e-10
+        )
 
 
 def test_the_stroke_is_reached_on_both_sides_of_the_bend():
@@ -95,15 +99,17 @@ def test_the_stroke_is_reached_on_both_sides_of_the_bend():
 
 def test_the_contact_of_pins_alike_runs_on_an_ellipse():
     """In the halving plane, over the plane of the shafts and across it."""
-    bend, slant = 50 * deg, 48 * deg
-    places = np.array([closed(k * 20 * deg, bend, 0.05, 0.05, slant, slant)[3] for k in range(18)])
-    along = np.array([0.0, np.cos(0.5 * bend), -np.sin(0.5 * bend)])
+    joint_angle, slant = 50 * deg, 48 * deg
+    places = np.array([closed(k * 20 * deg, joint_angle, 0.05, 0.05, slant, slant)[3] for k in range(18)])
+    along = np.array([0.0, np.cos(0.5 * joint_angle), -np.sin(0.5 * joint_angle)])
     u, v = places @ along, places[:, 0]
     rows = np.stack([u * u, u, v * v], -1)  # u²/p² + ... = 1, on both sides of the plane of the shafts alike
     (a, b, c), left, _rank, _sizes = np.linalg.lstsq(rows, np.ones(len(u)), rcond=None)
     assert left < 1e-18
     shorter, longer = sorted(((1 + 0.25 * b * b / a) / a, (1 + 0.25 * b * b / a) / c))
-    assert np.sqrt(1 - shorter / longer) == pytest.approx(float(pin_coupling.eccentricity(bend, slant)), rel=1e-6)
+    assert np.sqrt(1 - shorter / longer) == pytest.approx(
+        float(pin_coupling.eccentricity(joint_angle, slant)), rel=1e-6
+    )
 
 
 def test_ratio_and_slope_are_derivatives_of_the_turn():
@@ -119,11 +125,11 @@ def test_ratio_and_slope_are_derivatives_of_the_turn():
 def test_the_contact_force_carries_the_torque_of_both_shafts(angle):
     phi = angle * deg
     found = pin_coupling.pin_contact(phi, *UNEQUAL)
-    bend = UNEQUAL[0]
-    lead, _x, _y, place = closed(phi, *UNEQUAL)
-    _start1, d1, _start2, d2 = pins(phi, phi + lead, *UNEQUAL)
+    joint_angle = UNEQUAL[0]
+    angle_error, _x, _y, place = closed(phi, *UNEQUAL)
+    _start1, d1, _start2, d2 = pins(phi, phi + angle_error, *UNEQUAL)
     normal = np.cross(d1, d2) / np.linalg.norm(np.cross(d1, d2))
-    about1, about2 = np.array([0.0, 0.0, -1.0]), -np.array([0.0, np.sin(bend), np.cos(bend)])
+    about1, about2 = np.array([0.0, 0.0, -1.0]), -np.array([0.0, np.sin(joint_angle), np.cos(joint_angle)])
     torque1, torque2 = (about @ np.cross(place, found.force * normal) for about in (about1, about2))
     assert abs(torque1) == pytest.approx(1.0, rel=1e-9)
     assert torque1 / torque2 == pytest.approx(found.ratio, rel=1e-9), "power in is power out"
@@ -131,15 +137,15 @@ def test_the_contact_force_carries_the_torque_of_both_shafts(angle):
 
 def test_a_missed_plane_is_right_to_first_order():
     """Twice the shift leaves four times the rest, and the textbook example comes out."""
-    phi, bend, slant, a = np.linspace(0, 2 * np.pi, 361), 20 * deg, 45 * deg, 0.04
+    phi, joint_angle, slant, a = np.linspace(0, 2 * np.pi, 361), 20 * deg, 45 * deg, 0.04
     rest = []
     for shift in (1e-5, 2e-5):
-        found = pin_coupling.pin_contact(phi, bend, a + shift, a - shift, slant, slant)
-        off = pin_coupling.missed_by_pins(phi, bend, shift, slant)
-        first = pin_coupling.missed_plane(phi, bend, off, found.first * np.sin(slant))
+        found = pin_coupling.pin_contact(phi, joint_angle, a + shift, a - shift, slant, slant)
+        off = pin_coupling.missed_by_pins(phi, joint_angle, shift, slant)
+        first = pin_coupling.missed_plane(phi, joint_angle, off, found.first * np.sin(slant))
         rest.append(np.max(np.abs(found.deviation - first)))
     assert rest[1] / rest[0] == pytest.approx(4.0, abs=0.05)
-    found = pin_coupling.pin_contact(phi, bend, a + 0.2e-3, a - 0.2e-3, slant, slant)
+    found = pin_coupling.pin_contact(phi, joint_angle, a + 0.2e-3, a - 0.2e-3, slant, slant)
     assert np.max(np.abs(found.deviation)) / deg == pytest.approx(0.107, abs=5e-4)
     assert np.ptp(found.ratio) == pytest.approx(0.0038, abs=5e-5)
 

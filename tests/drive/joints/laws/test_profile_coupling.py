@@ -15,9 +15,9 @@ ARM = Circle(axial=0.06, radial=0.01, radius=0.075)
 OTHER = Circle(axial=0.062, radial=0.011, radius=0.074)
 
 
-def closed(phi, bend, first, second):
+def closed(phi, joint_angle, first, second):
     """Return φ2 - φ1 of the loop R-R-S-R-R: arms swing in the meridian planes until their ends are one."""
-    half = 0.5 * bend
+    half = 0.5 * joint_angle
     # The halving plane is x = 0; shaft 1 leaves toward +x, shaft 2 toward -x, both rise toward the inner side, +y.
     e1, e2 = np.array([np.cos(half), np.sin(half), 0.0]), np.array([-np.cos(half), np.sin(half), 0.0])
     p1, p2, n = np.array([-np.sin(half), np.cos(half), 0.0]), np.array([np.sin(half), np.cos(half), 0.0]), [0, 0, 1.0]
@@ -44,17 +44,17 @@ def closed(phi, bend, first, second):
     st.floats(-0.03, 0.03),
     st.floats(-0.03, 0.03),
 )
-def test_the_arms_meet_where_space_says(angle, bend, h, r, radius):
+def test_the_arms_meet_where_space_says(angle, joint_angle, h, r, radius):
     second = Circle(axial=0.06 * (1 + h), radial=0.01 * (1 + r), radius=0.075 * (1 + radius))
-    found = profile_coupling.deviation(angle * deg, bend * deg, ARM, second)
-    assert found == pytest.approx(closed(angle * deg, bend * deg, ARM, second), abs=1e-10)
+    found = profile_coupling.deviation(angle * deg, joint_angle * deg, ARM, second)
+    assert found == pytest.approx(closed(angle * deg, joint_angle * deg, ARM, second), abs=1e-10)
 
 
 @settings(max_examples=25, deadline=None)
 @given(st.floats(0.0, 360.0), st.floats(0.0, 45.0), st.floats(0.03, 0.06), st.floats(0.0, 0.03))
-def test_profiles_alike_run_evenly(angle, bend, axial, radial):
+def test_profiles_alike_run_evenly(angle, joint_angle, axial, radial):
     circle = Circle(axial=axial, radial=radial, radius=0.075)
-    found = profile_coupling.profile_contact(angle * deg, bend * deg, circle, circle)
+    found = profile_coupling.profile_contact(angle * deg, joint_angle * deg, circle, circle)
     assert found.deviation == pytest.approx(0.0, abs=1e-11)
     assert found.ratio == pytest.approx(1.0, abs=1e-9)
     assert found.height1 == pytest.approx(float(found.height2), abs=1e-11)
@@ -72,9 +72,9 @@ def test_the_ratio_is_the_slope_of_the_turn():
 
 def test_a_pin_is_a_circle_without_end():
     """Deviation, ratio and force of pins are those of ever larger circles that touch them: the rest falls like 1/R."""
-    bend, a, b, one, two = 30 * deg, 0.05, 0.052, 40 * deg, 42 * deg
+    joint_angle, a, b, one, two = 30 * deg, 0.05, 0.052, 40 * deg, 42 * deg
     phi = np.linspace(0, 2 * np.pi, 13)
-    pins = pin_coupling.pin_contact(phi, bend, a, b, one, two)
+    pins = pin_coupling.pin_contact(phi, joint_angle, a, b, one, two)
 
     def circle(start, slant, radius):
         x = 0.06  # touches the pin about where it is used
@@ -83,17 +83,17 @@ def test_a_pin_is_a_circle_without_end():
 
     rest = []
     for radius in (5.0, 10.0):
-        found = profile_coupling.profile_contact(phi, bend, circle(a, one, radius), circle(b, two, radius))
+        found = profile_coupling.profile_contact(phi, joint_angle, circle(a, one, radius), circle(b, two, radius))
         rest.append([np.max(np.abs(getattr(found, n) - getattr(pins, n))) for n in ("deviation", "ratio", "force")])
     assert np.asarray(rest[0]) / np.asarray(rest[1]) == pytest.approx([2.0] * 3, rel=0.03)
     assert rest[1][0] < 1e-3
 
 
 def test_balls_in_offset_grooves_lie_in_the_plane_of_the_groove_centres():
-    bend, c1, c2, radius = 30 * deg, 0.006, 0.005, 0.03
+    joint_angle, c1, c2, radius = 30 * deg, 0.006, 0.005, 0.03
     phi = np.linspace(0, 2 * np.pi, 7)[:-1]
     first, second = (Circle(axial=c, radial=0.0, radius=radius) for c in (c1, c2))
-    found = profile_coupling.profile_contact(phi, bend, first, second)
+    found = profile_coupling.profile_contact(phi, joint_angle, first, second)
     # A·(c1 e1 - c2 e2) = (c1² - c2²)/2, heights being A·e1 and A·e2.
     np.testing.assert_allclose(c1 * found.height1 - c2 * found.height2, 0.5 * (c1**2 - c2**2), atol=1e-16)
 

@@ -6,15 +6,15 @@ import pytest
 from cardan.drive.joints.laws.root_of_joint import vector_orders
 
 
-@pytest.mark.parametrize("bend", [0.0, 0.1, 0.6, 1.2, 1.5])
-def test_the_orders_are_those_of_the_sampled_vector(bend):
+@pytest.mark.parametrize("joint_angle", [0.0, 0.1, 0.6, 1.2, 1.5])
+def test_the_orders_are_those_of_the_sampled_vector(joint_angle):
     count = 1 << 14
     angle = 2.0 * np.pi * np.arange(count) / count
-    behind = np.arctan2(np.sin(angle), np.cos(bend) * np.cos(angle))
+    behind = np.arctan2(np.sin(angle), np.cos(joint_angle) * np.cos(angle))
     spectrum = np.fft.fft(np.exp(1j * behind)) / count
     order = np.arange(-40, 41)
     # 16 384 samples leave nothing of the orders that fold back, even at 86°.
-    np.testing.assert_allclose(vector_orders(np.tan(0.5 * bend) ** 2, order), spectrum[order].real, atol=1e-14)
+    np.testing.assert_allclose(vector_orders(np.tan(0.5 * joint_angle) ** 2, order), spectrum[order].real, atol=1e-14)
     np.testing.assert_allclose(spectrum[order].imag, 0.0, atol=1e-14)
 
 

@@ -14,16 +14,16 @@ from cardan.units import deg
 THIRDS = 2 * np.pi / 3 * np.arange(3)
 
 
-def tracks(phi, bend, radius):
+def tracks(phi, joint_angle, radius):
     """Return where the tracks, lines along z in space, pierce the spider's plane, and at which height."""
     x, y = radius * np.cos(phi + THIRDS), radius * np.sin(phi + THIRDS)
-    z = x * np.tan(bend)  # the plane rises along x by the bend
-    return np.stack([x / np.cos(bend), y], axis=-1), z
+    z = x * np.tan(joint_angle)  # the plane rises along x by the joint angle
+    return np.stack([x / np.cos(joint_angle), y], axis=-1), z
 
 
-def closed(phi, bend, radius):
+def closed(phi, joint_angle, radius):
     """Return angle and centre of a spider whose three arms pass through the tracks."""
-    points, _z = tracks(phi, bend, radius)
+    points, _z = tracks(phi, joint_angle, radius)
 
     def gap(x):
         way = points - x[1:]
@@ -35,23 +35,23 @@ def closed(phi, bend, radius):
     return found.x
 
 
-@pytest.mark.parametrize("bend", [5 * deg, 20 * deg, 50 * deg])
+@pytest.mark.parametrize("joint_angle", [5 * deg, 20 * deg, 50 * deg])
 @pytest.mark.parametrize("phi", [0.0, 0.4, 2.0, -5.0])
-def test_the_spider_turns_evenly_and_runs_round_three_times(phi, bend):
-    psi, x, y = closed(phi, bend, 20.0)
+def test_the_spider_turns_evenly_and_runs_round_three_times(phi, joint_angle):
+    psi, x, y = closed(phi, joint_angle, 20.0)
     assert psi == pytest.approx(phi, abs=1e-12)
-    assert np.allclose(tripod.spider_centre(phi, bend, 20.0), [x, y], rtol=0, atol=2e-11)
-    points, z = tracks(phi, bend, 20.0)
+    assert np.allclose(tripod.spider_centre(phi, joint_angle, 20.0), [x, y], rtol=0, atol=2e-11)
+    points, z = tracks(phi, joint_angle, 20.0)
     reach = np.linalg.norm(points - [x, y], axis=-1)
-    assert np.allclose(tripod.roller_reach(phi + THIRDS, bend, 20.0), reach, rtol=0, atol=2e-11)
-    assert np.allclose(tripod.track_travel(phi + THIRDS, bend, 20.0), z, rtol=0, atol=1e-13)
+    assert np.allclose(tripod.roller_reach(phi + THIRDS, joint_angle, 20.0), reach, rtol=0, atol=2e-11)
+    assert np.allclose(tripod.track_travel(phi + THIRDS, joint_angle, 20.0), z, rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("bend", ["1e-12", "1e-5", "0.3", "1.5"])
-def test_small_orbits_keep_their_digits(bend):
+@pytest.mark.parametrize("joint_angle", ["1e-12", "1e-5", "0.3", "1.5"])
+def test_small_orbits_keep_their_digits(joint_angle):
     with mpmath.workdps(50):
-        want = (1 / mpmath.cos(mpmath.mpf(float(bend))) - 1) / 2
-    assert float(tripod.orbit_radius(float(bend), 1.0)) == pytest.approx(float(want), rel=1e-14)
+        want = (1 / mpmath.cos(mpmath.mpf(float(joint_angle))) - 1) / 2
+    assert float(tripod.orbit_radius(float(joint_angle), 1.0)) == pytest.approx(float(want), rel=1e-14)
 
 
 def test_a_straight_joint_stands_still():
@@ -62,7 +62,7 @@ def test_a_straight_joint_stands_still():
 
 
 def test_any_array_library_computes_them():
-    phi, bend, radius = (strict.asarray(x) for x in ([0.3, 0.7], 0.2, 0.02))
+    phi, joint_angle, radius = (strict.asarray(x) for x in ([0.3, 0.7], 0.2, 0.02))
     for name in ("spider_centre", "roller_reach", "track_travel"):
         found = getattr(tripod, name)
-        assert np.array_equal(np.asarray(found(phi, bend, radius)), found([0.3, 0.7], 0.2, 0.02))
+        assert np.array_equal(np.asarray(found(phi, joint_angle, radius)), found([0.3, 0.7], 0.2, 0.02))

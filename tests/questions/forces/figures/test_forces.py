@@ -54,12 +54,12 @@ def test_both_renderers_draw_them(name):
         drawn(figure)
 
 
-@pytest.mark.parametrize("bends", [[0.0], [0.3], [0.2] * 7])
-def test_drives_without_supports_have_torques_alone(bends):
-    found = forces(Drive.from_angles(bends), Duty(torque=10.0))
+@pytest.mark.parametrize("joint_angles", [[0.0], [0.3], [0.2] * 7])
+def test_drives_without_supports_have_torques_alone(joint_angles):
+    found = forces(Drive.from_angles(joint_angles), Duty(torque=10.0))
     (figure,) = forces_figures(found)
     drawn(figure)
-    assert ("joints are straight" in told(figure.sentence, USUAL)) == (bends == [0.0])
+    assert ("joints are straight" in told(figure.sentence, USUAL)) == (joint_angles == [0.0])
 
 
 def test_one_position_is_drawn_too():

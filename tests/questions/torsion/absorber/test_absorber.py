@@ -56,14 +56,14 @@ def test_the_closed_form_is_the_optimum_of_the_system_it_is_made_for(kind: str, 
 @pytest.mark.slow
 def test_no_setting_of_a_table_is_better_against_a_joint() -> None:
     """A joint moves the shaft instead of pushing the mass: another optimum, by plain complex numbers."""
-    bend = 1 * deg  # so small that only order 2 is there
+    joint_angle = 1 * deg  # so small that only order 2 is there
     drive = replace(
         PUSHED,
-        joints=(replace(PUSHED.joints[0], bend=bend),),
+        joints=(replace(PUSHED.joints[0], joint_angle=joint_angle),),
         duty=replace(PUSHED.duty, torques=()),
     )
     found = absorber(drive, inertia_ratio=0.1)
-    tau = np.tan(0.5 * bend) ** 2
+    tau = np.tan(0.5 * joint_angle) ** 2
     omega = 2.0 * np.linspace(0.3 * OWN, 0.8 * OWN, 1501)
 
     def peaks(spring: np.ndarray, damper: np.ndarray) -> np.ndarray:

@@ -212,7 +212,7 @@ def test_steps_end_at_the_last_that_fits() -> None:
 
 
 def test_what_swings_in_no_way_has_no_calm_design() -> None:
-    straight = replace(DRIVE, joints=tuple(replace(one, bend=0.0) for one in DRIVE.joints))
+    straight = replace(DRIVE, joints=tuple(replace(one, joint_angle=0.0) for one in DRIVE.joints))
     with pytest.raises(InputError, match="nothing oscillates in this band"):
         calm(straight, free=FREE)
 

@@ -50,7 +50,7 @@ def test_the_push_is_the_resonance_of_order_two(held: bool) -> None:
 
 
 def test_a_load_turns_the_push() -> None:
-    """Two equal bends whose phases cancel push by nothing but the twist of the load; another yoke takes that away."""
+    """Two equal joint angles whose phases cancel push by the twist of the load alone; another yoke takes that away."""
     plain = Drive.from_angles([0.25, 0.25])
     tube = Shaft(number=2, stiffness=5000.0, damping=8.0, inertia=0.01)
     load = (Station(shaft=3, inertia=0.8),)
@@ -97,11 +97,11 @@ def test_two_masses_give_the_reduction_of_mathieu() -> None:
     drive = replace(FREE, shafts=(FREE.shafts[0], replace(FREE.shafts[1], inertia=0.0), FREE.shafts[2]))
     rule, model = slowest(drive)
     springs = [3000.0, 5000.0, 2500.0]
-    wanted = mathieu_reduction(model.bend, model.phase, springs, first_inertia=0.9, last_inertia=0.5, speed=50.0)
+    wanted = mathieu_reduction(model.joint_angle, model.phase, springs, first_inertia=0.9, last_inertia=0.5, speed=50.0)
     assert rule.modulation == pytest.approx(float(wanted.q / wanted.a), rel=1e-9)
 
 
 def test_straight_joints_do_nothing() -> None:
-    rule, _model = slowest(replace(FREE, joints=tuple(replace(one, bend=0.0) for one in FREE.joints)))
+    rule, _model = slowest(replace(FREE, joints=tuple(replace(one, joint_angle=0.0) for one in FREE.joints)))
     assert rule_reasons(rule)[1:] == ("All joints are straight: nothing excites it twice a turn.",)
     assert (rule.modulation, rule.push, rule.left, rule.resonance_torque) == (0.0, 0.0, 0.0, 0.0)

@@ -120,9 +120,9 @@ def test_a_sweep_shades_what_is_unstable() -> None:
 
 
 def test_maps_cover_the_unstable_points() -> None:
-    bends = np.linspace(5.0, 30.0, 6)
-    for axes in (("duty.speed_rad_s", "bend_deg"), ("bend_deg", "duty.speed_rad_s")):
-        values = {"duty.speed_rad_s": np.linspace(44.0, 56.0, 7), "bend_deg": bends}
+    joint_angles = np.linspace(5.0, 30.0, 6)
+    for axes in (("duty.speed_rad_s", "joint_angle_deg"), ("joint_angle_deg", "duty.speed_rad_s")):
+        values = {"duty.speed_rad_s": np.linspace(44.0, 56.0, 7), "joint_angle_deg": joint_angles}
         found = stability(DRIVE, over={path: values[path] for path in axes})
         figure = map_figure(found)
         area = sum(float((one.x[1] - one.x[0]) * (one.y[2] - one.y[0])) for one in drawn(figure, Shape))
@@ -134,7 +134,7 @@ def test_maps_cover_the_unstable_points() -> None:
 def test_a_map_tells_what_else_may_be_red() -> None:
     """With play the torque may change its sign and steady running ends there, far from any zone."""
     tight = stability(
-        DRIVE, over={"duty.speed_rpm": np.linspace(44.0, 56.0, 4) / rpm, "bend_deg": np.asarray([25.0, 30])}
+        DRIVE, over={"duty.speed_rpm": np.linspace(44.0, 56.0, 4) / rpm, "joint_angle_deg": np.asarray([25.0, 30])}
     )
     assert "backlash" not in told(map_figure(tight).source, USUAL)
     backlash = np.full_like(tight.train.model.backlash, 0.01)
@@ -145,8 +145,8 @@ def test_a_map_tells_what_else_may_be_red() -> None:
 
 
 def test_zones_are_named_beside_their_tongues() -> None:
-    for axes in (("duty.speed_rpm", "bend_deg"), ("bend_deg", "duty.speed_rpm")):
-        values = {"duty.speed_rpm": np.linspace(20.0, 60.0, 41) / rpm, "bend_deg": np.linspace(5.0, 30.0, 6)}
+    for axes in (("duty.speed_rpm", "joint_angle_deg"), ("joint_angle_deg", "duty.speed_rpm")):
+        values = {"duty.speed_rpm": np.linspace(20.0, 60.0, 41) / rpm, "joint_angle_deg": np.linspace(5.0, 30.0, 6)}
         found = stability(DRIVE, over={path: values[path] for path in axes})
         figure = map_figure(found)
         notes = drawn(figure, Note)
@@ -159,7 +159,7 @@ def test_zones_are_named_beside_their_tongues() -> None:
 
 def test_words_stand_off_the_lines_where_the_drive_runs() -> None:
     running = replace(DRIVE, duty=replace(DRIVE.duty, speed=60.0))
-    over = {"duty.speed_rpm": np.linspace(20.0, 90.0, 41) / rpm, "bend_deg": np.linspace(5.0, 30.0, 6)}
+    over = {"duty.speed_rpm": np.linspace(20.0, 90.0, 41) / rpm, "joint_angle_deg": np.linspace(5.0, 30.0, 6)}
     (name,) = [one for one in drawn(map_figure(stability(running, over=over)), Note) if "principal" in one.text]
     assert name.side == "right"
     assert name.x * rpm < 60.0  # it ends before the line of the drive
@@ -193,7 +193,7 @@ def test_every_result_is_drawn_by_both_renderers(tmp_path: Path) -> None:
         torsion_response(DRIVE),
         torsion_response(DRIVE, speed=SPEEDS[:5]),
         stability(DRIVE),
-        stability(DRIVE, over={"duty.speed_rad_s": SPEEDS[:4], "bend_deg": [10.0, 25.0]}),
+        stability(DRIVE, over={"duty.speed_rad_s": SPEEDS[:4], "joint_angle_deg": [10.0, 25.0]}),
         transient(DRIVE, span=0.2, method=Adaptive(rtol=1e-6, atol=1e-6)),
     ]
     figures = [figure for result in results for figure in for_result(result)]

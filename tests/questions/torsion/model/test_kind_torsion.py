@@ -23,7 +23,7 @@ SHARE = 0.4
 
 
 def test_an_elastic_joint_is_a_spring():
-    drive = Drive(joints=(ElasticHalfCardan(bend=0.0, stiffness=1e4),), stations=ENDS)
+    drive = Drive(joints=(ElasticHalfCardan(joint_angle=0.0, stiffness=1e4),), stations=ENDS)
     forced = torsion_modes(drive, Duty(speed=100.0))
     assert forced.omega == pytest.approx([math.sqrt(1e4 / 2.0)], rel=1e-12)
 
@@ -32,8 +32,8 @@ def test_an_elastic_joint_takes_its_part_of_the_twist():
     """Two springs in a row: their softnesses add."""
     shafts = (Shaft(number=2, stiffness=3e4, length=1.0),)
     ends = (Station(shaft=1, inertia=0.5), Station(shaft=2, position=1.0, inertia=2.0))
-    soft = Drive(joints=(ElasticHalfCardan(bend=0.05, stiffness=1e4),), shafts=shafts, stations=ends)
-    stiff = replace(soft, joints=(ElasticHalfCardan(bend=0.05),))
+    soft = Drive(joints=(ElasticHalfCardan(joint_angle=0.05, stiffness=1e4),), shafts=shafts, stations=ends)
+    stiff = replace(soft, joints=(ElasticHalfCardan(joint_angle=0.05),))
     one, other = (torsion_modes(drive, Duty(speed=100.0)).omega[0] for drive in (soft, stiff))
     assert other == pytest.approx(math.sqrt(3e4 / 2.0), rel=1e-12)
     assert one == pytest.approx(math.sqrt(1.0 / (1.0 / 1e4 + 1.0 / 3e4) / 2.0), rel=1e-12)
@@ -46,10 +46,10 @@ def whole_and_parts():
     first = alpha - second
     shafts = (Shaft(number=2, yoke_angle=0.4, stiffness=2e4, length=1.0), Shaft(number=3, yoke_angle=0.7))
     shafts = (*shafts, Shaft(number=4, stiffness=5e3, length=0.5))
-    double = DoubleCardan(bend=alpha, centring_ratio=SHARE, plane_twist=0.3)
-    last = Hooke(bend=0.25, plane_twist=0.5)
+    double = DoubleCardan(joint_angle=alpha, centring_ratio=SHARE, plane_twist=0.3)
+    last = Hooke(joint_angle=0.25, plane_twist=0.5)
     one = Drive(
-        joints=(Hooke(bend=0.2), double, last),
+        joints=(Hooke(joint_angle=0.2), double, last),
         shafts=shafts,
         stations=(
             Station(shaft=1, inertia=0.5),
@@ -57,9 +57,9 @@ def whole_and_parts():
             Station(shaft=4, position=0.5, inertia=2.0),
         ),
     )
-    inner = (Hooke(bend=first, plane_twist=0.3), Hooke(bend=second, plane_twist=0.0))
+    inner = (Hooke(joint_angle=first, plane_twist=0.3), Hooke(joint_angle=second, plane_twist=0.0))
     two = Drive(
-        joints=(Hooke(bend=0.2), *inner, last),
+        joints=(Hooke(joint_angle=0.2), *inner, last),
         shafts=(shafts[0], Shaft(number=3), replace(shafts[1], number=4), replace(shafts[2], number=5)),
         stations=(
             Station(shaft=1, inertia=0.5),
@@ -77,7 +77,7 @@ def test_a_double_joint_turns_as_its_two_crosses():
     for k, same in ((1, 1), (2, 3), (3, 4)):
         assert np.abs(found.shaft_angle[k] - parts.shaft_angle[same]).max() < 1e-13
         assert np.abs(found.shaft_slope[k] - parts.shaft_slope[same]).max() < 1e-12
-    assert equivalent_joint(one).irregularity == pytest.approx(equivalent_joint(two).irregularity, rel=1e-12)
+    assert equivalent_joint(one).speed_fluctuation == pytest.approx(equivalent_joint(two).speed_fluctuation, rel=1e-12)
 
 
 def test_a_double_joint_swings_as_its_two_crosses():
@@ -91,8 +91,8 @@ def test_a_double_joint_swings_as_its_two_crosses():
     assert np.sort(np.abs(grows[0])) == pytest.approx(np.sort(np.abs(grows[1])), rel=1e-6)
 
 
-@pytest.mark.parametrize("joint", [PinCoupling(bend=0.2, driving_distance=0.05, driven_distance=0.06)])
+@pytest.mark.parametrize("joint", [PinCoupling(joint_angle=0.2, driving_distance=0.05, driven_distance=0.06)])
 def test_laws_without_a_map_are_refused_by_name(joint):
     with pytest.raises(InputError, match=r"joints\[0\]\.kind: torsional vibration: .*pin_coupling"):
         torsion_modes(Drive(joints=(joint,), stations=ENDS), Duty(speed=1.0))
-    assert Clemens(bend=0.2).pair(np.asarray(0.2)) is not None
+    assert Clemens(joint_angle=0.2).pair(np.asarray(0.2)) is not None

@@ -67,7 +67,9 @@ def test_a_line_has_the_modes_of_its_chain(seed: int) -> None:
     rng = np.random.default_rng(seed)
     n = 6
     inertia, stiffness = 10.0 ** rng.uniform(-3, 0, n), 10.0 ** rng.uniform(2, 6, n - 1)
-    model = torsional_line([inertia[:3], [0.0, *inertia[3:]]], stiffness=[stiffness[:2], stiffness[2:]], bend=[0.0])
+    model = torsional_line(
+        [inertia[:3], [0.0, *inertia[3:]]], stiffness=[stiffness[:2], stiffness[2:]], joint_angle=[0.0]
+    )
     model = replace(model, inertia=np.append(inertia[:3], [0.0, *inertia[3:]]))
     found = straight_modes(model)
     chain = line_modes(inertia, stiffness)
@@ -77,7 +79,7 @@ def test_a_line_has_the_modes_of_its_chain(seed: int) -> None:
 
 
 def test_masses_without_inertia_follow_statically() -> None:
-    model = torsional_line([[2.0, 0.0], [0.0, 0.6]], stiffness=[[900.0], [1800.0]], bend=[0.2])
+    model = torsional_line([[2.0, 0.0], [0.0, 0.6]], stiffness=[[900.0], [1800.0]], joint_angle=[0.2])
     found = straight_modes(model)
     assert found.omega == pytest.approx([math.sqrt(600.0 * (1 / 2.0 + 1 / 0.6))])
     ends = found.shape[0, [0, 3]]
@@ -86,31 +88,33 @@ def test_masses_without_inertia_follow_statically() -> None:
 
 
 def test_a_joint_between_two_masses_has_the_weight_of_mathieus_reduction() -> None:
-    model = torsional_line([[2.0, 0.0], [0.0, 0.6]], stiffness=[[900.0], [1800.0]], bend=[0.2])
+    model = torsional_line([[2.0, 0.0], [0.0, 0.6]], stiffness=[[900.0], [1800.0]], joint_angle=[0.2])
     assert straight_modes(model).joint_weight[0] == pytest.approx([600.0 / 900.0 - 0.6 / 2.6])
 
 
 def test_a_joint_in_the_node_excites_nothing() -> None:
     """c/c_1 = J_2/(J_1+J_2): the joint stands where the mode stands still."""
     share = 0.6 / 2.6
-    model = torsional_line([[2.0, 0.0], [0.0, 0.6]], stiffness=[[600.0 / share], [600.0 / (1 - share)]], bend=[0.2])
+    model = torsional_line(
+        [[2.0, 0.0], [0.0, 0.6]], stiffness=[[600.0 / share], [600.0 / (1 - share)]], joint_angle=[0.2]
+    )
     found = straight_modes(model)
     assert abs(found.joint_weight[0, 0]) < 1e-14
     assert abs(modulation(model, found.joint_weight)[0]) < 1e-14
 
 
 @pytest.mark.parametrize(
-    ("bends", "phases"), [((12.0, 8.0), (0.3, 0.9)), ((10.0, 10.0), (0.0, 90.0)), ((6.0, 12.0), (0.0, 20.0))]
+    ("joint_angles", "phases"), [((12.0, 8.0), (0.3, 0.9)), ((10.0, 10.0), (0.0, 90.0)), ((6.0, 12.0), (0.0, 20.0))]
 )
 def test_a_mode_grows_amid_its_zone_as_the_exact_multipliers_say(
-    bends: tuple[float, float], phases: tuple[float, float]
+    joint_angles: tuple[float, float], phases: tuple[float, float]
 ) -> None:
     """Three massive shafts: κ of the general mode, phases and the factor two. Of second order in τ and the twist."""
     model = torsional_line(
         [[1.0, 0.01], [0.02, 0.01], [0.01, 0.5]],
         stiffness=[[3000.0], [9000.0], [5000.0]],
         damping=[[0.05], [0.05], [0.05]],
-        bend=np.radians(bends),
+        joint_angle=np.radians(joint_angles),
         phase=np.radians(phases),
         input_speed=0.0,
     )
@@ -118,7 +122,7 @@ def test_a_mode_grows_amid_its_zone_as_the_exact_multipliers_say(
     speed = float(found.omega[0])
     exact = floquet(periodic_response(replace(model, input_speed=np.asarray(speed))))
     growth = found.omega[0] * (0.5 * abs(modulation(model, found.joint_weight)[0]) - found.damping_ratio[0])
-    scale = 0.5 * found.omega[0] * np.sum(np.tan(np.radians(bends) / 2) ** 2)
+    scale = 0.5 * found.omega[0] * np.sum(np.tan(np.radians(joint_angles) / 2) ** 2)
     assert float(exact.growth_rate) == pytest.approx(growth, abs=0.03 * scale)
 
 

@@ -33,7 +33,7 @@ def line(*, forced: bool = False, backlash: float = 0.0) -> TorsionalModel:
         damping=[[1.0], [], [0.3, 0.2], [0.1]],
         backlash=[[backlash], [], [0.0, 0.0], [0.0]],
         ground_damping=[[0.1, 0.2], [0.3], [0.1, 0.1, 0.1], [0.0, 0.2]],
-        bend=[0.4, 0.5, 0.3],
+        joint_angle=[0.4, 0.5, 0.3],
         phase=[0.1, 1.2, 2.0],
         torques=torques,
         input_speed=20.0 if forced else None,
@@ -50,12 +50,12 @@ def motion() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, 1.5, 2.8, 40.1, -7.3])
 def test_the_joint_law_is_that_of_the_tangents_and_its_derivatives_are_its_differences(angle: float) -> None:
-    bend, step = 0.7, 1e-4
-    whole, first, second, third = joint_law(np.asarray(angle), np.asarray(bend))
-    assert np.tan(whole) == pytest.approx(np.tan(angle) / np.cos(bend), rel=1e-11)
+    joint_angle, step = 0.7, 1e-4
+    whole, first, second, third = joint_law(np.asarray(angle), np.asarray(joint_angle))
+    assert np.tan(whole) == pytest.approx(np.tan(angle) / np.cos(joint_angle), rel=1e-11)
     assert abs(whole - angle) < 0.2  # unwrapped: never further from the input than the angle error
     for lower, upper in ((0, first), (1, second), (2, third)):
-        ends = [joint_law(np.asarray(angle + side * step), np.asarray(bend))[lower] for side in (1.0, -1.0)]
+        ends = [joint_law(np.asarray(angle + side * step), np.asarray(joint_angle))[lower] for side in (1.0, -1.0)]
         assert (ends[0] - ends[1]) / (2.0 * step) == pytest.approx(upper, abs=1e-6)
 
 
@@ -97,20 +97,22 @@ def test_energy_changes_by_what_the_torques_bring_and_the_dampers_take(
 
 def test_many_drives_at_many_moments_equal_each_alone(motion: tuple[np.ndarray, ...]) -> None:
     q, rate, acceleration = motion
-    bends = np.asarray([[0.1, 0.2, 0.3], [0.5, 0.0, 0.6]])
+    joint_angles = np.asarray([[0.1, 0.2, 0.3], [0.5, 0.0, 0.6]])
     model = line()
     parts = dict(vars(model))
     for name in ("coordinate", "owner"):
         parts.pop(name, None)
-    many = TorsionalModel(**{**parts, "bend": bends})
+    many = TorsionalModel(**{**parts, "joint_angle": joint_angles})
     whole = balance(many, np.stack([q, q]), np.stack([rate, rate]), np.stack([acceleration, acceleration]))
     for k in range(2):
-        one = TorsionalModel(**{**parts, "bend": bends[k]})
+        one = TorsionalModel(**{**parts, "joint_angle": joint_angles[k]})
         np.testing.assert_allclose(whole[k], balance(one, q, rate, acceleration), rtol=1e-13, atol=1e-9)
 
 
 def test_a_rigid_shaft_passes_its_angle_through_both_joints() -> None:
-    model = torsional_line([[1.0], [0.1], [1.0]], stiffness=[[], [], []], bend=[0.5, 0.5], phase=[0.0, np.pi / 2])
+    model = torsional_line(
+        [[1.0], [0.1], [1.0]], stiffness=[[], [], []], joint_angle=[0.5, 0.5], phase=[0.0, np.pi / 2]
+    )
     q = np.linspace(0.0, 7.0, 50)[:, None]
     assert model.coordinates == 1
     np.testing.assert_allclose(places(model, q).angle[:, 2], q[:, 0], atol=1e-14)  # a Z drive turns evenly
@@ -121,12 +123,12 @@ def test_every_fault_is_named_at_once() -> None:
         torsional_line(
             [[1.0, -0.1], [0.1, 0.2]],
             stiffness=[[0.0], [5.0]],
-            bend=[1.6],
+            joint_angle=[1.6],
             torques=[Torque(station=9, law=Falling(standstill=1.0, slope=0.0))],
         )
     assert [problem.field for problem in caught.value.problems] == [
         "inertia[1]",
         "stiffness[0]",
-        "joints[0].bend",
+        "joints[0].joint_angle",
         "torques[0].station",
     ]

@@ -136,7 +136,7 @@ def test_a_mass_on_an_end_shaft_with_a_stiffness_is_at_its_free_end() -> None:
 
 
 def test_play_of_a_joint_is_beside_it() -> None:
-    joints = (Hooke(bend=0.2, backlash=0.004), Hooke(bend=0.2, backlash=0.002))
+    joints = (Hooke(joint_angle=0.2, backlash=0.004), Hooke(joint_angle=0.2, backlash=0.002))
     spring = Shaft(number=2, stiffness=1e4)
     model = torsional_model(drive(spring, joints=joints))
     assert model.backlash == pytest.approx([0.006])

@@ -63,7 +63,7 @@ def test_backlash_makes_the_map_coarse_and_says_how_to_get_it_in_full() -> None:
 
 def test_axes_are_told_in_the_units_of_the_reader() -> None:
     drive = example("unstable-drive")
-    found = stability(drive, over={"duty.speed_rpm": np.linspace(1300.0, 1400.0, 5), "bend_deg": [5.0, 40.0]})
+    found = stability(drive, over={"duty.speed_rpm": np.linspace(1300.0, 1400.0, 5), "joint_angle_deg": [5.0, 40.0]})
     said = home.answer(drive, found, signs=True)
     assert said.full is not None
     first = "".join(as_csv(said.full(), OTHER)).splitlines()[0]

@@ -18,13 +18,15 @@ from cardan.questions.torsion.steady.steady import periodic_response
 from tests.builders.torsion_in_time import drive
 
 SPEEDS = np.linspace(30.0, 110.0, 7)
-BENDS = np.linspace(0.0, 0.45, 5)
+JOINT_ANGLES = np.linspace(0.0, 0.45, 5)
 
 
 def over(model):
-    """Return the model with its bends over the first axis of a map."""
+    """Return the model with its joint angles over the first axis of a map."""
     return replace(
-        model, bend=BENDS[:, None, None] * np.asarray([1.0, 0.8]), input_speed=None if model.free else SPEEDS
+        model,
+        joint_angle=JOINT_ANGLES[:, None, None] * np.asarray([1.0, 0.8]),
+        input_speed=None if model.free else SPEEDS,
     )
 
 
@@ -51,7 +53,7 @@ def test_the_map_equals_its_points() -> None:
     model = over(drive(damping=0.3))
     found = floquet_map(model, method=Compiled()).floquet
     for i, k in ((0, 0), (2, 3), (4, 6)):
-        one = floquet(periodic_response(drive(SPEEDS[k], damping=0.3, bend=BENDS[i])))
+        one = floquet(periodic_response(drive(SPEEDS[k], damping=0.3, joint_angle=JOINT_ANGLES[i])))
         assert found.modulus[i, k] == pytest.approx(one.modulus, abs=2e-6)
         assert found.zone.name((i, k)) == one.zone.name()
 
@@ -109,6 +111,6 @@ def test_a_map_with_open_play_stops_between_its_points() -> None:
 
 
 def test_a_map_of_a_thousand_million_points_is_refused_with_an_estimate() -> None:
-    model = replace(drive(), bend=np.zeros((31_623, 1, 2)))
+    model = replace(drive(), joint_angle=np.zeros((31_623, 1, 2)))
     with pytest.raises(InputError, match=r"1,000,\d{3},\d{3} points would take about .* h"):
         floquet_map(model, speed=np.broadcast_to(50.0, 31_623))

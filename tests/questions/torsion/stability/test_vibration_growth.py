@@ -18,7 +18,7 @@ LINE = torsional_line(
     [[1.0, 0.02], [0.03, 0.4]],
     stiffness=[[4000.0], [6000.0]],
     damping=[[0.3], [0.3]],
-    bend=[0.4],
+    joint_angle=[0.4],
     input_speed=30.0,
 )
 

@@ -55,7 +55,7 @@ def test_multipliers_are_those_of_the_flow(how: dict) -> None:
     wanted = by_differences(model, 48.0, steady, 1e-5)
     if model.free:  # the shift in time
         wanted = np.delete(wanted, np.argmin(np.abs(wanted - 1.0)))
-    # Differences of 1e-5 rad err by their square times the bend of the flow.
+    # Differences of 1e-5 rad err by their square times the joint angle of the flow.
     np.testing.assert_allclose(floquet(steady).modulus, np.sort(np.abs(wanted))[::-1], atol=2e-6)
 
 
@@ -73,7 +73,7 @@ def test_hills_matrix_of_the_linearised_drive_has_the_same_multipliers() -> None
 def test_with_open_backlash_jumps_at_contacts_count() -> None:
     model = torsional_line(
         [[1.0, 0.1], [0.4]], stiffness=[[4000.0], []], damping=[[4.0], []], backlash=[[0.01], []],
-        bend=[0.35], torques=[Torque(station=2, law=Constant(value=-20.0))], input_speed=50.0,
+        joint_angle=[0.35], torques=[Torque(station=2, law=Constant(value=-20.0))], input_speed=50.0,
     )  # fmt: skip
     steady = periodic_response(model)
     assert len(steady.orbit.pieces[0].switches) == 4
@@ -85,7 +85,7 @@ def test_with_open_backlash_jumps_at_contacts_count() -> None:
 def test_a_disturbed_free_drive_returns_as_told() -> None:
     motor = Asynchronous(synchronous_speed=60.0, pullout_torque=150.0, pullout_slip=0.2)
     model = torsional_line(
-        [[1.0, 0.1], [0.5]], stiffness=[[2000.0], []], damping=[[2.0], []], bend=[0.4],
+        [[1.0, 0.1], [0.5]], stiffness=[[2000.0], []], damping=[[2.0], []], joint_angle=[0.4],
         torques=[Torque(station=0, law=motor), Torque(station=2, law=Constant(value=-40.0))],
     )  # fmt: skip
     steady = periodic_response(model, speed=50.0)
@@ -108,7 +108,11 @@ def test_a_disturbed_free_drive_returns_as_told() -> None:
 
 def test_the_growth_is_that_of_a_disturbance_in_time() -> None:
     model = torsional_line(
-        [[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []], bend=[np.radians(25)], input_speed=49.386
+        [[1.0, 0.01], [0.4]],
+        stiffness=[[1000.0], []],
+        damping=[[0.2], []],
+        joint_angle=[np.radians(25)],
+        input_speed=49.386,
     )
     steady = periodic_response(model)
     found = floquet(steady)
@@ -138,12 +142,12 @@ def test_the_growth_is_that_of_a_disturbance_in_time() -> None:
     assert np.log(far[2] / far[1]) / (20 * period) == pytest.approx(float(found.growth_rate), rel=2e-3)
 
 
-@pytest.mark.parametrize("bend", [2.0, 4.0])
-def test_at_small_bends_the_zone_is_mathieus(bend: float) -> None:
+@pytest.mark.parametrize("joint_angle", [2.0, 4.0])
+def test_at_small_bends_the_zone_is_mathieus(joint_angle: float) -> None:
     """c/J = a Ω² and q = 2τa, twice the book's; what is left over is of the order τ²."""
-    alpha = np.radians(bend)
+    alpha = np.radians(joint_angle)
     tau = np.tan(alpha / 2.0) ** 2
-    model = torsional_line([[1.0, 0.0], [0.4]], stiffness=[[1000.0], []], bend=[alpha], input_speed=1.0)
+    model = torsional_line([[1.0, 0.0], [0.4]], stiffness=[[1000.0], []], joint_angle=[alpha], input_speed=1.0)
     natural = np.sqrt(1000.0 / 0.4)
     found = unstable_speeds(model, 0.97 * natural, 1.03 * natural, points=80)
     edges = np.sort((natural / np.asarray([found.lowest[0], found.highest[0]])) ** 2)
@@ -155,7 +159,7 @@ def test_at_small_bends_the_zone_is_mathieus(bend: float) -> None:
 def test_combinations_of_modes_are_found_where_they_are_expected() -> None:
     model = torsional_line(
         [[1.0, 0.02], [0.02, 0.3, 0.2]], stiffness=[[1500.0], [2500.0, 1200.0]], damping=[[0.02], [0.02, 0.02]],
-        bend=[np.radians(30)], input_speed=1.0,
+        joint_angle=[np.radians(30)], input_speed=1.0,
     )  # fmt: skip
     found = unstable_speeds(model, 60.0, 120.0)
     assert [found.zone.name((k,)) for k in range(len(found.worst))] == [
@@ -217,7 +221,7 @@ def test_amid_a_resonance_the_shift_in_time_alone_is_never_judged() -> None:
 
 def test_where_nothing_can_be_disturbed_everything_is_stable() -> None:
     load = Torque(station=1, law=Constant(value=-20.0))
-    rigid = torsional_line([[1.0], [0.5]], stiffness=[[], []], bend=[0.3], torques=[load])
+    rigid = torsional_line([[1.0], [0.5]], stiffness=[[], []], joint_angle=[0.3], torques=[load])
     found = floquet(periodic_response(rigid, speed=[40.0, -40.0]))
     assert found.stable.tolist() == [True, True]
     assert found.removed.tolist() == [2, 2]
@@ -239,7 +243,7 @@ def test_where_nothing_can_be_disturbed_everything_is_stable() -> None:
 def test_what_has_neither_inertia_nor_damper_is_no_state(damped: tuple, backlash: float, count: int) -> None:
     model = torsional_line(
         [[1.0, 0.0], [0.0, 0.5]], stiffness=[[3000.0], [4000.0]], damping=[[damped[0]], [damped[1]]],
-        backlash=[[0.0], [backlash]], bend=[0.4], torques=[Torque(station=3, law=Constant(value=-30.0))],
+        backlash=[[0.0], [backlash]], joint_angle=[0.4], torques=[Torque(station=3, law=Constant(value=-30.0))],
         input_speed=40.0, ground_damping=[[0.0, 0.0], [0.0, 0.4]],
     )  # fmt: skip
     steady = periodic_response(model)

@@ -104,7 +104,7 @@ def test_the_drive_torque_of_a_free_drive_balances_load_and_losses() -> None:
     [(0.004, 20.0, 35.0, 4), (0.05, 10.0, 90.0, None)],
 )
 def test_with_open_backlash_the_motion_closes(backlash: float, load: float, speed: float, contacts: int | None) -> None:
-    model = drive(speed, backlash=backlash, load=load, bend=0.4)
+    model = drive(speed, backlash=backlash, load=load, joint_angle=0.4)
     found = periodic_response(model)
     assert found.status == Status.CONVERGED
     pieces = found.orbit.pieces[0]
@@ -118,7 +118,7 @@ def test_with_open_backlash_the_motion_closes(backlash: float, load: float, spee
 
 
 def test_two_elements_with_backlash_rattle_in_turn() -> None:
-    model = replace(drive(36.0, load=12.0, bend=0.4), backlash=np.asarray([0.02, 0.0, 0.0, 0.015]))
+    model = replace(drive(36.0, load=12.0, joint_angle=0.4), backlash=np.asarray([0.02, 0.0, 0.0, 0.015]))
     found = periodic_response(model)
     assert found.status == Status.CONVERGED
     sides = found.orbit.pieces[0].sides
@@ -151,7 +151,7 @@ def test_turned_backwards_a_mirrored_drive_does_the_same() -> None:
 def test_a_vanishing_inertia_leads_to_none() -> None:
     def yoke(inertia):
         return torsional_line(
-            [[1.0, inertia], [inertia, 0.5]], stiffness=[[3000.0], [4000.0]], damping=[[0.0], [0.0]], bend=[0.4],
+            [[1.0, inertia], [inertia, 0.5]], stiffness=[[3000.0], [4000.0]], damping=[[0.0], [0.0]], joint_angle=[0.4],
             torques=[Torque(station=3, law=Constant(value=-50.0))], input_speed=40.0,
         )  # fmt: skip
 
@@ -184,9 +184,11 @@ def test_what_was_stopped_is_kept_and_the_rest_told() -> None:
 
 def test_with_few_harmonics_shooting_steps_in() -> None:
     few = HarmonicBalance(harmonics=2, most=2)
-    found = periodic_response(drive(bend=0.6), method=few)
+    found = periodic_response(drive(joint_angle=0.6), method=few)
     assert found.status == Status.CONVERGED
-    np.testing.assert_allclose(found.torque.amplitude, periodic_response(drive(bend=0.6)).torque.amplitude, atol=1e-6)
+    np.testing.assert_allclose(
+        found.torque.amplitude, periodic_response(drive(joint_angle=0.6)).torque.amplitude, atol=1e-6
+    )
 
 
 @pytest.mark.parametrize(
@@ -211,8 +213,8 @@ def test_without_a_speed_nothing_runs(speed: float | None) -> None:
 
 @pytest.mark.slow
 def test_where_no_motion_is_found_the_search_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A load far beyond what the joints carry, at bends that no sum of harmonics follows."""
-    model = drive(bend=1.4, damping=0.0, load=1e5)
+    """A load far beyond what the joints carry, at joint angles that no sum of harmonics follows."""
+    model = drive(joint_angle=1.4, damping=0.0, load=1e5)
     tried: list[int] = []
     before = Chain.__init__
 

@@ -19,7 +19,7 @@ LINE = torsional_line(
     [[1.0, 0.02], [0.03, 0.4]],
     stiffness=[[4000.0], [6000.0]],
     damping=[[1.0], [1.0]],
-    bend=[0.4],
+    joint_angle=[0.4],
     torques=[Torque(station=3, law=Constant(value=-60.0))],
     input_speed=30.0,
 )

@@ -44,7 +44,7 @@ def test_a_drive_file_gives_what_its_model_gives() -> None:
         [[0.0, 0.02], [0.02, 0.4]],
         stiffness=[[4000.0], [6000.0]],
         damping=[[1.0], [1.0]],
-        bend=[20 * deg],
+        joint_angle=[20 * deg],
         torques=[load],
         input_speed=30.0,
     )
@@ -92,7 +92,7 @@ def test_an_order_that_no_turns_hold_is_answered_by_the_straight_line() -> None:
     np.testing.assert_allclose(np.abs(apart.torque), np.abs(chain.torque[:, 0]), rtol=1e-9)
     np.testing.assert_allclose(found.torque_highest, plain.torque_highest + np.abs(apart.torque))
     nearly = torsion_response(
-        replace(LINE, joints=(replace(LINE.joints[0], bend=1e-4),)),
+        replace(LINE, joints=(replace(LINE.joints[0], joint_angle=1e-4),)),
         replace(duty, torques=(replace(swinging, order=7.0),)),
     )
     waves = straight_waves(nearly.steady.model, 3, 9.0, 7.0 * 30.0)
@@ -173,12 +173,12 @@ def test_a_drift_of_the_speed_is_no_vibration() -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_map_is_each_point_alone(turned: bool) -> None:
-    speeds, bends = [400.0, 477.0, 560.0], [10.0, 25.0]
-    axes = [("duty.speed_rpm", speeds), ("joints[0].bend_deg", bends)]
+    speeds, joint_angles = [400.0, 477.0, 560.0], [10.0, 25.0]
+    axes = [("duty.speed_rpm", speeds), ("joints[0].joint_angle_deg", joint_angles)]
     found = stability(LOOSE, over=dict(axes[::-1] if turned else axes))
     for i, speed in enumerate(speeds):
-        for j, bend in enumerate(bends):
-            drive = replace(LOOSE, joints=(replace(LOOSE.joints[0], bend=bend * deg),))
+        for j, joint_angle in enumerate(joint_angles):
+            drive = replace(LOOSE, joints=(replace(LOOSE.joints[0], joint_angle=joint_angle * deg),))
             alone = stability(drive, Duty(speed=speed * rpm))
             index = (j, i) if turned else (i, j)
             assert found.spectral_radius[index] == pytest.approx(float(alone.spectral_radius), rel=1e-9)
@@ -197,12 +197,12 @@ def test_a_map_over_two_parts_of_the_drive() -> None:
 @pytest.mark.parametrize(
     ("over", "field"),
     [
-        ({"joints[3].bend_deg": [1.0]}, "joints[3].bend_deg"),
+        ({"joints[3].joint_angle_deg": [1.0]}, "joints[3].joint_angle_deg"),
         ({"duty.speed_rpm": [0.0, 10.0]}, "duty.speed_rpm"),
         ({"duty.speed_rpm": []}, "duty.speed_rpm"),
-        ({"duty.speed_rpm": np.arange(1.0, 4e4), "joints[0].bend_deg": np.linspace(1, 2, 40000)}, "over"),
-        ({"duty.speed_rpm": [1.0], "joints[0].bend_deg": [1.0], "duty.torque_Nm": [1.0]}, "over"),
-        ({"joints[0].bend_deg": [100.0]}, "joints[0].bend_deg"),
+        ({"duty.speed_rpm": np.arange(1.0, 4e4), "joints[0].joint_angle_deg": np.linspace(1, 2, 40000)}, "over"),
+        ({"duty.speed_rpm": [1.0], "joints[0].joint_angle_deg": [1.0], "duty.torque_Nm": [1.0]}, "over"),
+        ({"joints[0].joint_angle_deg": [100.0]}, "joints[0].joint_angle_deg"),
     ],
 )
 def test_what_makes_no_map_is_named(over: dict[str, list[float]], field: str) -> None:

@@ -19,13 +19,13 @@ from cardan.questions.torsion.transient.transient import simulate
 NO_LOAD = 80.0
 
 
-def line(push: Law, bend: float) -> TorsionalModel:
+def line(push: Law, joint_angle: float) -> TorsionalModel:
     """Return two flywheels with a joint between; half their natural frequency is 21.8 rad/s."""
     return torsional_line(
         [[0.5, 0.02], [0.02, 0.5]],
         stiffness=[[1000.0], [1000.0]],
         damping=[[0.3], [0.3]],
-        bend=[bend],
+        joint_angle=[joint_angle],
         torques=[Torque(station=0, law=push)],
     )
 
@@ -56,9 +56,9 @@ def test_a_motor_hangs_below_half_the_natural_frequency() -> None:
     assert np.mean(lost) == pytest.approx(hang.power, rel=0.2)  # the swing beats slowly, 20 s hold no whole number
 
 
-@pytest.mark.parametrize(("torque", "bend"), [(8.0, 0.3), (3.0, 0.2)])
-def test_less_bend_lets_it_pass(torque: float, bend: float) -> None:
-    model = line(motor(torque), bend)
+@pytest.mark.parametrize(("torque", "joint_angle"), [(8.0, 0.3), (3.0, 0.2)])
+def test_less_bend_lets_it_pass(torque: float, joint_angle: float) -> None:
+    model = line(motor(torque), joint_angle)
     found = run(model)
     assert hanging(model, found) == ()
     assert found.speed[-1, 0] > 40.0

@@ -39,7 +39,7 @@ def chain(**changes: object) -> Chain:
         "stiffness": [[4000.0], [6000.0, 8000.0], [5000.0]],
         "damping": [[1.0], [0.5, 0.2], [0.3]],
         "ground": [[0.0, 0.1], [0.2, 0.0, 0.1], [0.3, 0.0]],
-        "bend": [0.6, 0.45],
+        "joint_angle": [0.6, 0.45],
         "phase": [0.2, 1.1],
     }
     return Chain(**(parts | changes))  # type: ignore[arg-type]
@@ -53,7 +53,7 @@ def model_of(one: Chain, torques: tuple[Torque, ...] = ()) -> TorsionalModel:
         damping=one.damping,
         backlash=one.gap,
         ground_damping=one.ground,
-        bend=one.bend,
+        joint_angle=one.joint_angle,
         phase=one.phase,
         torques=torques,
         input_speed=one.input_speed,
@@ -106,7 +106,7 @@ def test_contacts_in_the_play_of_an_element(method: Method) -> None:
         stiffness=[[4000.0], [5000.0]],
         damping=[[1.0], [0.0]],
         gap=[[0.0], [0.01]],
-        bend=[0.4363],
+        joint_angle=[0.4363],
         phase=[0.0],
         input_speed=45.0,
     )
@@ -179,7 +179,7 @@ class TestWithoutInertia:
             [[1.0, yoke], [0.0, 0.5]],
             stiffness=[[4000.0], [5000.0]],
             damping=[[damping], [0.5 * damping]],
-            bend=[0.4],
+            joint_angle=[0.4],
             input_speed=40.0,
         )
 
@@ -232,7 +232,7 @@ class TestWithoutInertia:
             stiffness=[[300.0], [300.0]],
             damping=[[0.0], [0.0]],
             ground_damping=[[0.0, 0.0], [0.0, 3.0]],
-            bend=[1.3],
+            joint_angle=[1.3],
             phase=[0.8],
             torques=[load],
             input_speed=0.0,
@@ -254,7 +254,7 @@ class TestStiffDrives:
 
     def line(self, damping: float) -> TorsionalModel:
         return torsional_line(
-            [[1.0, 1e-6], [0.4]], stiffness=[[1e5], []], damping=[[damping], []], bend=[0.3], input_speed=50.0
+            [[1.0, 1e-6], [0.4]], stiffness=[[1e5], []], damping=[[damping], []], joint_angle=[0.3], input_speed=50.0
         )
 
     @pytest.mark.slow
@@ -277,7 +277,7 @@ class TestHowItEnds:
     @pytest.mark.slow
     def test_a_motor_that_pushes_ever_harder_diverges_and_says_when(self) -> None:
         push = Torque(station=0, law=Falling(standstill=10.0, slope=-60.0))
-        line = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], bend=[0.43], torques=[push])
+        line = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], joint_angle=[0.43], torques=[push])
         for method in (ROUGH, FixedStep(step=8e-3, compute=Plain()), FixedStep(step=2e-3, compute=Compiled())):
             found = simulate(line, span=1.0, times=101, method=method)
             assert found.status == Status.DIVERGED
@@ -306,7 +306,7 @@ class TestHowItEnds:
 
     def test_progress_of_many_is_that_of_all(self) -> None:
         told: list[float] = []
-        many = replace(chain_model(), bend=np.asarray([[0.1, 0.2], [0.3, 0.4]]))
+        many = replace(chain_model(), joint_angle=np.asarray([[0.1, 0.2], [0.3, 0.4]]))
         simulate(many, span=0.05, times=2, method=ROUGH, progress=told.append)
         assert told == sorted(told)
         assert told[-1] == pytest.approx(1.0)
@@ -323,19 +323,19 @@ def chain_model() -> TorsionalModel:
 
 
 class TestManyDrives:
-    bends = np.linspace(0.2, 0.6, 11)[:, None] * np.asarray([1.0, 0.8])
+    joint_angles = np.linspace(0.2, 0.6, 11)[:, None] * np.asarray([1.0, 0.8])
 
     @pytest.mark.slow
     @pytest.mark.parametrize("compute", [Plain(), Compiled(threads=1)])
     def test_in_fixed_steps_are_each_alone(self, compute: Plain | Compiled) -> None:
         table = SpeedTable(speeds=np.asarray([0.0, 50.0, 70.0]), torques=np.asarray([5.0, -5.0, -30.0]))
         model = replace(chain_model(), torques=(*chain_model().torques, Torque(station=2, law=table)))
-        many = replace(model, bend=self.bends)
+        many = replace(model, joint_angle=self.joint_angles)
         way = FixedStep(step=1.5e-3, compute=compute)
         found = followed(many, 0.06, times=3, speed=55.0, method=way)
         assert found.angle.shape == (11, 3, 7)
         for k in (0, 7, 10):
-            one = followed(replace(model, bend=self.bends[k]), 0.06, times=3, speed=55.0, method=way)
+            one = followed(replace(model, joint_angle=self.joint_angles[k]), 0.06, times=3, speed=55.0, method=way)
             np.testing.assert_array_equal(found.angle[k], one.angle)
             np.testing.assert_array_equal(found.extremes.torque_high[k], one.extremes.torque_high)
             assert found.work[k, -1] == one.work[-1]
@@ -399,6 +399,6 @@ class TestBadInput:
     def test_fixed_steps_refuse_what_they_cannot_do(self) -> None:
         with pytest.raises(InputError, match="at most"):
             simulate(chain_model(), span=1.0, method=FixedStep(step=0.05))
-        line = torsional_line([[1.0, 0.0], [0.0, 0.5]], stiffness=[[4e3], [5e3]], bend=[0.4], input_speed=40.0)
+        line = torsional_line([[1.0, 0.0], [0.0, 0.5]], stiffness=[[4e3], [5e3]], joint_angle=[0.4], input_speed=40.0)
         with pytest.raises(InputError, match="without inertia"):
             simulate(line, span=1.0, method=FixedStep())

@@ -48,7 +48,7 @@ class InnerPair:
 
 
 def bending(stance: Stance) -> Iterator[InnerPair]:
-    """Yield a joint that turns about two axes of the plane that halves its bend, and holds the rest."""
+    """Yield a joint that turns about two axes of the plane that halves its joint angle, and holds the rest."""
     name = mark("joint {number}")
     yield _bending(name, (DRIVING, DRIVEN), stance)
 

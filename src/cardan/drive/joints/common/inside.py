@@ -30,5 +30,5 @@ class Inside:
 
 
 def missed(tilt: float) -> Inside:
-    """Return how far a plane of contact is from the one that halves the bend [rad]."""
+    """Return how far a plane of contact is from the one that halves the joint angle [rad]."""
     return Inside(key="plane_tilt", meaning=_("angle by which the plane of contact misses the middle"), value=tilt)

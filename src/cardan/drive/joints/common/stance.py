@@ -22,7 +22,7 @@ class Stance:
         Directions of the driving and the driven shaft, both along the power flow.
     normal : array (3,)
         Normal of the plane of both.
-    bend : float [rad]
+    joint_angle : float [rad]
         Angle between them.
     driving, driven : arrays (..., 3)
         Directions of its marks: the arms of its cross in the driving and the driven yoke, where it has one.
@@ -34,7 +34,7 @@ class Stance:
     before: Array
     after: Array
     normal: Array
-    bend: float
+    joint_angle: float
     driving: Array
     driven: Array
     length: float
@@ -48,12 +48,12 @@ class Stance:
 
     @property
     def middle(self) -> Array:
-        """Normal of the plane that halves the bend, array (3,)."""
+        """Normal of the plane that halves the joint angle, array (3,)."""
         return frames.unit(self.before + self.after)
 
     def halving(self, turn: Array) -> Array:
         """Return the direction in the halving plane whose meridian stands at an angle (...) [rad], array (..., 3)."""
         across = frames.cross(self.normal, self.middle)
-        chi = np.arctan2(np.sin(turn) * np.cos(0.5 * self.bend), np.cos(turn))
+        chi = np.arctan2(np.sin(turn) * np.cos(0.5 * self.joint_angle), np.cos(turn))
         found: Array = np.cos(chi)[..., None] * across + np.sin(chi)[..., None] * self.normal
         return found

@@ -1,9 +1,9 @@
 """Double cardan joints whose middle is held by a centring device: two joints that share one bend.
 
-The joint centres O1 and O3 stand at the distance l; the axes of the outer shafts meet at O under the bend α, the first
-joint bends α12, the second α23, and α12 + α23 = α. A lever with a slotted sphere at O, or a slotted frame, halves the
-bend exactly. A ball on one shaft does so nearly: |OO1| = λl is fixed, |OO3| = x slides. All three axes lie in one plane
-and the inner yokes too, so that the whole is one map of the circle, see `cardan.maths.kernel.mobius`.
+The joint centres O1 and O3 stand at the distance l; the axes of the outer shafts meet at O under the joint angle α, the
+first joint bends α12, the second α23, and α12 + α23 = α. A lever with a slotted sphere at O, or a slotted frame, halves
+the bend exactly. A ball on one shaft does so nearly: |OO1| = λl is fixed, |OO3| = x slides. All three axes lie in one
+plane and the inner yokes too, so that the whole is one map of the circle, see `cardan.maths.kernel.mobius`.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from cardan.maths.kernel import mobius
 from . import tilted_plane
 
 
-def lag(bend: ArrayLike, share: ArrayLike) -> Array:
-    """Return by how much a ball on one shaft misses half the bend, Δ = (α23 - α12)/2.
+def lag(joint_angle: ArrayLike, share: ArrayLike) -> Array:
+    """Return by how much a ball on one shaft misses half the joint angle, Δ = (α23 - α12)/2.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1): distance of the ball from the first centre over that of the two centres.
@@ -39,7 +39,7 @@ def lag(bend: ArrayLike, share: ArrayLike) -> Array:
     >>> lag([10 * deg, 50 * deg], 0.5) / deg
     array([-0.01907468, -2.47898788])
     """
-    alpha, ratio = floats(bend, share)
+    alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
     half = xp.cos(0.5 * alpha)
     twice = 2.0 * ratio * half
@@ -47,12 +47,12 @@ def lag(bend: ArrayLike, share: ArrayLike) -> Array:
     return xp.asin(xp.sin(0.5 * alpha) * (twice - 1.0) * (twice + 1.0) / below)
 
 
-def lag_book(bend: ArrayLike, share: ArrayLike) -> Array:
+def lag_book(joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return the book's approximation of `lag`, for comparison.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1).
@@ -72,19 +72,19 @@ def lag_book(bend: ArrayLike, share: ArrayLike) -> Array:
     >>> lag_book([10 * deg, 50 * deg], 0.5) / deg
     array([-0.01907468, -2.48053593])
     """
-    alpha, ratio = floats(bend, share)
+    alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
     root = xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2)
     above = 2.0 * ratio * ratio * (1.0 + xp.cos(alpha)) - 1.0
     return xp.tan(0.5 * alpha) * above / (1.0 + 2.0 * ratio * root)
 
 
-def split(bend: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
-    """Return the bends of the first and the second joint where a ball on one shaft centres them.
+def split(joint_angle: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
+    """Return the joint angles of the first and the second joint where a ball on one shaft centres them.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1).
@@ -105,17 +105,17 @@ def split(bend: ArrayLike, share: ArrayLike) -> tuple[Array, Array]:
     >>> print(f"{first:.8f} {second:.8f}")
     0.27091852 0.25268026
     """
-    (alpha,) = floats(bend)
+    (alpha,) = floats(joint_angle)
     missed = lag(alpha, share)
     return 0.5 * alpha - missed, 0.5 * alpha + missed
 
 
-def slide(bend: ArrayLike, share: ArrayLike) -> Array:
+def slide(joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return where the ball stands on the shaft it slides on, x/l: |OO3| over the distance of the centres.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1).
@@ -135,17 +135,17 @@ def slide(bend: ArrayLike, share: ArrayLike) -> Array:
     >>> slide([0.0, math.pi / 6], 0.5)
     array([0.5       , 0.53523313])
     """
-    alpha, ratio = floats(bend, share)
+    alpha, ratio = floats(joint_angle, share)
     xp = namespace(alpha, ratio)
     return xp.sqrt(1.0 - (ratio * xp.sin(alpha)) ** 2) - ratio * xp.cos(alpha)
 
 
-def even_share(bend: ArrayLike) -> Array:
-    """Return the centring ratio that halves one bend exactly.
+def even_share(joint_angle: ArrayLike) -> Array:
+    """Return the centring ratio that halves one joint angle exactly.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
 
     Returns
@@ -162,16 +162,16 @@ def even_share(bend: ArrayLike) -> Array:
     >>> print(f"{even_share(math.pi / 6):.6f}")
     0.517638
     """
-    (alpha,) = floats(bend)
+    (alpha,) = floats(joint_angle)
     return 0.5 / namespace(alpha).cos(0.5 * alpha)
 
 
-def pair(bend: ArrayLike, share: ArrayLike) -> mobius.Pair:
+def pair(joint_angle: ArrayLike, share: ArrayLike) -> mobius.Pair:
     """Return the map of the circle of a double joint centred by a ball on the driving shaft, over its whole bend.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1).
@@ -190,21 +190,21 @@ def pair(bend: ArrayLike, share: ArrayLike) -> mobius.Pair:
     At 30°, a ball in the middle leaves 1 % of irregularity:
 
     >>> import math
-    >>> print(f"{mobius.irregularity(pair(math.pi / 6, 0.5)):.6f}")
+    >>> print(f"{mobius.speed_fluctuation(pair(math.pi / 6, 0.5)):.6f}")
     0.009774
     """
-    alpha, ratio = floats(bend, share)
+    alpha, ratio = floats(joint_angle, share)
     return tilted_plane.pair(alpha, lag(alpha, ratio))
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, share: ArrayLike) -> Array:
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, share: ArrayLike) -> Array:
     """Return how far the output of a double joint centred by a ball runs ahead of its input, φ3 - φ1.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1, from the driving yoke in the plane of the axes.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Whole bend α in [0, π/2).
     share : array (...)
         Centring ratio λ in (0, 1).
@@ -219,7 +219,7 @@ def deviation(angle: ArrayLike, bend: ArrayLike, share: ArrayLike) -> Array:
     >>> deviation([0.0, math.pi / 4], math.pi / 6, 0.5)
     array([0.        , 0.00244354])
     """
-    phi, alpha, ratio = floats(angle, bend, share)
+    phi, alpha, ratio = floats(angle, joint_angle, share)
     return tilted_plane.deviation(phi, alpha, lag(alpha, ratio))
 
 
@@ -252,7 +252,7 @@ def gain(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array
 
 
 def unevenness(first: ArrayLike, second: ArrayLike, *, crossed: bool = False) -> Array:
-    """Return κ - 1/κ of `gain`, whose size is the irregularity δ.
+    """Return κ - 1/κ of `gain`, whose size is the speed fluctuation δ.
 
     Parameters
     ----------

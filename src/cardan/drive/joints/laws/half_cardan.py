@@ -16,14 +16,14 @@ from cardan.maths.kernel import mobius
 from . import shared_turn
 
 
-def demands(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
+def demands(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return how far ahead each pair of contacts alone would have the output run.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α in [0, π/2).
     pairs : int
         Pairs of opposite contacts N.
@@ -43,20 +43,20 @@ def demands(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
     >>> demands(math.pi / 4, math.radians(5.0), 2)
     array([ 0.00190628, -0.00190628])
     """
-    phi, alpha = floats(angle, bend)
+    phi, alpha = floats(angle, joint_angle)
     xp = namespace(phi, alpha)
     turned = phi[..., None] + xp.arange(pairs, dtype=xp.float64) * (math.pi / pairs)
-    return mobius.lead(mobius.hooke(alpha[..., None]), unit_complex(2.0 * turned))
+    return mobius.angle_error(mobius.hooke(alpha[..., None]), unit_complex(2.0 * turned))
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return how far the output runs ahead where equal elastic pairs share the torque: the mean of `demands`.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α in [0, π/2).
     pairs : int
         Pairs of opposite contacts N; one is a Hooke joint.
@@ -75,11 +75,11 @@ def deviation(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
     >>> print(f"{deviation(math.pi / 8, math.radians(10.0), 2):.2e}")
     2.93e-05
     """
-    phi, alpha = floats(angle, bend)
+    phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[0]
 
 
-def ratio(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
+def ratio(angle: ArrayLike, joint_angle: ArrayLike, pairs: int) -> Array:
     """Return the speed ratio where equal elastic pairs share the torque.
 
     Notes
@@ -91,20 +91,20 @@ def ratio(angle: ArrayLike, bend: ArrayLike, pairs: int) -> Array:
     >>> print(f"{ratio(0.0, math.radians(10.0), 1):.6f}")
     1.015427
     """
-    phi, alpha = floats(angle, bend)
+    phi, alpha = floats(angle, joint_angle)
     return shared_turn.course(phi, _tau(alpha), pairs)[1]
 
 
-def _tau(bend: Array) -> Array:
-    return namespace(bend).tan(0.5 * bend) ** 2
+def _tau(joint_angle: Array) -> Array:
+    return namespace(joint_angle).tan(0.5 * joint_angle) ** 2
 
 
-def play(bend: ArrayLike, pairs: int) -> Array:
+def play(joint_angle: ArrayLike, pairs: int) -> Array:
     """Return the play that a rigid half-cardan needs between its pairs to turn at a bend.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α in [0, π/2).
     pairs : int
         Pairs of opposite contacts N.
@@ -124,7 +124,7 @@ def play(bend: ArrayLike, pairs: int) -> Array:
     >>> print(f"{play(math.radians(5.0), 2):.6f}")
     0.003813
     """
-    (alpha,) = floats(bend)
+    (alpha,) = floats(joint_angle)
     xp = namespace(alpha)
     if pairs == 1:
         return 0.0 * alpha

@@ -10,19 +10,19 @@ from __future__ import annotations
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 
-def _distance(bend: Array, first: Array, second: Array) -> Array:
+def _distance(joint_angle: Array, first: Array, second: Array) -> Array:
     """Return the distance between the groove centres."""
-    xp = namespace(bend, first, second)
-    across, along = (first + second) * xp.cos(0.5 * bend), (first - second) * xp.sin(0.5 * bend)
+    xp = namespace(joint_angle, first, second)
+    across, along = (first + second) * xp.cos(0.5 * joint_angle), (first - second) * xp.sin(0.5 * joint_angle)
     return xp.sqrt(across * across + along * along)
 
 
-def plane_tilt(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+def plane_tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return the tilt of the plane of the balls against the bisecting plane.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2), angle between the shafts.
     first, second : arrays (...) [m]
         c_1, c_2 > 0, distances of the groove centres from the centre of the joint, each on the side of its shaft.
@@ -39,17 +39,17 @@ def plane_tilt(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     >>> print(plane_tilt(30 * deg, 3.0e-3, [3.0e-3, 3.3e-3]) / deg)
     [0.         0.73102499]
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     xp = namespace(alpha, one, two)
     return xp.atan((two - one) / (one + two) * xp.tan(0.5 * alpha))
 
 
-def plane_offset(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+def plane_offset(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return the distance of the plane of the balls from the centre of the joint, positive towards shaft 1.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         c_1, c_2 > 0.
@@ -65,12 +65,12 @@ def plane_offset(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     >>> print(plane_offset(30 * deg, 3.0 * mm, 3.3 * mm) / mm)
     -0.15527878
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     return 0.5 * (one - two) * ((one + two) / _distance(alpha, one, two))
 
 
 def ball_centre(
-    angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: ArrayLike, radius: ArrayLike
+    angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike, radius: ArrayLike
 ) -> tuple[Array, Array]:
     """Return where the centre of a ball is, in the meridian plane of shaft 1.
 
@@ -78,7 +78,7 @@ def ball_centre(
     ----------
     angle : array (...) [rad]
         φ_1, of the meridian plane from the inner side of the plane of the shafts.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         c_1, c_2 > 0.
@@ -102,7 +102,7 @@ def ball_centre(
     >>> print(along / mm, out / mm)
     5.25496523 29.91513215
     """
-    phi, alpha, one, two, size = floats(angle, bend, first, second, radius)
+    phi, alpha, one, two, size = floats(angle, joint_angle, first, second, radius)
     xp = namespace(phi, alpha, one, two, size)
     lean = two * xp.sin(alpha) * xp.cos(phi)
     rise = one + two * xp.cos(alpha)
@@ -116,14 +116,16 @@ def ball_centre(
     return xp.where(meets, along, xp.nan), xp.where(meets, out, xp.nan)
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: ArrayLike, radius: ArrayLike) -> Array:
+def deviation(
+    angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike, radius: ArrayLike
+) -> Array:
     """Return how far shaft 2 runs ahead of shaft 1 with one ball, φ_2 - φ_1.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ_1, of the ball's meridian plane from the inner side of the plane of the shafts.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         c_1, c_2 > 0.
@@ -147,7 +149,7 @@ def deviation(angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: Array
     >>> print(deviation(50 * deg, 30 * deg, 3.0 * mm, [3.0 * mm, 3.3 * mm], 30.0 * mm) + 0.0)
     [ 0.         -0.00131156]
     """
-    phi, alpha, one, two, size = floats(angle, bend, first, second, radius)
+    phi, alpha, one, two, size = floats(angle, joint_angle, first, second, radius)
     xp = namespace(phi, alpha, one, two, size)
     h, r = ball_centre(phi, alpha, one, two, size)
     sine, cosine = xp.sin(phi), xp.cos(phi)

@@ -1,10 +1,10 @@
 """Pin couplings: each shaft carries a straight pin in its own meridian plane, and the two pins touch.
 
-The axes meet at O under the bend α. Coordinates: e1 from O along shaft 1 away from the joint, e2 along shaft 2 away
-from it, p1 and p2 at right angles to them in the plane of the shafts on the inner side of the bend, n at right angles
-to that plane. Both turns count from p toward n, so that equal angles are even running. A pin starts on its axis at the
-distance a from O and leans by its slant θ toward O. Pins alike touch in the plane that halves the angle of the shafts,
-and the coupling runs evenly at any bend, whatever the shape of the pins.
+The axes meet at O under the joint angle α. Coordinates: e1 from O along shaft 1 away from the joint, e2 along shaft 2
+away from it, p1 and p2 at right angles to them in the plane of the shafts on the inner side of the joint angle, n at
+right angles to that plane. Both turns count from p toward n, so that equal angles are even running. A pin starts on its
+axis at the distance a from O and leans by its slant θ toward O. Pins alike touch in the plane that halves the angle of
+the shafts, and the coupling runs evenly at any joint angle, whatever the shape of the pins.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class PinContact:
 
 def pin_contact(
     angle: ArrayLike,
-    bend: ArrayLike,
+    joint_angle: ArrayLike,
     distance1: ArrayLike,
     distance2: ArrayLike,
     slant1: ArrayLike,
@@ -55,7 +55,7 @@ def pin_contact(
     ----------
     angle : array (...) [rad]
         Input angle φ1, from the inner side of the bend.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α of the shafts in [0, π/2).
     distance1, distance2 : arrays (...) [m]
         Distances a and b from O at which the pins start on their axes.
@@ -81,7 +81,7 @@ def pin_contact(
     >>> print(f"{found.deviation:.9f} {found.ratio:.9f} {found.first:.9f}")
     0.030906552 0.982785566 0.071884882
     """
-    phi, alpha, a, b, one, two = floats(angle, bend, distance1, distance2, slant1, slant2)
+    phi, alpha, a, b, one, two = floats(angle, joint_angle, distance1, distance2, slant1, slant2)
     xp = namespace(phi, alpha, a, b, one, two)
     ca, sa, cos, sin = xp.cos(alpha), xp.sin(alpha), xp.cos(two), xp.sin(one)
     d = -xp.cos(one), sin * xp.cos(phi), sin * xp.sin(phi)  # pin 1 along e1, p1, n
@@ -156,20 +156,30 @@ def wrapped(angle: ArrayLike) -> Array:
 
 
 def deviation(
-    angle: ArrayLike, bend: ArrayLike, distance1: ArrayLike, distance2: ArrayLike, slant1: ArrayLike, slant2: ArrayLike
+    angle: ArrayLike,
+    joint_angle: ArrayLike,
+    distance1: ArrayLike,
+    distance2: ArrayLike,
+    slant1: ArrayLike,
+    slant2: ArrayLike,
 ) -> Array:
     """Return how far the output of a pin coupling runs ahead of its input, φ2 - φ1 [rad]; see `pin_contact`."""
-    return pin_contact(angle, bend, distance1, distance2, slant1, slant2).deviation
+    return pin_contact(angle, joint_angle, distance1, distance2, slant1, slant2).deviation
 
 
 def ratio(
-    angle: ArrayLike, bend: ArrayLike, distance1: ArrayLike, distance2: ArrayLike, slant1: ArrayLike, slant2: ArrayLike
+    angle: ArrayLike,
+    joint_angle: ArrayLike,
+    distance1: ArrayLike,
+    distance2: ArrayLike,
+    slant1: ArrayLike,
+    slant2: ArrayLike,
 ) -> Array:
     """Return the speed ratio dφ2/dφ1 of a pin coupling; see `pin_contact`."""
-    return pin_contact(angle, bend, distance1, distance2, slant1, slant2).ratio
+    return pin_contact(angle, joint_angle, distance1, distance2, slant1, slant2).ratio
 
 
-def slant_range(bend: ArrayLike) -> tuple[Array, Array]:
+def slant_range(joint_angle: ArrayLike) -> tuple[Array, Array]:
     """Return between which slants pins turn all the way round [rad].
 
     Notes
@@ -183,16 +193,16 @@ def slant_range(bend: ArrayLike) -> tuple[Array, Array]:
     >>> print(f"{math.degrees(low):.6f} {math.degrees(high):.6f}")
     15.000000 75.000000
     """
-    (alpha,) = floats(bend)
+    (alpha,) = floats(joint_angle)
     return 0.5 * alpha, 0.5 * math.pi - 0.5 * alpha
 
 
-def stroke(bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tuple[Array, Array]:
+def stroke(joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tuple[Array, Array]:
     """Return between which distances along its pins the contact of a coupling with pins alike runs.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α.
     distance : array (...) [m]
         Distance a of the start of both pins from O.
@@ -215,21 +225,21 @@ def stroke(bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> tuple[Arra
     >>> print(f"{least:.9f} {most:.9f}")
     0.053289061 0.084202014
     """
-    alpha, a, theta = floats(bend, distance, slant)
+    alpha, a, theta = floats(joint_angle, distance, slant)
     xp = namespace(alpha, a, theta)
     half = 0.5 * alpha
     inner = a * xp.cos(half)
     return inner / xp.cos(theta - half), inner / xp.cos(theta + half)
 
 
-def along_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
+def along_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
     """Return where the contact of pins alike stands along them, x = y; see `stroke`.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α.
     distance : array (...) [m]
         Distance a of the start of both pins from O.
@@ -249,19 +259,19 @@ def along_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: A
     >>> print(f"{along_alike(math.pi / 2, 0.5, 0.05, math.pi / 3):.6f}")
     0.100000
     """
-    phi, alpha, a, theta = floats(angle, bend, distance, slant)
+    phi, alpha, a, theta = floats(angle, joint_angle, distance, slant)
     xp = namespace(phi, alpha, a, theta)
     return a / (xp.cos(theta) + xp.sin(theta) * xp.cos(phi) * xp.tan(0.5 * alpha))
 
 
-def force_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
+def force_alike(angle: ArrayLike, joint_angle: ArrayLike, distance: ArrayLike, slant: ArrayLike) -> Array:
     """Return the contact force without friction of pins alike for each unit of torque.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α.
     distance : array (...) [m]
         Distance a of the start of both pins from O.
@@ -285,7 +295,7 @@ def force_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: A
     >>> print(f"{force_alike(math.pi, 30 * deg, 0.05, 40 * deg):.6f} {1 / (0.0842020143 * math.sin(40 * deg)):.6f}")
     18.476088 18.476088
     """
-    phi, alpha, a, theta = floats(angle, bend, distance, slant)
+    phi, alpha, a, theta = floats(angle, joint_angle, distance, slant)
     xp = namespace(phi, alpha, a, theta)
     ch, th = xp.cos(0.5 * alpha), xp.tan(0.5 * alpha)
     c = xp.cos(theta) + xp.sin(theta) * xp.cos(phi) * th
@@ -294,7 +304,7 @@ def force_alike(angle: ArrayLike, bend: ArrayLike, distance: ArrayLike, slant: A
     return xp.sqrt(flat) * c / (a * ch * xp.sin(theta) * across)
 
 
-def eccentricity(bend: ArrayLike, slant: ArrayLike) -> Array:
+def eccentricity(joint_angle: ArrayLike, slant: ArrayLike) -> Array:
     """Return the eccentricity of the ellipse on which the contact of pins alike runs, sin(α/2)/cos θ.
 
     Examples
@@ -302,19 +312,19 @@ def eccentricity(bend: ArrayLike, slant: ArrayLike) -> Array:
     >>> print(f"{eccentricity(math.radians(30.0), math.radians(40.0)):.9f}")
     0.337864268
     """
-    alpha, theta = floats(bend, slant)
+    alpha, theta = floats(joint_angle, slant)
     xp = namespace(alpha, theta)
     return xp.sin(0.5 * alpha) / xp.cos(theta)
 
 
-def missed_plane(angle: ArrayLike, bend: ArrayLike, offset: ArrayLike, radius: ArrayLike) -> Array:
+def missed_plane(angle: ArrayLike, joint_angle: ArrayLike, offset: ArrayLike, radius: ArrayLike) -> Array:
     """Return by how much the output runs ahead where the contact misses the plane that halves the angle of the shafts.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α.
     offset : array (...) [m]
         Distance d of the contact from that plane, toward shaft 1.
@@ -334,19 +344,19 @@ def missed_plane(angle: ArrayLike, bend: ArrayLike, offset: ArrayLike, radius: A
     >>> print(f"{missed_plane(math.pi / 2, math.radians(20.0), 0.1e-3, 40e-3):.6f}")
     -0.000868
     """
-    phi, alpha, d, r = floats(angle, bend, offset, radius)
+    phi, alpha, d, r = floats(angle, joint_angle, offset, radius)
     xp = namespace(phi, alpha, d, r)
     return -2.0 * d / r * xp.sin(0.5 * alpha) * xp.sin(phi)
 
 
-def missed_by_pins(angle: ArrayLike, bend: ArrayLike, change: ArrayLike, slant: ArrayLike) -> Array:
+def missed_by_pins(angle: ArrayLike, joint_angle: ArrayLike, change: ArrayLike, slant: ArrayLike) -> Array:
     """Return how far the contact of pins misses the halving plane where one starts too far out, the other too near.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α.
     change : array (...) [m]
         δ by which the distances differ from their mean, a = a0 + δ, b = a0 - δ.
@@ -367,7 +377,7 @@ def missed_by_pins(angle: ArrayLike, bend: ArrayLike, change: ArrayLike, slant: 
     >>> print(f"{missed_by_pins(0.0, 0.0, 0.2e-3, math.radians(45.0)):.6f}")
     0.000200
     """
-    phi, alpha, delta, theta = floats(angle, bend, change, slant)
+    phi, alpha, delta, theta = floats(angle, joint_angle, change, slant)
     xp = namespace(phi, alpha, delta, theta)
     half = 0.5 * alpha
     return delta * xp.sin(theta) / (xp.cos(half) * xp.sin(theta) - xp.sin(half) * xp.cos(phi) * xp.cos(theta))

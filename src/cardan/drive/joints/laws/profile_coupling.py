@@ -75,14 +75,14 @@ class ProfileContact:
     force: Array
 
 
-def profile_contact(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> ProfileContact:
+def profile_contact(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> ProfileContact:
     """Return where two circular profiles touch.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1, from the inner side of the bend.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α of the shafts in [0, π/2).
     first, second : Circle
         Profiles of shaft 1 and shaft 2.
@@ -107,7 +107,7 @@ def profile_contact(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Ci
     >>> print(f"{profile_contact(math.radians(130.0), math.radians(30.0), one, other).deviation:.9f}")
     0.014374855
     """
-    phi, alpha, one, two = _arrays(angle, bend, first, second)
+    phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
     return _at(_place(phi, alpha, one, two), phi, alpha, one, two)
 
 
@@ -138,9 +138,11 @@ def _at(place: Array, phi: Array, alpha: Array, first: Circle, second: Circle) -
     )
 
 
-def _arrays(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> tuple[Array, Array, Circle, Circle]:
+def _arrays(
+    angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle
+) -> tuple[Array, Array, Circle, Circle]:
     """Return everything as arrays of one shape."""
-    given = (angle, bend, *(getattr(c, name) for c in (first, second) for name in ("axial", "radial", "radius")))
+    given = (angle, joint_angle, *(getattr(c, name) for c in (first, second) for name in ("axial", "radial", "radius")))
     made = floats(*given)
     none = 0.0 * sum(made)
     phi, alpha, *sizes = (one + none for one in made)
@@ -153,10 +155,10 @@ def _widened(circle: Circle) -> Circle:
     return Circle(axial=circle.axial[..., None], radial=circle.radial[..., None], radius=circle.radius[..., None])
 
 
-def _miss(place: Array, angle: Array, bend: Array, first: Circle, second: Circle) -> tuple[Array, Array]:
+def _miss(place: Array, angle: Array, joint_angle: Array, first: Circle, second: Circle) -> tuple[Array, Array]:
     """Return by how much a point of circle 1 misses circle 2, and the slope of that along it."""
-    xp = namespace(place, angle, bend)
-    ca, sa, cf, sf = xp.cos(bend), xp.sin(bend), xp.cos(angle), xp.sin(angle)
+    xp = namespace(place, angle, joint_angle)
+    ca, sa, cf, sf = xp.cos(joint_angle), xp.sin(joint_angle), xp.cos(angle), xp.sin(angle)
     dr, dh = first.radius * xp.cos(place), -first.radius * xp.sin(place)
     h, r = first.axial + dr, first.radial - dh
     h2, inward, up = r * cf * sa - h * ca, h * sa + r * cf * ca, r * sf
@@ -168,17 +170,17 @@ def _miss(place: Array, angle: Array, bend: Array, first: Circle, second: Circle
     return value, slope
 
 
-def _away(place: Array, angle: Array, bend: Array, first: Circle) -> tuple[Array, Array]:
+def _away(place: Array, angle: Array, joint_angle: Array, first: Circle) -> tuple[Array, Array]:
     """Return φ2 - φ1 of a point of circle 1, and its distance from the axis."""
-    xp = namespace(place, angle, bend)
+    xp = namespace(place, angle, joint_angle)
     h, r = first.axial + first.radius * xp.cos(place), first.radial + first.radius * xp.sin(place)
-    inward = h * xp.sin(bend) + r * xp.cos(angle) * xp.cos(bend)
+    inward = h * xp.sin(joint_angle) + r * xp.cos(angle) * xp.cos(joint_angle)
     return wrapped(xp.atan2(r * xp.sin(angle), inward) - angle), r
 
 
-def _better(place: Array, angle: Array, bend: Array, first: Circle, second: Circle) -> Array:
+def _better(place: Array, angle: Array, joint_angle: Array, first: Circle, second: Circle) -> Array:
     """Return a place of circle 1 after a step of Newton's method."""
-    miss, slope = _miss(place, angle, bend, first, second)
+    miss, slope = _miss(place, angle, joint_angle, first, second)
     xp = namespace(miss, slope)
     return place - miss / xp.where(slope == 0.0, xp.inf, slope)
 
@@ -199,10 +201,10 @@ def _grid(circle: Circle) -> Array:
     return toward[..., None] + 2.0 * xp.atan2(k[..., None] * xp.sin(half), xp.cos(half))
 
 
-def _place(angle: Array, bend: Array, first: Circle, second: Circle) -> Array:
+def _place(angle: Array, joint_angle: Array, first: Circle, second: Circle) -> Array:
     """Return where on circle 1 the contact stands, as the angle about its centre, array (...)."""
-    xp = namespace(angle, bend)
-    wide = angle[..., None], bend[..., None], _widened(first), _widened(second)
+    xp = namespace(angle, joint_angle)
+    wide = angle[..., None], joint_angle[..., None], _widened(first), _widened(second)
     grid = _grid(first)
     value = _miss(grid, *wide)[0]
     low, high = value[..., :-1], value[..., 1:]
@@ -217,33 +219,33 @@ def _place(angle: Array, bend: Array, first: Circle, second: Circle) -> Array:
         there = xp.isfinite(xp.min(cost, axis=-1))
         floor, place, ceiling = (xp.sum(xp.where(chosen, one, 0.0), axis=-1) for one in (begin, start, end))
         for _step in range(NEWTON):
-            place = _better(place, angle, bend, first, second)
+            place = _better(place, angle, joint_angle, first, second)
             place = xp.minimum(xp.maximum(place, floor), ceiling)
-        away = xp.abs(_away(place, angle, bend, first)[0])
+        away = xp.abs(_away(place, angle, joint_angle, first)[0])
         nearer = there & (away < least)
         best, least = xp.where(nearer, place, best), xp.where(nearer, away, least)
         cost = xp.where(chosen, xp.inf, cost)
     return best
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> Array:
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
     """Return how far the output of a coupling with circular profiles runs ahead [rad]; see `profile_contact`."""
-    return profile_contact(angle, bend, first, second).deviation
+    return profile_contact(angle, joint_angle, first, second).deviation
 
 
-def ratio(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> Array:
+def ratio(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
     """Return the speed ratio dφ2/dφ1 of a coupling with circular profiles; see `profile_contact`."""
-    return profile_contact(angle, bend, first, second).ratio
+    return profile_contact(angle, joint_angle, first, second).ratio
 
 
-def course(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> tuple[Array, Array, Array]:
+def course(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> tuple[Array, Array, Array]:
     """Return how a coupling with circular profiles turns, with two derivatives; see `profile_contact`.
 
     Parameters
     ----------
     angle : array (...) [rad]
         Input angle φ1, from the inner side of the bend.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         Bend α of the shafts in [0, π/2).
     first, second : Circle
         Profiles of shaft 1 and shaft 2.
@@ -260,7 +262,7 @@ def course(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> 
     >>> print([f"{part:.6f}" for part in course(math.radians(130.0), math.radians(30.0), one, other)])
     ['0.014375', '0.994057', '-0.028502']
     """
-    phi, alpha, one, two = _arrays(angle, bend, first, second)
+    phi, alpha, one, two = _arrays(angle, joint_angle, first, second)
     place = _place(phi, alpha, one, two)
     found = _at(place, phi, alpha, one, two)
     beside = []
@@ -272,6 +274,6 @@ def course(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> 
     return found.deviation, found.ratio, (beside[1] - beside[0]) / (2.0 * STEP)
 
 
-def ratio_slope(angle: ArrayLike, bend: ArrayLike, first: Circle, second: Circle) -> Array:
+def ratio_slope(angle: ArrayLike, joint_angle: ArrayLike, first: Circle, second: Circle) -> Array:
     """Return the derivative of `ratio` by the input angle [1/rad]; see `course`."""
-    return course(angle, bend, first, second)[2]
+    return course(angle, joint_angle, first, second)[2]

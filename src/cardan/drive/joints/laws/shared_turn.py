@@ -20,7 +20,7 @@ def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
 
     Returns
     -------
-    lead, ratio, slope : arrays (...) [rad, 1, 1/rad]
+    angle_error, ratio, slope : arrays (...) [rad, 1, 1/rad]
         T - θ, T' and T''.
 
     Notes
@@ -33,16 +33,16 @@ def course(angle: Array, tau: Array, places: int) -> tuple[Array, Array, Array]:
     One place is a Hooke joint:
 
     >>> import numpy as np
-    >>> lead, ratio, _slope = course(np.asarray(0.5), np.tan(0.2) ** 2, 1)
-    >>> print(f"{lead:.9f} {np.tan(0.5 + lead) / np.tan(0.5) * np.cos(0.4):.9f} {ratio:.6f}")
+    >>> angle_error, ratio, _slope = course(np.asarray(0.5), np.tan(0.2) ** 2, 1)
+    >>> print(f"{angle_error:.9f} {np.tan(0.5 + angle_error) / np.tan(0.5) * np.cos(0.4):.9f} {ratio:.6f}")
     0.035347562 1.000000000 1.042857
     """
     xp = namespace(angle, tau)
     power = xp.asarray(tau, dtype=xp.float64) ** places
     root = xp.sqrt(1.0 - power * power)
     pair = complex_of(1.0 / root, xp), complex_of(-power / root, xp)
-    lead, ratio, slope = mobius.course(pair, unit_complex(2.0 * places * angle))
-    return lead / places, ratio, places * slope
+    angle_error, ratio, slope = mobius.course(pair, unit_complex(2.0 * places * angle))
+    return angle_error / places, ratio, places * slope
 
 
 def places(links: int) -> int:

@@ -15,19 +15,19 @@ NOISE = 1e-15
 """Harmonics below this [rad] are rounding; their derivatives would grow with the order."""
 
 
-def course(angle: Array, lead: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
+def course(angle: Array, angle_error: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
     """Return a smooth law of period 2π with two derivatives.
 
     Parameters
     ----------
     angle : array (...) [rad]
         θ.
-    lead : function
+    angle_error : function
         T - θ at angles (p,).
 
     Returns
     -------
-    lead, ratio, slope : arrays (...) [rad, 1, 1/rad]
+    angle_error, ratio, slope : arrays (...) [rad, 1, 1/rad]
         T - θ, T' and T''; nan where the law has none.
 
     Notes
@@ -41,7 +41,7 @@ def course(angle: Array, lead: Callable[[Array], Array]) -> tuple[Array, Array, 
     ['0.078332691', '1.186482990', '-0.704994219']
     """
     theta = np.asarray(angle, dtype=float)
-    samples = np.asarray(lead(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float)
+    samples = np.asarray(angle_error(np.arange(SAMPLES) * (2.0 * np.pi / SAMPLES)), dtype=float)
     if not np.all(np.isfinite(samples)):
         nothing = theta + np.nan
         return nothing, nothing, nothing

@@ -13,20 +13,20 @@ from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.maths.kernel import mobius
 
 
-def _corners(bend: Array, tilt: Array) -> tuple[Array, Array]:
+def _corners(joint_angle: Array, tilt: Array) -> tuple[Array, Array]:
     """Return cos p and cos q, nan where the plane holds a shaft, so that nothing turns."""
-    xp = namespace(bend, tilt)
-    first, second = xp.cos(0.5 * bend + tilt), xp.cos(0.5 * bend - tilt)
+    xp = namespace(joint_angle, tilt)
+    first, second = xp.cos(0.5 * joint_angle + tilt), xp.cos(0.5 * joint_angle - tilt)
     turns = (first > 0.0) & (second > 0.0)
     return xp.where(turns, first, xp.nan), xp.where(turns, second, xp.nan)
 
 
-def tau(bend: ArrayLike, tilt: ArrayLike) -> Array:
+def tau(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
     """Return τ = -tan(α/2) tan η: tan²(α_eq/2) of the Hooke joint that turns alike, with a sign.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2), angle between the shafts.
     tilt : array (...) [rad]
         η: the normal of the plane stands at α/2 + η to shaft 1.
@@ -42,19 +42,19 @@ def tau(bend: ArrayLike, tilt: ArrayLike) -> Array:
     >>> print(tau(40 * deg, 0.5 * deg))
     -0.00317632
     """
-    alpha, eta = floats(bend, tilt)
+    alpha, eta = floats(joint_angle, tilt)
     xp = namespace(alpha, eta)
     first, _second = _corners(alpha, eta)
     found = -xp.tan(0.5 * alpha) * xp.tan(eta)
     return xp.where(xp.isnan(first), xp.nan, found)
 
 
-def pair(bend: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
+def pair(joint_angle: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
     """Return the map of the circle of one ball, its angle counted from the plane of the shafts.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     tilt : array (...) [rad]
         η.
@@ -71,10 +71,10 @@ def pair(bend: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> print(mobius.irregularity(pair(40 * deg, 0.5 * deg)))
+    >>> print(mobius.speed_fluctuation(pair(40 * deg, 0.5 * deg)))
     0.01270540
     """
-    alpha, eta = floats(bend, tilt)
+    alpha, eta = floats(joint_angle, tilt)
     xp = namespace(alpha, eta)
     first, second = _corners(alpha, eta)
     root = xp.sqrt(first * second)
@@ -83,14 +83,14 @@ def pair(bend: ArrayLike, tilt: ArrayLike) -> mobius.Pair:
     return xp.astype(one, xp.complex128), xp.astype(other, xp.complex128)
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, tilt: ArrayLike) -> Array:
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
     """Return how far shaft 2 runs ahead of shaft 1 with one ball, φ_2 - φ_1.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ_1, from the plane of the shafts.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     tilt : array (...) [rad]
         η.
@@ -110,18 +110,18 @@ def deviation(angle: ArrayLike, bend: ArrayLike, tilt: ArrayLike) -> Array:
     >>> print(deviation(45 * deg, 40 * deg, [-0.5 * deg, 0.0, 0.5 * deg]))
     [ 0.00317631  0.         -0.00317631]
     """
-    phi, alpha, eta = floats(angle, bend, tilt)
+    phi, alpha, eta = floats(angle, joint_angle, tilt)
     xp = namespace(phi, alpha, eta)
     t = tau(alpha, eta)
     return xp.atan2(t * xp.sin(2.0 * phi), 1.0 - t * xp.cos(2.0 * phi)) + 0.0
 
 
-def irregularity(bend: ArrayLike, tilt: ArrayLike) -> Array:
+def speed_fluctuation(joint_angle: ArrayLike, tilt: ArrayLike) -> Array:
     """Return δ = \\|κ - 1/κ\\| of one ball: largest less smallest speed ratio.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     tilt : array (...) [rad]
         η.
@@ -138,10 +138,10 @@ def irregularity(bend: ArrayLike, tilt: ArrayLike) -> Array:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> print(irregularity(40 * deg, 0.5 * deg))
+    >>> print(speed_fluctuation(40 * deg, 0.5 * deg))
     0.01270540
     """
-    alpha, eta = floats(bend, tilt)
+    alpha, eta = floats(joint_angle, tilt)
     xp = namespace(alpha, eta)
     first, second = _corners(alpha, eta)
     return xp.sin(alpha) * xp.abs(xp.sin(2.0 * eta)) / (first * second)
@@ -166,14 +166,14 @@ class BallDemands:
     largest: Array
 
 
-def ball_demands(angle: ArrayLike, bend: ArrayLike, tilt: ArrayLike, count: int = 6) -> BallDemands:
+def ball_demands(angle: ArrayLike, joint_angle: ArrayLike, tilt: ArrayLike, count: int = 6) -> BallDemands:
     """Return what balls at equal angles in a plane that misses the bisecting one ask of shaft 2.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ_1 of the first ball, from the plane of the shafts.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     tilt : array (...) [rad]
         η.
@@ -196,7 +196,7 @@ def ball_demands(angle: ArrayLike, bend: ArrayLike, tilt: ArrayLike, count: int 
     >>> print(f"{found.mean:.6e} {found.spread:.6e} {found.largest:.6e}")
     -2.362077e-10 1.521747e-03 9.209634e-04
     """
-    phi, alpha, eta = floats(angle, bend, tilt)
+    phi, alpha, eta = floats(angle, joint_angle, tilt)
     xp = namespace(phi, alpha, eta)
     order = count // 2 if count % 2 == 0 else count
     power = tau(alpha, eta) ** order

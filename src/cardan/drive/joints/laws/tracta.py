@@ -12,12 +12,12 @@ from cardan.maths.kernel import mobius
 from . import tilted_plane
 
 
-def tilt(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+def tilt(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return by how much the angle at A exceeds half the bend.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2), angle between the shafts.
     first, second : arrays (...) [m]
         OA, OB > 0.
@@ -33,17 +33,17 @@ def tilt(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     >>> print(tilt(30 * deg, 0.020, [0.020, 0.021]) / deg)
     [0.         0.37444242]
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     xp = namespace(alpha, one, two)
     return xp.atan((two - one) / (two + one) * xp.tan(0.5 * alpha))
 
 
-def bends(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, Array]:
+def joint_angles(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, Array]:
     """Return the angles between the shafts and the line of the fork centres.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         OA, OB > 0.
@@ -51,26 +51,26 @@ def bends(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> tuple[Array, 
     Returns
     -------
     at_first, at_second : arrays (...) [rad]
-        α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the bend and the tilt.
+        α_1 = atan2(OB sin α, OA + OB cos α) and α_2 = α - α_1, each as half the joint angle and the tilt.
 
     Examples
     --------
     >>> from cardan.units import deg
-    >>> one, two = bends(30 * deg, 0.020, 0.021)
+    >>> one, two = joint_angles(30 * deg, 0.020, 0.021)
     >>> print(one / deg, two / deg)
     15.37444242 14.62555757
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     eta = tilt(alpha, one, two)
     return 0.5 * alpha + eta, 0.5 * alpha - eta
 
 
-def pair(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
+def pair(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
     """Return the map of the circle, tan φ_2 = (cos α_2/cos α_1) tan φ_1.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         OA, OB > 0.
@@ -83,21 +83,21 @@ def pair(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> mobius.Pair:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> print(mobius.irregularity(pair(30 * deg, 0.020, [0.020, 0.021])))
+    >>> print(mobius.speed_fluctuation(pair(30 * deg, 0.020, [0.020, 0.021])))
     [0.         0.00700458]
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     return tilted_plane.pair(alpha, -tilt(alpha, one, two))
 
 
-def deviation(angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+def deviation(angle: ArrayLike, joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return how far shaft 2 runs ahead of shaft 1, φ_2 - φ_1.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ_1, from the plane of the shafts, of the axis about which the tongue's block swivels in its fork.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         OA, OB > 0.
@@ -112,16 +112,16 @@ def deviation(angle: ArrayLike, bend: ArrayLike, first: ArrayLike, second: Array
     >>> print(deviation([0.0, 45 * deg], 30 * deg, 0.020, 0.021))
     [0.         0.00175114]
     """
-    alpha, one, two = floats(bend, first, second)
+    alpha, one, two = floats(joint_angle, first, second)
     return tilted_plane.deviation(angle, alpha, -tilt(alpha, one, two))
 
 
-def irregularity(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
+def speed_fluctuation(joint_angle: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     """Return δ = \\|κ - 1/κ\\|, κ = cos α_2/cos α_1: largest less smallest speed ratio.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     first, second : arrays (...) [m]
         OA, OB > 0.
@@ -133,8 +133,8 @@ def irregularity(bend: ArrayLike, first: ArrayLike, second: ArrayLike) -> Array:
     Examples
     --------
     >>> from cardan.units import deg
-    >>> print(irregularity(30 * deg, 0.020, 0.021))
+    >>> print(speed_fluctuation(30 * deg, 0.020, 0.021))
     0.00700458
     """
-    alpha, one, two = floats(bend, first, second)
-    return tilted_plane.irregularity(alpha, tilt(alpha, one, two))
+    alpha, one, two = floats(joint_angle, first, second)
+    return tilted_plane.speed_fluctuation(alpha, tilt(alpha, one, two))

@@ -10,12 +10,12 @@ from __future__ import annotations
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 
-def orbit_radius(bend: ArrayLike, radius: ArrayLike) -> Array:
+def orbit_radius(joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return the radius of the circle that the centre of the spider runs round three times a turn.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     radius : array (...) [m]
         R, distance of the tracks from the axis of the housing.
@@ -31,19 +31,19 @@ def orbit_radius(bend: ArrayLike, radius: ArrayLike) -> Array:
     >>> print(orbit_radius(20 * deg, 20 * mm) / mm)
     0.64177772
     """
-    alpha, size = floats(bend, radius)
+    alpha, size = floats(joint_angle, radius)
     xp = namespace(alpha, size)
     return size * xp.sin(0.5 * alpha) ** 2 / xp.cos(alpha)
 
 
-def spider_centre(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> tuple[Array, Array]:
+def spider_centre(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> tuple[Array, Array]:
     """Return the centre of the spider in its plane, from the axis of the housing.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ of the housing: of its first track from the line of greatest slope of the spider's plane.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     radius : array (...) [m]
         R.
@@ -60,20 +60,20 @@ def spider_centre(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> tuple
     >>> print(x / mm, y / mm)
     0.32088886 -0.55579581
     """
-    phi, alpha, size = floats(angle, bend, radius)
+    phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
     orbit = orbit_radius(alpha, size)
     return -orbit * xp.cos(3.0 * phi), -orbit * xp.sin(3.0 * phi)
 
 
-def roller_reach(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> Array:
+def roller_reach(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return the distance of a roller from the centre of the spider, along its arm.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ of the roller's own track.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     radius : array (...) [m]
         R.
@@ -89,20 +89,20 @@ def roller_reach(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> Array:
     >>> print(roller_reach([0.0, 90 * deg], 20 * deg, 20 * mm) / mm)
     [21.92533317 19.35822228]
     """
-    phi, alpha, size = floats(angle, bend, radius)
+    phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
     orbit = orbit_radius(alpha, size)
     return size + orbit + 2.0 * orbit * xp.cos(2.0 * phi)
 
 
-def track_travel(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> Array:
+def track_travel(angle: ArrayLike, joint_angle: ArrayLike, radius: ArrayLike) -> Array:
     """Return how far along its track a roller stands from the middle.
 
     Parameters
     ----------
     angle : array (...) [rad]
         φ of the roller's own track.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     radius : array (...) [m]
         R.
@@ -118,17 +118,17 @@ def track_travel(angle: ArrayLike, bend: ArrayLike, radius: ArrayLike) -> Array:
     >>> print(track_travel(0.0, 20 * deg, 20 * mm) / mm)
     7.27940468
     """
-    phi, alpha, size = floats(angle, bend, radius)
+    phi, alpha, size = floats(angle, joint_angle, radius)
     xp = namespace(phi, alpha, size)
     return size * xp.tan(alpha) * xp.cos(phi)
 
 
-def shaft_tilt(bend: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
+def shaft_tilt(joint_angle: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
     """Return by how much a shaft that ends in a fixed joint nutates as the spider orbits, for a long shaft.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α in [0, π/2).
     radius, length : arrays (...) [m]
         R, and L from the spider to the other joint of its shaft.
@@ -144,5 +144,5 @@ def shaft_tilt(bend: ArrayLike, radius: ArrayLike, length: ArrayLike) -> Array:
     >>> print(shaft_tilt(20 * deg, 20 * mm, 400 * mm) / arcmin)
     5.51567325
     """
-    alpha, size, far = floats(bend, radius, length)
+    alpha, size, far = floats(joint_angle, radius, length)
     return orbit_radius(alpha, size) / far

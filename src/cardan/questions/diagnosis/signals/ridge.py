@@ -319,12 +319,12 @@ def _wavering(found: _Path) -> float:
     row = np.arange(place.size)
     power = found.map.power[row, place - 1] + found.map.power[row, place] + found.map.power[row, place + 1]
     level = np.log(np.maximum(power, 1e-300))
-    bends = [
+    joint_angles = [
         float(np.median(np.abs(level[: -2 * lag] - 2.0 * level[lag:-lag] + level[2 * lag :]))) / math.sqrt(3.0)
         for lag in (HOPS, 2 * HOPS)
         if level.size > 2 * lag + 2
     ]
-    return sum(bends) / len(bends) if bends else WAVERING
+    return sum(joint_angles) / len(joint_angles) if joint_angles else WAVERING
 
 
 def _shares(

@@ -11,7 +11,7 @@ from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost_of
 from cardan.questions.motion.articulation import Articulation
-from cardan.questions.motion.equivalence import WARN_BEND
+from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
 from cardan.texts import _
 from cardan.units import deg, mm
 
@@ -19,10 +19,10 @@ from cardan.units import deg, mm
 def articulation_figures(found: Articulation) -> tuple[Figure, ...]:
     """Return the figures of a moving drive."""
     sliding = (sliding_figure(found),) if any(one.slides for one in found.splines) else ()
-    return (bends_figure(found), *sliding)
+    return (joint_angles_figure(found), *sliding)
 
 
-def bends_figure(found: Articulation) -> Figure:
+def joint_angles_figure(found: Articulation) -> Figure:
     """Return bends and unevenness over time.
 
     Parameters
@@ -31,26 +31,27 @@ def bends_figure(found: Articulation) -> Figure:
         A drive over the instants of a movement.
     """
     times = np.asarray(found.times)
-    bend = np.asarray(found.bend) / deg
-    share = 100.0 * np.asarray(found.irregularity)
-    moving = 100.0 * np.asarray(found.moving_irregularity)
+    joint_angle = np.asarray(found.joint_angle) / deg
+    share = 100.0 * np.asarray(found.speed_fluctuation)
+    moving = 100.0 * np.asarray(found.moving_speed_fluctuation)
     known = bool(np.any(np.isfinite(moving)))
     curves: list[Series] = [
         Curve(
             x=times,
-            y=bend[:, k],
+            y=joint_angle[:, k],
             role=shaft(k + 2),
             dash=dash_of(k + 2),
             label=_("joint {number}").format(number=k + 1),
         )
-        for k in range(bend.shape[1])
+        for k in range(joint_angle.shape[1])
     ]
-    if np.nanmax(bend) > 0.9 * WARN_BEND:
+    if np.nanmax(joint_angle) > 0.9 * WARN_JOINT_ANGLE:
         curves.append(
             Rule(
-                value=WARN_BEND,
+                value=WARN_JOINT_ANGLE,
                 text=say(
-                    _("no real cross joint works above {limit}"), limit=Quantity(WARN_BEND * deg, "angle", trim=True)
+                    _("no real cross joint works above {limit}"),
+                    limit=Quantity(WARN_JOINT_ANGLE * deg, "angle", trim=True),
                 ),
                 role="warning",
             )
@@ -69,9 +70,9 @@ def bends_figure(found: Articulation) -> Figure:
                 label=_("the same, articulation rate included"),
             )
         )
-    widest = foremost_of((one for one in found.worst if one.what == "bend"), lambda one: one.value)
+    widest = foremost_of((one for one in found.worst if one.what == "joint_angle"), lambda one: one.value)
     return Figure(
-        name="bends",
+        name="joint_angles",
         title=_("Joint angles and speed fluctuation while the drive moves"),
         sentence=say(
             _("Joint {joint} has the largest joint angle, up to {angle}."),
@@ -85,7 +86,7 @@ def bends_figure(found: Articulation) -> Figure:
                     Panel(
                         series=tuple(curves),
                         x=_time(times),
-                        y=axis(_("Joint angle"), "deg", [bend], dimension="angle", include=(0.0,), least=0.1),
+                        y=axis(_("Joint angle"), "deg", [joint_angle], dimension="angle", include=(0.0,), least=0.1),
                     ),
                 ),
                 height=1.6,

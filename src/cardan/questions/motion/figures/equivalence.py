@@ -25,10 +25,10 @@ ORDERS = 4
 
 def equivalence_figures(found: EquivalentJoint) -> tuple[Figure, ...]:
     """Return the figures of an equivalent joint."""
-    return (irregularity_figure(found), orders_figure(found))
+    return (speed_fluctuation_figure(found), orders_figure(found))
 
 
-def irregularity_figure(found: EquivalentJoint) -> Figure:
+def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
     """Return how uneven every shaft turns.
 
     Parameters
@@ -36,7 +36,7 @@ def irregularity_figure(found: EquivalentJoint) -> Figure:
     found : EquivalentJoint
         Of one drive.
     """
-    share = 100.0 * np.ravel(np.asarray(found.shaft_irregularity))
+    share = 100.0 * np.ravel(np.asarray(found.shaft_speed_fluctuation))
     at = np.arange(2, len(share) + 2)
     texts = tuple(Quantity(value / 100.0, "share", 3) for value in share.tolist())
     upright = axis(
@@ -53,7 +53,7 @@ def irregularity_figure(found: EquivalentJoint) -> Figure:
     bars = Bars(at=at, size=share, texts=texts, roles=tuple(shaft(int(k)) for k in at), thick=0.5)
     even = share[-1] < 100.0 * SYNCHRONOUS
     return Figure(
-        name="irregularity",
+        name="speed_fluctuation",
         title=_("Speed fluctuation of every shaft"),
         sentence=_("The output is uniform; what the shafts between do cancels out.")
         if even
@@ -74,7 +74,7 @@ def orders_figure(found: EquivalentJoint) -> Figure:
     """
     amplitude = np.asarray(found.harmonics(ORDERS)).reshape(-1, ORDERS)[-1] / deg
     orders = 2.0 * np.arange(1, ORDERS + 1)
-    even = bool(np.ravel(np.asarray(found.shaft_irregularity))[-1] < SYNCHRONOUS)
+    even = bool(np.ravel(np.asarray(found.shaft_speed_fluctuation))[-1] < SYNCHRONOUS)
     top = 1.0 if even else float(amplitude[0])
     high = 10.0 ** (math.floor(math.log10(top)) + 1)
     low = min(max(FLOOR, 10.0 ** (math.floor(math.log10(max(float(amplitude[-1]), 1e-300))))), 1e-2 * high)

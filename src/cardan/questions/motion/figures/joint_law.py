@@ -1,4 +1,4 @@
-"""Joints of any kind by themselves: over a turn at one bend, and over bends."""
+"""Joints of any kind by themselves: over a turn at one joint angle, and over bends."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cardan.figures.axes import angle_axis, axis
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
 from cardan.figures.palette import dash_of, shaft
 from cardan.maths.arrays import Array
-from cardan.questions.motion.joint_law import JointBends, JointTurn
+from cardan.questions.motion.joint_law import JointAngles, JointTurn
 from cardan.texts import _
 from cardan.units import deg
 
@@ -20,50 +20,57 @@ WIDTHS = (2.2, 1.5)
 
 
 def joint_figures(
-    turns: Sequence[JointTurn], bends: Sequence[JointBends], labels: Sequence[str] = ()
+    turns: Sequence[JointTurn], joint_angles: Sequence[JointAngles], labels: Sequence[str] = ()
 ) -> tuple[Figure, ...]:
     """Return the figures of joints by themselves."""
-    return (joint_figure(turns, bends, labels),)
+    return (joint_figure(turns, joint_angles, labels),)
 
 
-def joint_figure(turns: Sequence[JointTurn], bends: Sequence[JointBends], labels: Sequence[str] = ()) -> Figure:
+def joint_figure(turns: Sequence[JointTurn], joint_angles: Sequence[JointAngles], labels: Sequence[str] = ()) -> Figure:
     """Return error and ratio of joints over a turn, and their errors over the bend.
 
     Parameters
     ----------
     turns : sequence of JointTurn
         At least one; all at one bend.
-    bends : sequence of JointBends
+    joint_angles : sequence of JointAngles
         Of the same joints.
     labels : sequence of str
         What they are called; their kinds when not given.
     """
     names = tuple(labels) or tuple(one.joint.kind for one in turns)
-    leads = [np.asarray(one.lead) / deg for one in turns]
+    angle_errors = [np.asarray(one.angle_error) / deg for one in turns]
     ratios = [np.asarray(one.ratio) for one in turns]
     angle = np.asarray(turns[0].angle) / deg
     whole = angle_axis(_("Input angle from the plane of the shafts"))
     bare = Axis(low=whole.low, high=whole.high, ticks=whole.ticks, texts=("",) * len(whole.ticks))
-    errors = [np.asarray(one.error) / deg for one in bends]
-    widest = max(float(np.max(one.bend)) for one in bends) / deg
+    errors = [np.asarray(one.error) / deg for one in joint_angles]
+    widest = max(float(np.max(one.joint_angle)) for one in joint_angles) / deg
     curves = [
-        Curve(x=np.asarray(one.bend) / deg, y=error, role=shaft(k), dash=dash_of(k), width=_width(k))
-        for k, (one, error) in enumerate(zip(bends, errors, strict=True), start=1)
+        Curve(x=np.asarray(one.joint_angle) / deg, y=error, role=shaft(k), dash=dash_of(k), width=_width(k))
+        for k, (one, error) in enumerate(zip(joint_angles, errors, strict=True), start=1)
     ]
     return Figure(
         name="joint",
         title=say(
-            _("How joints turn at {angle} and over their joint angles"), angle=Quantity(turns[0].bend, "angle", 3)
+            _("How joints turn at {angle} and over their joint angles"),
+            angle=Quantity(turns[0].joint_angle, "angle", 3),
         ),
         sentence=_sentence(turns, names),
         source=_("exact law of each kind; error: half of what lies between the greatest lead and the greatest lag"),
         rows=(
-            Row(panels=(_panel(angle, leads, bare, _("Output ahead of input"), "deg", 0.0, 0.02, names),), height=1.5),
+            Row(
+                panels=(_panel(angle, angle_errors, bare, _("Output ahead of input"), "deg", 0.0, 0.02, names),),
+                height=1.5,
+            ),
             Row(panels=(_panel(angle, ratios, whole, _("Speed ratio"), "–", 1.0, 0.002),), height=1.5),
             Row(
                 panels=(
                     Panel(
-                        series=(*curves, Rule(value=turns[0].bend / deg, upright=True, text=_("angle of the turn"))),
+                        series=(
+                            *curves,
+                            Rule(value=turns[0].joint_angle / deg, upright=True, text=_("angle of the turn")),
+                        ),
                         x=axis(_("Joint angle"), "deg", dimension="angle", include=(0.0, widest), count=8, margin=0.0),
                         y=axis(
                             _("Angle error of the output"),
@@ -116,7 +123,7 @@ def _panel(
 def _sentence(turns: Sequence[JointTurn], names: Sequence[str]) -> Say:
     """Return which joint has the least angle error, where several do not turn alike; what it is of one alone."""
     order = sorted(range(len(turns)), key=lambda k: turns[k].error)
-    best, worst, at = order[0], order[-1], Quantity(turns[0].bend, "angle", 3)
+    best, worst, at = order[0], order[-1], Quantity(turns[0].joint_angle, "angle", 3)
     if len(turns) == 1:
         text = _("At {angle} the {name} joint turns exactly uniformly.")
         if turns[0].error:

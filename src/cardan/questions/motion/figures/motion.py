@@ -38,7 +38,7 @@ def motion_figure(found: Motion) -> Figure:
         Motion of one drive.
     """
     angle = np.asarray(found.angle) / deg
-    lead = np.asarray(found.lead) / deg
+    angle_error = np.asarray(found.angle_error) / deg
     known = found.speed is not None
     steep = np.asarray(found.shaft_acceleration) if known else np.asarray(found.shaft_slope)
     along = across(angle)
@@ -46,7 +46,7 @@ def motion_figure(found: Motion) -> Figure:
     even = len(angle) > 1 and float(np.max(np.ptp(ratio, axis=-1), initial=0.0)) < NOISE  # nothing else to be seen
     panels = (
         _panel(angle, ratio, across(angle, named=even), _("Speed ratio ω/ω₁"), "–", 1.0, 0.02, named=True),
-        _panel(angle, lead, along, _("Angle error φ − φ₁"), "deg", 0.0, 0.2, dimension="angle"),
+        _panel(angle, angle_error, along, _("Angle error φ − φ₁"), "deg", 0.0, 0.2, dimension="angle"),
         _panel(
             angle,
             steep,
@@ -61,7 +61,7 @@ def motion_figure(found: Motion) -> Figure:
     return Figure(
         name="motion",
         title=_("Motion of every shaft over the input angle"),
-        sentence=_sentence(found, lead),
+        sentence=_sentence(found, angle_error),
         source=_("every joint by its own law, one after another")
         if found.followed
         else _(
@@ -112,17 +112,17 @@ def _panel(
     return Panel(series=(Rule(value=middle, dash="solid", role="faint"), *curves), x=along, y=upright)
 
 
-def _sentence(found: Motion, lead: Array) -> Text:
+def _sentence(found: Motion, angle_error: Array) -> Text:
     """Return between which speeds the output runs; at a uniform output, what the shafts between do."""
     ratio = np.asarray(found.ratio)
     low, high = float(np.min(ratio)), float(np.max(ratio))
     if high - low < NOISE:
-        between = float(np.max(np.ptp(lead, axis=-1))) / 2.0 * deg
+        between = float(np.max(np.ptp(angle_error, axis=-1))) / 2.0 * deg
         if between < NOISE:
             return _("Every shaft turns exactly uniformly.")
         text = _("Between input and output a shaft has an angle error of ±{error}.")
         return say(text, error=Quantity(between, "angle", 3))
-    swing = np.ptp(lead, axis=-1)
+    swing = np.ptp(angle_error, axis=-1)
     if high - low < SPECK and float(swing[-1]) < UNDONE * float(np.max(swing)):
         text = _("But for rounding the output turns uniformly: its angle error is ±{error}.")
         return say(text, error=Quantity(float(swing[-1]) / 2.0 * deg, "angle", 2))

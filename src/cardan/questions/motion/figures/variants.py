@@ -54,11 +54,11 @@ def variants_figure(found: Sequence[Motion], names: Sequence[str]) -> Figure:
     angles = [np.asarray(one.angle) / deg for one in found]
     longest = max(angles, key=lambda angle: float(np.max(angle)))
     ratios = [np.asarray(one.shaft_ratio)[-1] for one in found]
-    leads = [np.asarray(one.lead)[-1] / deg for one in found]
+    angle_errors = [np.asarray(one.angle_error)[-1] / deg for one in found]
     return Figure(
         name="variants",
         title=_("Output of the variants over the input angle"),
-        sentence=_sentence(leads, names),
+        sentence=_sentence(angle_errors, names),
         source=_("every variant by the exact law of its joints, at uniform input"),
         rows=tuple(
             Row(
@@ -69,7 +69,7 @@ def variants_figure(found: Sequence[Motion], names: Sequence[str]) -> Figure:
             )
             for rows, label, unit, middle, least, named in (
                 (ratios, _("Speed ratio ω/ω₁ of the output"), "–", 1.0, 0.002, True),
-                (leads, _("Angle error φ − φ₁ of the output"), "deg", 0.0, 0.02, False),
+                (angle_errors, _("Angle error φ − φ₁ of the output"), "deg", 0.0, 0.02, False),
             )
         ),
     )
@@ -106,8 +106,8 @@ def _panel(
     )
 
 
-def _sentence(leads: Sequence[Array], names: Sequence[str]) -> Say:
-    errors = [0.5 * float(np.ptp(lead)) if lead.size else 0.0 for lead in leads]
+def _sentence(angle_errors: Sequence[Array], names: Sequence[str]) -> Say:
+    errors = [0.5 * float(np.ptp(angle_error)) if angle_error.size else 0.0 for angle_error in angle_errors]
     told = [Quantity(one * deg if one > NOISE else 0.0, "angle", 3) for one in errors]
     if len(told) == 1:
         return say(_("{name}: output angle error ±{error}."), name=names[0], error=told[0])

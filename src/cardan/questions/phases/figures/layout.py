@@ -1,4 +1,4 @@
-"""A drive whose joints were moved: what became of its bends, and how it looks now."""
+"""A drive whose joints were moved: what became of its joint angles, and how it looks now."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from cardan.units import deg
 
 def layout_figures(found: Layout) -> tuple[Figure, ...]:
     """Return the figures of a layout."""
-    return (bends_figure(found), views_figure(found.drive, solids(found.drive)))
+    return (joint_angles_figure(found), views_figure(found.drive, solids(found.drive)))
 
 
-def bends_figure(found: Layout) -> Figure:
-    """Return the bends before and after.
+def joint_angles_figure(found: Layout) -> Figure:
+    """Return the joint angles before and after.
 
     Parameters
     ----------
     found : Layout
         A drive with its joints moved.
     """
-    before, after = np.asarray(found.bend_before) / deg, np.asarray(found.bend) / deg
+    before, after = np.asarray(found.joint_angle_before) / deg, np.asarray(found.joint_angle) / deg
     number = np.arange(1, len(after) + 1)
     upright = axis(_("Joint angle"), "deg", [before, after], dimension="angle", include=(0.0,), least=1.0, count=4)
     ticks = tuple(float(k) for k in number)

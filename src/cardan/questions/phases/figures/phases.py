@@ -27,7 +27,7 @@ def phasing_figures(found: Phasing) -> tuple[Figure, ...]:
     if not found.settings:
         return (polygon_figure(found),)
     made = [polygon_figure(found)]
-    if max(one.irregularity for one in _compared(found)) > SYNCHRONOUS:
+    if max(one.speed_fluctuation for one in _compared(found)) > SYNCHRONOUS:
         made.append(settings_figure(found))
     if float(np.max(found.settings[0].one_off)) > FLAT:
         made.append(sensitivity_figure(found))
@@ -54,7 +54,7 @@ def polygon_figure(found: Phasing) -> Figure:
     panels = tuple(_disk(one, reach, named=k == 0, best=k > 0) for k, one in enumerate(shown))
     while len(panels) < 3:
         panels = (*panels, Panel(series=(), bare=True))
-    best = found.settings[0].irregularity if found.settings else found.as_built.irregularity
+    best = found.settings[0].speed_fluctuation if found.settings else found.as_built.speed_fluctuation
     if best < SPECK:
         text = _("As specified the path ends {start} from the middle; with the yokes phased it comes back to it.")
     else:
@@ -62,11 +62,11 @@ def polygon_figure(found: Phasing) -> Figure:
             "As specified the path ends {start} from the middle, with the best yokes {end}: one side is too long for "
             "the others to close."
         )
-    if best < SYNCHRONOUS and found.as_built.irregularity < SYNCHRONOUS:
+    if best < SYNCHRONOUS and found.as_built.speed_fluctuation < SYNCHRONOUS:
         text = _("The path comes back to the middle as specified.")
-    elif found.as_built.irregularity < SPECK < found.irregularity_max:
+    elif found.as_built.speed_fluctuation < SPECK < found.speed_fluctuation_max:
         text = _("But for the rounding of the drive's figures the path comes back to the middle as specified.")
-    elif found.as_built.irregularity - best < SYNCHRONOUS:
+    elif found.as_built.speed_fluctuation - best < SYNCHRONOUS:
         text = _(
             "The path ends {start} from the middle and no yokes bring it nearer: one side is too long for the others."
         )
@@ -75,7 +75,9 @@ def polygon_figure(found: Phasing) -> Figure:
     return Figure(
         name="polygon",
         title=_("Phase polygon"),
-        sentence=say(text, start=Quantity(found.as_built.irregularity, "share", 3), end=Quantity(best, "share", 3)),
+        sentence=say(
+            text, start=Quantity(found.as_built.speed_fluctuation, "share", 3), end=Quantity(best, "share", 3)
+        ),
         source=_(
             "Poincaré disk: side k is joint k, length −ln cos α, turned by the yoke angles; corners −b/a of the matrix "
             "product; rings of equal δ"
@@ -131,12 +133,12 @@ def _disk(one: YokeSetting, reach: float, *, named: bool, best: bool) -> Panel:
         )
     name = _("setting {label}").format(label=one.label) if best else one.label
     span = Axis(low=-reach, high=reach)
-    title = say(_("{name}: leaves {share}"), name=name, share=Quantity(one.irregularity, "share", 3))
+    title = say(_("{name}: leaves {share}"), name=name, share=Quantity(one.speed_fluctuation, "share", 3))
     return Panel(series=(*rings, *sides, middle), x=span, y=span, title=title, equal=True, bare=True)
 
 
 def _share(radius: float) -> float:
-    """Return the irregularity of a corner so far from the middle."""
+    """Return the speed fluctuation of a corner so far from the middle."""
     return 4.0 * radius / (1.0 - radius * radius) if radius < 1.0 else 1e3
 
 
@@ -158,9 +160,9 @@ def settings_figure(found: Phasing) -> Figure:
         What the yoke angles can do.
     """
     shown = _compared(found)
-    share = 100.0 * np.asarray([one.irregularity for one in shown])
+    share = 100.0 * np.asarray([one.speed_fluctuation for one in shown])
     at = np.arange(len(shown), 0, -1, dtype=float)
-    low, high = 100.0 * found.irregularity_min, 100.0 * found.irregularity_max
+    low, high = 100.0 * found.speed_fluctuation_min, 100.0 * found.speed_fluctuation_max
     # The widest reach is beside the point when it dwarfs what is compared.
     top = max(float(np.max(share)), min(high, 2.0 * float(np.max(share))), 1e-3)
     ticks = steps(0.0, 1.16 * top, 5)
@@ -191,8 +193,8 @@ def settings_figure(found: Phasing) -> Figure:
         title=_("What each setting of the yokes leaves"),
         sentence=say(
             text,
-            low=Quantity(found.irregularity_min, "share", 3),
-            high=Quantity(found.irregularity_max, "share", 3),
+            low=Quantity(found.speed_fluctuation_min, "share", 3),
+            high=Quantity(found.speed_fluctuation_max, "share", 3),
         ),
         source=_("bounds: δ = 2 sinh L, L from max(0, 2L_max − ΣL) to ΣL, L = −ln cos α; exact, in place of Book (86)"),
         rows=(

@@ -220,7 +220,7 @@ def _rule_reasons(rule: NodeRule) -> Iterator[Text]:
         speed=speed(0.5 * rule.omega, 4),
         zone=speed(rule.omega, 4),
     )
-    bent = np.flatnonzero(rule.bend_share > BENT)
+    bent = np.flatnonzero(rule.joint_angle_share > BENT)
     if not bent.size:
         yield _("All joints are straight: nothing excites it twice a turn.")
         return

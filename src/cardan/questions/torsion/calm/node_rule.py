@@ -27,7 +27,7 @@ class NodeRule:
         ζ.
     kappa : array (n,)
         Position of each joint relative to the node of the mode, 0 in it: its angle in the mode times Σ J u behind it.
-    bend_share : array (n,)
+    joint_angle_share : array (n,)
         τ = tan²(α/2) of each joint.
     parametric : complex array (n,)
         Share by which each joint modulates the stiffness twice a turn, with its phase: 2 τ κ e^(2iψ̄).
@@ -46,7 +46,7 @@ class NodeRule:
     omega: float
     damping_ratio: float
     kappa: Array
-    bend_share: Array
+    joint_angle_share: Array
     parametric: Array
     forced: Array
     torque_of_mode: float
@@ -124,9 +124,9 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
     """
     model = train.model
     modes = straight_modes(model, speed=speed)
-    tau = np.tan(0.5 * model.bend) ** 2
-    leads = np.cumsum(tau * np.sin(2.0 * model.phase))
-    turn = np.exp(2j * (model.phase - np.append(0.0, leads[:-1]))) if len(tau) else np.zeros(0, dtype=complex)
+    tau = np.tan(0.5 * model.joint_angle) ** 2
+    angle_errors = np.cumsum(tau * np.sin(2.0 * model.phase))
+    turn = np.exp(2j * (model.phase - np.append(0.0, angle_errors[:-1]))) if len(tau) else np.zeros(0, dtype=complex)
     shaft = np.asarray(model.shaft)
     lag, carried = _under_load(train, speed)
     driving = [one for one, _driven in train.joints]
@@ -142,7 +142,7 @@ def node_rules(train: TorsionalTrain, *, speed: float = 1.0) -> tuple[NodeRule, 
                 omega=float(omega),
                 damping_ratio=float(modes.damping_ratio[k]),
                 kappa=modes.joint_weight[k],
-                bend_share=tau,
+                joint_angle_share=tau,
                 parametric=2.0 * tau * modes.joint_weight[k] * turn,
                 forced=tau * push * turn,
                 torque_of_mode=float(np.max(np.abs(model.stiffness * np.asarray(twist)), initial=0.0)),

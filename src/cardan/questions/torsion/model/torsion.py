@@ -245,7 +245,7 @@ def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
     from cardan.drive.models.chain import given_chain, turning
 
     found: dict[float, str] = {}
-    if np.any(turning(given_chain(drive), drive.joints, near=True).bend > STRAIGHT):
+    if np.any(turning(given_chain(drive), drive.joints, near=True).joint_angle > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}
     engine = duty.engine
     if engine is not None:

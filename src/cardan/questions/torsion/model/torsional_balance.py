@@ -37,14 +37,14 @@ class Slopes:
     stiffness: Array
 
 
-def joint_law(angle: Array, bend: Array) -> tuple[Array, Array, Array, Array]:
+def joint_law(angle: Array, joint_angle: Array) -> tuple[Array, Array, Array, Array]:
     """Return T and its first three derivatives of a Hooke joint, its angle counted from the plane of its shafts.
 
     Parameters
     ----------
     angle : array (...) [rad]
         θ of the driving yoke.
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α.
 
     Returns
@@ -58,10 +58,10 @@ def joint_law(angle: Array, bend: Array) -> tuple[Array, Array, Array, Array]:
     >>> [float(round(one, 4)) for one in joint_law(np.asarray(np.pi), np.asarray(np.pi / 3))]
     [3.1416, 2.0, -0.0, -12.0]
     """
-    xp = namespace(angle, bend)
-    tau = xp.tan(0.5 * bend) ** 2
+    xp = namespace(angle, joint_angle)
+    tau = xp.tan(0.5 * joint_angle) ** 2
     twice_sin, twice_cos = xp.sin(2.0 * angle), xp.cos(2.0 * angle)
-    cosine, square = xp.cos(bend), xp.sin(bend) ** 2
+    cosine, square = xp.cos(joint_angle), xp.sin(joint_angle) ** 2
     whole = angle + xp.atan2(tau * twice_sin, 1.0 - tau * twice_cos)
     below = 1.0 / (1.0 - 0.5 * square * (1.0 + twice_cos))
     first = cosine * below
@@ -92,9 +92,9 @@ def places(model: TorsionalModel, q: Array) -> Places:
             found.append((q[..., model.coordinate[k]], one, nothing, nothing))
             continue
         f, f1, f2, f3 = found[source[0]]
-        bend, phase = _wide(model.bend[..., source[1]], one), _wide(model.phase[..., source[1]], one)
-        t, t1, t2, t3 = joint_law(f + phase, bend)
-        start = joint_law(phase, bend)[0]
+        joint_angle, phase = _wide(model.joint_angle[..., source[1]], one), _wide(model.phase[..., source[1]], one)
+        t, t1, t2, t3 = joint_law(f + phase, joint_angle)
+        start = joint_law(phase, joint_angle)[0]
         found.append((t - start, t1 * f1, t2 * f1**2 + t1 * f2, t3 * f1**3 + 3.0 * t2 * f1 * f2 + t1 * f3))
     angle, first, second, third = (xp.stack([each[i] for each in found], axis=-1) for i in range(4))
     return Places(angle=angle, first=first, second=second, third=third)

@@ -15,7 +15,17 @@ from .torques import Law, base_period
 from .torsional_balance import linearised, places
 from .torsional_model import Torque, TorsionalModel
 
-ARRAYS = ("inertia", "stiffness", "damping", "backlash", "bend", "phase", "ground_damping", "loss_factor", "rest")
+ARRAYS = (
+    "inertia",
+    "stiffness",
+    "damping",
+    "backlash",
+    "joint_angle",
+    "phase",
+    "ground_damping",
+    "loss_factor",
+    "rest",
+)
 """Fields of a model whose last axis is stations, elements or joints."""
 
 SHARED = frozenset({"speeds", "torques", "times", "frequency"})
@@ -49,24 +59,24 @@ def _own(law: Law) -> dict[str, Array]:
     }
 
 
-def chosen(model: TorsionalModel, lead: tuple[int, ...], rows: Array, *, moments: bool = True) -> TorsionalModel:
+def chosen(model: TorsionalModel, outer: tuple[int, ...], rows: Array, *, moments: bool = True) -> TorsionalModel:
     """Return some of the drives of a model in one leading axis.
 
     Parameters
     ----------
     model : TorsionalModel
-    lead : tuple of int
+    angle_error : tuple of int
         Leading axes that those of the model spread over.
     rows : array of int (b,)
         Which drives, counted through the axes.
     moments : bool
         Make their torques ready for moments in a second axis.
     """
-    place = np.unravel_index(rows, lead) if lead else ()
+    place = np.unravel_index(rows, outer) if outer else ()
 
     def taken(values: Array, width: tuple[int, ...]) -> Array:
-        whole = np.broadcast_to(np.asarray(values, dtype=float), (*lead, *width))
-        return whole[place] if lead else np.broadcast_to(whole, (len(rows), *width))
+        whole = np.broadcast_to(np.asarray(values, dtype=float), (*outer, *width))
+        return whole[place] if outer else np.broadcast_to(whole, (len(rows), *width))
 
     def taken_law(law: Law) -> Law:
         own = {name: taken(value, ()) for name, value in _own(law).items()}
@@ -79,7 +89,7 @@ def chosen(model: TorsionalModel, lead: tuple[int, ...], rows: Array, *, moments
     return replace(model, torques=torques, input_speed=speed, **parts)
 
 
-def single(model: TorsionalModel, lead: tuple[int, ...], row: int) -> TorsionalModel:
+def single(model: TorsionalModel, outer: tuple[int, ...], row: int) -> TorsionalModel:
     """Return one drive of a model by itself, without leading axes; rows are counted through the axes.
 
     Examples
@@ -89,7 +99,7 @@ def single(model: TorsionalModel, lead: tuple[int, ...], row: int) -> TorsionalM
     >>> single(two, (2,), 1).stiffness
     array([6.])
     """
-    part = chosen(model, lead, np.asarray([row]), moments=False)
+    part = chosen(model, outer, np.asarray([row]), moments=False)
 
     def bare(law: Law) -> Law:
         return replace(law, **{name: value[0] for name, value in _own(law).items()})  # type: ignore[type-var]
@@ -144,7 +154,7 @@ class Turning:
     Parameters
     ----------
     model : TorsionalModel (...)
-    lead : tuple of int
+    angle_error : tuple of int
     speed : array (B,) [rad/s]
         Of the input, or mean speed of free drives.
     period : float [rad]
@@ -158,13 +168,13 @@ class Turning:
     def __init__(
         self,
         model: TorsionalModel,
-        lead: tuple[int, ...],
+        outer: tuple[int, ...],
         speed: Array,
         period: float,
         share: Array | None = None,
         rounding: float = 0.0,
     ) -> None:
-        self.model, self.lead, self.speed, self.period = model, lead, speed, period
+        self.model, self.angle_error, self.speed, self.period = model, outer, speed, period
         self.share, self.rounding = share, rounding
         self.first = 0 if model.free else 1
         self.coordinates = model.coordinates - self.first
@@ -177,16 +187,16 @@ class Turning:
 
     def part(self, rows: Array) -> Turning:
         """Return some of the drives alone."""
-        model = chosen(self.model, self.lead, rows, moments=False)
+        model = chosen(self.model, self.angle_error, rows, moments=False)
         share = None if self.share is None else self.share[rows]
         return Turning(model, (len(rows),), self.speed[rows], self.period, share)
 
     def drives(self, rows: Array) -> TorsionalModel:
         """Return the drives of some rows."""
         if self._taken is None or not np.array_equal(self._taken[0], rows):
-            found = chosen(self.model, self.lead, rows)
+            found = chosen(self.model, self.angle_error, rows)
             if self.share is not None:
-                found = replace(found, bend=found.bend * self.share[rows][:, None])
+                found = replace(found, joint_angle=found.joint_angle * self.share[rows][:, None])
             self._taken = (rows, found)
         return self._taken[1]
 

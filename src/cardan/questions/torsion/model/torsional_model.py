@@ -45,7 +45,7 @@ class TorsionalModel:
         Stations A and B that each element joins; its torque is positive when it carries power from A to B.
     stiffness, damping, backlash : array (..., E) [N·m/rad, N·m·s/rad, rad]
         Of every element; backlash is the whole play, the damper acts in contact only.
-    bend, phase : array (..., n) [rad]
+    joint_angle, phase : array (..., n) [rad]
         α and ψ of every joint: F_out = T(F_in + ψ; α) - T(ψ; α).
     ground_damping : array (..., N) [N·m·s/rad]
     loss_factor : array (..., E)
@@ -69,7 +69,7 @@ class TorsionalModel:
     stiffness: Array
     damping: Array
     backlash: Array
-    bend: Array
+    joint_angle: Array
     phase: Array
     ground_damping: Array
     loss_factor: Array
@@ -114,7 +114,7 @@ def torsional_line(
     backlash: Sequence[ArrayLike] | None = None,
     ground_damping: Sequence[ArrayLike] | None = None,
     loss_factor: Sequence[ArrayLike] | None = None,
-    bend: ArrayLike = (),
+    joint_angle: ArrayLike = (),
     phase: ArrayLike | None = None,
     torques: Iterable[Torque] = (),
     input_speed: ArrayLike | None = None,
@@ -131,7 +131,7 @@ def torsional_line(
         Zero when not given.
     ground_damping : as inertia [N·m·s/rad], optional
         Zero when not given.
-    bend, phase : array (..., n) [rad]
+    joint_angle, phase : array (..., n) [rad]
         α and ψ of the joints; phase is zero when not given.
     torques : iterable of Torque
     input_speed : array (...) [rad/s], optional
@@ -144,15 +144,15 @@ def torsional_line(
 
     Examples
     --------
-    >>> line = torsional_line([[1.2, 0.05], [0.03, 0.6]], stiffness=[[4000.0], [5000.0]], bend=[0.35])
+    >>> line = torsional_line([[1.2, 0.05], [0.03, 0.6]], stiffness=[[4000.0], [5000.0]], joint_angle=[0.35])
     >>> line.driven, line.elements, line.coordinate
     ((None, None, (1, 0), None), ((0, 1), (2, 3)), (0, 1, 1, 2))
     """
     masses = [np.asarray(one, dtype=float) for one in inertia]
-    bends = np.asarray(bend, dtype=float)
+    joint_angles = np.asarray(joint_angle, dtype=float)
     counts = [one.shape[-1] for one in masses]
     springs = [np.asarray(one, dtype=float) for one in stiffness]
-    check(_shape_problems(counts, [one.shape[-1] for one in springs], bends.shape[-1]))
+    check(_shape_problems(counts, [one.shape[-1] for one in springs], joint_angles.shape[-1]))
     starts = [sum(counts[:i]) for i in range(len(counts))]
     driven: list[tuple[int, int] | None] = []
     for i, count in enumerate(counts):
@@ -167,8 +167,8 @@ def torsional_line(
         damping=_joined(_like(damping, springs)),
         backlash=_joined(_like(backlash, springs)),
         loss_factor=_joined(_like(loss_factor, springs)),
-        bend=bends,
-        phase=np.zeros_like(bends) if phase is None else np.asarray(phase, dtype=float),
+        joint_angle=joint_angles,
+        phase=np.zeros_like(joint_angles) if phase is None else np.asarray(phase, dtype=float),
         ground_damping=_joined(_like(ground_damping, masses)),
         torques=tuple(torques),
         input_speed=None if input_speed is None else np.asarray(input_speed, dtype=float),
@@ -185,8 +185,8 @@ def _like(given: Sequence[ArrayLike] | None, pattern: Sequence[Array]) -> list[A
 
 
 def _joined(parts: Sequence[Array]) -> Array:
-    lead = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
-    return np.concatenate([np.broadcast_to(part, (*lead, part.shape[-1])) for part in parts], axis=-1)
+    outer = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
+    return np.concatenate([np.broadcast_to(part, (*outer, part.shape[-1])) for part in parts], axis=-1)
 
 
 def _shape_problems(counts: list[int], springs: list[int], joints: int) -> Iterator[Problem]:
@@ -218,12 +218,12 @@ def torsional_problems(model: TorsionalModel) -> Iterator[Problem]:
             if np.any(wrong):
                 text = _("{value:.6g} given; more than 0 is needed") if positive else _("{value:.6g} given; at least 0")
                 yield Problem(f"{name}[{k}]", text.format(value=float(one[wrong].flat[0])))
-    for k in range(model.bend.shape[-1]):
-        one = model.bend[..., k]
+    for k in range(model.joint_angle.shape[-1]):
+        one = model.joint_angle[..., k]
         wrong = ~((one >= 0.0) & (one < 0.5 * np.pi))
         if np.any(wrong):
             text = _("{value:.6g}° given; a joint bends from 0° to less than 90°")
-            yield Problem(f"joints[{k}].bend", text.format(value=float(np.degrees(one[wrong].flat[0]))))
+            yield Problem(f"joints[{k}].joint_angle", text.format(value=float(np.degrees(one[wrong].flat[0]))))
     for k, torque in enumerate(model.torques):
         if not 0 <= torque.station < len(model.driven):
             text = _("station {given} given; the drive has {count}")

@@ -67,7 +67,7 @@ def straight_modes(model: TorsionalModel, *, speed: float = 0.0) -> StraightMode
     Examples
     --------
     >>> from .torsional_model import torsional_line
-    >>> found = straight_modes(torsional_line([[2.0], [0.6]], stiffness=[[], []], bend=[0.3]))
+    >>> found = straight_modes(torsional_line([[2.0], [0.6]], stiffness=[[], []], joint_angle=[0.3]))
     >>> found.omega
     array([], dtype=float64)
     >>> straight_modes(torsional_line([[2.0, 0.6]], stiffness=[[900.0]])).omega
@@ -142,7 +142,7 @@ def _damping(model: TorsionalModel, omega: Array, shape: Array, speed: float) ->
 def _weights(model: TorsionalModel, shape: Array) -> Array:
     """Return κ of every joint in every mode, array (m, n)."""
     shaft = np.asarray(model.shaft)
-    found = np.zeros((len(shape), model.bend.shape[-1]))
+    found = np.zeros((len(shape), model.joint_angle.shape[-1]))
     for station, source in enumerate(model.driven):
         if source is not None:
             driving, joint = source
@@ -182,9 +182,9 @@ def modulation(model: TorsionalModel, weight: Array) -> Array:
     less the mean lead Σ τ_j sin 2ψ_j of the joints before it. Twice what the book gives, whose joints turn evenly.
     A mode is excited in its principal zone where its modulus exceeds 2ζ.
     """
-    tau = np.tan(0.5 * model.bend) ** 2
-    lead = np.cumsum(tau * np.sin(2.0 * model.phase))
-    phase = model.phase - np.append(0.0, lead[:-1])
+    tau = np.tan(0.5 * model.joint_angle) ** 2
+    angle_error = np.cumsum(tau * np.sin(2.0 * model.phase))
+    phase = model.phase - np.append(0.0, angle_error[:-1])
     return 2.0 * (weight * tau) @ np.exp(2j * phase) if len(tau) else np.zeros(len(weight), dtype=complex)
 
 

@@ -43,7 +43,7 @@ def forces_of(model: TorsionalModel) -> Callable[[float, Sequence[float], Sequen
     turned_by: list[list[tuple[int, float, float, float, float, float]]] = [[] for _r in owner]
     for k, (tau, c, s) in enumerate(laws(model)):
         if model.driven[k] is not None:
-            ahead = float(turned.lead(c, s, tau))
+            ahead = float(turned.angle_error(c, s, tau))
             turned_by[coordinate[k]].append((k, float(tau), float(c), float(s), ahead, float(model.inertia[k])))
     groups = [(r, group) for r, group in enumerate(turned_by) if group]
     rest = np.zeros(len(model.elements)) if model.rest is None else model.rest
@@ -103,9 +103,9 @@ def laws(model: TorsionalModel) -> list[tuple[Array, Array, Array]]:
     for source in model.driven:
         chains.append(() if source is None else (*chains[source[0]], source[1]))
         if source is None:
-            nothing = np.zeros(model.bend.shape[:-1])
+            nothing = np.zeros(model.joint_angle.shape[:-1])
             found.append((nothing, nothing + 1.0, nothing))
         else:
             through = list(chains[-1])
-            found.append(turned.equivalent(model.bend[..., through], model.phase[..., through]))
+            found.append(turned.equivalent(model.joint_angle[..., through], model.phase[..., through]))
     return found

@@ -21,7 +21,7 @@ from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.drive.models.geometry import geometry
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.texts import _
 
 from .machine_torques import machine_torques, turns_freely
@@ -143,10 +143,10 @@ def torsional_train(
 
     Notes
     -----
-    A body is a tube with G I_p/L between its stations and half its inertia at each end of every stretch. Bends and
-    phase angles are those of `motion`, so that a rigid drive turns exactly as there. A pendulum counts as the absorber
-    it equals at the speed: J = m (R+l)², stiffness J Ω² R/l. A damper without spring is held in place by one too soft
-    to matter, 10⁻⁵ of its drag at order 2.
+    A body is a tube with G I_p/L between its stations and half its inertia at each end of every stretch. Joint angles
+    and phase angles are those of `motion`, so that a rigid drive turns exactly as there. A pendulum counts as the
+    absorber it equals at the speed: J = m (R+l)², stiffness J Ω² R/l. A damper without spring is held in place by one
+    too soft to matter, 10⁻⁵ of its drag at order 2.
 
     Examples
     --------
@@ -168,10 +168,10 @@ def torsional_train(
     if pieces < 1:
         raise refuse("pieces", _("{given} given; at least 1").format(given=pieces))
     problems: list[Problem] = []
-    bends = nearly_turning_chain(drive, _("torsional vibration"))
+    joint_angles = nearly_turning_chain(drive, _("torsional vibration"))
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
     lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
-    base = _joined(drive, lines, bends)
+    base = _joined(drive, lines, joint_angles)
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
     check(problems)
@@ -222,7 +222,7 @@ def _starts(lines: Sequence[ShaftLine]) -> Iterator[tuple[ShaftLine, int]]:
         start += len(line.inertia)
 
 
-def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> TorsionalTrain:
+def _joined(drive: Drive, lines: Sequence[ShaftLine], joint_angles: Chain) -> TorsionalTrain:
     """Return the shafts as one model, without what hangs on it."""
     starts = [start for _line, start in _starts(lines)]
     driven: list[tuple[int, int] | None] = []
@@ -243,8 +243,8 @@ def _joined(drive: Drive, lines: Sequence[ShaftLine], bends: Chain) -> Torsional
         stiffness=_row([line.stiffness for line in lines]),
         damping=_row([line.damping for line in lines]),
         backlash=_row(play),
-        bend=np.asarray(bends.bend, dtype=float),
-        phase=np.asarray(phase_angles(replace(bends, laws=None)), dtype=float),
+        joint_angle=np.asarray(joint_angles.joint_angle, dtype=float),
+        phase=np.asarray(initial_phases(replace(joint_angles, laws=None)), dtype=float),
         ground_damping=_row([line.ground_damping for line in lines]),
         loss_factor=_row([line.loss_factor for line in lines]),
         shaft=tuple(i for i, line in enumerate(lines) for _k in line.inertia),
@@ -386,9 +386,12 @@ def chained(models: Sequence[TorsionalModel]) -> TorsionalModel:
     InputError
         They are not built alike.
     """
-    leads = [leading(one) for one in models]
+    angle_errors = [leading(one) for one in models]
     return _merged(
-        [chosen(one, lead, np.arange(lead[0]), moments=False) for one, lead in zip(models, leads, strict=True)],
+        [
+            chosen(one, angle_error, np.arange(angle_error[0]), moments=False)
+            for one, angle_error in zip(models, angle_errors, strict=True)
+        ],
         np.concatenate,
     )
 

@@ -60,18 +60,18 @@ def straight_waves(model: TorsionalModel, station: int, torque: ArrayLike, omega
     w = np.asarray(omega, dtype=float)[..., None]
     carried = model.stiffness * (1.0 + 1j * model.loss_factor) + 1j * w * model.damping
     own = 1j * w * model.ground_damping - w**2 * model.inertia
-    lead = np.broadcast_shapes(carried.shape[:-1], own.shape[:-1], np.shape(torque))
+    outer = np.broadcast_shapes(carried.shape[:-1], own.shape[:-1], np.shape(torque))
     rank, first = model.coordinates, 0 if model.free else 1
-    matrix = np.zeros((*lead, rank, rank), dtype=complex)
+    matrix = np.zeros((*outer, rank, rank), dtype=complex)
     for k, r in enumerate(model.coordinate):
         matrix[..., r, r] += own[..., k]
     for e, (one, two) in enumerate(model.elements):
         a, b = model.coordinate[one], model.coordinate[two]
         for r, s, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
             matrix[..., r, s] += sign * carried[..., e]
-    load = np.zeros((*lead, rank, 1), dtype=complex)
+    load = np.zeros((*outer, rank, 1), dtype=complex)
     load[..., model.coordinate[station], 0] = torque
-    moved = np.zeros((*lead, rank), dtype=complex)
+    moved = np.zeros((*outer, rank), dtype=complex)
     with np.errstate(all="ignore"):
         try:
             moved[..., first:] = np.linalg.solve(matrix[..., first:, first:], load[..., first:, :])[..., 0]

@@ -22,7 +22,7 @@ from cardan.units import deg, rpm
 
 from .figure import plays, stability_figures
 from .map_axes import SPEED, MapAxis, map_axes
-from .torsion_stability import BEND, Stability, stability
+from .torsion_stability import JOINT_ANGLE, Stability, stability
 
 __all__ = ["answer", "ask", "lacking", "otherwise"]
 
@@ -70,15 +70,15 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> S
     Stability or None
         None where all joints are all but straight.
     """
-    bend = float(np.max(given_chain(drive).bend))
-    if not drive.duty.speed or bend < LITTLE:
+    joint_angle = float(np.max(given_chain(drive).joint_angle))
+    if not drive.duty.speed or joint_angle < LITTLE:
         return None
     runs = abs(drive.duty.speed) / rpm
     loose = bool(np.any(torsional_train(drive, loaded=False).model.backlash > 0.0))
     across, up = (COARSE_ACROSS, COARSE_UP) if loose else (ACROSS, UP)
     speeds = np.linspace(0.5 * runs, 1.5 * runs, across)
-    bends = np.linspace(0.3, 1.6, up) * min(bend, WIDEST) / deg
-    return stability(drive, over={"duty.speed_rpm": speeds, BEND: bends}, progress=progress)
+    joint_angles = np.linspace(0.3, 1.6, up) * min(joint_angle, WIDEST) / deg
+    return stability(drive, over={"duty.speed_rpm": speeds, JOINT_ANGLE: joint_angles}, progress=progress)
 
 
 def answer(_drive: Drive, result: Stability, *, signs: bool = False) -> Answer:
@@ -211,15 +211,15 @@ def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Ite
         yield Remark(text=text.format(command=_finer(axes)), depth="full")
     if not axes:
         text = _("A stability map over speed in rpm and largest joint angle in degrees:")
-        command = ("cardan", "torsion", "stability", FILE, "--speeds", "LOW:HIGH", "--bends", "LOW:HIGH")
+        command = ("cardan", "torsion", "stability", FILE, "--speeds", "LOW:HIGH", "--joint-angles", "LOW:HIGH")
         yield Remark(text=text, command=command, tone="next")
 
 
 def _finer(axes: tuple[MapAxis, ...]) -> str:
     """Return the command that draws a map in full."""
-    speeds, bends = (one.values for one in axes)
-    asked = "--speeds {:.4g}:{:.4g}:{} --bends {:.3g}:{:.3g}:{}"
-    asked = asked.format(speeds[0], speeds[-1], ACROSS, bends[0], bends[-1], UP)
+    speeds, joint_angles = (one.values for one in axes)
+    asked = "--speeds {:.4g}:{:.4g}:{} --joint-angles {:.3g}:{:.3g}:{}"
+    asked = asked.format(speeds[0], speeds[-1], ACROSS, joint_angles[0], joint_angles[-1], UP)
     return f"cardan torsion stability FILE {asked}"
 
 

@@ -102,7 +102,7 @@ def floquet_map(
         Compiled for more than a few points by default. The kernel does not know open play, tables of torques, backward
         turning and coordinates without inertia: they go the plain way, as do points whose motion it does not find.
     harmonics : int, optional
-        Harmonics of the motion in the kernel, for half a turn each; as many as the bends ask for by default.
+        Harmonics of the motion in the kernel, for half a turn each; as many as the joint angles ask for by default.
     progress : function, optional
         Told the share done; when it answers "stop" the points not yet done stay unknown.
 
@@ -126,22 +126,22 @@ def floquet_map(
 
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[[[0.2]], [[6.0]]], []],
-    ...     bend=[0.4363], input_speed=[40.0, 49.386, 61.7])
+    ...     joint_angle=[0.4363], input_speed=[40.0, 49.386, 61.7])
     >>> found = floquet_map(drive)
     >>> found.floquet.stable
     array([[ True, False,  True],
            [ True,  True,  True]])
     """
     omega = speeds_of(model, speed)
-    lead = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
-    count = int(np.prod(lead, dtype=float))
+    outer = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
+    count = int(np.prod(outer, dtype=float))
     if count > MOST:
         text = _("{count:,} points would take about {hours:,.1f} h and {memory:,.0f} GB; at most {most:,} are done")
         shown = text.format(count=count, hours=count * PACE / 3600.0, memory=count * WEIGHT / 1e9, most=MOST)
         raise refuse("speed", shown)
     if not model.free:
         model = replace(model, input_speed=omega)
-    turning = Turning(model, lead, np.broadcast_to(omega, lead).reshape(-1), period_of(model))
+    turning = Turning(model, outer, np.broadcast_to(omega, outer).reshape(-1), period_of(model))
     way = chosen(method, np, count >= WORTH)
     compiled = isinstance(way, Compiled) and fits(replace(model, backlash=np.zeros_like(model.backlash)), omega)
     waves = (harmonics * round(turning.period / np.pi)) if harmonics else harmonics_for(model, turning.period)
@@ -154,7 +154,7 @@ def floquet_map(
         done = int(rows[-1]) + 1
         if not stopped and progress is not None:
             stopped = progress(done / count) == "stop" and done < count
-    return table.found(lead, stopped)
+    return table.found(outer, stopped)
 
 
 class _Table:
@@ -234,22 +234,22 @@ class _Table:
         )
         return rows[~sure]
 
-    def found(self, lead: tuple[int, ...], stopped: bool) -> FloquetMap:
+    def found(self, outer: tuple[int, ...], stopped: bool) -> FloquetMap:
         """Return the map."""
         columns, period = self.columns, self.turning.period
         rest = {f.name: columns[f.name] for f in fields(Floquet) if f.name not in ("zone", "period")}
         zone = Zone(**{f.name: columns[f"zone {f.name}"] for f in fields(Zone)})
         orbit = Orbit(
             model=self.turning.model,
-            speed=self.turning.speed.reshape(lead),
+            speed=self.turning.speed.reshape(outer),
             period=period,
-            coefficient=columns["coefficient"].reshape(*lead, *columns["coefficient"].shape[1:]),
-            force=columns["force"].reshape(lead),
+            coefficient=columns["coefficient"].reshape(*outer, *columns["coefficient"].shape[1:]),
+            force=columns["force"].reshape(outer),
         )
         return FloquetMap(
-            floquet=shaped(Floquet(zone=zone, period=period, **rest), lead),
+            floquet=shaped(Floquet(zone=zone, period=period, **rest), outer),
             orbit=orbit,
-            status=columns["status"].reshape(lead),
+            status=columns["status"].reshape(outer),
             cancelled=stopped,
         )
 

@@ -11,7 +11,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 from cardan.units import DIMENSIONS
 
-from .torsion_stability import BEND, Stability
+from .torsion_stability import JOINT_ANGLE, Stability
 
 SPEED = "duty.speed"
 """Path of the input speed, without unit."""
@@ -69,6 +69,6 @@ def map_axes(found: Stability) -> tuple[MapAxis, ...]:
 def _axis(path: str, values: Array, dimension: str, unit: str, here: float | None) -> MapAxis:
     owner, dot, last = path.rpartition(".")
     bare = owner + dot + (last.replace(f"_{unit}", "", 1) if unit else last)
-    key = "joint_angle" if path == BEND else bare
-    label = _("largest joint angle") if path == BEND else _("input speed") if bare == SPEED else bare
+    key = "joint_angle" if path == JOINT_ANGLE else bare
+    label = _("largest joint angle") if path == JOINT_ANGLE else _("input speed") if bare == SPEED else bare
     return MapAxis(key=key, label=label, dimension=dimension, unit=unit, values=values, here=here)

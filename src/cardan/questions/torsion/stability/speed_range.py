@@ -59,7 +59,7 @@ def speed_sweep(
     --------
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]], damping=[[1.0], [1.0]],
-    ...     bend=[0.35], input_speed=30.0)
+    ...     joint_angle=[0.35], input_speed=30.0)
     >>> speed_sweep(drive, [20.0, 37.0, 60.0]).torque.amplitude[:, 0, 0].round(1)  # order 2 of the first element
     array([ 27.9, 933.6, 128.3])
     """
@@ -145,7 +145,7 @@ def unstable_speeds(
     Examples
     --------
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []], bend=[0.4363],
+    >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1e3], []], damping=[[0.2], []], joint_angle=[0.4363],
     ...     input_speed=50.0)
     >>> found = unstable_speeds(drive, 30.0, 80.0)
     >>> found.lowest.round(3), found.highest.round(3), found.zone.name((0,))

@@ -156,7 +156,7 @@ def _plan(model: TorsionalModel, n: int, width: int) -> Array:
         filled.ravel(),
     ]
     sizes = (
-        *(len(model.driven), rank, first, len(model.elements), model.bend.shape[-1], len(model.torques)),
+        *(len(model.driven), rank, first, len(model.elements), model.joint_angle.shape[-1], len(model.torques)),
         *(int(there.sum()), width, n),
     )
     return np.concatenate([sizes, *[np.asarray(one, dtype=int) for one in lists]]).astype(np.intp)
@@ -166,9 +166,9 @@ def _numbers(turning: Turning) -> Array:
     """Return the numbers of each drive, array (B, width)."""
     model = turning.part(np.arange(len(turning.speed))).model
     count = len(turning.speed)
-    tau = np.tan(0.5 * model.bend) ** 2
-    start = joint_law(model.phase, model.bend)[0] - model.phase
-    joints = np.stack([model.phase, start, tau, np.cos(model.bend), np.sin(model.bend) ** 2], axis=-1)
+    tau = np.tan(0.5 * model.joint_angle) ** 2
+    start = joint_law(model.phase, model.joint_angle)[0] - model.phase
+    joints = np.stack([model.phase, start, tau, np.cos(model.joint_angle), np.sin(model.joint_angle) ** 2], axis=-1)
     rest = np.zeros_like(model.stiffness) if model.rest is None else model.rest
     values = [np.broadcast_to(one, (count,)) for torque in model.torques for one in _values(torque.law)]
     omega = turning.frequency
@@ -233,9 +233,11 @@ def _steps(turning: Turning) -> Array:
     """Return how many steps of a period each drive needs: its fastest mode, quickened by the steepest joint."""
     model = turning.part(np.arange(len(turning.speed))).model
     fastest = straight_frequencies(model)[:, -1]
-    steepest = np.max(1.0 / np.cos(model.bend), axis=-1, initial=1.0)
+    steepest = np.max(1.0 / np.cos(model.joint_angle), axis=-1, initial=1.0)
     phase = fastest * steepest * turning.period / turning.speed
-    near = np.sqrt(np.max(np.tan(0.5 * model.bend) ** 2, axis=-1, initial=1e-9))  # how near a joint comes to a pole
+    near = np.sqrt(
+        np.max(np.tan(0.5 * model.joint_angle) ** 2, axis=-1, initial=1e-9)
+    )  # how near a joint comes to a pole
     smooth = turning.period / np.maximum(-0.5 * np.log(near), 1e-3)
     wanted = np.maximum(phase / REACH, smooth)
     return np.asarray(LADDER)[np.minimum(np.searchsorted(LADDER, wanted), len(LADDER) - 1)]
@@ -243,6 +245,6 @@ def _steps(turning: Turning) -> Array:
 
 def harmonics_for(model: TorsionalModel, period: float) -> int:
     """Return how many harmonics of the period the motion of drives needs, from their bends."""
-    tau = float(np.tan(0.5 * np.max(model.bend, initial=0.0)) ** 2)
+    tau = float(np.tan(0.5 * np.max(model.joint_angle, initial=0.0)) ** 2)
     wanted = math.ceil(math.log(TAIL) / math.log(max(tau, 1e-9)))
     return min(max(wanted, 5), 10) * round(period / np.pi)

@@ -13,7 +13,7 @@ from cardan.drive.fields.paths import place, read, with_values
 from cardan.drive.models.chain import given_chain, turning
 from cardan.errors import InputError, Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
-from cardan.questions.motion.motion import phase_angles
+from cardan.questions.motion.motion import initial_phases
 from cardan.questions.torsion.model.torsional_batch import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
@@ -30,8 +30,8 @@ CHUNK, FEW = 2048, 128
 MOST = 1_000_000
 """Points of a map at most."""
 
-BEND = "bend_deg"
-"""Stands for the bend of the most bent joint, the others in proportion."""
+JOINT_ANGLE = "joint_angle_deg"
+"""Stands for the joint angle of the most bent joint, the others in proportion."""
 
 PACE = 0.001
 """Seconds that a point of a map takes, about."""
@@ -115,7 +115,7 @@ def stability(
         What it does; that of the drive by default.
     over : mapping of str to array, optional
         One or two paths, each with its values in the unit of the path, as ``{"duty.speed_rpm": [...],
-        "shafts[1].damping_Nms_per_rad": [...]}``; ``"bend_deg"`` is that of the most bent joint, the others in
+        "shafts[1].damping_Nms_per_rad": [...]}``; ``"joint_angle_deg"`` is that of the most bent joint, the others in
         proportion. All else stays as it is.
     pieces : int
         Into how many equal stretches the body between two stations is divided.
@@ -206,8 +206,8 @@ def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array
         values = np.asarray(given, dtype=float)
         if values.ndim != 1 or not len(values) or not np.all(np.isfinite(values)):
             problems.append(Problem(path, _("a list of finite numbers is needed")))
-        if path == BEND:
-            problems += _bend_problems(drive, values)
+        if path == JOINT_ANGLE:
+            problems += _joint_angle_problems(drive, values)
         else:
             try:
                 place(drive, path)
@@ -223,19 +223,21 @@ def _axes(drive: Drive, over: Mapping[str, ArrayLike]) -> tuple[tuple[str, Array
     return tuple(axes)
 
 
-def _bend_problems(drive: Drive, values: Array) -> Iterator[Problem]:
+def _joint_angle_problems(drive: Drive, values: Array) -> Iterator[Problem]:
     """Yield bends that no joint can have, or that none of the drive grows with."""
     if values.ndim == 1 and np.any((values < 0.0) | (values >= 90.0)):
-        yield Problem(BEND, _("a joint bends from 0° to less than 90°"))
-    if not np.max(given_chain(drive).bend):
-        yield Problem(BEND, _("all joints are straight; there is nothing to bend in proportion"))
+        yield Problem(JOINT_ANGLE, _("a joint bends from 0° to less than 90°"))
+    if not np.max(given_chain(drive).joint_angle):
+        yield Problem(JOINT_ANGLE, _("all joints are straight; there is nothing to bend in proportion"))
 
 
 def _bent(drive: Drive, model: TorsionalModel, largest: float) -> TorsionalModel:
     """Return a model whose most bent joint bends so much [rad], the others in proportion, its yokes as they are."""
     whole = given_chain(drive)
-    bends = turning(replace(whole, bend=whole.bend * (largest / np.max(whole.bend))), drive.joints, near=True)
-    return replace(model, bend=bends.bend, phase=phase_angles(replace(bends, laws=None)))
+    joint_angles = turning(
+        replace(whole, joint_angle=whole.joint_angle * (largest / np.max(whole.joint_angle))), drive.joints, near=True
+    )
+    return replace(model, joint_angle=joint_angles.joint_angle, phase=initial_phases(replace(joint_angles, laws=None)))
 
 
 class _Variants:
@@ -243,7 +245,7 @@ class _Variants:
 
     def __init__(self, drive: Drive, axes: Sequence[tuple[str, Array]], pieces: int) -> None:
         self.drive, self.axes, self.pieces = drive, axes, pieces
-        spots = [None if path == BEND else place(drive, path) for path, _values in axes]
+        spots = [None if path == JOINT_ANGLE else place(drive, path) for path, _values in axes]
         self.bending = next((k for k, spot in enumerate(spots) if spot is None), None)
         speeds = ((k, spot) for k, spot in enumerate(spots) if spot is not None and spot.steps == ("duty", "speed"))
         self.speeding: int | None
@@ -257,8 +259,8 @@ class _Variants:
             if np.any(self.speeds == 0.0):
                 raise refuse(path, _("0 is given; steady running needs a speed other than 0"))
         self.others = [k for k in range(len(axes)) if k != self.speeding]
-        largest = float(np.max(given_chain(drive).bend, initial=0.0)) / deg
-        own = {path: largest if path == BEND else read(drive, path) for path, _values in axes}
+        largest = float(np.max(given_chain(drive).joint_angle, initial=0.0)) / deg
+        own = {path: largest if path == JOINT_ANGLE else read(drive, path) for path, _values in axes}
         self.units = tuple(
             ("angle", "deg")
             if spot is None

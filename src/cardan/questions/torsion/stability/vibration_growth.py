@@ -43,7 +43,7 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
     >>> from cardan.questions.torsion.steady.torque_swing import torque_swings
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
-    ...     bend=[np.radians(25)], input_speed=49.386)
+    ...     joint_angle=[np.radians(25)], input_speed=49.386)
     >>> print(np.exp(vibration_growth(torque_swings(drive, [49.386]).orbit, np.asarray([0]))))
     [1.14415]
     """
@@ -60,7 +60,7 @@ def vibration_growth(orbit: Orbit, rows: Array) -> Array:
 
 def _smooth(orbit: Orbit, rows: Array) -> Array:
     speed = orbit.speed.reshape(-1)[rows]
-    part = Turning(chosen(orbit.model, orbit.lead, rows, moments=False), (len(rows),), speed, orbit.period)
+    part = Turning(chosen(orbit.model, orbit.angle_error, rows, moments=False), (len(rows),), speed, orbit.period)
     found = np.full(len(rows), np.nan)
     fastest = straight_frequencies(part.drives(np.arange(len(rows))))[:, -1]
     if np.sum(fastest * orbit.period / np.abs(speed)) >= WORTH and fits(part.model, speed):

@@ -338,7 +338,7 @@ def _from_yokes(drive: Drive, found: TorsionResponse) -> bool:
     swing = np.nan_to_num(found.swing)
     at = np.unravel_index(int(foremost(swing.ravel())), swing.shape)
     second = found.steady.torque.amplitude[at][np.flatnonzero(found.steady.order == 2.0)[0]]
-    return bool(second > 0.5 * swing[at]) and float(equivalent_joint(drive).irregularity) > UNEVEN
+    return bool(second > 0.5 * swing[at]) and float(equivalent_joint(drive).speed_fluctuation) > UNEVEN
 
 
 def _key(found: TorsionResponse) -> KeyFigure:

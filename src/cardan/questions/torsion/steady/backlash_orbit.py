@@ -18,7 +18,7 @@ from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from .steady_start import at_rest
 
 STEP = 0.25
-"""First step of the bends on the way from a straight drive, as a share of them."""
+"""First step of the joint angles on the way from a straight drive, as a share of them."""
 
 TRIALS = 6
 """Steps tried."""
@@ -133,7 +133,7 @@ def pieces_of(
 
     Notes
     -----
-    Without a start, or where that leads nowhere, the bends grow from 0: the straight drive rests under its mean
+    Without a start, or where that leads nowhere, the joint angles grow from 0: the straight drive rests under its mean
     torques, and each motion begins the search for the next.
     """
     loose = bool(np.any(turning.model.backlash > 0.0))
@@ -148,7 +148,7 @@ def pieces_of(
         if search.spent:
             break
         trial = min(share + step, 1.0)
-        part = Turning(turning.model, turning.lead, turning.speed, turning.period, np.asarray([trial]))
+        part = Turning(turning.model, turning.angle_error, turning.speed, turning.period, np.asarray([trial]))
         found = search.at(part, walk)
         if found is not None:
             share, step, walk = trial, 1.5 * step, found

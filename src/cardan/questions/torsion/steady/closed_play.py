@@ -28,7 +28,7 @@ def closed(turning: Turning) -> Turning:
     """
     model, rest = turning.model, _rest(turning.model)
     shifted = replace(model, backlash=np.zeros_like(model.backlash), rest=rest + 0.5 * _sides(turning) * model.backlash)
-    return Turning(shifted, turning.lead, turning.speed, turning.period)
+    return Turning(shifted, turning.angle_error, turning.speed, turning.period)
 
 
 def stays_closed(turning: Turning, coefficient: Array) -> Array:

@@ -46,14 +46,14 @@ class Orbit:
     pieces: Mapping[int, Pieces] = field(default_factory=dict)
 
     @property
-    def lead(self) -> tuple[int, ...]:
+    def angle_error(self) -> tuple[int, ...]:
         """Leading axes."""
         return np.shape(self.speed)
 
     @property
     def count(self) -> int:
         """Number of drives."""
-        return math.prod(self.lead)
+        return math.prod(self.angle_error)
 
     @property
     def time(self) -> Array:
@@ -63,23 +63,23 @@ class Orbit:
     @cached_property
     def turning(self) -> Turning:
         """The drives as oscillators."""
-        return Turning(self.model, self.lead, self.speed.reshape(-1), self.period)
+        return Turning(self.model, self.angle_error, self.speed.reshape(-1), self.period)
 
     def drives(self, rows: Array) -> TorsionalModel:
         """Return some of the drives, counted through the leading axes, in one axis."""
-        return chosen(self.model, self.lead, rows)
+        return chosen(self.model, self.angle_error, rows)
 
     def at(self, angle: ArrayLike) -> tuple[Array, Array, Array]:
         """Return q, q̇ and q̈, arrays (..., p, R), at shaft angles φ (p,) [rad]."""
         found = self.of(np.arange(self.count), angle)
-        q, rate, acceleration = (one.reshape(*self.lead, *one.shape[1:]) for one in found)
+        q, rate, acceleration = (one.reshape(*self.angle_error, *one.shape[1:]) for one in found)
         return q, rate, acceleration
 
     def of(self, rows: Array, angle: ArrayLike) -> tuple[Array, Array, Array]:
         """Return the same of some of the drives, counted through the leading axes, arrays (b, p, R)."""
         places = np.asarray(angle, dtype=float)
         scale = 2.0 * np.pi / self.period
-        x, rate, bend = series_at(
+        x, rate, joint_angle = series_at(
             self.coefficient.reshape(self.count, *self.coefficient.shape[-2:])[rows], places * scale
         )
         omega = self.speed.reshape(-1)[rows][:, None, None] * scale
@@ -87,6 +87,6 @@ class Orbit:
         for k in range(len(rows) if self.pieces else 0):
             if int(rows[k]) in self.pieces:
                 found = self.pieces[int(rows[k])].at(places * scale)
-                x[k, :, first:], rate[k, :, first:], bend[k, :, first:] = found
+                x[k, :, first:], rate[k, :, first:], joint_angle[k, :, first:] = found
         even = self.speed.reshape(-1)[rows][:, None, None]
-        return places[:, None] + x, even + omega * rate, omega**2 * bend
+        return places[:, None] + x, even + omega * rate, omega**2 * joint_angle

@@ -165,13 +165,13 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
     >>> from .steady import periodic_response
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.01], [0.4]], stiffness=[[1000.0], []], damping=[[0.2], []],
-    ...     bend=[np.radians(25)], input_speed=49.386)
+    ...     joint_angle=[np.radians(25)], input_speed=49.386)
     >>> found = floquet(periodic_response(drive))
     >>> found.modulus, found.zone.name()
     (array([1.14415176, 0.84726756]), 'principal zone of mode 1')
     """
     orbit = response.orbit if isinstance(response, SteadyResponse) else response
-    lead, count = orbit.lead, orbit.count
+    angle_error, count = orbit.angle_error, orbit.count
     there = np.isfinite(orbit.coefficient).all(axis=(-1, -2)).reshape(-1)
     smooth = np.asarray([there[k] and k not in orbit.pieces for k in range(count)])
     order = np.argsort(-orbit.time.reshape(-1), kind="stable")
@@ -190,7 +190,7 @@ def floquet(response: SteadyResponse | Orbit) -> Floquet:
         multipliers[rows], removed[rows], residual[rows] = values, gone, missed
     frequencies = frequencies[:, 1:] if orbit.model.free else frequencies
     return shaped(
-        judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period, there), lead
+        judged(multipliers, removed, residual, frequencies, orbit.speed.reshape(-1), orbit.period, there), angle_error
     )
 
 
@@ -228,11 +228,11 @@ def judged(
     )
 
 
-def shaped(found: Floquet, lead: tuple[int, ...]) -> Floquet:
-    """Return the same with the axes ``lead`` in place of the first one."""
+def shaped(found: Floquet, outer: tuple[int, ...]) -> Floquet:
+    """Return the same with the axes ``angle_error`` in place of the first one."""
 
     def whole(values: Array) -> Array:
-        return values.reshape((*lead, *values.shape[1:]))
+        return values.reshape((*outer, *values.shape[1:]))
 
     zone = Zone(**{one.name: whole(getattr(found.zone, one.name)) for one in fields(Zone)})
     rest = {one.name: getattr(found, one.name) for one in fields(Floquet) if one.name not in ("zone", "period")}

@@ -32,11 +32,11 @@ HARMONICS = 6
 KINKED = 16
 """The same where backlash may open: enough to read off where."""
 
-BENDS = ((0.33, 0.0), (0.66, 0.0), (1.0, 0.0))
-"""Shares of the bends on the way to a motion without play; no corners."""
+JOINT_ANGLES = ((0.33, 0.0), (0.66, 0.0), (1.0, 0.0))
+"""Shares of the joint angles on the way to a motion without play; no corners."""
 
 WAY = ((0.33, 1.0), (0.66, 1.0), (1.0, 1.0), (1.0, 0.55), (1.0, 0.3), (1.0, 0.17), (1.0, 0.09), (1.0, 0.05))
-"""Shares of the bends, and radii of corners over half the backlash, on the way to a motion with open backlash."""
+"""Shares of the joint angles, radii of corners over half the backlash, on the way to a motion with open backlash."""
 
 CHUNK = 256
 """Drives solved at once: their matrices stay in the caches, and progress is told after each chunk."""
@@ -90,7 +90,7 @@ def periodic_response(
     >>> from cardan.questions.torsion.model.torsional_model import Torque, torsional_line
     >>> load = Torque(station=3, law=Constant(value=-60.0))
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
-    ...     damping=[[1.0], [1.0]], bend=[0.35], torques=[load], input_speed=30.0)
+    ...     damping=[[1.0], [1.0]], joint_angle=[0.35], torques=[load], input_speed=30.0)
     >>> found = periodic_response(drive)
     >>> found.torque.amplitude[:, 0].round(3)  # order 2
     array([123.541, 117.368])
@@ -117,22 +117,22 @@ def steady_orbits(
         How to find motions that are no Fourier sums, where the method does not say it.
     """
     omega = speeds_of(model, speed)
-    lead = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
+    outer = np.broadcast_shapes(leading(replace(model, input_speed=None)), omega.shape)
     if not model.free:
         model = replace(model, input_speed=omega)
-    flat = np.broadcast_to(omega, lead).reshape(-1)
-    turning = Turning(model, lead, flat, period_of(model))
+    flat = np.broadcast_to(omega, outer).reshape(-1)
+    turning = Turning(model, outer, flat, period_of(model))
     waves, pieces = _solved(turning, method, opened, progress)
     whole = np.pad(waves.coefficient, ((0, 0), (turning.first, 0), (0, 0)))
     orbit = Orbit(
         model=model,
-        speed=np.broadcast_to(omega, lead),
+        speed=np.broadcast_to(omega, outer),
         period=turning.period,
-        coefficient=whole.reshape(*lead, *whole.shape[1:]),
-        force=waves.force.reshape(lead),
+        coefficient=whole.reshape(*outer, *whole.shape[1:]),
+        force=waves.force.reshape(outer),
         pieces=pieces,
     )
-    return orbit, waves.status.reshape(lead)
+    return orbit, waves.status.reshape(outer)
 
 
 def speeds_of(model: TorsionalModel, speed: ArrayLike | None) -> Array:
@@ -231,7 +231,7 @@ def _by_waves(part: Turning, method: HarmonicBalance | None) -> tuple[Waves, Wav
         again = _along(part.part(lost), WAY, kinked)
         again = replace(again, status=np.full(len(lost), int(Status.NO_CONVERGENCE)))  # corners are not that round
     else:
-        again = _along(part.part(lost), BENDS, how)
+        again = _along(part.part(lost), JOINT_ANGLES, how)
     there = (again.status != Status.NO_CONVERGENCE)[:, None, None]
     known = replace(again, coefficient=np.where(there, again.coefficient, np.nan))
     return _put(found, lost, known), _put(found, lost, again)
@@ -274,7 +274,7 @@ def _along(part: Turning, way: tuple[tuple[float, float], ...], how: HarmonicBal
         tail=np.zeros(len(part.speed)),
     )
     for share, rounding in way:
-        bent = Turning(part.model, part.lead, part.speed, part.period, np.full(len(part.speed), share), rounding)
+        bent = Turning(part.model, part.angle_error, part.speed, part.period, np.full(len(part.speed), share), rounding)
         next_ = _sums(bent, found.coefficient, how)
         there = np.flatnonzero(next_.status != Status.NO_CONVERGENCE)
         found = replace(_put(found, there, _some(next_, there)), status=next_.status)
@@ -320,21 +320,21 @@ def _described(orbit: Orbit, status: Array, orders: float) -> SteadyResponse:
     """Return what is known of the motions."""
     base = 2.0 * np.pi / orbit.period
     count = max(1, int(np.ceil(orders / base - 1e-9)))
-    found, lead = read_off(orbit, count), orbit.lead
+    found, angle_error = read_off(orbit, count), orbit.angle_error
 
     def named(curves: Array) -> Orders:
-        whole = curves.reshape(*lead, *curves.shape[1:])
+        whole = curves.reshape(*angle_error, *curves.shape[1:])
         return Orders(mean=whole[..., 0].real, amplitude=np.abs(whole[..., 1:]), phase=np.angle(whole[..., 1:]))
 
     return SteadyResponse(
         orbit=orbit,
         order=base * np.arange(1, count + 1),
         torque=named(found.torque),
-        torque_lowest=found.lowest.reshape(*lead, -1),
-        torque_highest=found.highest.reshape(*lead, -1),
+        torque_lowest=found.lowest.reshape(*angle_error, -1),
+        torque_highest=found.highest.reshape(*angle_error, -1),
         station_speed=named(found.speed),
         drive_torque=named(found.drive),
-        status=status.reshape(lead),
-        residual=found.residual.reshape(lead),
-        power_residual=found.power_residual.reshape(lead),
+        status=status.reshape(angle_error),
+        residual=found.residual.reshape(angle_error),
+        power_residual=found.power_residual.reshape(angle_error),
     )

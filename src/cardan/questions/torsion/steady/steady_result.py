@@ -129,7 +129,7 @@ class SteadyResponse:
         place = places(drives, q)
         speed = place.first * rate[..., list(drives.coordinate)]
         angles, speeds, torques = (
-            one.reshape(*self.orbit.lead, *one.shape[1:])
+            one.reshape(*self.orbit.angle_error, *one.shape[1:])
             for one in (place.angle, speed, element_torques(drives, q, rate))
         )
         return Traces(angle=where, station_angle=angles, station_speed=speeds, torque=torques)

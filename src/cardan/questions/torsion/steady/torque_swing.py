@@ -87,7 +87,7 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
     --------
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
     >>> drive = torsional_line([[1.0, 0.02], [0.02, 0.4]], stiffness=[[4000.0], [6000.0]],
-    ...     damping=[[1.0], [1.0]], bend=[0.35], input_speed=30.0)
+    ...     damping=[[1.0], [1.0]], joint_angle=[0.35], input_speed=30.0)
     >>> found = torque_swings(drive, [25.0, 30.0])
     >>> found.swing.shape, bool(abs(found.swing[1, 0] / periodic_response(drive).peak_to_peak[0] - 0.5) < 1e-5)
     ((2, 2), True)
@@ -96,22 +96,22 @@ def torque_swings(model: TorsionalModel, speed: ArrayLike, *, progress: Progress
     if not np.all(np.isfinite(omega) & (omega != 0.0)):
         raise refuse("speed", _("steady running needs speeds other than 0"))
     steady, loose = parted(model)
-    lead = np.broadcast_shapes(leading(replace(steady, input_speed=None)), omega.shape)
-    omega = np.broadcast_to(omega, lead)
+    outer = np.broadcast_shapes(leading(replace(steady, input_speed=None)), omega.shape)
+    omega = np.broadcast_to(omega, outer)
     if not steady.free:
         steady = replace(steady, input_speed=omega)
     if np.any(steady.backlash > 0.0):
         found = periodic_response(steady, speed=omega, progress=progress)
         orbit, swing = found.orbit, 0.5 * found.peak_to_peak
     else:
-        orbit, swing = _quick(steady, lead, omega, progress)
+        orbit, swing = _quick(steady, outer, omega, progress)
     return TorqueSwings(orbit=orbit, swing=swing + _beside(steady, loose, omega))
 
 
 def _quick(
-    model: TorsionalModel, lead: tuple[int, ...], omega: Array, progress: Progress | None
+    model: TorsionalModel, outer: tuple[int, ...], omega: Array, progress: Progress | None
 ) -> tuple[Orbit, Array]:
-    turning = Turning(model, lead, omega.reshape(-1), period_of(model))
+    turning = Turning(model, outer, omega.reshape(-1), period_of(model))
     half_turns = round(turning.period / np.pi)
     how = HarmonicBalance(harmonics=FEW * half_turns, most=MOST * half_turns, tail=TAIL, steps=STEPS)
     count = len(turning.speed)
@@ -138,10 +138,10 @@ def _quick(
         model=model,
         speed=omega,
         period=turning.period,
-        coefficient=whole.reshape(*lead, *whole.shape[1:]),
-        force=force.reshape(lead),
+        coefficient=whole.reshape(*outer, *whole.shape[1:]),
+        force=force.reshape(outer),
     )
-    return orbit, swing.reshape(*lead, -1)
+    return orbit, swing.reshape(*outer, -1)
 
 
 def _read(part: Turning, coefficient: Array) -> Array:
@@ -183,7 +183,7 @@ def some_motions(orbit: Orbit, rows: Array) -> Orbit:
     rows : array of int (b,)
     """
     return Orbit(
-        model=chosen(orbit.model, orbit.lead, rows, moments=False),
+        model=chosen(orbit.model, orbit.angle_error, rows, moments=False),
         speed=orbit.speed.reshape(-1)[rows],
         period=orbit.period,
         coefficient=orbit.coefficient.reshape(orbit.count, *orbit.coefficient.shape[-2:])[rows],

@@ -125,11 +125,11 @@ def stepped(
         At the start.
     progress : function, optional
     """
-    lead = leading(model)
-    count = math.prod(lead)
-    flat = chosen(model, lead, np.arange(count))
+    angle_error = leading(model)
+    count = math.prod(angle_error)
+    flat = chosen(model, angle_error, np.arange(count))
     angles, rates = q.reshape(count, -1), rate.reshape(count, -1)
-    line = line_of(chosen(model, lead, np.arange(count), moments=False), count, span[0])
+    line = line_of(chosen(model, angle_error, np.arange(count), moments=False), count, span[0])
     stretches = list(_stretches(model, span, times, _longest(flat, method, angles, rates, span)))
     run = _Run(model, line, stretches, span[0], angles.T, rates.T, len(times), progress)
     compute = picked(method.compute, np, large=run.total > SMALL)
@@ -139,16 +139,16 @@ def stepped(
         width = min(WIDE, -(-count // ((compute.threads or available()) * LANES)) * LANES)
         share(lambda *rows: run.go(*rows, width=width, plain=False), -(-count // width), threads=compute.threads)
     found = run.told(flat, span, times)
-    own: dict[str, Any] = {name: _shaped(getattr(found, name), lead) for name in _BY_DRIVE}
-    extremes = {one.name: _shaped(getattr(found.extremes, one.name), lead) for one in fields(Extremes)}
+    own: dict[str, Any] = {name: _shaped(getattr(found, name), angle_error) for name in _BY_DRIVE}
+    extremes = {one.name: _shaped(getattr(found.extremes, one.name), angle_error) for one in fields(Extremes)}
     return replace(found, **own, extremes=Extremes(**extremes))
 
 
 _BY_DRIVE = (*("coordinate", "rate", "angle", "speed", "torque", "input_torque", "energy", "work", "status", "ended"),)
 
 
-def _shaped(values: Array, lead: tuple[int, ...]) -> Array:
-    return None if values is None else values.reshape((*lead, *values.shape[1:]))
+def _shaped(values: Array, outer: tuple[int, ...]) -> Array:
+    return None if values is None else values.reshape((*outer, *values.shape[1:]))
 
 
 def _longest(flat: TorsionalModel, method: FixedStep, angles: Array, rates: Array, span: tuple[float, float]) -> float:

@@ -101,7 +101,7 @@ def simulate(
     Examples
     --------
     >>> from cardan.questions.torsion.model.torsional_model import torsional_line
-    >>> line = torsional_line([[1.0], [0.0, 0.5]], stiffness=[[], [2000.0]], bend=[0.35], input_speed=30.0)
+    >>> line = torsional_line([[1.0], [0.0, 0.5]], stiffness=[[], [2000.0]], joint_angle=[0.35], input_speed=30.0)
     >>> found = simulate(line, span=0.2)
     >>> round(float(found.extremes.torque_high[0]), 2), bool(found.imbalance < 1e-9)
     (349.64, True)
@@ -110,8 +110,8 @@ def simulate(
     way = Adaptive() if method is None else method
     samples = np.linspace(begin, end, times) if isinstance(times, int) else np.asarray(times, dtype=float)
     check(_span_problems(begin, end, samples))
-    lead = leading(model)
-    q, rate = _start(model, lead, begin, angle, speed)
+    angle_error = leading(model)
+    q, rate = _start(model, angle_error, begin, angle, speed)
     if isinstance(way, FixedStep):
         return stepped(model, way, span=(begin, end), times=samples, q=q, rate=rate, progress=progress)
     tasks = [
@@ -125,11 +125,11 @@ def simulate(
             q=q[place],
             rate=rate[place],
         )
-        for k, place in enumerate(np.ndindex(lead))
-        for one in [single(model, lead, k) if lead else model]
+        for k, place in enumerate(np.ndindex(angle_error))
+        for one in [single(model, angle_error, k) if angle_error else model]
     ]
     found = [march(task, _part(progress, k, len(tasks))) for k, task in enumerate(tasks)]
-    return found[0] if not lead else _together(found, lead)
+    return found[0] if not angle_error else _together(found, angle_error)
 
 
 def _span_problems(begin: float, end: float, samples: Array) -> Iterator[Problem]:
@@ -143,10 +143,10 @@ def _span_problems(begin: float, end: float, samples: Array) -> Iterator[Problem
 
 
 def _start(
-    model: TorsionalModel, lead: tuple[int, ...], begin: float, angle: ArrayLike | None, speed: ArrayLike | None
+    model: TorsionalModel, outer: tuple[int, ...], begin: float, angle: ArrayLike | None, speed: ArrayLike | None
 ) -> tuple[Array, Array]:
     """Return angles and speeds of the coordinates at the start, arrays (..., R)."""
-    shape = (*lead, model.coordinates)
+    shape = (*outer, model.coordinates)
     forced: Array = 0.0
     if model.input_motion is not None:
         forced = model.input_motion.at(np.asarray(begin))[1]
@@ -186,11 +186,11 @@ def _part(progress: Progress | None, k: int, count: int) -> Progress | None:
     return lambda share: progress((k + share) / count)
 
 
-def _together(found: list[Simulation], lead: tuple[int, ...]) -> Simulation:
+def _together(found: list[Simulation], outer: tuple[int, ...]) -> Simulation:
     """Return simulations of single drives as one of many."""
 
     def stacked(parts: list[Array]) -> Array:
-        return np.stack(parts).reshape(*lead, *np.shape(parts[0]))
+        return np.stack(parts).reshape(*outer, *np.shape(parts[0]))
 
     first = found[0]
     own = {

@@ -1,4 +1,4 @@
-"""Which change of one key makes a check pass that fails: how far each lever has to be moved."""
+"""Which change of one key makes a check pass that fails: how far each design variable has to be moved."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 
-from .change import Cure, cured
-from .cure_search import of_check
+from .change import Remedy, apply_remedy
+from .remedy_search import of_check
 
 
-def cures(
+def remedies(
     drive: Drive,
     verdicts: Sequence[Verdict] | None = None,
     *,
     known: Catalogue | None = None,
     progress: Callable[[float], object] | None = None,
-) -> tuple[Cure, ...]:
+) -> tuple[Remedy, ...]:
     """Return the smallest changes of single keys that make each failed verdict pass.
 
     Parameters
@@ -48,15 +48,15 @@ def cures(
     --------
     >>> from dataclasses import replace
     >>> from cardan.drive.duty import Limits
-    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(bend=0.4))
-    >>> [(cure.path, cure.value) for cure in cures(drive)]
-    [('joints[1].bend_deg', 22.9)]
+    >>> drive = replace(Drive.from_angles([0.1, 0.5]), limits=Limits(joint_angle=0.4))
+    >>> [(remedy.path, remedy.value) for remedy in remedies(drive)]
+    [('joints[1].joint_angle_deg', 22.9)]
     """
     rows = known or catalogue()
     whole = completed_drive(drive, drive.duty, rows)
     judged = check(whole, known=rows) if verdicts is None else verdicts
     failed = [one for one in judged if one.state == "failed" and not one.advice]
-    found: list[Cure] = []
+    found: list[Remedy] = []
     names = list(dict.fromkeys(one.check for one in failed))
     for k, name in enumerate(names, start=1):
         found += of_check(whole, name, [one for one in failed if one.check == name], rows)
@@ -64,10 +64,10 @@ def cures(
             break
     found = _with_effects(whole, found, judged, rows)
     order = {one.title: k for k, one in enumerate(failed)}
-    return tuple(sorted(found, key=lambda cure: (order[cure.title], cure.cost)))
+    return tuple(sorted(found, key=lambda remedy: (order[remedy.title], remedy.cost)))
 
 
-def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
+def most_helpful(found: Sequence[Remedy], count: int = 3) -> tuple[Remedy, ...]:
     """Return the few changes that together make most failed verdicts pass, the most helpful first.
 
     Parameters
@@ -85,14 +85,14 @@ def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
     --------
     >>> from dataclasses import replace
     >>> from cardan.drive.duty import Limits
-    >>> drive = replace(Drive.from_angles([0.6, 0.5]), limits=Limits(bend=0.4))
-    >>> [(cure.path, cure.value) for cure in most_helpful(cures(drive))]
-    [('joints[1].bend_deg', 22.9), ('joints[0].bend_deg', 22.9)]
+    >>> drive = replace(Drive.from_angles([0.6, 0.5]), limits=Limits(joint_angle=0.4))
+    >>> [(remedy.path, remedy.value) for remedy in most_helpful(remedies(drive))]
+    [('joints[1].joint_angle_deg', 22.9), ('joints[0].joint_angle_deg', 22.9)]
     """
-    left = {title for cure in found for title in (cure.title, *cure.solves)}
-    chosen: list[Cure] = []
+    left = {title for remedy in found for title in (remedy.title, *remedy.solves)}
+    chosen: list[Remedy] = []
     while left and len(chosen) < count:
-        helping = [cure for cure in found if left & {cure.title, *cure.solves}]
+        helping = [remedy for remedy in found if left & {remedy.title, *remedy.solves}]
         if not helping:
             break
         best = min(
@@ -109,39 +109,39 @@ def most_helpful(found: Sequence[Cure], count: int = 3) -> tuple[Cure, ...]:
     return tuple(sorted(chosen, key=lambda one: -_solved(one)))
 
 
-def _solved(one: Cure) -> int:
+def _solved(one: Remedy) -> int:
     """Return how many verdicts pass with a change that failed."""
     return len({one.title, *one.solves})
 
 
-def _with_effects(drive: Drive, found: Sequence[Cure], judged: Sequence[Verdict], known: Catalogue) -> list[Cure]:
+def _with_effects(drive: Drive, found: Sequence[Remedy], judged: Sequence[Verdict], known: Catalogue) -> list[Remedy]:
     """Return cures with what else they solve and break."""
     before = {one.title: one.state for one in judged if one.run and not one.advice}
-    numeric = [cure for cure in found if not isinstance(cure.value, str)]
+    numeric = [remedy for remedy in found if not isinstance(remedy.value, str)]
     done = dict(zip(map(id, numeric), _effects(drive, numeric, known), strict=True))
     whole = []
-    for cure in found:
-        after = done.get(id(cure)) or _failing(check(cured(drive, cure, known=known), known=known))
-        failing = {title for title, bad in after.items() if bad} - {cure.title}
+    for remedy in found:
+        after = done.get(id(remedy)) or _failing(check(apply_remedy(drive, remedy, known=known), known=known))
+        failing = {title for title, bad in after.items() if bad} - {remedy.title}
         solves = (title for title, state in before.items() if state == "failed" and title not in failing)
         breaks = (title for title in failing if before.get(title) not in (None, "failed"))
-        whole.append(replace(cure, solves=tuple(solves), breaks=tuple(breaks)))
+        whole.append(replace(remedy, solves=tuple(solves), breaks=tuple(breaks)))
     return whole
 
 
-def _effects(drive: Drive, found: Sequence[Cure], known: Catalogue) -> list[Mapping[str, bool]]:
-    """Return which verdicts fail with each cure, all in one batch."""
+def _effects(drive: Drive, found: Sequence[Remedy], known: Catalogue) -> list[Mapping[str, bool]]:
+    """Return which verdicts fail with each remedy, all in one batch."""
     if not found:
         return []
     vary: dict[str, Array] = {}
-    for k, cure in enumerate(found):
-        vary.setdefault(cure.path, np.full(len(found), float(cure.now)))[k] = float(cure.value)
+    for k, remedy in enumerate(found):
+        vary.setdefault(remedy.path, np.full(len(found), float(remedy.now)))[k] = float(remedy.value)
     try:
         with np.errstate(all="ignore"):
             verdicts = check(drive, vary=vary, known=known)
     except InputError:
-        return [_failing(check(cured(drive, cure, known=known), known=known)) for cure in found]
-    effects: list[dict[str, bool]] = [{} for _cure in found]
+        return [_failing(check(apply_remedy(drive, remedy, known=known), known=known)) for remedy in found]
+    effects: list[dict[str, bool]] = [{} for _remedy in found]
     for one in verdicts:
         if one.run and not one.advice:
             for k, passed in enumerate(np.broadcast_to(np.asarray(one.passed), len(found))):
@@ -153,4 +153,4 @@ def _failing(verdicts: Sequence[Verdict]) -> dict[str, bool]:
     return {one.title: one.state == "failed" for one in verdicts if one.run and not one.advice}
 
 
-__all__ = ["Cure", "cured", "cures", "most_helpful"]
+__all__ = ["Remedy", "apply_remedy", "most_helpful", "remedies"]

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from cardan import InputError
-from cardan.drive.joints.laws.dividing_lever import even_length, plane_error
-from cardan.formulas.dividing_lever import lever_choice
+from cardan.drive.joints.laws.pilot_lever import even_length, plane_error
+from cardan.formulas.pilot_lever import lever_choice
 from cardan.units import deg
 
 
@@ -12,10 +12,10 @@ from cardan.units import deg
 def test_no_other_length_errs_less(b, smallest, largest):
     """Dense scan over lengths and bends, as coarse as it may be to stay short."""
     found = lever_choice(b, largest * deg, smallest=smallest * deg)
-    bends = np.linspace(smallest, largest, 4001) * deg
+    joint_angles = np.linspace(smallest, largest, 4001) * deg
     lengths = found.c * (1 + np.linspace(-3e-3, 3e-3, 121))
-    worst = np.abs(plane_error(bends, b, lengths[:, None])).max(axis=-1)
-    # Half a step of bend from the peak loses the square of a share of 1e-4.
+    worst = np.abs(plane_error(joint_angles, b, lengths[:, None])).max(axis=-1)
+    # Half a step of joint angle from the peak loses the square of a share of 1e-4.
     assert worst[60] == pytest.approx(found.error, rel=1e-6)
     assert worst.argmin() == 60
     assert float(plane_error(found.above, b, found.c)) == pytest.approx(found.error, rel=1e-9)
@@ -24,7 +24,7 @@ def test_no_other_length_errs_less(b, smallest, largest):
 
 
 def test_small_ranges_follow_the_cubic():
-    """For small bends the error is k α (α² - α_0²): the best zero is at √3/2 of the range."""
+    """For small joint angles the error is k α (α² - α_0²): the best zero is at √3/2 of the range."""
     with mpmath.workdps(30):
         want = float(mpmath.sqrt(3) / 2)
     found = lever_choice(0.35, 0.5 * deg)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cardan.book.varying_bend import (
+from cardan.book.varying_joint_angle import (
     double_joint_speed,
     driven_motion,
     may_freeze,
@@ -63,11 +63,11 @@ def some_swing(times, mean=0.3, amplitude=0.2, frequency=31.0, phase=0.4):
 
 def test_single_joint_formula_is_the_derivative_of_the_driven_angle():
     times = np.linspace(0.0, 0.2, 400_001)
-    bend = some_swing(times)
+    joint_angle = some_swing(times)
     theta = 0.3 + 120.0 * times
-    c = np.cos(bend[0])
+    c = np.cos(joint_angle[0])
     driven = np.unwrap(np.arctan2(np.sin(theta), c * np.cos(theta)))
-    speed, acceleration = driven_motion(bend, theta, speed=120.0)
+    speed, acceleration = driven_motion(joint_angle, theta, speed=120.0)
     # Central differences with h = 5e-7 s err by h² φ'''/6 and by rounding 1e-15/h.
     np.testing.assert_allclose(np.gradient(driven, times)[1:-1], speed[1:-1], atol=1e-5)
     np.testing.assert_allclose(np.gradient(speed, times)[1:-1], acceleration[1:-1], atol=2e-3)
@@ -75,10 +75,10 @@ def test_single_joint_formula_is_the_derivative_of_the_driven_angle():
 
 def test_single_joint_formula_is_the_general_method_on_one_joint():
     times = np.linspace(0.0, 0.3, 101)
-    bend = some_swing(times)
-    column = tuple(part[:, None] for part in bend)
+    joint_angle = some_swing(times)
+    column = tuple(part[:, None] for part in joint_angle)
     general = planar_chain(column, 80.0 * times, yoke_angle=[], speed=80.0, start_phase=0.3)
-    speed, acceleration = driven_motion(bend, 80.0 * times + 0.3, speed=80.0)
+    speed, acceleration = driven_motion(joint_angle, 80.0 * times + 0.3, speed=80.0)
     np.testing.assert_allclose(general.driven_speed, speed, rtol=1e-13)
     np.testing.assert_allclose(general.driven_acceleration, acceleration, rtol=1e-10, atol=1e-9)
 
@@ -101,25 +101,25 @@ def test_equal_bends_at_one_instant_are_not_enough_for_uniform_output():
 
 def test_both_arrangements_stay_synchronous_when_the_bends_are_equal_at_all_times():
     times = np.linspace(0.0, 0.3, 101)
-    bend = some_swing(times)
+    joint_angle = some_swing(times)
     for sign in (1.0, -1.0):
-        both = tuple(np.stack((part, sign * part), axis=-1) for part in bend)
+        both = tuple(np.stack((part, sign * part), axis=-1) for part in joint_angle)
         found = planar_chain(both, 80.0 * times, yoke_angle=[0.0], speed=80.0)
         np.testing.assert_allclose(found.driven_speed, 80.0, rtol=1e-14)
         np.testing.assert_allclose(found.driven_acceleration, 0.0, atol=1e-10)
 
 
 def test_bend_through_zero_is_regular():
-    bend = (np.asarray([0.0]), np.asarray([40.0]), np.asarray([0.0]))
-    found = planar_chain(bend, 0.7, yoke_angle=[], speed=100.0)
+    joint_angle = (np.asarray([0.0]), np.asarray([40.0]), np.asarray([0.0]))
+    found = planar_chain(joint_angle, 0.7, yoke_angle=[], speed=100.0)
     assert found.driven_speed == pytest.approx(100.0, abs=1e-12)
-    # At zero bend only the square of the rate is left: ε_2 = ½ sin 2θ α'².
+    # At zero joint angle only the square of the rate is left: ε_2 = ½ sin 2θ α'².
     assert found.driven_acceleration == pytest.approx(0.5 * np.sin(1.4) * 1600.0)
 
 
-@pytest.mark.parametrize(("bend", "times"), [(5.0, 1.52), (10.0, 1.15), (20.0, 1.04)])
-def test_rate_raises_irregularity_as_the_extremes_of_the_exact_speed_say(bend, times):
-    alpha, rate = np.deg2rad(bend), 10.0
+@pytest.mark.parametrize(("joint_angle", "times"), [(5.0, 1.52), (10.0, 1.15), (20.0, 1.04)])
+def test_rate_raises_irregularity_as_the_extremes_of_the_exact_speed_say(joint_angle, times):
+    alpha, rate = np.deg2rad(joint_angle), 10.0
     axes = (
         np.asarray([[1.0, 0.0, 0.0], [np.cos(alpha), np.sin(alpha), 0.0]]),
         rate * np.asarray([[0.0, 0.0, 0.0], [-np.sin(alpha), np.cos(alpha), 0.0]]),

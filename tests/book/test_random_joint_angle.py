@@ -1,8 +1,14 @@
 import numpy as np
 import pytest
 
-from cardan.book.random_bend import random_bend, random_bend_path, rate_deviation, sideband_gain, sidebands
-from cardan.book.varying_bend import driven_motion
+from cardan.book.random_joint_angle import (
+    random_joint_angle,
+    random_joint_angle_path,
+    rate_deviation,
+    sideband_gain,
+    sidebands,
+)
+from cardan.book.varying_joint_angle import driven_motion
 from cardan.errors import InputError
 from cardan.maths.curves import spectra
 from cardan.units import deg
@@ -24,29 +30,31 @@ def scaled(deviation):
 )
 def test_mean_and_deviation_by_quadrature(given, angle, expected):
     mean, deviation, rate, speed = given
-    found = random_bend(angle * deg, mean=mean * deg, deviation=deviation * deg, rate_deviation=rate, speed=speed)
+    found = random_joint_angle(
+        angle * deg, mean=mean * deg, deviation=deviation * deg, rate_deviation=rate, speed=speed
+    )
     # Expected from another quadrature with 40 digits.
     assert (found.mean, found.deviation) == pytest.approx(expected, rel=1e-7)
 
 
 def test_small_deviations_approach_the_first_order():
     theta = np.linspace(0.1, 3.0, 7)
-    found = random_bend(theta, mean=0.3, deviation=1e-4, rate_deviation=2e-3, speed=100.0)
+    found = random_joint_angle(theta, mean=0.3, deviation=1e-4, rate_deviation=2e-3, speed=100.0)
     # The next order is a share of about (σ/α)² = 1e-7 … times curvature terms.
     np.testing.assert_allclose(found.small, found.deviation, rtol=1e-4)
 
 
 def test_refuses_bends_that_may_reach_a_right_angle():
     with pytest.raises(InputError, match="six standard deviations"):
-        random_bend(0.0, mean=30 * deg, deviation=10 * deg, rate_deviation=0.0, speed=1.0)
+        random_joint_angle(0.0, mean=30 * deg, deviation=10 * deg, rate_deviation=0.0, speed=1.0)
     with pytest.raises(InputError, match="at least 0"):
-        random_bend(0.0, mean=0.1, deviation=-0.01, rate_deviation=0.0, speed=1.0)
+        random_joint_angle(0.0, mean=0.1, deviation=-0.01, rate_deviation=0.0, speed=1.0)
 
 
 def test_rate_deviation_is_that_of_the_paths():
     density = scaled(0.02)
     times = np.linspace(0.0, 100.0, 10_001)
-    value, rate, acceleration = random_bend_path(times, mean=0.2, frequency=FREQUENCY, density=density, seed=3)
+    value, rate, acceleration = random_joint_angle_path(times, mean=0.2, frequency=FREQUENCY, density=density, seed=3)
     # A path of 100 s holds about 100·40/π independent values: the deviation scatters by 2 %.
     assert np.std(value) == pytest.approx(0.02, rel=0.05)
     assert np.mean(value) == pytest.approx(0.2, abs=1e-3)
@@ -60,7 +68,7 @@ def test_rate_deviation_is_that_of_the_paths():
 def test_same_seed_same_path_other_seed_other_path():
     times = np.linspace(0.0, 1.0, 5)
     given = {"mean": 0.2, "frequency": FREQUENCY, "density": scaled(0.02)}
-    one, same, other = (random_bend_path(times, seed=seed, **given)[0] for seed in (1, 1, 2))
+    one, same, other = (random_joint_angle_path(times, seed=seed, **given)[0] for seed in (1, 1, 2))
     np.testing.assert_array_equal(one, same)
     assert np.all(one != other)
 
@@ -72,10 +80,12 @@ def test_simulation_has_the_variance_of_the_speed():
     theta = 0.6
     draws = []
     for seed in range(200):
-        bend = random_bend_path(np.linspace(0.0, 20.0, 250), mean=mean, frequency=FREQUENCY, density=density, seed=seed)
-        draws.append(driven_motion(bend, theta, speed=speed)[0])
+        joint_angle = random_joint_angle_path(
+            np.linspace(0.0, 20.0, 250), mean=mean, frequency=FREQUENCY, density=density, seed=seed
+        )
+        draws.append(driven_motion(joint_angle, theta, speed=speed)[0])
     rate = rate_deviation(FREQUENCY, density)
-    found = random_bend(theta, mean=mean, deviation=deviation, rate_deviation=rate, speed=speed)
+    found = random_joint_angle(theta, mean=mean, deviation=deviation, rate_deviation=rate, speed=speed)
     # 200 paths of 20 s: some 5e4 independent values, 0.3 % in the deviation, 1 % allowed.
     assert np.std(draws) == pytest.approx(float(found.deviation), rel=0.01)
     assert np.mean(draws) == pytest.approx(float(found.mean), abs=0.01 * float(found.deviation))
@@ -93,13 +103,13 @@ def test_simulation_has_the_sidebands():
     seeds = 60
     for seed in range(seeds):
         theta = speed * times + np.random.default_rng(1000 + seed).uniform(0.0, np.pi)
-        bend = random_bend_path(times, mean=mean, frequency=FREQUENCY, density=density, seed=seed)[0]
+        joint_angle = random_joint_angle_path(times, mean=mean, frequency=FREQUENCY, density=density, seed=seed)[0]
 
-        def lead(alpha, theta=theta):
+        def angle_error(alpha, theta=theta):
             half = np.tan(0.5 * alpha) ** 2
             return np.arctan2(half * np.sin(2 * theta), 1.0 - half * np.cos(2 * theta))
 
-        random_part = lead(bend) - lead(mean)
+        random_part = angle_error(joint_angle) - angle_error(mean)
         power += np.abs(np.fft.fft(random_part) / times.size) ** 2 / resolution / seeds
     expected = sidebands(omega, mean=mean, frequency=FREQUENCY, density=density, speed=speed)
     for low, high in ((145.0, 165.0), (165.0, 178.0), (182.0, 195.0), (195.0, 215.0)):

@@ -1,4 +1,4 @@
-"""The largest bend of one joint that practice allows at a speed."""
+"""The largest joint angle of one joint that practice allows at a speed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.catalogue.rows import MaxBend
+from cardan.catalogue.rows import MaxJointAngle
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.moving import at_its_most
@@ -17,7 +17,7 @@ from cardan.texts import mark
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    rows = sorted(design.known.rows(MaxBend).values(), key=lambda row: row.speed)
+    rows = sorted(design.known.rows(MaxJointAngle).values(), key=lambda row: row.speed)
     speed = design.top_speed
     if speed is None:
         yield Verdict(missing=("duty.speed",))
@@ -27,20 +27,20 @@ def _judge(design: Design) -> Iterator[Verdict]:
     # Speed times angle hardly changes along the table: straight in that product, and constant beyond its ends.
     at = np.asarray([row.speed for row in rows])
     turning = np.maximum(np.asarray(speed, dtype=float), 1e-9)
-    limit: Array = np.interp(turning, at, at * np.asarray([row.max_bend for row in rows])) / turning
+    limit: Array = np.interp(turning, at, at * np.asarray([row.max_joint_angle for row in rows])) / turning
     limit, said = bendable(design, limit)
-    largest, note = at_its_most(design, lambda bend: np.max(bend, axis=-1, keepdims=True))
+    largest, note = at_its_most(design, lambda joint_angle: np.max(joint_angle, axis=-1, keepdims=True))
     yield Verdict(
         value=largest[..., 0],
         limit=limit,
         source=rows[0].source,
-        levers=(*design.bend_levers, *design.speed_levers),
+        design_variables=(*design.joint_angle_design_variables, *design.speed_design_variables),
         note=joined(said, note),
     )
 
 
 CHECK = Check(
-    name="bend_at_speed",
+    name="joint_angle_at_speed",
     doc=mark("largest joint angle at the highest speed, a maker's guide"),
     judge=_judge,
     title=mark("largest joint angle at the highest speed"),

@@ -1,4 +1,4 @@
-"""Choice of the dividing lever of a Rzeppa joint: the cage misses the bisecting plane least over a range of bends."""
+"""Choice of the pilot lever of a Rzeppa joint: the cage misses the bisecting plane least over a range of bends."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.drive.joints.laws.dividing_lever import even_length, plane_error
+from cardan.drive.joints.laws.pilot_lever import even_length, plane_error
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.curves.peaks import peaks
@@ -22,7 +22,7 @@ REACH = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class LeverChoice:
-    """The dividing lever with the smallest largest error over a range of bends.
+    """The pilot lever with the smallest largest error over a range of bends.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class LeverChoice:
 
 
 def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverChoice:
-    """Return the length OB of a dividing lever with which its cage errs least over a range of bends.
+    """Return the length OB of a pilot lever with which its cage errs least over a range of bends.
 
     Parameters
     ----------
@@ -65,8 +65,9 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
 
     Notes
     -----
-    The error grows with c at every bend; it is negative below the bend at which it vanishes, and positive above. It is
-    least where both extremes are of one size, a root in c between the exact values for the ends of the range.
+    The error grows with c at every joint angle; it is negative below the joint angle at which it vanishes, and positive
+    above. It is least where both extremes are of one size, a root in c between the exact values for the ends of the
+    range.
 
     Examples
     --------
@@ -94,7 +95,7 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
 
 
 def _bracket(b: float, smallest: float, largest: float) -> tuple[float, float]:
-    """Return the exact lengths for the largest and the smallest bend, the latter no longer than reaches."""
+    """Return the exact lengths for the largest and the smallest joint angle, the latter no longer than reaches."""
     low, high = float(even_length(largest, b)), float(even_length(smallest, b))
     if math.isnan(low):
         raise refuse("b", _no_lever(b, largest))
@@ -105,8 +106,8 @@ def _bracket(b: float, smallest: float, largest: float) -> tuple[float, float]:
 def _extremes(b: float, c: float, smallest: float, largest: float) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return where the error is most positive, and how much; where most negative, and how much."""
 
-    def both(bend: Array) -> Array:
-        error = plane_error(np.clip(bend, smallest, largest), b, c)
+    def both(joint_angle: Array) -> Array:
+        error = plane_error(np.clip(joint_angle, smallest, largest), b, c)
         return np.stack((error, -error))
 
     places = np.linspace(smallest, largest, PLACES)
@@ -116,5 +117,7 @@ def _extremes(b: float, c: float, smallest: float, largest: float) -> tuple[tupl
 
 
 def _no_lever(b: float, largest: float) -> str:
-    text = _("no lever divided at b/a = {b:.6g} halves bends up to {bend:.6g}°; b must be clearly shorter than a")
-    return text.format(b=b, bend=math.degrees(largest))
+    text = _(
+        "no lever divided at b/a = {b:.6g} halves bends up to {joint_angle:.6g}°; b must be clearly shorter than a"
+    )
+    return text.format(b=b, joint_angle=math.degrees(largest))

@@ -9,7 +9,7 @@ from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.catalogue import completed
 from cardan.checks import Verdict, check
-from cardan.choices.cure import Cure, cured, cures, most_helpful
+from cardan.choices.remedy import Remedy, apply_remedy, most_helpful, remedies
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
@@ -42,7 +42,7 @@ def car(**duty: object) -> Drive:
             joints=joints,
             shafts=(tube,),
             duty=Duty(**use),
-            limits=Limits(irregularity=0.001, spline_pressure=60e6),
+            limits=Limits(speed_fluctuation=0.001, spline_pressure=60e6),
         )
     )
 
@@ -51,7 +51,7 @@ def plain() -> Drive:
     """Joints whose sizes stand in the file, given by angles."""
     cross = Cross(span=60 * mm, journal=15 * mm, bending_arm=10 * mm, material=Material(yield_strength=500e6))
     needles = Needles(count=24, diameter=2.0 * mm, length=10 * mm)
-    rating = Rating(torque=800.0, max_torque=1200.0, max_bend=20 * deg, speed_angle=9000 * rpm * deg)
+    rating = Rating(torque=800.0, max_torque=1200.0, max_joint_angle=20 * deg, speed_angle=9000 * rpm * deg)
     drive = Drive.from_angles([22 * deg, 17 * deg])
     joints = tuple(replace(joint, cross=cross, needles=needles, rating=rating) for joint in drive.joints)
     tube = Shaft(number=2, outer=50 * mm, wall=2 * mm, length=1.6, material=Material(grade="45"))
@@ -65,10 +65,10 @@ def running_at_half() -> Drive:
 
 
 @cache
-def solved(make: Callable[[], Drive]) -> tuple[Drive, tuple[Verdict, ...], tuple[Cure, ...]]:
+def solved(make: Callable[[], Drive]) -> tuple[Drive, tuple[Verdict, ...], tuple[Remedy, ...]]:
     drive = make()
     verdicts = check(drive)
-    return drive, verdicts, cures(drive, verdicts)
+    return drive, verdicts, remedies(drive, verdicts)
 
 
 @pytest.mark.slow
@@ -78,51 +78,51 @@ def test_every_cure_lets_its_check_pass_and_the_file_edited_says_the_same(make):
     failed = [one for one in verdicts if one.state == "failed" and not one.advice]
     assert failed
     text = dumps(drive)
-    for cure in found:
-        for new in (cured(drive, cure), loads(edit(text, {cure.path: cure.value}))):
-            after = next(one for one in check(new, only=[cure.check]) if one.title == cure.title)
-            assert after.state in ("passed", "close"), cure
-    assert {one.title for one in failed} - {cure.title for cure in found} == set()
+    for remedy in found:
+        for new in (apply_remedy(drive, remedy), loads(edit(text, {remedy.path: remedy.value}))):
+            after = next(one for one in check(new, only=[remedy.check]) if one.title == remedy.title)
+            assert after.state in ("passed", "close"), remedy
+    assert {one.title for one in failed} - {remedy.title for remedy in found} == set()
 
 
 @pytest.mark.parametrize("make", [car, plain])
 def test_a_cure_is_the_smallest_round_change(make):
     """Half the way does not do; where the change has only a few steps, one step less does not."""
     drive, _verdicts, found = solved(make)
-    for cure in found[::2]:
-        if isinstance(cure.value, str) or cure.unit == "":
+    for remedy in found[::2]:
+        if isinstance(remedy.value, str) or remedy.unit == "":
             continue
-        less = replace(cure, value=cure.now + 0.5 * (cure.value - cure.now))
-        after = next(one for one in check(cured(drive, less), only=[cure.check]) if one.title == cure.title)
-        assert after.state == "failed" or abs(cure.value - cure.now) < 0.03 * abs(cure.now) + 2.0, cure
+        less = replace(remedy, value=remedy.now + 0.5 * (remedy.value - remedy.now))
+        after = next(one for one in check(apply_remedy(drive, less), only=[remedy.check]) if one.title == remedy.title)
+        assert after.state == "failed" or abs(remedy.value - remedy.now) < 0.03 * abs(remedy.now) + 2.0, remedy
 
 
 @pytest.mark.slow
 def test_what_a_cure_solves_and_breaks_is_what_happens():
     drive, verdicts, found = solved(car)
     before = {one.title: one.state for one in verdicts if one.run and not one.advice}
-    for cure in found[::4]:
-        after = {one.title: one.state for one in check(cured(drive, cure)) if one.run and not one.advice}
+    for remedy in found[::4]:
+        after = {one.title: one.state for one in check(apply_remedy(drive, remedy)) if one.run and not one.advice}
         mended = {title for title, state in before.items() if state == "failed" and after[title] != "failed"}
         broken = {title for title, state in before.items() if state != "failed" and after[title] == "failed"}
-        assert set(cure.solves) == mended, cure
-        assert set(cure.breaks) == broken, cure
+        assert set(remedy.solves) == mended, remedy
+        assert set(remedy.breaks) == broken, remedy
 
 
 def test_a_joint_of_a_series_becomes_the_next_size_that_does():
     _drive, _verdicts, found = solved(car)
-    sizes = [cure for cure in found if cure.path == "joints[0].size"]
+    sizes = [remedy for remedy in found if remedy.path == "joints[0].size"]
     assert sizes
-    assert all(cure.value in ("example-75", "example-90", "example-120") for cure in sizes)
-    assert not any("cross" in cure.path or "needles" in cure.path for cure in found)
+    assert all(remedy.value in ("example-75", "example-90", "example-120") for remedy in sizes)
+    assert not any("cross" in remedy.path or "needles" in remedy.path for remedy in found)
 
 
 def test_a_stronger_material_is_named():
     drive = car(torque=780.0)
-    found = cures(drive, check(drive, only=["tube_strength"]))
-    assert [cure.value for cure in found if cure.path == "shafts[1].material.grade"] == ["12KhMF"]
+    found = remedies(drive, check(drive, only=["tube_strength"]))
+    assert [remedy.value for remedy in found if remedy.path == "shafts[1].material.grade"] == ["12KhMF"]
     own = replace(drive, shafts=(*drive.shafts[:1], replace(drive.shafts[1], material=Material(yield_strength=200e6))))
-    asked = [cure for cure in cures(own, check(own, only=["tube_strength"])) if "yield_strength" in cure.path]
+    asked = [remedy for remedy in remedies(own, check(own, only=["tube_strength"])) if "yield_strength" in remedy.path]
     assert asked[0].value == 260.0
     assert asked[0].note == "12KhMF"
 
@@ -131,35 +131,37 @@ def test_the_most_helpful_changes_come_first_and_ask_no_less_of_the_drive():
     _drive, _verdicts, found = solved(car)
     best = most_helpful(found)
     assert 1 <= len(best) <= 3
-    assert not any(cure.demand for cure in best)
-    for cure in best[:1]:
-        assert len(cure.solves) - len(cure.breaks) == max(
+    assert not any(remedy.demand for remedy in best)
+    for remedy in best[:1]:
+        assert len(remedy.solves) - len(remedy.breaks) == max(
             len(one.solves) - len(one.breaks) for one in found if not one.demand
         )
 
 
 def test_a_drive_that_passes_needs_no_cure():
-    assert cures(replace(Drive.from_angles([0.1, 0.1]), duty=Duty(speed=100.0))) == ()
+    assert remedies(replace(Drive.from_angles([0.1, 0.1]), duty=Duty(speed=100.0))) == ()
 
 
 def test_what_fails_only_in_a_pose_while_moving_is_cured_where_one_key_can():
     """The poses set where the axle is, so that only the other joint can be moved."""
     drive = example("truck-rear-axle")
-    drive = replace(drive, limits=replace(drive.limits, bend=9 * deg))
+    drive = replace(drive, limits=replace(drive.limits, joint_angle=9 * deg))
     verdicts = check(drive)
-    failed = [one for one in verdicts if one.check == "bend" and one.state == "failed"]
+    failed = [one for one in verdicts if one.check == "joint_angle" and one.state == "failed"]
     assert {told(one.note, USUAL) for one in failed} == {"while the drive moves; in the pose empty"}
-    found = [cure for cure in cures(drive, [one for one in verdicts if one.check == "bend"])]
-    assert {one.title for one in failed} == {cure.title for cure in found}
-    for cure in found:
-        after = next(one for one in check(cured(drive, cure), only=["bend"]) if one.title == cure.title)
-        assert after.state in ("passed", "close"), cure
+    found = [remedy for remedy in remedies(drive, [one for one in verdicts if one.check == "joint_angle"])]
+    assert {one.title for one in failed} == {remedy.title for remedy in found}
+    for remedy in found:
+        after = next(
+            one for one in check(apply_remedy(drive, remedy), only=["joint_angle"]) if one.title == remedy.title
+        )
+        assert after.state in ("passed", "close"), remedy
 
 
 def test_a_search_of_cures_tells_how_far_it_is_and_can_be_stopped():
     drive, verdicts, found = solved(plain)
     told = []
-    part = cures(drive, verdicts, progress=lambda share: told.append(share) or "stop")
+    part = remedies(drive, verdicts, progress=lambda share: told.append(share) or "stop")
     assert 0.0 < told[0] < 1.0
     first = next(one.check for one in verdicts if one.state == "failed" and not one.advice)
     assert part == tuple(one for one in found if one.check == first)

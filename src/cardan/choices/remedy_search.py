@@ -15,8 +15,8 @@ from cardan.drive.fields.paths import with_values
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 
-from .change import Cure, made_of, sized
-from .lever import Lever, graded, is_sized, levers_of
+from .change import Remedy, made_of, sized
+from .design_variable import DesignVariable, design_variables_of, graded, is_sized
 
 ROUNDS, FINE = 3, 16
 """Times that the places between the last that fails and the first that passes are looked at, and how many each time."""
@@ -25,46 +25,61 @@ SIZE_STEP = 0.25
 """Change that a joint of another size counts as."""
 
 
-def of_check(drive: Drive, name: str, failed: Sequence[Verdict], known: Catalogue) -> Iterator[Cure]:
-    """Yield the cures of the failed verdicts of one check, one for each lever: that with the smaller change."""
-    levers = list(levers_of(drive, dict.fromkeys(path for one in failed for path in one.levers), known))
-    for verdict, lever, values in _found(drive, name, failed, levers, known):
-        cure = min(
-            (one for value in values if (one := _rounded(drive, verdict, lever, value, known)) is not None),
+def of_check(drive: Drive, name: str, failed: Sequence[Verdict], known: Catalogue) -> Iterator[Remedy]:
+    """Yield the remedies of the failed verdicts of one check: for each design variable that with the smaller change."""
+    design_variables = list(
+        design_variables_of(drive, dict.fromkeys(path for one in failed for path in one.design_variables), known)
+    )
+    for verdict, design_variable, values in _found(drive, name, failed, design_variables, known):
+        remedy = min(
+            (one for value in values if (one := _rounded(drive, verdict, design_variable, value, known)) is not None),
             key=lambda one: one.change,
             default=None,
         )
-        if cure is not None:
-            yield cure
+        if remedy is not None:
+            yield remedy
     for verdict in failed:
         yield from _by_size(drive, verdict, known)
         yield from _by_grade(drive, verdict, known)
 
 
 def _found(
-    drive: Drive, name: str, failed: Sequence[Verdict], levers: Sequence[Lever], known: Catalogue
-) -> Iterator[tuple[Verdict, Lever, list[float]]]:
+    drive: Drive, name: str, failed: Sequence[Verdict], design_variables: Sequence[DesignVariable], known: Catalogue
+) -> Iterator[tuple[Verdict, DesignVariable, list[float]]]:
     """Yield verdicts, levers and the nearest values on either side from which the verdict passes."""
-    ladders = [(lever, values) for lever in levers for side in (1.0, -1.0) if (values := lever.ladder(side)).size]
+    ladders = [
+        (design_variable, values)
+        for design_variable in design_variables
+        for side in (1.0, -1.0)
+        if (values := design_variable.ladder(side)).size
+    ]
     brackets = []
-    for (lever, values), used in zip(ladders, _trial(drive, name, ladders, known), strict=True):
+    for (design_variable, values), used in zip(ladders, _trial(drive, name, ladders, known), strict=True):
         for verdict in failed:
             first = _first(used.get(verdict.title))
-            if lever.bare in verdict.levers and first is not None:
-                fails = lever.now if first == 0 else float(values[first - 1])
-                brackets.append((verdict, lever, fails, float(values[first])))
+            if design_variable.bare in verdict.design_variables and first is not None:
+                fails = design_variable.now if first == 0 else float(values[first - 1])
+                brackets.append((verdict, design_variable, fails, float(values[first])))
     for _round in range(ROUNDS):
-        rows = [(lever, np.linspace(fails, passes, FINE + 1)[1:]) for _verdict, lever, fails, passes in brackets]
-        for k, ((lever, values), used) in enumerate(zip(rows, _trial(drive, name, rows, known), strict=True)):
-            verdict, _lever, fails, _passes = brackets[k]
+        rows = [
+            (design_variable, np.linspace(fails, passes, FINE + 1)[1:])
+            for _verdict, design_variable, fails, passes in brackets
+        ]
+        for k, ((design_variable, values), used) in enumerate(zip(rows, _trial(drive, name, rows, known), strict=True)):
+            verdict, _design_variable, fails, _passes = brackets[k]
             first = _first(used.get(verdict.title))
-            if first is not None and not lever.whole:
-                brackets[k] = verdict, lever, fails if first == 0 else float(values[first - 1]), float(values[first])
+            if first is not None and not design_variable.whole:
+                brackets[k] = (
+                    verdict,
+                    design_variable,
+                    fails if first == 0 else float(values[first - 1]),
+                    float(values[first]),
+                )
     for verdict in failed:
-        for lever in levers:
-            values_of = [passes for one, its, _fails, passes in brackets if one is verdict and its is lever]
+        for design_variable in design_variables:
+            values_of = [passes for one, its, _fails, passes in brackets if one is verdict and its is design_variable]
             if values_of:
-                yield verdict, lever, values_of
+                yield verdict, design_variable, values_of
 
 
 def _first(used: Array | None) -> int | None:
@@ -74,15 +89,19 @@ def _first(used: Array | None) -> int | None:
     return int(np.argmax(used <= 1.0))
 
 
-def _trial(drive: Drive, name: str, rows: Sequence[tuple[Lever, Array]], known: Catalogue) -> list[dict[str, Array]]:
-    """Return the utilisations of the verdicts of a check, by their titles, for values of one lever a row."""
+def _trial(
+    drive: Drive, name: str, rows: Sequence[tuple[DesignVariable, Array]], known: Catalogue
+) -> list[dict[str, Array]]:
+    """Return the utilisations of the verdicts of a check, by their titles, for values of one design variable a row."""
     if not rows:
         return []
-    ends = np.cumsum([values.size for _lever, values in rows])
+    ends = np.cumsum([values.size for _design_variable, values in rows])
     vary: dict[str, Array] = {}
-    for (lever, values), end in zip(rows, ends, strict=True):
-        column = vary.setdefault(lever.path, np.full(int(ends[-1]), lever.now / lever.factor))
-        column[end - values.size : end] = values / lever.factor
+    for (design_variable, values), end in zip(rows, ends, strict=True):
+        column = vary.setdefault(
+            design_variable.path, np.full(int(ends[-1]), design_variable.now / design_variable.factor)
+        )
+        column[end - values.size : end] = values / design_variable.factor
     try:
         with np.errstate(all="ignore"):
             verdicts = check(drive, only=[name], vary=vary, known=known)
@@ -98,29 +117,35 @@ def _trial(drive: Drive, name: str, rows: Sequence[tuple[Lever, Array]], known: 
     return found
 
 
-def _rounded(drive: Drive, verdict: Verdict, lever: Lever, value: float, known: Catalogue) -> Cure | None:
-    """Return the cure by the first round figure with which the check really passes."""
-    for shown in lever.beyond(value):
+def _rounded(
+    drive: Drive, verdict: Verdict, design_variable: DesignVariable, value: float, known: Catalogue
+) -> Remedy | None:
+    """Return the remedy by the first round figure with which the check really passes."""
+    for shown in design_variable.beyond(value):
         try:
-            new = with_values(drive, {lever.path: shown})
+            new = with_values(drive, {design_variable.path: shown})
             verdicts = check(new, only=[verdict.check], known=known)
         except InputError:
             continue
         after = next((one for one in verdicts if one.title == verdict.title and one.run), None)
         if after is not None and after.passed:
-            step = abs(float(shown) * lever.factor - lever.now)
-            scale = abs(lever.now) if lever.reach is None else lever.reach
-            return Cure(
+            step = abs(float(shown) * design_variable.factor - design_variable.now)
+            scale = abs(design_variable.now) if design_variable.reach is None else design_variable.reach
+            return Remedy(
                 check=verdict.check,
                 subject=verdict.subject,
                 title=verdict.title,
-                path=lever.path,
-                now=int(lever.now) if lever.whole else round(lever.now / lever.factor, 10),
+                path=design_variable.path,
+                now=int(design_variable.now)
+                if design_variable.whole
+                else round(design_variable.now / design_variable.factor, 10),
                 value=shown,
-                unit=lever.unit,
+                unit=design_variable.unit,
                 change=step / scale,
-                effort=lever.effort,
-                note=_strong(float(shown) * lever.factor, known) if lever.bare.endswith("yield_strength") else "",
+                effort=design_variable.effort,
+                note=_strong(float(shown) * design_variable.factor, known)
+                if design_variable.bare.endswith("yield_strength")
+                else "",
             )
     return None
 
@@ -131,9 +156,9 @@ def _strong(strength: float, known: Catalogue) -> str:
     return min(strong, key=lambda row: row.yield_strength or 0.0).id if strong else ""
 
 
-def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure]:
+def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remedy]:
     """Yield the weakest grade with which a verdict passes, of those for such parts if there is one."""
-    for bare in verdict.levers:
+    for bare in verdict.design_variables:
         path, _dot, name = bare.rpartition(".")
         here = graded(drive, path, known) if name in ("yield_strength", "ultimate_strength") else None
         if here is None or is_sized(drive, bare, known):
@@ -148,7 +173,7 @@ def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure
                 (one for one in check(new, only=[verdict.check], known=known) if one.title == verdict.title), None
             )
             if after is not None and after.run and after.passed:
-                yield Cure(
+                yield Remedy(
                     check=verdict.check,
                     subject=verdict.subject,
                     title=verdict.title,
@@ -161,7 +186,7 @@ def _by_grade(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure
                 break
 
 
-def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure]:
+def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Remedy]:
     """Yield the next larger size of a joint with which a verdict on it passes."""
     match = re.fullmatch(r"joints\[(\d+)\]", verdict.subject)
     if match is None:
@@ -170,7 +195,7 @@ def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure]
     sizes = known.rows(JointSize)
     here = sizes.get(drive.joints[i].size)
     if here is None or not any(
-        re.match(rf"joints\[{i}\]\.(cross|needles|yoke|rating)", path) for path in verdict.levers
+        re.match(rf"joints\[{i}\]\.(cross|needles|yoke|rating)", path) for path in verdict.design_variables
     ):
         return
     larger = [row for row in sizes.values() if row.type == here.type and _bulk(row) > _bulk(here)]
@@ -182,7 +207,7 @@ def _by_size(drive: Drive, verdict: Verdict, known: Catalogue) -> Iterator[Cure]
             continue
         after = next((one for one in verdicts if one.title == verdict.title and one.run), None)
         if after is not None and after.passed:
-            yield Cure(
+            yield Remedy(
                 check=verdict.check,
                 subject=verdict.subject,
                 title=verdict.title,

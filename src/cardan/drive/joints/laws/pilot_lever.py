@@ -1,4 +1,4 @@
-"""The lever that holds the cage of a Rzeppa joint in the bisecting plane, exactly at one bend and nearly beside it.
+"""The lever that holds the cage of a Rzeppa joint in the bisecting plane, exactly at one angle and nearly beside it.
 
 Its ball ends A and B run on the axes of the two shafts: A slides along its axis, B stays at OB = c. The cage hangs on
 the point C between them, AC = a, CB = b. All lengths are given as shares of a.
@@ -9,20 +9,20 @@ from __future__ import annotations
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 
 
-def _projection(bend: Array, b: Array, c: Array) -> Array:
+def _projection(joint_angle: Array, b: Array, c: Array) -> Array:
     """Return √((a + b)² - c² sin²α)/a, nan where the lever cannot reach the axis of A."""
-    xp = namespace(bend, b, c)
-    aside = c * xp.sin(bend)
+    xp = namespace(joint_angle, b, c)
+    aside = c * xp.sin(joint_angle)
     rest = (1.0 + b - aside) * (1.0 + b + aside)
     return xp.sqrt(xp.where((rest > 0.0) & (b > 0.0) & (c > 0.0), rest, xp.nan))
 
 
-def cage_tilt(bend: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
+def cage_tilt(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     """Return the angle of the cage's normal from the axis of A.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α_12 in [0, π/2), angle between the shafts.
     b, c : arrays (...)
         b/a and c/a, positive.
@@ -42,18 +42,18 @@ def cage_tilt(bend: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     >>> print(cage_tilt(20 * deg, 0.35, 0.7) / deg)
     10.03450243
     """
-    alpha, near, far = floats(bend, b, c)
+    alpha, near, far = floats(joint_angle, b, c)
     xp = namespace(alpha, near, far)
     root = _projection(alpha, near, far)
     return xp.atan2(far * xp.sin(alpha), far * (1.0 + near) * xp.cos(alpha) + near * root)
 
 
-def plane_error(bend: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
+def plane_error(joint_angle: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     """Return by how much the cage misses the bisecting plane, α_2 - α_12/2.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α_12 in [0, π/2).
     b, c : arrays (...)
         b/a and c/a, positive.
@@ -75,7 +75,7 @@ def plane_error(bend: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     >>> print(plane_error([5 * deg, 35 * deg], 0.35, 0.72) / deg)
     [-0.00525327  0.83640544]
     """
-    alpha, near, far = floats(bend, b, c)
+    alpha, near, far = floats(joint_angle, b, c)
     xp = namespace(alpha, near, far)
     root = _projection(alpha, near, far)
     sine, half, middle = xp.sin(alpha), xp.sin(0.5 * alpha), xp.cos(0.5 * alpha)
@@ -85,12 +85,12 @@ def plane_error(bend: ArrayLike, b: ArrayLike, c: ArrayLike) -> Array:
     return xp.atan2(half * gap, along * middle + far * sine * half)
 
 
-def even_length(bend: ArrayLike, b: ArrayLike) -> Array:
+def even_length(joint_angle: ArrayLike, b: ArrayLike) -> Array:
     """Return c/a with which the cage bisects the angle of the shafts exactly, at one bend.
 
     Parameters
     ----------
-    bend : array (...) [rad]
+    joint_angle : array (...) [rad]
         α_12 in [0, π/2).
     b : array (...)
         b/a.
@@ -111,7 +111,7 @@ def even_length(bend: ArrayLike, b: ArrayLike) -> Array:
     >>> print(even_length([0.0, 5 * deg, 35 * deg], 0.35))
     [0.72692308 0.72464236 0.63764452]
     """
-    alpha, near = floats(bend, b)
+    alpha, near = floats(joint_angle, b)
     xp = namespace(alpha, near)
     there = (near > 0.0) & (near * xp.cos(alpha) < 1.0)
     half = xp.sin(0.5 * alpha)

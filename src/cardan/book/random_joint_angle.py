@@ -1,4 +1,4 @@
-"""How does a joint turn while its bend varies at random? The bend is normal and stationary, the plane at rest."""
+"""How does a joint turn while its angle varies at random? The angle is normal and stationary, the plane at rest."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cardan.errors import BendLimitError, Problem, check
+from cardan.errors import JointAngleLimitError, Problem, check
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves import spectra
 from cardan.maths.curves.paths import Jet, plus
@@ -32,7 +32,7 @@ class RandomSpeed:
     deviation : array (...) [rad/s]
         Standard deviation of ω_2.
     small : array (...) [rad/s]
-        Standard deviation to first order in that of the bend, for comparison.
+        Standard deviation to first order in that of the joint angle, for comparison.
     """
 
     mean: Array
@@ -40,19 +40,19 @@ class RandomSpeed:
     small: Array
 
 
-def random_bend(
-    joint_angle: ArrayLike, *, mean: float, deviation: float, rate_deviation: float, speed: float, nodes: int = NODES
+def random_joint_angle(
+    yoke_rotation: ArrayLike, *, mean: float, deviation: float, rate_deviation: float, speed: float, nodes: int = NODES
 ) -> RandomSpeed:
     """Return mean and standard deviation of the driven speed of a joint with a random bend.
 
     Parameters
     ----------
-    joint_angle : array (...) [rad]
+    yoke_rotation : array (...) [rad]
         θ, angle of the driving yoke from the plane of the shafts.
     mean, deviation : float [rad]
         Mean ᾱ and standard deviation σ_α of the bend.
     rate_deviation : float [rad/s]
-        Standard deviation σ_α' of the rate of the bend, see `rate_deviation`.
+        Standard deviation σ_α' of the rate of the joint angle, see `rate_deviation`.
     speed : float [rad/s]
         ω_1.
     nodes : int
@@ -65,7 +65,7 @@ def random_bend(
     Raises
     ------
     InputError
-        A deviation below zero, or a bend that reaches 90° within six standard deviations.
+        A deviation below zero, or a joint angle that reaches 90° within six standard deviations.
 
     Notes
     -----
@@ -75,12 +75,12 @@ def random_bend(
 
     Examples
     --------
-    >>> found = random_bend(30 * deg, mean=10 * deg, deviation=1.5 * deg, rate_deviation=0.5, speed=100.0)
+    >>> found = random_joint_angle(30 * deg, mean=10 * deg, deviation=1.5 * deg, rate_deviation=0.5, speed=100.0)
     >>> round(float(found.mean), 6), round(float(found.deviation), 6)
     (100.7763, 0.231621)
     """
     check(_problems(mean, deviation, rate_deviation, nodes))
-    theta = np.asarray(joint_angle, dtype=float)
+    theta = np.asarray(yoke_rotation, dtype=float)
     at, weight = np.polynomial.hermite_e.hermegauss(nodes)
     weight = weight / math.sqrt(2.0 * math.pi)
     transfer, rate_transfer = _transfer(mean + deviation * at, theta[..., None])
@@ -142,7 +142,7 @@ def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: Arra
     mean : float [rad]
         ᾱ.
     frequency : array (m,) [rad/s]
-        Corners of the one-sided spectrum of the bend, rising.
+        Corners of the one-sided spectrum of the joint angle, rising.
     density : array (m,) [rad²·s/rad]
         The spectrum there.
     speed : float [rad/s]
@@ -155,7 +155,7 @@ def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: Arra
     Notes
     -----
     S(Ω) = κ²/4 [S_α(Ω - 2ω_1) + S_α(Ω + 2ω_1)] with the two-sided S_α, the start phase being uniform; variance
-    κ² σ_α²/2. To first order in the deviation of the bend; the higher orders 4ω_1 … are smaller by τ.
+    κ² σ_α²/2. To first order in the deviation of the joint angle; the higher orders 4ω_1 … are smaller by τ.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def sidebands(at: ArrayLike, *, mean: float, frequency: ArrayLike, density: Arra
     return result
 
 
-def random_bend_path(
+def random_joint_angle_path(
     times: ArrayLike, *, mean: float, frequency: ArrayLike, density: ArrayLike, seed: int, components: int | None = None
 ) -> Jet:
     """Return one sample path of a random bend: α, α', α'' arrays (t,) [rad, rad/s, rad/s²].
@@ -193,7 +193,7 @@ def random_bend_path(
 
     Examples
     --------
-    >>> jet = random_bend_path([0.0, 0.1], mean=0.2, frequency=[1.0, 9.0], density=[1e-5, 1e-5], seed=7)
+    >>> jet = random_joint_angle_path([0.0, 0.1], mean=0.2, frequency=[1.0, 9.0], density=[1e-5, 1e-5], seed=7)
     >>> jet[0].shape
     (2,)
     """
@@ -203,9 +203,9 @@ def random_bend_path(
     return plus((np.full(at.shape, mean), np.zeros(at.shape), np.zeros(at.shape)), path)
 
 
-def _transfer(bend: Array, theta: Array) -> tuple[Array, Array]:
+def _transfer(joint_angle: Array, theta: Array) -> tuple[Array, Array]:
     """Return A and B of ω_2 = A ω_1 + B α', Book (97)."""
-    c, s = np.cos(bend), np.sin(bend)
+    c, s = np.cos(joint_angle), np.sin(joint_angle)
     d = 1.0 - (s * np.cos(theta)) ** 2
     return c / d, 0.5 * s * np.sin(2.0 * theta) / d
 
@@ -218,7 +218,7 @@ def _problems(mean: float, deviation: float, rate: float, nodes: int) -> list[Pr
     if nodes < 40:
         found.append(Problem("nodes", _("{nodes} nodes are too few; at least 40").format(nodes=nodes)))
     if not abs(mean) + REACH * abs(deviation) < 0.5 * math.pi:
-        raise BendLimitError(
+        raise JointAngleLimitError(
             [
                 *found,
                 Problem(

@@ -10,7 +10,7 @@ from cardan.catalogue.rows import JointType
 from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.moving import largest_bend
+from cardan.checks.moving import largest_joint_angle
 from cardan.checks.verdict import Verdict
 from cardan.texts import _, mark
 
@@ -18,23 +18,29 @@ from cardan.texts import _, mark
 def _judge(design: Design, i: int) -> Iterator[Verdict]:
     row = design.known.rows(JointType).get(design.drive.joints[i].type)
     limits = [
-        (design.value("limits.bend"), _("limits of the drive file")),
-        (design.value(f"joints[{i}].rating.max_bend"), _("rating of the joint")),
-        (row.max_bend if row else None, row.source if row else ""),
+        (design.value("limits.joint_angle"), _("limits of the drive file")),
+        (design.value(f"joints[{i}].rating.max_joint_angle"), _("rating of the joint")),
+        (row.max_joint_angle if row else None, row.source if row else ""),
     ]
     given = [(limit, source) for limit, source in limits if limit is not None]
     if not given:
-        yield Verdict(missing=(f"joints[{i}].rating.max_bend",))
+        yield Verdict(missing=(f"joints[{i}].rating.max_joint_angle",))
         return
     limit, source = given[0]
-    bends = [np.asarray(case.bend)[..., i] for case in design.cases] or [design.bend[..., i]]
-    moved = largest_bend(design, i)
-    note = _("while the drive moves") if np.all(moved > largest(bends)) else ""
-    yield Verdict(value=largest([*bends, moved]), limit=limit, source=source, levers=design.bends_of(i), note=note)
+    joint_angles = [np.asarray(case.joint_angle)[..., i] for case in design.cases] or [design.joint_angle[..., i]]
+    moved = largest_joint_angle(design, i)
+    note = _("while the drive moves") if np.all(moved > largest(joint_angles)) else ""
+    yield Verdict(
+        value=largest([*joint_angles, moved]),
+        limit=limit,
+        source=source,
+        design_variables=design.joint_angles_of(i),
+        note=note,
+    )
 
 
 CHECK = Check(
-    name="bend",
+    name="joint_angle",
     doc=mark("joint angle of every joint against what maker, type or user allow"),
     joint=_judge,
     title=mark("joint angle of joint {number}"),

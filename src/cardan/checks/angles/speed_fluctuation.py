@@ -14,29 +14,31 @@ from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
 
 EVEN = 0.0027
-"""Largest irregularity of a drive that counts as even: that of one joint bent by 2.98°."""
+"""Largest speed fluctuation of a drive that counts as even: that of one joint bent by 2.98°."""
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    own = design.value("limits.irregularity")
+    own = design.value("limits.speed_fluctuation")
     output = f"shafts[{design.joints}]"
     if own is None and not design.duty.synchronous:
-        yield Verdict(subject=output, missing=("limits.irregularity",))
+        yield Verdict(subject=output, missing=("limits.speed_fluctuation",))
         return
-    drawn = equivalent_joint(design.chain).irregularity if design.swing is None else design.swing.irregularity[-1]
-    moved = design.while_moving(lambda chain: equivalent_joint(chain).irregularity[..., None])
+    drawn = (
+        equivalent_joint(design.chain).speed_fluctuation if design.swing is None else design.swing.speed_fluctuation[-1]
+    )
+    moved = design.while_moving(lambda chain: equivalent_joint(chain).speed_fluctuation[..., None])
     yield Verdict(
         subject=output,
         value=drawn if moved is None else largest([drawn, moved[..., 0]]),
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
-        levers=(*design.yoke_levers, *design.bend_levers),
+        design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
         note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else "",
     )
 
 
 CHECK = Check(
-    name="irregularity",
+    name="speed_fluctuation",
     doc=mark("speed fluctuation of the output against the limit of the user"),
     judge=_judge,
     title=mark("speed fluctuation δ of the output"),

@@ -1,4 +1,4 @@
-"""How does a joint turn while its bend changes? Closed forms for shafts that stay in one plane."""
+"""How does a joint turn while its joint angle changes? Closed forms for shafts that stay in one plane."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from cardan.maths.curves.paths import Jet
 from cardan.questions.motion.moving_chain import moving_axes
 
 FREEZE = 0.3
-"""A bend may be frozen while its rate stays below this share of α ω_1: δ is then at most 5 % too small."""
+"""A joint angle may be frozen while its rate stays below this share of α ω_1: δ is then at most 5 % too small."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class VaryingBend:
+class VaryingJointAngle:
     """Motion of the driven shaft of one or more joints with varying bends.
 
     Attributes
     ----------
-    bend, bend_rate, bend_acceleration : arrays (...) or (..., n) [rad, rad/s, rad/s²]
+    joint_angle, joint_angle_rate, joint_angle_acceleration : arrays (...) or (..., n) [rad, rad/s, rad/s²]
         α, α', α''.
     angle : array (...) [rad]
         φ_1 of the input shaft.
@@ -29,24 +29,24 @@ class VaryingBend:
         ω and ε of the last shaft.
     """
 
-    bend: Array
-    bend_rate: Array
-    bend_acceleration: Array
+    joint_angle: Array
+    joint_angle_rate: Array
+    joint_angle_acceleration: Array
     angle: Array
     driven_speed: Array
     driven_acceleration: Array
 
 
 def driven_motion(
-    bend: Jet, joint_angle: ArrayLike, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
+    joint_angle: Jet, yoke_rotation: ArrayLike, *, speed: ArrayLike, acceleration: ArrayLike = 0.0
 ) -> tuple[Array, Array]:
-    """Return speed and acceleration of the driven shaft of one joint while its bend changes, exactly.
+    """Return speed and acceleration of the driven shaft of one joint while its joint angle changes, exactly.
 
     Parameters
     ----------
-    bend : Jet (...) [rad, rad/s, rad/s²]
+    joint_angle : Jet (...) [rad, rad/s, rad/s²]
         α, α', α''; the plane of the two shafts does not turn.
-    joint_angle : array (...) [rad]
+    yoke_rotation : array (...) [rad]
         θ, angle of the driving yoke from that plane.
     speed, acceleration : array (...) [rad/s, rad/s²]
         ω_1, ε_1.
@@ -67,9 +67,9 @@ def driven_motion(
     >>> float(driven_motion((np.asarray(0.2), np.asarray(3.0), np.asarray(0.0)), 0.7, speed=100.0)[0])
     100.623625
     """
-    xp = namespace(*bend, joint_angle)
-    alpha, rate, curve = (real(part, xp) for part in bend)
-    theta = real(joint_angle, xp)
+    xp = namespace(*joint_angle, yoke_rotation)
+    alpha, rate, curve = (real(part, xp) for part in joint_angle)
+    theta = real(yoke_rotation, xp)
     omega, epsilon = real(speed, xp), real(acceleration, xp)
     c, s = xp.cos(alpha), xp.sin(alpha)
     near, far = xp.cos(theta) ** 2, xp.sin(theta) ** 2
@@ -86,12 +86,12 @@ def driven_motion(
 
 
 def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Return the output speed of a planar double joint with parallel yokes while both bends change, exactly.
+    """Return the output speed of a planar double joint with parallel yokes while both joint angles change, exactly.
 
     Parameters
     ----------
     first, second : Jet (...) [rad, rad/s, rad/s²]
-        The bends; accelerations do not matter.
+        The joint angles; accelerations do not matter.
     angle : array (...) [rad]
         φ_1, with ψ_1 = 0 and γ_2 + β_2 = 0.
     speed : array (...) [rad/s]
@@ -100,7 +100,7 @@ def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: Arra
     Notes
     -----
     ω_3 = [c_1 c_2 ω_1 + ½ sin 2φ_1 (s_1 c_2 α_1' - c_1 s_2 α_2')]/(c_1² cos²φ_1 + c_2² sin²φ_1), Book (99). Uniform
-    only if the bends are equal at all times; equal at one instant is not enough.
+    only if the joint angles are equal at all times; equal at one instant is not enough.
 
     Examples
     --------
@@ -118,19 +118,19 @@ def double_joint_speed(first: Jet, second: Jet, angle: ArrayLike, *, speed: Arra
 
 
 def planar_chain(
-    bends: Jet,
+    joint_angles: Jet,
     angle: ArrayLike,
     *,
     yoke_angle: ArrayLike,
     speed: ArrayLike,
     acceleration: ArrayLike = 0.0,
     start_phase: float = 0.0,
-) -> VaryingBend:
-    """Return speed and acceleration of the output of a planar drive while its bends change, exactly.
+) -> VaryingJointAngle:
+    """Return speed and acceleration of the output of a planar drive while its joint angles change, exactly.
 
     Parameters
     ----------
-    bends : Jet (..., n) [rad, rad/s, rad/s²]
+    joint_angles : Jet (..., n) [rad, rad/s, rad/s²]
         Bends of the joints, negative ones the other way: all of one sign is a W-arrangement (β = 0), signs in turn a
         Z-arrangement.
     angle : array (...) [rad]
@@ -144,7 +144,7 @@ def planar_chain(
 
     Returns
     -------
-    VaryingBend
+    VaryingJointAngle
         Of the last shaft.
 
     Notes
@@ -154,11 +154,11 @@ def planar_chain(
     Examples
     --------
     >>> import numpy as np
-    >>> bends = (np.asarray([0.3, 0.3]), np.asarray([2.0, 2.0]), np.asarray([5.0, 5.0]))
-    >>> round(float(planar_chain(bends, 0.7, yoke_angle=[0.0], speed=100.0).driven_speed), 9)
+    >>> joint_angles = (np.asarray([0.3, 0.3]), np.asarray([2.0, 2.0]), np.asarray([5.0, 5.0]))
+    >>> round(float(planar_chain(joint_angles, 0.7, yoke_angle=[0.0], speed=100.0).driven_speed), 9)
     100.0
     """
-    alpha, rate, curve = (np.asarray(part, dtype=float) for part in bends)
+    alpha, rate, curve = (np.asarray(part, dtype=float) for part in joint_angles)
     phi = np.asarray(angle, dtype=float)
 
     def summed(part: Array) -> Array:
@@ -176,10 +176,10 @@ def planar_chain(
     theta = phi + start_phase
     arm = np.stack((np.zeros_like(theta), np.sin(theta), -np.cos(theta)), axis=-1)
     spins = moving_axes(axes, arm, yoke_angle=yoke_angle, speed=speed, acceleration=acceleration)
-    return VaryingBend(
-        bend=alpha,
-        bend_rate=rate,
-        bend_acceleration=curve,
+    return VaryingJointAngle(
+        joint_angle=alpha,
+        joint_angle_rate=rate,
+        joint_angle_acceleration=curve,
         angle=phi,
         driven_speed=spins.spin[..., -1],
         driven_acceleration=spins.spin_acceleration[..., -1],
@@ -196,8 +196,8 @@ def swinging_joint(
     speed: float,
     acceleration: float = 0.0,
     start_phase: float = 0.0,
-) -> VaryingBend:
-    """Return the motion of one joint whose bend oscillates harmonically, the plane of the shafts at rest.
+) -> VaryingJointAngle:
+    """Return the motion of one joint whose joint angle oscillates harmonically, the plane of the shafts at rest.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def swinging_joint(
 
     Returns
     -------
-    VaryingBend
+    VaryingJointAngle
 
     Examples
     --------
@@ -224,16 +224,16 @@ def swinging_joint(
     147.140135
     """
     at = np.asarray(times, dtype=float)
-    bend = paths.plus(
+    joint_angle = paths.plus(
         (np.asarray(mean), np.asarray(0.0), np.asarray(0.0)), paths.swing(amplitude, frequency, phase, at)
     )
     angle = speed * at + 0.5 * acceleration * at**2
     omega = speed + acceleration * at
-    driven = driven_motion(bend, angle + start_phase, speed=omega, acceleration=acceleration)
-    return VaryingBend(
-        bend=bend[0],
-        bend_rate=bend[1],
-        bend_acceleration=bend[2],
+    driven = driven_motion(joint_angle, angle + start_phase, speed=omega, acceleration=acceleration)
+    return VaryingJointAngle(
+        joint_angle=joint_angle[0],
+        joint_angle_rate=joint_angle[1],
+        joint_angle_acceleration=joint_angle[2],
         angle=angle,
         driven_speed=driven[0],
         driven_acceleration=driven[1],
@@ -251,8 +251,8 @@ def swinging_chain(
     speed: float,
     acceleration: float = 0.0,
     start_phase: float = 0.0,
-) -> VaryingBend:
-    """Return the output motion of a planar drive whose bends swing harmonically.
+) -> VaryingJointAngle:
+    """Return the output motion of a planar drive whose joint angles swing harmonically.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ def swinging_chain(
 
     Returns
     -------
-    VaryingBend
+    VaryingJointAngle
 
     Examples
     --------
@@ -288,9 +288,9 @@ def swinging_chain(
     at = np.asarray(times, dtype=float)
     middle = np.asarray(mean, dtype=float)
     size, shift = np.asarray(amplitude, dtype=float), np.broadcast_to(np.asarray(phase, dtype=float), middle.shape)
-    bends = paths.plus(paths.resting(middle), paths.swing(size, frequency, shift, at))
+    joint_angles = paths.plus(paths.resting(middle), paths.swing(size, frequency, shift, at))
     return planar_chain(
-        bends,
+        joint_angles,
         speed * at + 0.5 * acceleration * at**2,
         yoke_angle=yoke_angle,
         speed=speed + acceleration * at,
@@ -299,12 +299,12 @@ def swinging_chain(
     )
 
 
-def rate_effect(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Return by how much a changing bend raises the irregularity of a joint over the frozen value.
+def rate_effect(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
+    """Return by how much a changing bend raises the speed fluctuation of a joint over the frozen value.
 
     Parameters
     ----------
-    bend, bend_rate : array (...) [rad, rad/s]
+    joint_angle, joint_angle_rate : array (...) [rad, rad/s]
         α and α' at an instant.
     speed : array (...) [rad/s]
         ω_1.
@@ -317,9 +317,9 @@ def rate_effect(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> A
     Notes
     -----
     √(1 + (α'/(ω_1 sin α))²), exact: over all yoke positions the ratio of ω_2, Book (97), spreads over
-    δ = tan α √(sin²α + (α'/ω_1)²), see `speed_range`. For small bends
+    δ = tan α √(sin²α + (α'/ω_1)²), see `speed_range`. For small joint angles
     √(1 + (α'/(α ω_1))²): below `FREEZE` · α ω_1 it adds less than 5 %. Book's threshold α' < 0.1 … 0.2 ω_1 holds for
-    the speed, not for its irregularity.
+    the speed, not for its speed fluctuation.
 
     Examples
     --------
@@ -327,19 +327,19 @@ def rate_effect(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> A
     >>> np.round(rate_effect(np.deg2rad([5.0, 10.0, 20.0]), 10.0, speed=100.0), 2)
     array([1.52, 1.15, 1.04])
     """
-    xp = namespace(bend, bend_rate, speed)
-    alpha, rate, omega = (real(part, xp) for part in (bend, bend_rate, speed))
+    xp = namespace(joint_angle, joint_angle_rate, speed)
+    alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
     return xp.sqrt(1.0 + (rate / (omega * xp.sin(alpha))) ** 2)
 
 
-def may_freeze(bend: ArrayLike, bend_rate: ArrayLike, *, speed: ArrayLike) -> Array:
-    """Tell whether a bend may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...).
+def may_freeze(joint_angle: ArrayLike, joint_angle_rate: ArrayLike, *, speed: ArrayLike) -> Array:
+    """Tell whether a joint angle may be frozen at each instant: \\|α'\\| ≤ 0.3 α \\|ω_1\\|; array of bool (...).
 
     Examples
     --------
     >>> bool(may_freeze(0.2, 5.0, speed=100.0)), bool(may_freeze(0.05, 5.0, speed=100.0))
     (True, False)
     """
-    xp = namespace(bend, bend_rate, speed)
-    alpha, rate, omega = (real(part, xp) for part in (bend, bend_rate, speed))
+    xp = namespace(joint_angle, joint_angle_rate, speed)
+    alpha, rate, omega = (real(part, xp) for part in (joint_angle, joint_angle_rate, speed))
     return xp.abs(rate) <= FREEZE * alpha * xp.abs(omega)

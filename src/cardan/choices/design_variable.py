@@ -30,7 +30,7 @@ FIRST, FARTHEST = 0.002, math.log(8.0)
 
 TURN = {
     "yoke_angle": 90 * deg,
-    "bend": 40 * deg,
+    "joint_angle": 40 * deg,
     "plane_twist": 90 * deg,
     "side_slope": 15 * deg,
     "plan_slope": 15 * deg,
@@ -55,7 +55,7 @@ ROUGH = {
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Lever:
+class DesignVariable:
     """A key that holds a number.
 
     Attributes
@@ -123,8 +123,8 @@ class Lever:
         return power * (5.0 if wanted >= 5.0 * power else 1.0)
 
 
-def levers_of(drive: Drive, paths: Iterable[str], known: Catalogue) -> Iterator[Lever]:
-    """Yield the levers among some paths without units; sizes that a maker sets are none.
+def design_variables_of(drive: Drive, paths: Iterable[str], known: Catalogue) -> Iterator[DesignVariable]:
+    """Yield the design variables among some paths without units; sizes that a maker sets are none.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def levers_of(drive: Drive, paths: Iterable[str], known: Catalogue) -> Iterator[
         reach = _reach(drive, bare)
         if reach is None and now == 0.0:
             continue
-        yield Lever(
+        yield DesignVariable(
             bare=bare,
             path=path,
             unit=there.field.unit(there.spelling),
@@ -186,7 +186,7 @@ def _effort(drive: Drive, bare: str) -> int:
     ends = (0, len(drive.joints) - 1)
     if bare.startswith(("input.", "output.")) or (joint is not None and int(joint[1]) in ends):
         return 2
-    return 1 if re.search(r"\.(centre|bend|plane_twist|side_slope|plan_slope|length)(\[|$)", bare) else 0
+    return 1 if re.search(r"\.(centre|joint_angle|plane_twist|side_slope|plan_slope|length)(\[|$)", bare) else 0
 
 
 def _reach(drive: Drive, bare: str) -> float | None:
