@@ -189,7 +189,7 @@ def questions() -> str:
     drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0), (1.5, 0, 0)])
     rows = ["| question | answers | columns |", "|---|---|---|"]
     for name, one in known().items():
-        told = ", ".join(f"`{told.name}`" for told in one.told(drive))
+        told = ", ".join(f"`{told.name}`" for told in one.columns(drive))
         rows.append(f"| `{name}` | {one.doc} | {told} |")
     return "\n".join(rows) + "\n"
 

@@ -12,7 +12,6 @@ FULL = {"cli": 53, "report": 30}
 
 ROUND = {
     "app.state": [("papers", "work")],
-    "batch.answering": [("drive_questions", "motion_questions", "questions")],
     "batch.table": [("kinds", "reductions")],
     "checks.strength": [("left_out", "strength")],
     "drive": [("body", "crack", "shaft"), ("drive", "fields", "line")],

@@ -10,19 +10,23 @@ The module that a question names holds, by these names:
     What there is to say of it, an `Answer`.
 
 and, where there is need, ``otherwise(drive)``, why nothing can be told although nothing is missing, and ``COLUMNS``,
-what a sweep may ask of it.
+what a sweep may ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from cardan.errors import Problem, check, refuse
+from cardan.texts import _
+
 if TYPE_CHECKING:
     from .answer import Answer
+    from .sweepable import SweepQuestion
 
 Drive: TypeAlias = Any
 """A `cardan.drive.drive.Drive`, which stands above what is said of it."""
@@ -79,6 +83,16 @@ class Question:
         """The module that answers it."""
         return import_module(self.module)
 
+    @property
+    def columns(self) -> tuple[SweepQuestion, ...]:
+        """What a sweep may ask of it."""
+        return tuple(map(self._asking, getattr(self.home, "COLUMNS", ())))
+
+    def _asking(self, one: SweepQuestion) -> SweepQuestion:
+        """Return the same, asking the question where it wants its result."""
+        told = one.of_result
+        return one if told is None else replace(one, of_one=lambda drive: told(self.result(drive)))
+
     def lacking(self, drive: Drive) -> Lacking:
         """Return what a drive file lacks for it."""
         found: Lacking = self.home.lacking(drive)
@@ -95,6 +109,21 @@ class Question:
             What there is to give; the question takes what it wants.
         """
         return self.home.ask(drive, **{name: given[name] for name in self.takes if given.get(name) is not None})
+
+    def result(self, drive: Drive) -> Any:
+        """Return its result where there is one.
+
+        Raises
+        ------
+        InputError
+            What the drive lacks for it, or why nothing can be told.
+        """
+        needed = _("missing; the question {name} needs it").format(name=self.name)
+        check(Problem(_(" or ").join(some), needed, "missing") for some in self.lacking(drive))
+        found = self.ask(drive)
+        if found is None:
+            raise refuse(self.name, self.home.otherwise(drive))
+        return found
 
     def answer(self, drive: Drive, result: Any) -> Answer:
         """Return what there is to say of its result."""

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
+import numpy as np
+
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Say, say
 from cardan.answers.question import Lacking
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.alike import alike, title_of
 from cardan.checks.checks import CHECKS, check
@@ -18,7 +21,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import bare_path
 from cardan.drive.fields.words import in_words
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .change import Remedy, typed
 from .remedy import most_helpful, remedies
@@ -319,3 +322,22 @@ def answer_of_list() -> Answer:
             )
         ],
     )
+
+
+def _column_values(drive: Drive) -> tuple[float, float]:
+    used = [float(np.max(one.utilisation)) for one in check(drive) if one.run and not one.advice]
+    return (max(used, default=0.0), float(sum(not one <= 1.0 for one in used)))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="check",
+        doc=mark("greatest utilisation over all checks that the drive can be put to, and how many fail"),
+        told=(
+            OutputColumn(name="utilisation", text=mark("greatest utilisation of a limit")),
+            OutputColumn(name="failed_checks", text=mark("how many checks fail")),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of checks."""

@@ -1,21 +1,38 @@
 """Questions at many points: the fast way, the drive made anew, and JAX tell the same."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from cardan import Drive, InputError, equivalent_joint, example, life, losses
+from cardan import (
+    Drive,
+    InputError,
+    assembly,
+    balance,
+    equivalent_joint,
+    example,
+    life,
+    losses,
+    mobility,
+    rotor_response,
+    torsion_response,
+)
 from cardan.batch.answering.asking import ask_of
 from cardan.batch.answering.many import many
-from cardan.batch.answering.motion_questions import MOTION
 from cardan.batch.answering.questions import questions
 from cardan.batch.work import Status
 from cardan.drive.duty import Duty
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads
+from cardan.questions.motion.columns import COLUMNS as MOTION
+from cardan.questions.torsion.transient.answer import largest
+from cardan.questions.torsion.transient.run_up import follow
+from cardan.register import QUESTIONS
 from cardan.units import deg, rpm
 
+TURN = np.linspace(0.0, 2.0 * np.pi, 7201)
 RUNNING = Duty(speed=2000 * rpm)
 ANGLES = replace(Drive.from_angles([0.3, 0.2, 0.25, 0.1], yoke_angles=[0.1, 0.2, 0.3]), duty=RUNNING)
 POINTS = replace(
@@ -157,7 +174,7 @@ def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
 
 
 def test_every_question_tells_columns_of_its_own():
-    names = [told.name for one in questions().values() for told in one.told(POINTS)]
+    names = [told.name for one in questions().values() for told in one.columns(POINTS)]
     assert len(names) == len(set(names))
     for one in questions().values():
         assert (one.of_many is None) != (one.of_one is None)
@@ -175,6 +192,45 @@ DRIVES = {
     "check": "truck-duty-cycle",
     "mass": "truck-duty-cycle",
 }
+
+
+SAME = {
+    "alternating_torque": ("pto-flywheel", lambda d: [np.max(torsion_response(d).swing)]),
+    "balance": (
+        "car-propshaft",
+        lambda d: [
+            min(one.limit for one in balance(d).shafts) / 1e-6,
+            max(one.force for one in balance(d).shafts),
+            max(one.unbalance / one.limit for one in balance(d).shafts if one.balanced is not None),
+        ],
+    ),
+    "whirl": ("car-propshaft", lambda d: [max(rotor_response(d).peak(k)[1] for k in (-1, 1, 2, 3)) / 1e-6]),
+    "mobility": ("overconstrained-pump", lambda d: [mobility(d).mobility, 3]),
+    "assembly": (
+        "overconstrained-pump",
+        lambda d: [max(np.max(one.radial), np.max(np.abs(one.axial))) for one in [assembly(d, angle=TURN)]] + [0, 3],
+    ),
+    "phasing": ("single-20deg", lambda d: 2 * [math.sin(20 * deg) * math.tan(20 * deg)]),
+    "run-up": ("pto-flywheel-absorber", lambda d: [abs(largest(follow(d, d.duty.run_up).motion)[1])]),
+}
+"""Question of a sweep -> example, and what it comes to as asked by itself."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SAME)
+def test_a_sweep_tells_what_the_question_tells_by_itself(name):
+    example_name, alone = SAME[name]
+    drive = example(example_name)
+    answers, status, problems = ask_of(drive, [], [name]).at({})
+    assert (status, problems) == (0, ())
+    for value, same in zip(answers.values(), alone(drive), strict=False):
+        if same:
+            assert value == pytest.approx(same, rel=1e-6)  # peaks over a turn, against a fine grid
+
+
+def test_every_question_that_has_a_number_has_a_column():
+    without = {name for name, question in QUESTIONS.items() if not question.columns}
+    assert without == {"classical", "absorber", "optimise", "selection"}, "errors of formulas, designs, catalogue rows"
 
 
 @pytest.mark.parametrize("name", DRIVES)

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from cardan.answers.sweepable import SweepQuestion
 from cardan.batch.points.fields import TEXT_STATUS, Maker, Spot, spots_of
 from cardan.batch.work import STATUS, Column, Rows, Status
 from cardan.catalogue import Catalogue, catalogue
@@ -21,7 +22,7 @@ from cardan.maths.compiled.method import Compiled, Method, Plain, has_numba
 from cardan.texts import _
 
 from .many import Many, many, one
-from .questions import Question, asked
+from .questions import asked
 
 Device: TypeAlias = Literal["cpu", "gpu"]
 """What computes questions about motion: NumPy and the kernels, or JAX on its default device."""
@@ -33,7 +34,7 @@ _FAILURES = (CardanError, ArithmeticError, np.linalg.LinAlgError)
 
 
 @cache
-def _named(names: tuple[str, ...]) -> tuple[Question, ...]:
+def _named(names: tuple[str, ...]) -> tuple[SweepQuestion, ...]:
     """Return questions by their names; they hold functions, which no other process could be sent."""
     return asked(names)
 
@@ -65,7 +66,7 @@ class Asked:
     many_points: bool = False
 
     @property
-    def _asked(self) -> tuple[Question, ...]:
+    def _asked(self) -> tuple[SweepQuestion, ...]:
         return _named(self.questions)
 
     @property
@@ -76,7 +77,11 @@ class Asked:
     @cached_property
     def answers(self) -> tuple[Column, ...]:
         """Columns of the answers."""
-        return tuple(told.column for question in self._asked for told in question.told(self.drive))
+        return tuple(
+            Column(name=told.name, unit=told.unit, role="answer", text=told.text)
+            for question in self._asked
+            for told in question.columns(self.drive)
+        )
 
     @cached_property
     def fast(self) -> bool:
@@ -140,7 +145,7 @@ class Asked:
         """Yield the columns of questions about motion."""
         for question in self._asked:
             assert question.of_many is not None
-            for told, column in zip(question.told(self.drive), question.of_many(found), strict=True):
+            for told, column in zip(question.columns(self.drive), question.of_many(found), strict=True):
                 yield told.name, column if told.factor == 1.0 else column / told.factor
 
     def _singly(self, values: Mapping[str, Array], count: int) -> Rows:
@@ -169,7 +174,7 @@ class Asked:
         problems: list[Problem] = []
         motion: Many | None = None
         for question in self._asked:
-            told = question.told(self.drive)
+            told = question.columns(self.drive)
             try:
                 if question.of_many is not None:
                     motion = motion or one(drive)
@@ -237,7 +242,7 @@ def ask_of(
     """
     problems: list[Problem] = []
     spots: tuple[Spot, ...] = ()
-    named: tuple[Question, ...] = ()
+    named: tuple[SweepQuestion, ...] = ()
     try:
         spots = spots_of(drive, paths)
     except InputError as error:
@@ -256,7 +261,7 @@ def ask_of(
         problems += [Problem("duty.speed", _("missing; the question {name} needs it").format(name=n)) for n in wanting]
     if drive.form != "points":
         text = _("only drives given by joint centres have lengths here")
-        problems += [Problem("ask.length", text) for one in named if one.name == "length"]
+        problems += [Problem(f"ask.{one.name}", text) for one in named if one.needs_centres]
     made = Asked(
         drive=drive,
         spots=spots,

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.sweepable import OutputColumn
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import mixed
 from cardan.errors import MissingExtraError
@@ -15,7 +16,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .many import many
-from .questions import Told, asked
+from .questions import asked
 
 PIECES = (2**10, 2**15, 2**20)
 """Points that the device is given at a time: the least of these that holds them, filled up.
@@ -96,5 +97,5 @@ def _program(drive: Drive, questions: tuple[str, ...], piece: int) -> Callable[[
     return program if mixed(drive.joints) else jax.jit(program)
 
 
-def _told(drive: Drive, questions: tuple[str, ...]) -> list[Told]:
-    return [told for one in asked(questions) for told in one.told(drive)]
+def _told(drive: Drive, questions: tuple[str, ...]) -> list[OutputColumn]:
+    return [told for one in asked(questions) for told in one.columns(drive)]

@@ -10,18 +10,19 @@ from typing import Any
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import AMBER, Verdict
 from cardan.checks.verdict_table import missing_table, share, verdict_records, verdict_table
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .figure import strength_figures
 from .left_out import LITTLE, LeftOut, left_out
 from .strength import Strength, strength
 
-__all__ = ["answer", "ask", "lacking", "otherwise"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
 HEAVY = 0.2
 """Share of the secondary couple from which a shaft's own weight is told."""
@@ -341,3 +342,24 @@ def _facts(result: Strength) -> dict[str, Any]:
 
 def _named(one: Verdict | None) -> dict[str, Any] | None:
     return None if one is None else {"check": one.check, "subject": one.subject, "title": one.title}
+
+
+def _column_values(drive: Drive) -> tuple[float, float]:
+    found = strength(drive)
+    return (found.utilisation, found.rated_torque)
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="strength",
+        doc=mark("greatest use of the strength of a part, and the torque at which it is used up"),
+        told=(
+            OutputColumn(name="strength_used", text=mark("greatest use of the strength of a part")),
+            OutputColumn(
+                name="rated_torque_Nm", dimension="torque", unit="Nm", text=mark("torque that uses the strength up")
+            ),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of strength."""

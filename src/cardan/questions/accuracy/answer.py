@@ -14,12 +14,13 @@ from cardan.answers.answer import FILE, Answer, Column, Depth, KeyFigure, Remark
 from cardan.answers.checks import Checked, checks, closely
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.accuracy import Error
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint
 from cardan.maths.arrays import Array
 from cardan.maths.ties import largest
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import arcmin, deg, mm
 
 from .accuracy import TransmissionError, course, transmission_error
@@ -592,3 +593,29 @@ def _options(found: Allocation) -> list[str]:
     options = ["--of", "change"] if found.of is Of.CHANGE else []
     options += ["--method", "worst"] if isinstance(found.method, WorstCase) else []
     return options + [word for one in found.rows if one.kept for word in ("--keep", one.field)]
+
+
+def _column_values(drive: Drive) -> tuple[float, float, float]:
+    found = tolerance(drive)
+    return (found.output.largest, found.output.peak_to_peak, found.shift.largest)
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="tolerance",
+        doc=mark("what the tolerances of the drive leave open at its output"),
+        told=(
+            OutputColumn(
+                name="error_arcmin", dimension="angle", unit="arcmin", text=mark("largest error of the output angle")
+            ),
+            OutputColumn(
+                name="error_change_arcmin", dimension="angle", unit="arcmin", text=mark("change of it over a turn")
+            ),
+            OutputColumn(
+                name="shift_mm", dimension="length", unit="mm", text=mark("largest shift of the output along itself")
+            ),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of accuracy."""

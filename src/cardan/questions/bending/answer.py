@@ -11,17 +11,18 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import MODES, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .bending import CriticalSpeeds, Part, Running
 from .bending import bending_speeds as ask
 from .figures.bending import bending_figures, mode_name, speed_map_figures
 from .speed_map import CriticalSpeedMap
 
-__all__ = ["answer", "answer_of_map", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
 
 MESH = 2e-3
 """Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""
@@ -398,3 +399,14 @@ def _facts(drive: Drive, result: CriticalSpeeds) -> dict[str, Any]:
         "missed": result.missed,
         "assumed": [spelled(path) for path in result.assumed],
     }
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="critical_speed",
+        doc=mark("bending critical speeds of the real shafts, lowest first"),
+        told=each("critical_speed", "angular_speed", "rpm", mark("bending critical speed")),
+        of_one=lambda drive: first(ask(drive, modes=MODES).actual),
+    ),
+)
+"""What a sweep may ask of bending."""

@@ -9,16 +9,20 @@ from typing import Any
 from cardan.answers.answer import Answer, Cell, Column, Remark, Table, Tone
 from cardan.answers.quantity import Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.drive.body import body_length, weight
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.parts import known_lengths
+from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .balance import SLOW
 from .shaft_balance import Balance
 from .shaft_balance import balance as ask
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -194,3 +198,50 @@ def _facts(result: Balance) -> dict[str, Any]:
             for one in result.shafts
         ],
     }
+
+
+def _mass(drive: Drive) -> tuple[float]:
+    lengths, inside = known_lengths(drive), drive.shafts[1:-1]
+    found = [weight(shaft, body_length(shaft, lengths.get(shaft.number))).mass for shaft in inside]
+    lack = [shaft.number - 1 for shaft, mass in zip(inside, found, strict=True) if not mass]
+    if lack:
+        raise refuse(f"shafts[{lack[0]}].outer", _("missing; the mass of the shaft needs it, or its mass itself"))
+    return (float(sum(mass for mass in found if mass)),)
+
+
+def _column_values(found: Balance) -> tuple[float, float, float]:
+    limits = [one.limit for one in found.shafts if not math.isnan(one.limit)]
+    loads = [one.force for one in found.shafts if not math.isnan(one.force)]
+    used = [one.unbalance / one.limit for one in found.shafts if one.balanced is not None]
+    return (min(limits, default=math.nan), max(loads, default=math.nan), max(used, default=math.nan))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="mass",
+        doc=mark("mass of the shafts between the joints"),
+        told=(OutputColumn(name="mass_kg", dimension="mass", unit="kg", text=mark("mass of the shafts")),),
+        of_one=_mass,
+    ),
+    SweepQuestion(
+        name="balance",
+        doc=mark("permissible unbalance at the highest speed, the rotating force of unbalance, and the share used"),
+        told=(
+            OutputColumn(
+                name="permissible_unbalance_g_mm",
+                dimension="unbalance",
+                unit="g_mm",
+                text=mark("least permissible unbalance of a shaft"),
+            ),
+            OutputColumn(
+                name="unbalance_force_N",
+                dimension="force",
+                unit="N",
+                text=mark("largest rotating force of unbalance, of the permissible one where none was measured"),
+            ),
+            OutputColumn(name="unbalance_used", text=mark("largest measured unbalance over the permissible one")),
+        ),
+        of_result=_column_values,
+    ),
+)
+"""What a sweep may ask of balance."""

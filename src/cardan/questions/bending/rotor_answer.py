@@ -11,10 +11,11 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.maths.ties import foremost_of
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .answer import lacking as lacking_of_bending
 from .cracked_run import CrackedRun
@@ -24,7 +25,7 @@ from .rotor import Rotor
 from .rotor_response import RotorResponse
 from .rotor_response import rotor_response as ask
 
-__all__ = ["answer", "answer_of_joined", "answer_of_run", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "answer_of_joined", "answer_of_run", "ask", "lacking"]
 
 ROUNDING = 1e-9
 """Share of the largest order below which one is none."""
@@ -283,10 +284,16 @@ def _checked(residual: float, what: str) -> Remark:
     return Remark(text=say(text, what=what, rest=Quantity(residual, digits=2)), tone="failed", alarm=True)
 
 
-def _keys(result: RotorResponse) -> Iterator[KeyFigure]:
+def _largest(result: RotorResponse) -> tuple[float, float] | None:
+    """Return the speed [rad/s] and amplitude [m] of the order that is largest; None where none is known."""
     peaks = [one for one in map(result.peak, ORDERS) if math.isfinite(one[1])]
-    if peaks:
-        speed, size = foremost_of(peaks, lambda one: one[1])
+    return foremost_of(peaks, lambda one: one[1]) if peaks else None
+
+
+def _keys(result: RotorResponse) -> Iterator[KeyFigure]:
+    peak = _largest(result)
+    if peak is not None:
+        speed, size = peak
         place = say(
             _("shaft {number}, at {speed}"), number=result.rotor.shaft, speed=Quantity(speed, "angular_speed", 3)
         )
@@ -309,3 +316,27 @@ def _rotor(rotor: Rotor) -> dict[str, Any]:
         "damping_ratio": rotor.damping_ratio,
         "assumed": [spelled(path) for path in rotor.assumed],
     }
+
+
+def _column_values(found: RotorResponse) -> tuple[float, float, float]:
+    speed, size = _largest(found) or (math.nan, math.nan)
+    return (size, speed, float(len(found.unstable)))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="whirl",
+        doc=mark("largest whirl amplitude of a shaft with an unbalance or a crack, and in how many ranges it grows"),
+        told=(
+            OutputColumn(
+                name="whirl_um", dimension="displacement", unit="um", text=mark("largest whirl amplitude of an order")
+            ),
+            OutputColumn(
+                name="whirl_speed_rpm", dimension="angular_speed", unit="rpm", text=mark("speed at which it is so")
+            ),
+            OutputColumn(name="unstable_ranges", text=mark("ranges of speed in which whirling grows by itself")),
+        ),
+        of_result=_column_values,
+    ),
+)
+"""What a sweep may ask of a whirling shaft."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,6 +13,7 @@ from cardan.answers.answer import FILE, Answer, KeyFigure, Remark, Table
 from cardan.answers.checks import closely
 from cardan.answers.quantity import Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.errors import InputError, Problem
@@ -19,7 +21,7 @@ from cardan.figures.figure import Figure
 from cardan.maths.curves.over_turn import harmonics
 from cardan.maths.ties import foremost, largest
 from cardan.questions.motion.kinds import steep_joints
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .figures.forces import forces_figures
 from .figures.moving_forces import moving_forces_figures
@@ -30,7 +32,7 @@ from .reactions import Held
 from .solving_order import reaction_groups
 from .told import ROUNDING, constant, largest_left, senses, size, span, support_names, tidy, together, turn
 
-__all__ = ["Carried", "answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "Carried", "answer", "ask", "lacking"]
 
 ORDERS = 7
 """Orders 0 to 6 of the input speed are told to programs."""
@@ -365,3 +367,28 @@ def balance_facts(found: Forces) -> dict[str, Any]:
     """Return what the balances leave."""
     rows = {"power_left": found.power_left, "force_left": found.force_left, "moment_left": found.moment_left}
     return {name: None if row is None else float(np.max(np.asarray(row))) for name, row in rows.items()}
+
+
+def _column_values(drive: Drive) -> tuple[float, float, float]:
+    found = forces(drive)
+    held = math.nan if found.reaction is None or not found.support_shaft else float(np.max(found.radial))
+    return (float(np.max(found.bending_couple)), held, float(np.max(np.abs(found.input_torque))))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="forces",
+        doc=mark("largest secondary couple, support force and input torque over a turn"),
+        told=(
+            OutputColumn(
+                name="couple_Nm", dimension="torque", unit="Nm", text=mark("largest secondary couple of a shaft")
+            ),
+            OutputColumn(name="support_N", dimension="force", unit="N", text=mark("largest radial force on a support")),
+            OutputColumn(
+                name="input_torque_Nm", dimension="torque", unit="Nm", text=mark("largest torque at the input")
+            ),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of forces."""

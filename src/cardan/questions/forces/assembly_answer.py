@@ -11,18 +11,19 @@ from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .assembly import AssemblyForces, Peak, assembly
 from .figures.assembly import misalignment_figures
 from .force_tables import joint_heads, support_heads
 from .told import ROUNDING, curve, from_start, size, support_names, together, vector
 
-__all__ = ["answer", "ask", "lacking", "otherwise"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
 SMALL = 1e-6
 """Forces below this [N] are nothing but rounding."""
@@ -313,3 +314,34 @@ def _columns(result: AssemblyForces) -> Iterator[Column]:
         yield from vector(f"joint_{i + 1}_gap", result.gap[i], "displacement")
     yield curve("energy", result.energy, "work")
     yield curve("torque", result.torque, "torque")
+
+
+def _column_values(found: AssemblyForces) -> tuple[float, float, float]:
+    supports = (*found.radial_peak, *found.axial_peak)
+    loads = [max((one.value for one in some), default=0.0) for some in (supports, found.joint_peak)]
+    return (loads[0], loads[1], float(found.degree))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="assembly",
+        doc=mark("largest forces that misalignment makes over a turn, and the degree of static indeterminacy"),
+        told=(
+            OutputColumn(
+                name="misalignment_support_N",
+                dimension="force",
+                unit="N",
+                text=mark("largest force of misalignment on a support"),
+            ),
+            OutputColumn(
+                name="misalignment_joint_N",
+                dimension="force",
+                unit="N",
+                text=mark("largest force of misalignment in a joint"),
+            ),
+            OutputColumn(name="indeterminacy", text=mark("degree of static indeterminacy")),
+        ),
+        of_result=_column_values,
+    ),
+)
+"""What a sweep may ask of assembly."""

@@ -11,9 +11,10 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Quantity, Say, Text, listed, numbered, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .figure import life_figures
 from .joint_bearings import joint_bearings
@@ -21,7 +22,7 @@ from .life import METHODS, Life
 from .life import life as ask
 from .life_cautions import LEAST
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 PARTLY = ("duty.blocks", "duty.torque_history")
 """Duties in parts, that stand for one torque and one speed."""
@@ -304,3 +305,14 @@ def _facts(result: Life) -> dict[str, Any]:
             },
         }
     return facts
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="life",
+        doc=mark("life of the bearings of the joints, the shortest of them"),
+        told=(OutputColumn(name="life_h", dimension="time", unit="h", text=mark("life of the drive")),),
+        of_one=lambda drive: (ask(drive).drive,),
+    ),
+)
+"""What a sweep may ask of life."""

@@ -12,20 +12,22 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark,
 from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
+from cardan.errors import refuse
 from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.maths.arrays import Array
 from cardan.maths.ties import largest
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .figure import loss_parts, losses_figures, map_figures, power
 from .loss_parts import Uncounted
 from .losses import Losses, LossMap
 from .losses import losses as ask
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 SHOWN = (0, 3, 6, 9, 14)
 """Speeds and torques of the map that people are shown: a tenth to one and a half of the duty."""
@@ -341,3 +343,24 @@ def _facts(drive: Drive, result: Losses) -> dict[str, Any]:
         "residual": result.residual,
         "assumed": result.assumed,
     }
+
+
+def _column_values(drive: Drive) -> tuple[float, float]:
+    found = ask(drive)
+    if found.locked:
+        raise refuse("joints", _("friction in the journals reaches what turns them"))
+    return (found.efficiency, found.heat)
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="losses",
+        doc=mark("efficiency and heat at the speed and torque of the duty"),
+        told=(
+            OutputColumn(name="efficiency", text=mark("efficiency")),
+            OutputColumn(name="heat_W", dimension="power", unit="W", text=mark("heat of the drive")),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of power loss."""

@@ -11,13 +11,14 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, all_of
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
 from cardan.figures.figure import Figure
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import PAIRS
 from cardan.mechanism.partition import Partition, joins, partition
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .drive_mechanism import SUPPORT, support_name
 from .figure import closure_figures, mobility_figures, turn_figures
@@ -26,7 +27,7 @@ from .mobility import JointHold, Mobility, mobility
 from .mobility_turn import MobilityTurn, mobility_over_turn
 from .repair import Repair, advice, repairs, strain
 
-__all__ = ["Turned", "answer", "ask", "lacking", "otherwise", "turned"]
+__all__ = ["COLUMNS", "Turned", "answer", "ask", "lacking", "otherwise", "turned"]
 
 SHOWN = 3
 """Remedies that people are told of."""
@@ -404,3 +405,17 @@ def _facts(
             "residual": over.residual,
         }
     return facts
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="mobility",
+        doc=mark("mobility of the drive and its redundant constraints"),
+        told=(
+            OutputColumn(name="mobility", text=mark("mobility")),
+            OutputColumn(name="redundant_constraints", text=mark("redundant constraints")),
+        ),
+        of_result=lambda found: (float(found.mobility), float(found.redundant)),
+    ),
+)
+"""What a sweep may ask of mobility."""

@@ -21,6 +21,7 @@ from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 from cardan.units import deg
 
+from .columns import COLUMNS
 from .equivalence import SYNCHRONOUS, EquivalentJoint, equivalent_joint
 from .figures.equivalence import orders_figure, speed_fluctuation_figure
 from .figures.motion import motion_figure
@@ -31,7 +32,7 @@ from .swing import Evenness, Swing
 from .turning import Turning
 from .turning import turning as ask
 
-__all__ = ["answer", "ask", "lacking", "sentence"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "sentence"]
 
 ORDERS = 3
 """So many orders of the angle error are told: 2, 4, 6."""

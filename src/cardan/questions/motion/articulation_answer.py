@@ -10,10 +10,11 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg, mm
 
 from .articulation import Articulation, Worst
@@ -23,7 +24,7 @@ from .figures.articulation import articulation_figures
 from .instants import Position
 from .length import LengthCompensation
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 KEYS = {
     "joint_angle": "joint_angle",
@@ -351,3 +352,29 @@ def _spline(drive: Drive, one: LengthCompensation) -> dict[str, Any]:
             for flag in one.flags
         ],
     }
+
+
+def _column_values(drive: Drive) -> tuple[float, float, float]:
+    found = ask(drive)
+    strokes = [one.stroke for one in found.splines]
+    return (float(np.nanmax(found.joint_angle)), float(np.nanmax(found.speed_fluctuation)), max(strokes, default=0.0))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="movement",
+        doc=mark("what the movements of the drive ask: bend, speed fluctuation, stroke of the splines"),
+        told=(
+            OutputColumn(
+                name="moving_joint_angle_deg",
+                dimension="angle",
+                unit="deg",
+                text=mark("greatest joint angle while it moves"),
+            ),
+            OutputColumn(name="moving_speed_fluctuation", text=mark("greatest speed fluctuation while it moves")),
+            OutputColumn(name="stroke_mm", dimension="length", unit="mm", text=mark("stroke of the splines")),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of a drive that moves."""

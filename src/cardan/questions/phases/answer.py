@@ -12,6 +12,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
 from cardan.drive.models.laws import mixed, unmapped
@@ -24,7 +25,7 @@ from cardan.questions.motion.closure import closure
 from cardan.questions.motion.equivalence import SYNCHRONOUS
 from cardan.questions.motion.kinds import steep_joints
 from cardan.questions.motion.rounding import each_uniform, is_rounding
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 from cardan.units import deg
 
 from .figures.phases import phasing_figures
@@ -32,7 +33,7 @@ from .phases import Phasing
 from .phases import phases as ask
 from .setting import YokeSetting
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 WIDEST = 7
 """With more yokes than this the table of settings is turned: shafts downwards."""
@@ -587,3 +588,17 @@ def with_applied(said: Answer, setting: YokeSetting, file: str, values: Mapping[
     kept = [remark for remark in said.remarks if remark.tone != "next"]
     facts = {**said.facts, "applied": {"setting": setting.label, "file": file, "values": values}}
     return replace(said, remarks=(*kept, Remark(text=done, tone="good"), step), facts=facts)
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="phasing",
+        doc=mark("least and largest speed fluctuation of the output by other yoke angles"),
+        told=(
+            OutputColumn(name="least_speed_fluctuation", text=mark("least speed fluctuation by other yoke angles")),
+            OutputColumn(name="largest_speed_fluctuation", text=mark("largest speed fluctuation by other yoke angles")),
+        ),
+        of_result=lambda found: (found.speed_fluctuation_min, found.speed_fluctuation_max),
+    ),
+)
+"""What a sweep may ask of phasing."""

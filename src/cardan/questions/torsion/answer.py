@@ -7,16 +7,18 @@ from dataclasses import dataclass, replace
 
 from cardan.answers.answer import Answer, Remark, Table, Tone
 from cardan.answers.quantity import Joined
+from cardan.answers.sweepable import OutputColumn, SweepQuestion, each, first
 from cardan.drive.drive import Drive
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .model.answer import answer as answer_of_modes
 from .model.answer import lacking, modes_said
 from .model.torsion import TorsionModes, torsion_modes
 from .steady.answer import answer as answer_of_running
+from .steady.answer import worst
 from .steady.torsion_response import TorsionResponse, torsion_response
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking"]
 
 TONES: tuple[Tone, ...] = ("failed", "warning", "good", "plain")
 """The first that either part has is that of the whole."""
@@ -75,3 +77,25 @@ def _once(remarks: list[Remark]) -> Iterator[Remark]:
         if one.text not in seen:
             seen.append(one.text)
             yield one
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="natural_frequency",
+        doc=mark("torsional natural frequencies, slowest first"),
+        told=each("natural_frequency", "frequency", "Hz", mark("torsional natural frequency")),
+        of_one=lambda drive: first(torsion_modes(drive).omega),
+    ),
+    SweepQuestion(
+        name="alternating_torque",
+        doc=mark("largest alternating torque of torsional vibration at the speed of the duty"),
+        told=(
+            OutputColumn(
+                name="alternating_torque_Nm", dimension="torque", unit="Nm", text=mark("largest alternating torque, ±")
+            ),
+        ),
+        of_result=lambda found: worst(found.running)[:1],
+        needs_speed=True,
+    ),
+)
+"""What a sweep may ask of torsional vibration."""

@@ -11,20 +11,22 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
+from cardan.errors import refuse
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.model.wording import assumptions, ranges
 from cardan.questions.torsion.steady.run_stability import Kind, Verdict, verdict_words
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import deg, rpm
 
 from .figure import plays, stability_figures
 from .map_axes import SPEED, MapAxis, map_axes
 from .torsion_stability import JOINT_ANGLE, Stability, stability
 
-__all__ = ["answer", "ask", "lacking", "otherwise"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
 ACROSS, UP = 61, 14
 """Speeds and joint angles of a map."""
@@ -258,3 +260,25 @@ def _facts(found: Stability) -> dict[str, Any]:
         "cancelled": found.cancelled,
         "assumed": found.train.assumed,
     }
+
+
+def _column_values(drive: Drive) -> tuple[float, float, float]:
+    found = stability(drive)
+    if int(found.verdict) == Verdict.UNKNOWN:
+        raise refuse("", _("no steady motion was found"))
+    return (float(found.growth_rate), float(found.spectral_radius), float(found.verdict == Verdict.UNSTABLE))
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="stability",
+        doc=mark("whether a small torsional disturbance grows, and how fast"),
+        told=(
+            OutputColumn(name="growth_rate", text=mark("growth rate of the disturbance slowest to decay, 1/s")),
+            OutputColumn(name="spectral_radius", text=mark("largest modulus of the Floquet multipliers")),
+            OutputColumn(name="unstable", text=mark("1 where a disturbance grows, else 0")),
+        ),
+        of_one=_column_values,
+    ),
+)
+"""What a sweep may ask of stability."""

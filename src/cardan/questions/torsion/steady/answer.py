@@ -11,21 +11,23 @@ from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.machine import Engine
+from cardan.errors import refuse
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.excitation import engine_torque
 from cardan.questions.torsion.model.wording import assumptions, ranges
-from cardan.texts import _, plural
+from cardan.texts import _, mark, plural
 
 from .figure import response_figures
 from .run_stability import Verdict, verdict_words
 from .torsion_response import TorsionResponse, level, torsion_response
 
-__all__ = ["answer", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
 
 SWEEP = 31
 """Speeds of the sweep over the operating range."""
@@ -404,3 +406,36 @@ def _facts(found: TorsionResponse) -> dict[str, Any]:
         "power_residual": steady.power_residual,
         "assumed": found.assumed,
     }
+
+
+def worst(found: TorsionResponse) -> tuple[float, float]:
+    """Return the largest alternating torque [N·m] and its speed [rad/s], over the speeds that were found."""
+    if not np.any(found.steady.found):
+        raise refuse("duty.speed", _("no steady motion was found"))
+    swing = np.ravel(np.where(found.steady.found, np.max(found.swing, axis=-1), 0.0))
+    k = int(foremost(swing))
+    return float(swing[k]), float(np.ravel(found.speed)[k])
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="orders",
+        doc=mark("largest alternating torque over the operating range, and the speed at which it is so"),
+        told=(
+            OutputColumn(
+                name="worst_alternating_torque_Nm",
+                dimension="torque",
+                unit="Nm",
+                text=mark("largest alternating torque over the operating range, ±"),
+            ),
+            OutputColumn(
+                name="worst_torque_speed_rpm",
+                dimension="angular_speed",
+                unit="rpm",
+                text=mark("speed of the largest alternating torque"),
+            ),
+        ),
+        of_result=worst,
+    ),
+)
+"""What a sweep may ask of steady torsional vibration."""

@@ -9,17 +9,19 @@ import numpy as np
 from cardan.answers.answer import Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Quantity, Text, say
 from cardan.answers.question import Lacking, absent
+from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.errors import refuse
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.machine_torques import turns_freely
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .answer import element_table, everything, facts, largest, remarks, speed_at
 from .figure import transient_figures
 from .run_up import FollowedRunUp, follow
 from .torsion_transient import Transient
 
-__all__ = ["answer", "ask", "lacking", "otherwise"]
+__all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -132,3 +134,24 @@ def _passed(result: FollowedRunUp) -> Iterator[Table]:
         ),
         note=_("The torque peaks behind a resonance; the faster that is passed, the lower the peak."),
     )
+
+
+def _column_values(found: FollowedRunUp) -> tuple[float]:
+    if found.motion is None:
+        raise refuse("duty.run_up", _("the run-up takes too many steps to follow"))
+    return (abs(largest(found.motion)[1]),)
+
+
+COLUMNS = (
+    SweepQuestion(
+        name="run-up",
+        doc=mark("largest torque during the run-up of the duty"),
+        told=(
+            OutputColumn(
+                name="run_up_torque_Nm", dimension="torque", unit="Nm", text=mark("largest torque during run-up")
+            ),
+        ),
+        of_result=_column_values,
+    ),
+)
+"""What a sweep may ask of a run-up."""

@@ -1,0 +1,111 @@
+"""What a sweep may ask of a drive: the numbers that a question lists as its ``COLUMNS``, beside its result."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from cardan.units import DIMENSIONS
+
+MODES = 3
+"""How many natural frequencies and critical speeds are told."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputColumn:
+    """One number of an answer.
+
+    Attributes
+    ----------
+    name : str
+        Its column in the table, with its unit at the end.
+    dimension : str
+        Key of `cardan.units.DIMENSIONS`; empty for a plain number.
+    unit : str
+        Unit of the column.
+    text : str
+        What it is, to be translated where it is shown.
+    """
+
+    name: str
+    dimension: str = ""
+    unit: str = ""
+    text: str
+
+    @property
+    def factor(self) -> float:
+        """SI units in one unit of the column."""
+        return DIMENSIONS[self.dimension][self.unit] if self.dimension else 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SweepQuestion:
+    """Something that a sweep may ask of a drive.
+
+    Attributes
+    ----------
+    name : str
+        Its name in a plan.
+    doc : str
+        One sentence on what it answers, to be translated where it is shown.
+    told : tuple of OutputColumn, or function
+        The numbers of the answer; of the drive in which fields vary where they depend on it.
+    of_one : function or None
+        Drive -> the numbers in SI; an `InputError` where it has none.
+    of_many : function or None
+        `cardan.questions.motion.columns.Motions` -> the numbers in SI, one array (n,) each: of what motion alone
+        decides, asked of all drives at once.
+    of_result : function or None
+        What the question itself asks of a drive -> the numbers in SI. One of the three is given.
+    needs_speed : bool
+        Whether a drive without a speed has no answer.
+    needs_centres : bool
+        Whether only a drive given by joint centres has an answer.
+    """
+
+    name: str
+    doc: str
+    told: Sequence[OutputColumn] | Callable[[Any], Sequence[OutputColumn]]
+    of_one: Callable[[Any], Sequence[float]] | None = None
+    of_many: Callable[[Any], Sequence[Any]] | None = None
+    of_result: Callable[[Any], Sequence[float]] | None = None
+    needs_speed: bool = False
+    needs_centres: bool = False
+
+    def columns(self, drive: Any) -> tuple[OutputColumn, ...]:
+        """Return the numbers of the answer.
+
+        Parameters
+        ----------
+        drive : Drive
+            The one in which fields vary.
+        """
+        return tuple(self.told(drive) if callable(self.told) else self.told)
+
+
+def each(stem: str, dimension: str, unit: str, text: str) -> tuple[OutputColumn, ...]:
+    """Return the columns of the first `MODES` of a list.
+
+    Examples
+    --------
+    >>> [one.name for one in each("critical_speed", "angular_speed", "rpm", "")]
+    ['critical_speed_rpm[0]', 'critical_speed_rpm[1]', 'critical_speed_rpm[2]']
+    """
+    return tuple(
+        OutputColumn(name=f"{stem}_{unit}[{k}]", dimension=dimension, unit=unit, text=text) for k in range(MODES)
+    )
+
+
+def first(values: Iterable[float]) -> list[float]:
+    """Return the first `MODES` values, nan where there are fewer.
+
+    Examples
+    --------
+    >>> first([2.0])
+    [2.0, nan, nan]
+    """
+    kept = [float(one) for one in islice(values, MODES)]
+    return kept + [math.nan] * (MODES - len(kept))
