@@ -11,6 +11,7 @@ from cardan.texts import mark
 
 MOTION, PHASING, FORCES, LOSSES = mark("Motion"), mark("Phasing"), mark("Forces"), mark("Power loss")
 ACCURACY, TORSION, BENDING, LIFE = mark("Accuracy"), mark("Torsion"), mark("Bending"), mark("Life")
+MEASURES = mark("Measures against torsional vibration")
 STRENGTH, CHECKS, SUPPORTS, CHOICE = mark("Strength"), mark("Checks"), mark("Mobility"), mark("Selection")
 
 QUESTIONS: dict[str, Question] = {
@@ -22,6 +23,11 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Motion"),
             group=MOTION,
             help=mark("How every shaft turns: angle, speed ratio, acceleration."),
+            examples=(
+                "cardan motion truck.toml --speed-rpm 3000",
+                "cardan motion truck.toml --csv > turn.csv",
+                "cardan motion truck.toml --plot motion.svg",
+            ),
         ),
         Question(
             name="classical",
@@ -38,6 +44,10 @@ QUESTIONS: dict[str, Question] = {
             group=MOTION,
             help=mark("What happens while the drive moves: worst positions, spline travel."),
             quick=False,
+            examples=(
+                "cardan articulation tractor.toml",
+                "cardan articulation tractor.toml --csv > history.csv",
+            ),
         ),
         Question(
             name="phasing",
@@ -45,6 +55,12 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Phasing of the yokes"),
             group=PHASING,
             help=mark("Which yoke angles make the output uniform, or how uniform it can be."),
+            examples=(
+                "cardan phasing truck.toml --fix 2=90",
+                "cardan phasing truck.toml --apply A -o better.toml",
+                "cardan phasing boxed.toml --layout -o better.toml",
+            ),
+            aliases=("phases",),
         ),
         Question(
             name="accuracy",
@@ -54,6 +70,11 @@ QUESTIONS: dict[str, Question] = {
             help=mark(
                 "What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."
             ),
+            examples=(
+                "cardan accuracy instrument.toml --method worst",
+                "cardan accuracy instrument.toml --allocate 2arcmin -o better.toml",
+            ),
+            aliases=("tolerance",),
         ),
         Question(
             name="forces",
@@ -61,6 +82,12 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Forces"),
             group=FORCES,
             help=mark("What every shaft, joint and bearing carries over a turn."),
+            examples=(
+                "cardan forces truck.toml",
+                "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
+                "cardan forces tractor.toml --movement all",
+                "cardan forces truck.toml --plot forces.svg",
+            ),
         ),
         Question(
             name="losses",
@@ -68,67 +95,98 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Power loss"),
             group=LOSSES,
             help=mark("How much of the power is lost, and where."),
+            examples=(
+                "cardan losses truck.toml",
+                "cardan losses truck.toml --map --csv > map.csv",
+            ),
         ),
         Question(
             name="torsion",
             module="cardan.questions.torsion.answer",
             title=mark("Torsional vibration"),
             group=TORSION,
-            help=mark("Natural frequencies, what excites them, and alternating torque at the speed of the duty."),
+            help=mark("Natural frequencies, and the speeds at which something excites them."),
             quick=False,
             command="torsion modes",
+            examples=(
+                "cardan torsion modes truck.toml",
+                "cardan torsion modes truck.toml --plot campbell.svg",
+            ),
         ),
         Question(
             name="orders",
             module="cardan.questions.torsion.steady.answer",
             title=mark("Orders over speed"),
             group=TORSION,
-            help=mark("Alternating torque over the speeds in use, order by order."),
+            help=mark("How the shafts vibrate in torsion at a speed or over many."),
             quick=False,
             takes=("progress",),
             command="torsion response",
+            examples=(
+                "cardan torsion response truck.toml",
+                "cardan torsion response truck.toml --speeds 500:3000:200 --csv > sweep.csv",
+            ),
         ),
         Question(
             name="stability",
             module="cardan.questions.torsion.stability.answer",
             title=mark("Parametric stability"),
             group=TORSION,
-            help=mark("Where torsional vibration is stable, over speed and joint angle."),
+            help=mark("Whether torsional vibration decays, at a speed or over a map."),
             quick=False,
             takes=("progress",),
             command="torsion stability",
+            examples=(
+                "cardan torsion stability truck.toml",
+                "cardan torsion stability truck.toml --speeds 500:3000 --joint-angles 2:25 --plot map.svg",
+            ),
         ),
         Question(
             name="run-up",
             module="cardan.questions.torsion.transient.run_up_answer",
             title=mark("Run-up"),
             group=TORSION,
-            help=mark("Torques in time while the drive runs up."),
+            help=mark("Torques and speeds in time: load steps, histories, run-up."),
             quick=False,
             takes=("progress",),
             command="torsion simulate",
+            examples=(
+                "cardan torsion simulate truck.toml",
+                "cardan torsion simulate truck.toml --settled --span-s 2",
+            ),
         ),
         Question(
             name="absorber",
             module="cardan.questions.torsion.absorber.answer",
             title=mark("Absorber"),
             group=TORSION,
-            help=mark("Which absorber or damper reduces torsional vibration, where, and how it is to be set."),
+            help=mark("Which absorber, damper or pendulum reduces torsional vibration, where, and how it is set."),
             quick=False,
             report=False,
             takes=("progress",),
             command="torsion absorber",
+            examples=(
+                "cardan torsion absorber truck.toml --speeds 300:900",
+                "cardan torsion absorber truck.toml --kind pendulum --radius-mm 120 -o better.toml",
+            ),
+            panel=MEASURES,
         ),
         Question(
             name="optimise",
             module="cardan.questions.torsion.calm.answer",
             title=mark("Torsional optimisation"),
             group=TORSION,
-            help=mark("Which yoke angles make torsional vibration least over the speeds in use."),
+            help=mark("Which yoke angles, stiffnesses, inertias or joint positions make torsional vibration least."),
             quick=False,
             report=False,
             takes=("progress",),
             command="torsion optimise",
+            examples=(
+                "cardan torsion optimise truck.toml --speeds 300:900",
+                "cardan torsion optimise truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
+            ),
+            aliases=("calm",),
+            panel=MEASURES,
         ),
         Question(
             name="bending",
@@ -137,6 +195,11 @@ QUESTIONS: dict[str, Question] = {
             group=BENDING,
             help=mark("At which speeds the shafts whirl, and how far the drive stays away."),
             quick=False,
+            examples=(
+                "cardan bending truck.toml",
+                "cardan bending truck.toml --map",
+                "cardan bending truck.toml --plot shapes.svg",
+            ),
         ),
         Question(
             name="rotor",
@@ -146,6 +209,11 @@ QUESTIONS: dict[str, Question] = {
             help=mark("How a shaft whirls with its unbalance and a crack: orders, orbits, run-up."),
             quick=False,
             takes=("progress",),
+            examples=(
+                "cardan rotor truck.toml",
+                "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
+                "cardan rotor truck.toml --joint 2 --speed-rpm 1500",
+            ),
         ),
         Question(
             name="balance",
@@ -153,6 +221,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Balance"),
             group=BENDING,
             help=mark("What unbalance each shaft may have, and the masses that cancel what it has."),
+            examples=("cardan balance truck.toml --grade G16",),
         ),
         Question(
             name="life",
@@ -161,15 +230,24 @@ QUESTIONS: dict[str, Question] = {
             group=LIFE,
             help=mark("How long the joints last, steadily or in a duty cycle."),
             gathers="sum",
+            examples=(
+                "cardan life truck.toml",
+                "cardan life truck.toml --torque-Nm 900 --plot life.svg",
+            ),
         ),
         Question(
             name="strength",
             module="cardan.checks.strength.answer",
             title=mark("Strength"),
             group=STRENGTH,
-            help=mark("How strong every part is, and the torque rating of the drive."),
+            help=mark("How strong every part is, the torque rating of the drive, and how large a part must be."),
             takes=("known",),
             gathers="worst",
+            examples=(
+                "cardan strength truck.toml",
+                "cardan strength truck.toml --size tube:2 --plot tubes.svg",
+                "cardan strength truck.toml --size joint -o better.toml",
+            ),
         ),
         Question(
             name="check",
@@ -180,6 +258,11 @@ QUESTIONS: dict[str, Question] = {
             takes=("known",),
             gathers="worst",
             quick=False,
+            examples=(
+                "cardan check truck.toml",
+                "cardan check truck.toml --only tube_strength --json",
+                "cardan check --list",
+            ),
         ),
         Question(
             name="mobility",
@@ -187,6 +270,10 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Mobility"),
             group=SUPPORTS,
             help=mark("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
+            examples=(
+                "cardan mobility pump.toml",
+                "cardan mobility slider.toml --turn --plot slider.svg",
+            ),
         ),
         Question(
             name="assembly",
@@ -194,6 +281,10 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Assembly"),
             group=SUPPORTS,
             help=mark("What misalignment loads: support forces of parts that do not fit, and what to release."),
+            examples=(
+                "cardan assembly pump.toml",
+                "cardan assembly pump.toml --csv > turn.csv",
+            ),
         ),
         Question(
             name="selection",
@@ -204,6 +295,11 @@ QUESTIONS: dict[str, Question] = {
             takes=("known", "joint"),
             command="select",
             report=False,
+            examples=(
+                "cardan select truck.toml",
+                "cardan select --torque-Nm 2500 --joint-angle-deg 12 --speed-rpm 900 --synchronous",
+                "cardan select truck.toml --catalogue my-maker.toml",
+            ),
         ),
     )
 }

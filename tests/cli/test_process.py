@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+from cardan.register import QUESTIONS
 from tests.cli.conftest import EXAMPLES
 
 TRUCK = EXAMPLES / "truck-printed-angles.toml"
@@ -58,6 +59,15 @@ def test_every_command_has_help_with_examples(cardan, command):
     assert done.code == 0
     assert f"$ cardan {command}" in done.out
     assert max(map(len, done.out.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=lambda one: one.name)
+def test_every_question_is_a_command_with_the_help_of_the_register(cardan, question):
+    *group, name = (question.command or question.name).split()
+    for called in (name, *question.aliases) if group != ["calc"] else ():
+        said = " ".join(cardan(*group, called, "--help").out.split())
+        assert question.help in said
+        assert all(f"$ {example}"[:60] in said for example in question.examples)
 
 
 def defaults():

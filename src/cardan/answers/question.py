@@ -65,6 +65,12 @@ class Question:
         What ``ask`` takes beside the drive, of ``known`` (a catalogue), ``progress`` and what a user may choose.
     command : str
         Command that asks it, its words parted by blanks; the name of the question by default.
+    examples : tuple of str
+        Lines below the help of the command.
+    aliases : tuple of str
+        Other names of the command, which no help lists.
+    panel : str
+        Heading of the command in the help of a group of commands, marked for translation; `group` by default.
     """
 
     name: str
@@ -77,6 +83,9 @@ class Question:
     report: bool = True
     takes: tuple[str, ...] = ()
     command: str = ""
+    examples: tuple[str, ...] = ()
+    aliases: tuple[str, ...] = ()
+    panel: str = ""
 
     @property
     def home(self) -> ModuleType:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from dataclasses import replace
+from pathlib import Path
+from pkgutil import iter_modules
 from typing import Annotated, Any
 
 import typer
 
 from cardan import register
+from cardan.answers.question import Question
 from cardan.texts import _
 
 from .lazy import Entry, Group
@@ -17,86 +21,11 @@ FILES = _("Drive files")
 FORMULAS = _("Formulas")
 DATA = _("Data")
 DIAGNOSIS = _("Diagnosis")
-ASKED = _("Torsional vibration")
-CHOSEN = _("Measures against it")
+
+HERE = frozenset(one.name for one in iter_modules([str(Path(__file__).parent)]))
+"""Files of this folder."""
 
 COMMANDS = {
-    "motion": Entry(
-        "motion",
-        QUESTIONS,
-        _("How every shaft turns: angle, speed ratio, acceleration."),
-        (
-            "cardan motion truck.toml --speed-rpm 3000",
-            "cardan motion truck.toml --csv > turn.csv",
-            "cardan motion truck.toml --plot motion.svg",
-        ),
-    ),
-    "phasing": Entry(
-        "phasing",
-        QUESTIONS,
-        _("Which yoke angles make the output uniform, or how uniform it can be."),
-        (
-            "cardan phasing truck.toml --fix 2=90",
-            "cardan phasing truck.toml --apply A -o better.toml",
-            "cardan phasing boxed.toml --layout -o better.toml",
-        ),
-        aliases=("phases",),
-    ),
-    "articulation": Entry(
-        "articulation",
-        QUESTIONS,
-        _("What happens while the drive moves: worst positions, spline strokes."),
-        ("cardan articulation tractor.toml", "cardan articulation tractor.toml --csv > history.csv"),
-    ),
-    "forces": Entry(
-        "forces",
-        QUESTIONS,
-        _("What every shaft, joint and bearing carries over a turn."),
-        (
-            "cardan forces truck.toml",
-            "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
-            "cardan forces tractor.toml --movement all",
-            "cardan forces truck.toml --plot forces.svg",
-        ),
-    ),
-    "losses": Entry(
-        "losses",
-        QUESTIONS,
-        _("How much of the power is lost, and where."),
-        ("cardan losses truck.toml", "cardan losses truck.toml --map --csv > map.csv"),
-    ),
-    "life": Entry(
-        "life",
-        QUESTIONS,
-        _("How long the joints last, steadily or in a duty cycle."),
-        ("cardan life truck.toml", "cardan life truck.toml --torque-Nm 900 --plot life.svg"),
-    ),
-    "strength": Entry(
-        "strength",
-        QUESTIONS,
-        _("How strong every part is, the torque rating of the drive, and how large a part must be."),
-        (
-            "cardan strength truck.toml",
-            "cardan strength truck.toml --size tube:2 --plot tubes.svg",
-            "cardan strength truck.toml --size joint -o better.toml",
-        ),
-    ),
-    "balance": Entry(
-        "balance",
-        QUESTIONS,
-        _("What unbalance each shaft may have, and the masses that cancel what it has."),
-        ("cardan balance truck.toml --grade G16",),
-    ),
-    "select": Entry(
-        "select",
-        QUESTIONS,
-        _("Which types and sizes of joints do a job, and why not the others."),
-        (
-            "cardan select truck.toml",
-            "cardan select --torque-Nm 2500 --joint-angle-deg 12 --speed-rpm 900 --synchronous",
-            "cardan select truck.toml --catalogue my-maker.toml",
-        ),
-    ),
     "joint": Entry(
         "joint",
         QUESTIONS,
@@ -107,110 +36,11 @@ COMMANDS = {
             "cardan joint hooke rzeppa tracta --joint-angle-deg 25 --speed-rpm 1000 --plot joints.svg",
         ),
     ),
-    "accuracy": Entry(
-        "accuracy",
-        QUESTIONS,
-        _("What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."),
-        (
-            "cardan accuracy instrument.toml --method worst",
-            "cardan accuracy instrument.toml --allocate 2arcmin -o better.toml",
-        ),
-        aliases=("tolerance",),
-    ),
-    "bending": Entry(
-        "bending",
-        QUESTIONS,
-        _("At which speeds the shafts whirl, and how far the drive stays away."),
-        (
-            "cardan bending truck.toml",
-            "cardan bending truck.toml --map",
-            "cardan bending truck.toml --plot shapes.svg",
-        ),
-    ),
-    "rotor": Entry(
-        "rotor",
-        QUESTIONS,
-        _("How a shaft whirls with its unbalance and a crack: orders, orbits, running up."),
-        (
-            "cardan rotor truck.toml",
-            "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
-            "cardan rotor truck.toml --joint 2 --speed-rpm 1500",
-        ),
-    ),
-    "assembly": Entry(
-        "assembly",
-        QUESTIONS,
-        _("What misalignment loads: support forces of parts that do not fit, and what to release."),
-        ("cardan assembly pump.toml", "cardan assembly pump.toml --csv > turn.csv"),
-    ),
-    "mobility": Entry(
-        "mobility",
-        QUESTIONS,
-        _("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
-        ("cardan mobility pump.toml", "cardan mobility slider.toml --turn --plot slider.svg"),
-    ),
     "torsion": Entry(
         "",
         QUESTIONS,
         _("Torsional vibration: natural frequencies, steady and in time, stability."),
         ("cardan torsion modes truck.toml", "cardan torsion stability truck.toml --speeds 500:3000"),
-        {
-            "modes": Entry(
-                "torsion_modes",
-                ASKED,
-                _("Natural frequencies, and the speeds at which something excites them."),
-                ("cardan torsion modes truck.toml", "cardan torsion modes truck.toml --plot campbell.svg"),
-            ),
-            "response": Entry(
-                "torsion_response",
-                ASKED,
-                _("How the shafts vibrate in torsion at a speed or over many."),
-                (
-                    "cardan torsion response truck.toml",
-                    "cardan torsion response truck.toml --speeds 500:3000:200 --csv > sweep.csv",
-                ),
-            ),
-            "simulate": Entry(
-                "torsion_simulate",
-                ASKED,
-                _("Torques and speeds in time: load steps, histories, running up."),
-                ("cardan torsion simulate truck.toml", "cardan torsion simulate truck.toml --settled --span-s 2"),
-            ),
-            "stability": Entry(
-                "torsion_stability",
-                ASKED,
-                _("Whether vibration decays, at a speed or over a map."),
-                (
-                    "cardan torsion stability truck.toml",
-                    "cardan torsion stability truck.toml --speeds 500:3000 --joint-angles 2:25 --plot map.svg",
-                ),
-            ),
-            "absorber": Entry(
-                "torsion_absorber",
-                CHOSEN,
-                _("Which absorber, damper or pendulum reduces it, where, and how it is to be set."),
-                (
-                    "cardan torsion absorber truck.toml --speeds 300:900",
-                    "cardan torsion absorber truck.toml --kind pendulum --radius-mm 120 -o better.toml",
-                ),
-            ),
-            "optimise": Entry(
-                "torsion_optimise",
-                CHOSEN,
-                _("Which yoke angles, stiffnesses, inertias or joint positions make it least."),
-                (
-                    "cardan torsion optimise truck.toml --speeds 300:900",
-                    "cardan torsion optimise truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
-                ),
-                aliases=("calm",),
-            ),
-        },
-    ),
-    "check": Entry(
-        "check",
-        QUESTIONS,
-        _("Whether the drive keeps its limits, and which changes help where it does not."),
-        ("cardan check truck.toml", "cardan check truck.toml --only tube_strength --json", "cardan check --list"),
     ),
     "diagnose": Entry(
         "diagnose",
@@ -300,25 +130,43 @@ COMMANDS = {
         ("cardan calc --list", "cardan calc single_joint_extremes alpha_deg=20"),
     ),
 }
-"""Name of a command -> what the help says of it; its code is the file of the same name."""
+"""What is no question of the register: name of a command -> what the help says of it, and the file of its code."""
 
 
-def _registered() -> Iterator[tuple[str, Entry]]:
-    """Yield a command for every question of the register that none of the above asks."""
+def _entry(question: Question, command: str, panel: str) -> Entry:
+    """Return the command of a question: its file here, where there is one, else that of all questions."""
+    module = re.sub(r"\W", "_", command)
+    own = module in HERE
+    return Entry(
+        module if own else "asked",
+        _(question.panel) if question.panel else panel,
+        _(question.help),
+        question.examples or (f"cardan {command} truck.toml",),
+        aliases=question.aliases,
+        question="" if own else question.name,
+    )
+
+
+def _entries() -> dict[str, Entry]:
+    """Return the commands of all questions of the register, then those that ask none of them."""
+    found: dict[str, Entry] = {}
     for question in register.QUESTIONS.values():
-        name = question.command or question.name
-        if name.split()[0] not in COMMANDS:
-            yield (
-                name,
-                Entry("asked", QUESTIONS, _(question.help), (f"cardan {name} truck.toml",), question=question.name),
-            )
+        command = question.command or question.name
+        name, _blank, second = command.partition(" ")
+        if not second:
+            found[name] = _entry(question, command, QUESTIONS)
+        elif not COMMANDS[name].module:
+            group = found.setdefault(name, COMMANDS[name])
+            inner = {**group.entries, second: _entry(question, command, _(question.group))}
+            found[name] = replace(group, entries=inner)
+    return {**found, **{name: entry for name, entry in COMMANDS.items() if name not in found}}
 
 
 class Commands(Group):
     """All commands."""
 
     def __init__(self, **settings: Any) -> None:
-        self.entries = {**COMMANDS, **dict(_registered())}
+        self.entries = _entries()
         super().__init__(**settings)
 
 
