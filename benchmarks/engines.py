@@ -48,7 +48,7 @@ def per_chunk(engine: Engine, task: Steps, count: int) -> float:
 
 
 def figures(quick: bool) -> Iterator[Figure]:
-    from cardan import Cluster, InProcess, Processes
+    from cardan.backends import Cluster, InProcess, Processes
 
     seconds, count, rounds = (0.05, 3, 1) if quick else (TARGET, 6, 3)
     trial = Steps(200_000)

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from cardan import Drives
+from cardan.sweeps import Drives
 
 
 @dataclass(frozen=True, kw_only=True)

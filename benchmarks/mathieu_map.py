@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import Compiled, Plain
+from cardan.backends import Compiled, Plain
 from cardan.maths.periodic.stability_map import stability_map
 
 from .arithmetic import multiply_adds

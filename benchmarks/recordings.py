@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import Channel, Signal, diagnose, example, order_map, rotation
+from cardan import example
+from cardan.recordings import Channel, Signal, diagnose, order_map, rotation
 
 from .harness import Figure, fastest
 

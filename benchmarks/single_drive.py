@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cardan import Drive, equivalent_joint, motion, traces
+from cardan import Drive, equivalent_joint, motion
+from cardan.sweeps import traces
 from cardan.units import deg
 
 from .harness import Figure, fastest

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import Compiled, Plain, traces
+from cardan.backends import Compiled, Plain
+from cardan.sweeps import traces
 
 from .harness import Figure, fastest, random_drives
 from .memory import write, write_past_caches

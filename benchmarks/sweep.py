@@ -7,7 +7,8 @@ import subprocess
 import sys
 from collections.abc import Iterator
 
-from cardan import Compiled, extremes
+from cardan import extremes
+from cardan.backends import Compiled
 
 from .harness import Figure, fastest, random_drives
 
@@ -19,7 +20,8 @@ ROOM = 2.0
 
 SCRIPT = """
 import json, resource, sys, time
-from cardan import Drive, Spaced, sweep
+from cardan import Drive
+from cardan.sweeps import Spaced, sweep
 side = int(sys.argv[1])
 drive = Drive.from_angles([0.3, 0.2, 0.25, 0.1], yoke_angles=[0.1, 0.2, 0.3])
 ends = {"joints[0].joint_angle_deg": 20, "joints[2].joint_angle_deg": 20}

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import Drives, extremes, phases
+from cardan import extremes, phases
 from cardan.drive.models.chain import chain
 from cardan.questions.phases.batch import synchronous_yokes
+from cardan.sweeps import Drives
 
 from .harness import Figure, fastest, random_drives
 from .single_drive import truck

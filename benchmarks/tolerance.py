@@ -6,8 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import Compiled, Drive, MonteCarlo, Plain, Tolerance, tolerance
+from cardan import Drive, Tolerance, tolerance
+from cardan.backends import Compiled, Plain
 from cardan.maths.arrays import Array
+from cardan.methods import MonteCarlo
 from cardan.questions.accuracy.accuracy import error_arrays, one_turn, transmission_error
 from cardan.questions.accuracy.allocation import allocate
 from cardan.questions.accuracy.sample_sums import Exact, Sums

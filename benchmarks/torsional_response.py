@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from cardan import Compiled, Plain
+from cardan.backends import Compiled, Plain
 from cardan.maths.arrays import Array
 from cardan.maths.linear.tridiagonal import modes, response
 

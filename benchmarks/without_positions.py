@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cardan import Compiled, Extremes, Plain, equivalent_joint, extremes
+from cardan import Extremes, equivalent_joint, extremes
+from cardan.backends import Compiled, Plain
 
 from .harness import Figure, fastest, random_drives
 

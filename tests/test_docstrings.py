@@ -6,9 +6,9 @@ from dataclasses import fields, is_dataclass
 
 import pytest
 
-import cardan
+from tests.test_public_names import public_names
 
-PUBLIC = {name: getattr(cardan, name) for name in cardan.__all__ if name != "__version__"}
+PUBLIC = public_names()
 FUNCTIONS = {name: thing for name, thing in PUBLIC.items() if inspect.isfunction(thing)}
 RECORDS = {name: thing for name, thing in PUBLIC.items() if inspect.isclass(thing) and is_dataclass(thing)}
 

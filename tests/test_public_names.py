@@ -1,5 +1,6 @@
 import subprocess
 import sys
+from types import ModuleType
 
 import pytest
 
@@ -14,21 +15,38 @@ def run(code):
     return done.stdout.split()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", cardan.__all__)
-def test_every_public_name_is_there(name):
-    assert getattr(cardan, name) is not None
+def public_names():
+    """Return everything public by its name, ``cardan.motion`` or ``cardan.sweeps.sweep``."""
+    found = {}
+    for name, home in cardan._HOMES.items():
+        thing = getattr(cardan, name)
+        found |= {f"cardan.{name}": thing} if home else {f"cardan.{name}.{n}": t for n, t in exported(thing).items()}
+    return found
 
 
-def test_public_names_are_declared_for_type_checkers_too():
-    """The block under TYPE_CHECKING names the same things from the same places."""
-    import ast
-    from pathlib import Path
+def exported(module):
+    """Return what a public module holds, by name."""
+    return {name: thing for name, thing in vars(module).items() if not name.startswith("_")}
 
-    tree = ast.parse(Path(cardan.__file__).read_text("utf8"))
-    block = next(node for node in tree.body if isinstance(node, ast.If))
-    declared = {alias.name: node.module for node in block.body for alias in node.names}
-    assert declared == cardan._HOMES
+
+def test_at_the_top_stands_what_a_newcomer_needs():
+    assert len(cardan.__all__) <= 80
+    assert {"Drive", "load", "motion", "forces", "check", "report", "sweeps"} <= set(cardan.__all__)
+
+
+def test_every_public_thing_has_one_name():
+    names = public_names()
+    assert all(thing is not None for thing in names.values())
+    kept = {id(thing) for thing in names.values()}
+    assert len(kept) == len(names)
+
+
+@pytest.mark.parametrize("module", [name for name, home in cardan._HOMES.items() if not home])
+def test_public_modules_hold_names_of_other_modules_and_say_what(module):
+    there = getattr(cardan, module)
+    assert there.__doc__
+    assert not [name for name, thing in exported(there).items() if isinstance(thing, ModuleType)]
+    assert f"`cardan.{module}`" in cardan.__doc__
 
 
 def test_importing_cardan_is_light():

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cardan import diagnose, example, signal
+from cardan import example
 from cardan.io import recording_names
 from cardan.questions.diagnosis.expected import FAULTS
+from cardan.recordings import diagnose, signal
 
 FOLDER = Path(__file__).parents[1] / "examples" / "recordings"
 

@@ -7,7 +7,6 @@ import json
 import numpy as np
 import pytest
 
-from cardan import sweep
 from cardan.batch.answering.questions import questions
 from cardan.drive.joints import JOINTS, register
 from cardan.errors import InputError
@@ -20,6 +19,7 @@ from cardan.report.answers import answered, subject
 from cardan.report.report import page as page_of
 from cardan.scene.gltf import render
 from cardan.scene.scene import scene
+from cardan.sweeps import sweep
 from cardan.texts import LANGUAGES, speaking
 from tests.cli.conftest import cardan, drive_file  # noqa: F401 - fixtures
 from tests.fixtures.toy_joint import TOYS

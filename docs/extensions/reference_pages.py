@@ -160,8 +160,9 @@ def examples() -> str:
 
 def mechanisms() -> str:
     """Return one section for each shipped mechanism: what the program says of it, its text."""
-    from cardan import example_mechanism, mobility
+    from cardan import mobility
     from cardan.io import example_text, mechanism_names
+    from cardan.mechanisms import example_mechanism
 
     parts = []
     for name in mechanism_names():
@@ -257,37 +258,38 @@ def _given(parameter: Any) -> str:
 
 
 GROUPS = {
-    "The drive": ("drive", "mechanism", "io"),
-    "Questions": ("questions", "maths"),
+    "The drive": ("drive", "io"),
+    "Questions": ("questions",),
     "Verdicts": ("checks",),
-    "Choices": ("choices", "formulas", "questions.phases"),
-    "Diagnosis": ("questions.diagnosis",),
-    "Sweeps": ("batch",),
-    "Results on paper": ("figures", "scene", "report", "calc", "book"),
+    "Choices": ("choices", "questions.phases"),
+    "Results on paper": ("scene", "report", "calc", "book"),
     "Errors": ("errors",),
 }
-
-
-def _room(home: str) -> str:
-    """Return the folder that says under which title a name stands: the narrowest that is in `GROUPS`."""
-    known = {room for rooms in GROUPS.values() for room in rooms if f"{home}.".startswith(f"{room}.")}
-    return max(known, key=len, default="")
+"""What stands in `cardan` itself, by the folder that it is from; the narrowest folder counts."""
 
 
 def names() -> str:
-    """Return the public names, each with its docstring, in the order of the work."""
-    homes: dict[str, str] = cardan._HOMES
-    parts = []
-    for title, rooms in GROUPS.items():
-        found = [(name, home) for name, home in homes.items() if _room(home) in rooms]
-        if not found:
-            continue
-        parts.append(f"## {title}\n\n```{{eval-rst}}")
-        for name, _home in found:
-            thing = getattr(cardan, name)
-            kind = "autoclass" if inspect.isclass(thing) else "autofunction" if callable(thing) else "autodata"
-            if inspect.isclass(thing) and issubclass(thing, Exception):
-                kind = "autoexception"
-            parts.append(f".. {kind}:: cardan.{name}")
-        parts.append("```\n")
+    """Return the public names, each with its docstring: those of `cardan` in the order of the work, then the others."""
+    homes = {name: home for name, home in cardan._HOMES.items() if home}
+    rooms = {room: title for title, some in GROUPS.items() for room in some}
+    titled: dict[str, list[str]] = {title: [] for title in GROUPS}
+    for name, home in homes.items():
+        room = max((one for one in rooms if f"{home}.".startswith(f"{one}.")), key=len)
+        titled[rooms[room]].append(name)
+    parts = [_listed(title, cardan, some) for title, some in titled.items()]
+    for module in sorted(set(cardan._HOMES) - set(homes)):
+        there = getattr(cardan, module)
+        text = (inspect.getdoc(there) or "").strip()
+        parts.append(_listed(f"`cardan.{module}`\n\n{text}", there, [n for n in vars(there) if not n.startswith("_")]))
     return "\n".join(parts)
+
+
+def _listed(title: str, module: Any, some: list[str]) -> str:
+    parts = [f"## {title}\n\n```{{eval-rst}}"]
+    for name in some:
+        thing = getattr(module, name)
+        kind = "autoclass" if inspect.isclass(thing) else "autofunction" if callable(thing) else "autodata"
+        if inspect.isclass(thing) and issubclass(thing, Exception):
+            kind = "autoexception"
+        parts.append(f".. {kind}:: {module.__name__}.{name}")
+    return "\n".join([*parts, "```\n"])

@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cardan import Evolution, absorber, calm, example
+from cardan import absorber, calm, example
 from cardan.io import loads
+from cardan.methods import Evolution
 from cardan.questions.torsion.calm.node_rule import NodeRule
 from cardan.units import rpm
 

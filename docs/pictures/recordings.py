@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cardan import Channel, Rotation, order_map
+from cardan.recordings import Channel, Rotation, order_map
 
 from .kit import ACCENT, INK, PALE, page
 

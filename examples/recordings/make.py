@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from cardan import Channel, Runs, Signal, example, simulate_fault
+from cardan import example
 from cardan.io.signals.csv import content_of
+from cardan.recordings import Channel, Runs, Signal, simulate_fault
 
 DRIVE = "truck-supports"
 

@@ -6,12 +6,13 @@ import pickle
 import numpy as np
 import pytest
 
-from cardan import Drawn, Drive, InputError, Listed, Spaced, Uniform, equivalent_joint, example, sweep
+from cardan import Drive, InputError, equivalent_joint, example
 from cardan.batch import plan as plan_module
 from cardan.batch.plan import work_of
 from cardan.batch.work import Reduction, Work
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads
+from cardan.sweeps import Drawn, Listed, Spaced, Uniform, sweep
 
 DRIVE = Drive.from_angles([0.3, 0.2, 0.25], yoke_angles=[0.1, 0.2])
 AXES = (

@@ -67,7 +67,8 @@ def test_spline_teeth_are_all_looked_at(table, teeth, offsets):
     )
     grids = np.meshgrid(*([o + 360 / z * np.arange(z)] for o, z in zip(offsets, teeth, strict=True)), indexing="ij")
     rows = np.stack([grid.ravel() for grid in grids], axis=-1)
-    from cardan import Drives, equivalent_joint
+    from cardan import equivalent_joint
+    from cardan.sweeps import Drives
 
     delta = equivalent_joint(
         Drives.from_angles(

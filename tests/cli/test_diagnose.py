@@ -7,10 +7,11 @@ import wave
 import numpy as np
 import pytest
 
-from cardan import diagnose, load, signal
+from cardan import load
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.questions.diagnosis.findings import BY_SIGNS
+from cardan.recordings import diagnose, signal
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 

@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from cardan import example_mechanism
 from cardan import io as files
+from cardan.mechanisms import example_mechanism
 from cardan.questions.mobility.mobility import mobility
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import plain, widest

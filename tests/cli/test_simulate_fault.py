@@ -5,9 +5,10 @@ import io
 
 import pytest
 
-from cardan import expected_orders, load, signal, simulate_fault
+from cardan import load
 from cardan.questions.diagnosis.expected import FAULTS
 from cardan.questions.diagnosis.simulate import Runs
+from cardan.recordings import expected_orders, signal, simulate_fault
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 

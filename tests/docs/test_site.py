@@ -13,6 +13,8 @@ from urllib.parse import unquote, urldefrag
 
 import pytest
 
+from tests.test_public_names import public_names
+
 ROOT = Path(__file__).parents[2]
 LOADS = {
     "script": "src",
@@ -133,7 +135,5 @@ def test_formulas_are_set(site: Path) -> None:
 
 
 def test_every_public_name_is_documented(read: dict[Path, Page], site: Path) -> None:
-    import cardan
-
     there = read[site / "reference" / "python.html"].places
-    assert [name for name in cardan.__all__ if not name.startswith("_") and f"cardan.{name}" not in there] == []
+    assert [name for name in public_names() if name not in there] == []

@@ -2,8 +2,9 @@ import array_api_strict as strict
 import numpy as np
 import pytest
 
-from cardan import Drive, Drives, InputError, stack
+from cardan import Drive, InputError
 from cardan.errors import JointAngleLimitError
+from cardan.sweeps import Drives, stack
 
 
 def test_stacking_pads_with_straight_joints_that_turn_nothing():

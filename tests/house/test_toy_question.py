@@ -2,7 +2,6 @@
 
 import pytest
 
-from cardan import sweep
 from cardan.app.parts.blocks import block_html
 from cardan.batch.answering.asking import ask_of
 from cardan.io import loads
@@ -10,6 +9,7 @@ from cardan.register import QUESTIONS, groups
 from cardan.report.answers import answered, subject
 from cardan.report.content import content
 from cardan.report.html import text
+from cardan.sweeps import sweep
 from tests.cli.conftest import cardan, drive_file  # noqa: F401 - fixtures
 from tests.fixtures.toy_question import QUESTION
 

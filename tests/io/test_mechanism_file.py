@@ -4,7 +4,7 @@ import tomllib
 import jsonschema
 import pytest
 
-from cardan import InputError, load, load_mechanism, save
+from cardan import InputError, load, save
 from cardan.drive.drive import Drive
 from cardan.io import (
     dumps,
@@ -16,6 +16,7 @@ from cardan.io import (
     mechanism_names,
     mechanism_schema,
 )
+from cardan.mechanisms import load_mechanism
 
 HINGE = """
 format = 1

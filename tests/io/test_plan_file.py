@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cardan import Drawn, InputError, Listed, Normal, Spaced, Uniform
+from cardan import InputError
 from cardan.batch.table.reductions import Reduce
 from cardan.io.plan_file import plan_of, read_plan
+from cardan.sweeps import Drawn, Listed, Normal, Spaced, Uniform
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import cardan
-from cardan import Channel, InputError, Signal, signal
+from cardan import InputError
 from cardan.io.signals import SIGNAL_FORMATS
+from cardan.recordings import Channel, Signal, signal
 from tests.builders.recordings import recorded
 
 TIME = np.arange(400) / 1000

@@ -97,7 +97,7 @@ OPTIONS = {
     "titles": "--title",
     "full_scale": "--full-scale",
 }
-"""Argument of `cardan.signal` -> option."""
+"""Argument of `cardan.recordings.signal` -> option."""
 
 
 def recorded(path: Path, how: Reading, progress: Callable[[float], object] | None = None) -> Signal:

@@ -34,7 +34,7 @@ def load_mechanism(path: str | Path) -> Mechanism:
     Examples
     --------
     >>> import cardan
-    >>> cardan.load_mechanism("slider.toml").links  # doctest: +SKIP
+    >>> cardan.mechanisms.load_mechanism("slider.toml").links  # doctest: +SKIP
     ('crank', 'rod', 'piston')
     """
     where = Path(path)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from cardan import Runs, simulate_fault
 from cardan.app.state.recordings import DIAGNOSIS, MAX_RECORDING
 from cardan.app.state.session import Session
 from cardan.app.state.work import asked, result
@@ -15,6 +14,7 @@ from cardan.app.state.workspace import Workspace
 from cardan.errors import InputError
 from cardan.io import example, example_text
 from cardan.io.signals import write
+from cardan.recordings import Runs, simulate_fault
 from cardan.report.recorded import Recorded
 
 DRIVE = "truck-supports"

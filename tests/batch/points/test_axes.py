@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from cardan import Drawn, InputError, Listed, Normal, Spaced, Triangular, Truncated, Uniform
+from cardan import InputError
 from cardan.batch.points.axes import Points
 from cardan.batch.points.designs import METHODS, shuffled, uniforms
+from cardan.sweeps import Drawn, Listed, Normal, Spaced, Triangular, Truncated, Uniform
 
 
 def test_a_grid_is_evenly_spaced_with_both_ends():

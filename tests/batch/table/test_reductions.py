@@ -7,12 +7,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from cardan import InputError, Listed, Spaced
+from cardan import InputError
 from cardan.batch.points.axes import Points
 from cardan.batch.table import summaries
 from cardan.batch.table.kinds import KINDS
 from cardan.batch.table.reductions import Reduce, at_work, reduce_of
 from cardan.batch.work import Column
+from cardan.sweeps import Listed, Spaced
 
 COUNT = 600
 POINTS = Points(

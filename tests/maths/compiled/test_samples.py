@@ -1,12 +1,15 @@
 import numpy as np
 import pytest
 
-from cardan import Compiled, Drive, Drives, MonteCarlo, Plain, tolerance
+from cardan import Drive, tolerance
+from cardan.backends import Compiled, Plain
 from cardan.drive.accuracy import Error, Tolerance
 from cardan.drive.joints import Hooke
+from cardan.methods import MonteCarlo
 from cardan.questions.accuracy import sample_sums
 from cardan.questions.accuracy.accuracy import course, one_turn, sensitivity, transmission_error
 from cardan.questions.accuracy.sample_sums import Exact, Sums
+from cardan.sweeps import Drives
 from cardan.units import deg, mm
 
 TOLERANCE = Tolerance(alpha1=0.1 * deg, alpha2=0.2 * deg, alpha3=0.1 * deg, alpha4=0.3 * deg, phase=0.1 * deg)

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from scipy.special import mathieu_a, mathieu_b
 
-from cardan import Compiled, Plain
+from cardan.backends import Compiled, Plain
 from cardan.errors import InputError
 from cardan.maths.compiled.splitting import DRIFTS, NUMBERS, course, plan, turned
 from cardan.maths.periodic.mathieu import exponents

@@ -5,12 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan import Drive, Drives, InputError, motion
+from cardan import Drive, InputError, motion
 from cardan.drive.accuracy import Error
 from cardan.drive.joints import Hooke
 from cardan.drive.models.chain import Chain, chain
 from cardan.drive.support import Support
 from cardan.questions.accuracy.accuracy import TURNS, WAYS, course, one_turn, sensitivity, transmission_error
+from cardan.sweeps import Drives
 from cardan.units import deg, mm
 from tests.builders.drives import plans
 from tests.builders.loop_newton import solved

@@ -4,10 +4,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan import Drive, Drives, InputError, motion, stack
+from cardan import Drive, InputError, motion
 from cardan.drive.models.chain import chain
 from cardan.formulas.friction import Turning, joint_friction
 from cardan.questions.losses.chain_friction import chain_friction, kinks, stance
+from cardan.sweeps import Drives, stack
 from cardan.units import deg
 from tests.builders.drives import plans
 from tests.builders.friction_model import over_a_turn, torques

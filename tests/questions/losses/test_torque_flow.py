@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cardan import Drive, Drives, motion
+from cardan import Drive, motion
 from cardan.questions.losses.torque_flow import torque_flow
+from cardan.sweeps import Drives
 from tests.builders.drives import plans
 from tests.builders.friction_model import torques
 

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from cardan import example_mechanism
 from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
 from cardan.io import example
+from cardan.mechanisms import example_mechanism
 from cardan.questions.mobility.answer import answer, ask, lacking, otherwise, turned
 from cardan.questions.mobility.mobility import mobility
 from cardan.texts import speaking

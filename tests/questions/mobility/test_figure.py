@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from cardan import example, example_mechanism, figures
+from cardan import example, figures
 from cardan.answers.reader import USUAL
 from cardan.figures.figure import Curve, Note
 from cardan.figures.for_reader import for_reader
@@ -13,6 +13,7 @@ from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.io import mechanism_names
 from cardan.mechanism.pair import PAIRS
+from cardan.mechanisms import example_mechanism
 from cardan.questions.mobility.figure import graph_figure
 from cardan.questions.mobility.finite_mobility import finite_mobility
 from cardan.questions.mobility.mobility import mobility

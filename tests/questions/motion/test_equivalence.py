@@ -5,11 +5,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from cardan import Drive, Drives, equivalent_joint, motion, stack
+from cardan import Drive, equivalent_joint, motion
 from cardan.drive.models.chain import chain
 from cardan.maths.kernel.frames import rotate
 from cardan.questions.motion.equivalence import SYNCHRONOUS, angle_of_largest_acceleration, largest_acceleration
 from cardan.questions.motion.extremes import extremes
+from cardan.sweeps import Drives, stack
 from cardan.units import deg
 from tests.builders.drives import plans
 

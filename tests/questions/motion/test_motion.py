@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cardan import Drive, Drives, InputError, motion, stack
+from cardan import Drive, InputError, motion
 from cardan.drive.drive import Duty
 from cardan.questions.motion.motion import initial_phases
+from cardan.sweeps import Drives, stack
 from cardan.units import deg
 from tests.builders.drives import plans
 from tests.builders.vector_model import VectorModel, cross, dot

@@ -219,7 +219,7 @@ def test_processes_may_fork_after_a_kernel():
     """No OpenMP is loaded, so a child can run kernels too; not tested in this process, which may have threads."""
     program = (
         "import multiprocessing as m, numpy as np\n"
-        "from cardan import Compiled, Drives, traces\n"
+        "from cardan.backends import Compiled\nfrom cardan.sweeps import Drives, traces\n"
         "def run(k): return traces(Drives.from_angles(np.full((999, 2), 0.3)), method=Compiled()).ratio.sum()\n"
         "one = run(0)\n"
         "with m.get_context('fork').Pool(2) as pool: print(pool.map(run, range(4)) == [one] * 4)\n"

@@ -4,9 +4,10 @@ import array_api_strict
 import numpy as np
 import pytest
 
-from cardan import Drive, Drives, InputError, phases, stack
+from cardan import Drive, InputError, phases
 from cardan.drive.models.chain import Chain
 from cardan.questions.phases.batch import synchronous_yokes
+from cardan.sweeps import Drives, stack
 from tests.builders import closing
 
 

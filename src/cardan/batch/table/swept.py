@@ -127,7 +127,8 @@ def read_sweep(folder: str | Path) -> Sweep:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from cardan import Drive, sweep
+    >>> from cardan import Drive
+    >>> from cardan.sweeps import sweep
     >>> pair = Drive.from_angles([0.3, 0.3])
     >>> with TemporaryDirectory() as folder:
     ...     told = sweep(pair, {"joints[1].joint_angle_deg": [10, 20]}, ["speed_fluctuation"], into=folder)

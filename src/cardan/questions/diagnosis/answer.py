@@ -43,7 +43,7 @@ def answer(found: Examination) -> Answer:
     Parameters
     ----------
     found : Examination
-        As of `cardan.examine`.
+        As of `cardan.recordings.examine`.
     """
     findings = found.findings
     title = _("Diagnosis of {name}").format(name=found.signal.name) if found.signal.name else _("Diagnosis")
@@ -71,7 +71,7 @@ def answer_of_signs(signs: Signs, findings: Sequence[Finding]) -> Answer:
     signs : Signs
         What was seen.
     findings : sequence of Finding
-        As of `cardan.diagnose`.
+        As of `cardan.recordings.diagnose`.
     """
     return Answer(
         name="diagnosis",

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from cardan import figures, orbit, order_map, order_spectrum, rotation, torsional_vibration, tracked_orders
+from cardan import figures
 from cardan.answers.reader import USUAL
 from cardan.figures.figure import Curve, Note, Rule, Shape
 from cardan.figures.for_reader import for_reader
@@ -14,6 +14,7 @@ from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.diagnosis.figures.orders import LINES, map_figure
 from cardan.questions.diagnosis.signals.signal import Channel
+from cardan.recordings import orbit, order_map, order_spectrum, rotation, torsional_vibration, tracked_orders
 from tests.builders.recordings import recorded
 
 SIGNAL = recorded({1: (0.5, 0.0), 2: (2.0, 1.0)}, noise=0.05)

@@ -1,0 +1,28 @@
+"""Joints by themselves: their kinds, how they turn, which to take for a duty."""
+
+from .choices.selection import Candidate as Candidate
+from .choices.selection import Need as Need
+from .choices.selection import select_joint as select_joint
+from .choices.selection_reasons import need_of as need_of
+from .drive.joints import Clemens as Clemens
+from .drive.joints import ConstantVelocity as ConstantVelocity
+from .drive.joints import DoubleCardan as DoubleCardan
+from .drive.joints import ElasticHalfCardan as ElasticHalfCardan
+from .drive.joints import HalfCardan as HalfCardan
+from .drive.joints import Hooke as Hooke
+from .drive.joints import Joint as Joint
+from .drive.joints import OffsetCross as OffsetCross
+from .drive.joints import PinCoupling as PinCoupling
+from .drive.joints import Rzeppa as Rzeppa
+from .drive.joints import Tracta as Tracta
+from .drive.joints import Tripod as Tripod
+from .drive.joints import Weiss as Weiss
+from .formulas.centring import Centring as Centring
+from .formulas.centring import best_centring as best_centring
+from .formulas.pin_geometry import PinGeometry as PinGeometry
+from .formulas.pin_geometry import best_pins as best_pins
+from .formulas.pin_geometry import pin_choices as pin_choices
+from .questions.motion.joint_law import JointAngles as JointAngles
+from .questions.motion.joint_law import JointTurn as JointTurn
+from .questions.motion.joint_law import joint_angles as joint_angles
+from .questions.motion.joint_law import joint_turn as joint_turn

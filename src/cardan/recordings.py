@@ -1,0 +1,32 @@
+"""Recordings of a machine: signals, orders, diagnosis, faults to learn from, load spectra."""
+
+from .io.signals import signal as signal
+from .questions.diagnosis.examination import Examination as Examination
+from .questions.diagnosis.examination import examine as examine
+from .questions.diagnosis.expected import Expected as Expected
+from .questions.diagnosis.expected import expected_orders as expected_orders
+from .questions.diagnosis.findings import Finding as Finding
+from .questions.diagnosis.findings import diagnose as diagnose
+from .questions.diagnosis.signals.orbit import Orbit as Orbit
+from .questions.diagnosis.signals.orbit import orbit as orbit
+from .questions.diagnosis.signals.order_tracks import TrackedOrders as TrackedOrders
+from .questions.diagnosis.signals.order_tracks import tracked_orders as tracked_orders
+from .questions.diagnosis.signals.orders import OrderMap as OrderMap
+from .questions.diagnosis.signals.orders import OrderSpectrum as OrderSpectrum
+from .questions.diagnosis.signals.orders import order_map as order_map
+from .questions.diagnosis.signals.orders import order_spectrum as order_spectrum
+from .questions.diagnosis.signals.signal import Channel as Channel
+from .questions.diagnosis.signals.signal import Signal as Signal
+from .questions.diagnosis.signals.spectra import Cepstrum as Cepstrum
+from .questions.diagnosis.signals.spectra import cepstrum as cepstrum
+from .questions.diagnosis.signals.spectra import integrated as integrated
+from .questions.diagnosis.signals.torsional import TorsionalVibration as TorsionalVibration
+from .questions.diagnosis.signals.torsional import torsional_vibration as torsional_vibration
+from .questions.diagnosis.signals.turning import Rotation as Rotation
+from .questions.diagnosis.signals.turning import rotation as rotation
+from .questions.diagnosis.simulate import Runs as Runs
+from .questions.diagnosis.simulate import simulate_fault as simulate_fault
+from .questions.life.rainflow import Cycles as Cycles
+from .questions.life.rainflow import Levels as Levels
+from .questions.life.rainflow import rainflow as rainflow
+from .questions.life.rainflow import time_at_level as time_at_level
