@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan import example
-from cardan.recordings import Channel, Signal, diagnose, order_map, rotation
+from cardan.recordings import Channel, Signal, diagnose, estimate_rotation, order_map
 
 from .harness import Figure, fastest
 
@@ -32,14 +32,14 @@ def figures(quick: bool) -> Iterator[Figure]:
     seconds = 6.0 if quick else 600.0
     signal, drive = running_up(seconds), example("truck-supports")
     without = Signal(channels=signal.channels[1:])
-    shaft, front = rotation(signal), signal.channels[1]
+    shaft, front = estimate_rotation(signal), signal.channels[1]
     yardstick = "one transform of a channel"
     best = fastest(
         {
             yardstick: lambda: np.fft.rfft(front.values),
-            "turning by a tacho": lambda: rotation(signal),
+            "turning by a tacho": lambda: estimate_rotation(signal),
             "order map of a channel": lambda: order_map(front, shaft),
-            "turning without a tacho, by two channels": lambda: rotation(without, speed_range=(100.0, 350.0)),
+            "turning without a tacho, by two channels": lambda: estimate_rotation(without, speed_range=(100.0, 350.0)),
             "diagnosis of two channels": lambda: diagnose(signal, drive),
         },
         rounds=1 if quick else 2,

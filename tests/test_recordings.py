@@ -12,7 +12,7 @@ import pytest
 from cardan import example
 from cardan.io import recording_names
 from cardan.questions.diagnosis.expected import FAULTS
-from cardan.recordings import diagnose, signal
+from cardan.recordings import diagnose, load_recording
 
 FOLDER = Path(__file__).parents[1] / "examples" / "recordings"
 
@@ -36,7 +36,7 @@ def test_there_is_one_of_every_fault(script: dict[str, Any]) -> None:
 @pytest.mark.parametrize("fault", ["healthy", "worn_spline", "crack"])
 def test_the_script_makes_what_is_there(script: dict[str, Any], fault: str) -> None:
     made = script["recording"](fault)
-    kept = signal(FOLDER / script["file_name"](fault))
+    kept = load_recording(FOLDER / script["file_name"](fault))
     assert (FOLDER / script["file_name"](fault)).read_bytes().splitlines()[:3] == script["content"](fault).splitlines()[
         :3
     ]
@@ -51,6 +51,6 @@ def test_the_script_makes_what_is_there(script: dict[str, Any], fault: str) -> N
 @pytest.mark.parametrize("fault", FAULTS)
 def test_its_fault_is_found_first(script: dict[str, Any], fault: str) -> None:
     drive = example(script["DRIVE"])
-    found = diagnose(signal(FOLDER / script["file_name"](fault)), drive)
+    found = diagnose(load_recording(FOLDER / script["file_name"](fault)), drive)
     assert found[0].cause == (FAULTS[fault] or "healthy")
     assert found[0].score > 2.0 * found[1].score

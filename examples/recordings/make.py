@@ -14,11 +14,11 @@ import numpy as np
 
 from cardan import example
 from cardan.io.signals.csv import content_of
-from cardan.recordings import Channel, Runs, Signal, simulate_fault
+from cardan.recordings import Channel, Signal, TestSchedule, simulate_fault
 
 DRIVE = "truck-supports"
 
-RUNS = Runs(run_up=6.5, hold=2.5, rate=500.0)
+RUNS = TestSchedule(run_up=6.5, hold=2.5, rate=500.0)
 
 SEVERITY, SNR = 1.5, 12.0
 """How bad a fault is, over a plain one, and how far the vibration stands above the noise [dB]."""

@@ -1,9 +1,9 @@
 """Joints by themselves: their kinds, how they turn, which to take for a duty."""
 
 from .choices.selection import Candidate as Candidate
-from .choices.selection import Need as Need
+from .choices.selection import JointDuty as JointDuty
 from .choices.selection import select_joint as select_joint
-from .choices.selection_reasons import need_of as need_of
+from .choices.selection_reasons import joint_duty as joint_duty
 from .drive.joints import Clemens as Clemens
 from .drive.joints import ConstantVelocity as ConstantVelocity
 from .drive.joints import DoubleCardan as DoubleCardan

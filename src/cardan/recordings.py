@@ -1,6 +1,6 @@
 """Recordings of a machine: signals, orders, diagnosis, faults to learn from, load spectra."""
 
-from .io.signals import signal as signal
+from .io.signals import load_recording as load_recording
 from .questions.diagnosis.examination import Examination as Examination
 from .questions.diagnosis.examination import examine as examine
 from .questions.diagnosis.expected import Expected as Expected
@@ -19,12 +19,12 @@ from .questions.diagnosis.signals.signal import Channel as Channel
 from .questions.diagnosis.signals.signal import Signal as Signal
 from .questions.diagnosis.signals.spectra import Cepstrum as Cepstrum
 from .questions.diagnosis.signals.spectra import cepstrum as cepstrum
-from .questions.diagnosis.signals.spectra import integrated as integrated
+from .questions.diagnosis.signals.spectra import integrate as integrate
 from .questions.diagnosis.signals.torsional import TorsionalVibration as TorsionalVibration
 from .questions.diagnosis.signals.torsional import torsional_vibration as torsional_vibration
 from .questions.diagnosis.signals.turning import Rotation as Rotation
-from .questions.diagnosis.signals.turning import rotation as rotation
-from .questions.diagnosis.simulate import Runs as Runs
+from .questions.diagnosis.signals.turning import estimate_rotation as estimate_rotation
+from .questions.diagnosis.simulate import TestSchedule as TestSchedule
 from .questions.diagnosis.simulate import simulate_fault as simulate_fault
 from .questions.life.rainflow import Cycles as Cycles
 from .questions.life.rainflow import Levels as Levels

@@ -1,10 +1,10 @@
 """Many drives at once: what varies, sweeps and their tables, searches, sensitivities, maps."""
 
-from .batch.answering.asking import Asked as Asked
-from .batch.answering.asking import ask_of as ask_of
-from .batch.points.axes import Drawn as Drawn
-from .batch.points.axes import Listed as Listed
-from .batch.points.axes import Spaced as Spaced
+from .batch.answering.asking import DriveEvaluator as DriveEvaluator
+from .batch.answering.asking import evaluator as evaluator
+from .batch.points.axes import GridAxis as GridAxis
+from .batch.points.axes import SampledAxis as SampledAxis
+from .batch.points.axes import TableAxis as TableAxis
 from .batch.points.distributions import Normal as Normal
 from .batch.points.distributions import Triangular as Triangular
 from .batch.points.distributions import Truncated as Truncated

@@ -12,13 +12,15 @@ from cardan.batch.plan import work_of
 from cardan.batch.work import Reduction, Work
 from cardan.drive.fields.paths import with_values
 from cardan.io import loads
-from cardan.sweeps import Drawn, Listed, Spaced, Uniform, sweep
+from cardan.sweeps import GridAxis, SampledAxis, TableAxis, Uniform, sweep
 
 DRIVE = Drive.from_angles([0.3, 0.2, 0.25], yoke_angles=[0.1, 0.2])
 AXES = (
-    Spaced(field="joints[0].joint_angle_deg", start=0, stop=20, count=21),
-    Drawn(distributions={"shafts[1].yoke_angle_deg": Uniform(low=0, high=90)}, count=300, method="sobol", seed=4),
-    Listed(fields=("make", "joints[2].joint_angle_deg"), rows=(("a", 10.0), ("b", 95.0)), name="make", facts=("make",)),
+    GridAxis(field="joints[0].joint_angle_deg", start=0, stop=20, count=21),
+    SampledAxis(distributions={"shafts[1].yoke_angle_deg": Uniform(low=0, high=90)}, count=300, method="sobol", seed=4),
+    TableAxis(
+        fields=("make", "joints[2].joint_angle_deg"), rows=(("a", 10.0), ("b", 95.0)), name="make", facts=("make",)
+    ),
 )
 
 
@@ -146,7 +148,7 @@ def test_fields_of_numbers_take_numbers(values):
 
 @pytest.mark.parametrize("fact", ["speed_fluctuation", "Status", "feasible"])
 def test_no_two_columns_have_one_name(fact):
-    axes = [Listed(fields=(fact, "joints[2].joint_angle_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
+    axes = [TableAxis(fields=(fact, "joints[2].joint_angle_deg"), rows=((1.0, 10.0),), name="make", facts=(fact,))]
     with pytest.raises(InputError, match="this name already"):
         work_of(DRIVE, axes, ["speed_fluctuation"], constraints=["speed_fluctuation <= 1"])
 
@@ -162,7 +164,7 @@ def test_the_order_of_columns_is_part_of_the_name():
     names = {
         work_of(
             DRIVE,
-            [Listed(fields=tuple(k for k, _v in two), rows=(tuple(v for _k, v in two),), name="two")],
+            [TableAxis(fields=tuple(k for k, _v in two), rows=(tuple(v for _k, v in two),), name="two")],
             ["joint_angle"],
         ).name
         for two in (pairs, pairs[::-1])

@@ -10,7 +10,7 @@ import pytest
 from cardan.calc import calc
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import AnglePair
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.errors import InputError
 from cardan.questions.motion.angle_limits import angle_limits
 
@@ -51,7 +51,7 @@ def test_a_measure_of_the_other_part_is_refused() -> None:
 
 
 def test_every_type_is_judged_once_and_says_why() -> None:
-    need = Need(torque=2500.0, joint_angle=math.radians(38.0), speed=73.0, synchronous=True)
+    need = JointDuty(torque=2500.0, joint_angle=math.radians(38.0), speed=73.0, synchronous=True)
     found = select_joint(need, include_beyond=True)
     assert len(found) == len(catalogue().tables["joint_types"])
     assert all(bool(one.causes) == (one.state == "rejected") for one in found)
@@ -61,5 +61,5 @@ def test_every_type_is_judged_once_and_says_why() -> None:
 
 def test_a_need_that_cannot_be_names_every_fault() -> None:
     with pytest.raises(InputError) as caught:
-        Need(torque=0.0, joint_angle=1.6, speed=-1.0, service_factor=0.0)
+        JointDuty(torque=0.0, joint_angle=1.6, speed=-1.0, service_factor=0.0)
     assert [one.field for one in caught.value.problems] == ["torque", "joint_angle", "speed", "service_factor"]

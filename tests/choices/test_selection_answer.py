@@ -6,7 +6,7 @@ from cardan.answers.data import data
 from cardan.answers.printed import printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.choices.selection_answer import answer, ask, lacking, selected
 from cardan.choices.selection_reasons import fitting_sizes
 from cardan.drive.drive import Drive
@@ -14,7 +14,7 @@ from cardan.io import example
 from cardan.texts import speaking
 from cardan.units import deg, rpm
 
-NEED = Need(torque=700.0, joint_angle=10 * deg, speed=900 * rpm)
+NEED = JointDuty(torque=700.0, joint_angle=10 * deg, speed=900 * rpm)
 POUNDS = Reader(units={"torque": "lbft", "length": "in"}, decimal=",")
 
 

@@ -11,7 +11,7 @@ from cardan import load
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.questions.diagnosis.findings import BY_SIGNS
-from cardan.recordings import diagnose, signal
+from cardan.recordings import diagnose, load_recording
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 
@@ -50,7 +50,7 @@ def of(title, titles):
 @pytest.mark.slow
 def test_the_answer_is_that_of_the_library(cardan):
     done = cardan("diagnose", RUN, DRIVE, "--json")
-    found = diagnose(signal(RUN), load(DRIVE))
+    found = diagnose(load_recording(RUN), load(DRIVE))
     said = done.content
     assert done.code == said["exit_code"] == 1
     assert [one["cause"] for one in said["causes"]] == [one.cause for one in found]

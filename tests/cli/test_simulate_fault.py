@@ -7,8 +7,8 @@ import pytest
 
 from cardan import load
 from cardan.questions.diagnosis.expected import FAULTS
-from cardan.questions.diagnosis.simulate import Runs
-from cardan.recordings import expected_orders, signal, simulate_fault
+from cardan.questions.diagnosis.simulate import TestSchedule
+from cardan.recordings import expected_orders, load_recording, simulate_fault
 from tests.cli.conftest import EXAMPLES
 from tests.cli.test_forces import widest
 
@@ -49,9 +49,9 @@ def test_it_stands_within_80_columns(cardan):
 @pytest.mark.parametrize("suffix", [".csv", ".wav", ".uff", ".tdms"])
 def test_the_recording_is_that_of_the_library(cardan, tmp_path, suffix):
     said = cardan("simulate-fault", DRIVE, "crack", "-o", f"run{suffix}", "--seed", 3, *SHORT, "--json").content
-    made = simulate_fault(load(DRIVE), "crack", seed=3, runs=Runs(run_up=3.0, hold=1.0, rate=1000.0))
+    made = simulate_fault(load(DRIVE), "crack", seed=3, runs=TestSchedule(run_up=3.0, hold=1.0, rate=1000.0))
     assert said["recording"]["channels"] == [one.name for one in made.channels]
-    kept = signal(tmp_path / f"run{suffix}")
+    kept = load_recording(tmp_path / f"run{suffix}")
     for one, other in zip(kept.channels, made.channels, strict=True):
         assert one.values == pytest.approx(other.values, rel=1e-6, abs=1e-6)  # single precision in a WAV
 

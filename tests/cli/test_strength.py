@@ -10,7 +10,7 @@ import pytest
 from cardan import io as files
 from cardan.catalogue import TABLES, catalogue
 from cardan.checks.strength.strength import strength
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.choices.sizing import size
 from cardan.drive.fields.parts import known_lengths
 from cardan.questions.bending.shaft_balance import balance
@@ -176,7 +176,7 @@ def test_every_reason_says_its_limit_and_source(cardan):
     said = cardan(
         "select", "--torque-Nm", 700, "--joint-angle-deg", 30, "--speed-rpm", 2000, "--synchronous", "--json"
     ).content
-    found = select_joint(Need(torque=700.0, joint_angle=30 * deg, speed=2000 * rpm, synchronous=True))
+    found = select_joint(JointDuty(torque=700.0, joint_angle=30 * deg, speed=2000 * rpm, synchronous=True))
     assert [row["type"] for row in said["types"]] == [one.row.id for one in found]
     for row, one in zip(said["types"], found, strict=True):
         assert [reason["code"] for reason in row["reasons"]] == [*one.causes, *one.flags]

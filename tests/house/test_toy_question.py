@@ -3,7 +3,7 @@
 import pytest
 
 from cardan.app.parts.blocks import block_html
-from cardan.batch.answering.asking import ask_of
+from cardan.batch.answering.asking import evaluator
 from cardan.io import loads
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import answered, subject
@@ -86,7 +86,7 @@ def test_it_says_what_the_file_lacks(cardan, drive_file):  # noqa: F811
 def test_a_sweep_asks_it_and_says_where_it_lacks_something():
     found = sweep(loads(FILE), {"joints[0].joint_angle_deg": [10.0, 20.0]}, ["toy", "speed_fluctuation"]).table()
     assert found["toy_in"].tolist() == [2.0, 2.0]
-    asked = ask_of(loads(FILE.partition("[duty]")[0]), [], ["toy"])
+    asked = evaluator(loads(FILE.partition("[duty]")[0]), [], ["toy"])
     answers, _status, (problem,) = asked.at({})
     assert not answers
     assert str(problem) == "toy: duty.torque: missing; the question toy needs it"

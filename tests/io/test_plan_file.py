@@ -9,7 +9,7 @@ import pytest
 from cardan import InputError
 from cardan.batch.table.reductions import Reduce
 from cardan.io.plan_file import plan_of, read_plan
-from cardan.sweeps import Drawn, Listed, Normal, Spaced, Uniform
+from cardan.sweeps import GridAxis, Normal, SampledAxis, TableAxis, Uniform
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -58,8 +58,8 @@ correlations = [["output.point_mm[1]", "output.point_mm[2]", 0.5]]
 """
     )
     speeds, overlaps, makes, fits = plan.axes
-    assert speeds == Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=3)
-    assert overlaps == Listed(fields=("limits.spline_overlap_mm",), rows=((50,), (60.5,)))
+    assert speeds == GridAxis(field="duty.speed_rpm", start=1000, stop=2000, count=3)
+    assert overlaps == TableAxis(fields=("limits.spline_overlap_mm",), rows=((50,), (60.5,)))
     assert makes.facts == ("price_eur", "make")
     assert makes.values(np.asarray([1])) == {
         "make": "B",
@@ -69,7 +69,7 @@ correlations = [["output.point_mm[1]", "output.point_mm[2]", 0.5]]
         "joints[0].centre_mm[2]": 5.0,
         "shafts[1].yoke_angle_deg": 3.0,
     }
-    assert isinstance(fits, Drawn)
+    assert isinstance(fits, SampledAxis)
     assert fits.seed == 10  # of the plan, and another one for each axis
     assert fits.distributions == {
         "output.point_mm[1]": Normal(mean=45.0, std=0.5),

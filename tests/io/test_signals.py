@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import cardan
 from cardan import InputError
 from cardan.io.signals import SIGNAL_FORMATS
-from cardan.recordings import Channel, Signal, signal
+from cardan.recordings import Channel, Signal, load_recording
 from tests.builders.recordings import recorded
 
 TIME = np.arange(400) / 1000
@@ -25,7 +25,7 @@ def table(path, titles="time_s,tacho,acceleration_front_z_m_s2", rows=None, mark
 
 
 def test_a_table_is_read_in_si(tmp_path):
-    found = signal(table(tmp_path / "run.csv", "time_ms,speed_rpm,acceleration_supports[1]_z_g"))
+    found = load_recording(table(tmp_path / "run.csv", "time_ms,speed_rpm,acceleration_supports[1]_z_g"))
     assert found.tacho == 0
     assert found.channels[0].values[1] == pytest.approx(TACHO[1] * np.pi / 30)
     front = found.channels[1]
@@ -39,7 +39,7 @@ def test_a_table_is_read_in_si(tmp_path):
 def test_other_marks_and_decimal_commas_are_read(tmp_path, mark):
     path = table(tmp_path / "run.csv", mark.join(["time_s", "tacho_V", "front_m_s2"]), mark=mark)
     path.write_text("# made by a data logger\n" + path.read_text().replace(".", ","))
-    found = signal(path)
+    found = load_recording(path)
     assert found.channel("front").values == pytest.approx(WAVE)
     assert found.channels[found.tacho].name == "tacho"
 
@@ -57,7 +57,7 @@ def test_what_is_written_is_read_again(tmp_path_factory, suffix, rate, seed):
     path = tmp_path_factory.mktemp("kept") / f"run{suffix}"
     cardan.save(Signal(channels=channels, tacho=0), path)
     titles = () if suffix != ".wav" else ("tacho", "acceleration_front_supports[0]_y_m_s2", "displacement_gap_m")
-    found = signal(path, titles=titles)
+    found = load_recording(path, titles=titles)
     assert found.tacho == 0
     for one, two in zip(channels, found.channels, strict=True):
         assert (one.name, one.quantity, one.place, one.direction) == (two.name, two.quantity, two.place, two.direction)
@@ -75,14 +75,14 @@ def test_whole_numbers_of_a_wav_are_scaled(tmp_path, width, top):
         both = np.stack([numbers, numbers // 2], axis=1).ravel()
         raw = both + 128 if width == 1 else both
         file.writeframes(b"".join(int(v).to_bytes(width, "little", signed=width > 1) for v in raw))
-    found = signal(tmp_path / "run.wav", titles=("front_m_s2", "rear_g"), full_scale=(50.0, 10.0))
+    found = load_recording(tmp_path / "run.wav", titles=("front_m_s2", "rear_g"), full_scale=(50.0, 10.0))
     assert np.allclose(found.channel("front").values, 45.0 * WAVE, atol=100.0 / top)
     assert np.allclose(found.channel("rear").values, 4.5 * 9.80665 * WAVE, atol=2 * 98.0 / top)
-    bare = signal(tmp_path / "run.wav")
+    bare = load_recording(tmp_path / "run.wav")
     assert [one.name for one in bare.channels] == ["left", "right"]
     assert bare.tacho is None
     assert any("does not say what its channels measure" in one for one in bare.cautions)
-    assert signal(tmp_path / "run.wav", tacho="right").tacho == 1
+    assert load_recording(tmp_path / "run.wav", tacho="right").tacho == 1
 
 
 def universal(path, **given):
@@ -102,24 +102,24 @@ def universal(path, **given):
 
 
 def test_a_universal_file_is_read(tmp_path):
-    front = signal(universal(tmp_path / "run.uff")).channels[0]
+    front = load_recording(universal(tmp_path / "run.uff")).channels[0]
     assert (front.name, front.quantity, front.direction, front.start) == ("front", "acceleration", "z", 0.5)
     assert front.rate == pytest.approx(1000)
     assert front.values == pytest.approx(WAVE, abs=1e-10)
-    turned = signal(universal(tmp_path / "run.unv", way=-1, unit="g")).channels[0]
+    turned = load_recording(universal(tmp_path / "run.unv", way=-1, unit="g")).channels[0]
     assert turned.direction == "x"
     assert turned.values == pytest.approx(-9.80665 * WAVE, abs=1e-9)
 
 
 def test_universal_files_without_a_recording_are_refused(tmp_path):
     with pytest.raises(InputError, match="no function over time"):
-        signal(universal(tmp_path / "frf.uff", kind=4))
+        load_recording(universal(tmp_path / "frf.uff", kind=4))
     with pytest.raises(InputError, match="'mm' is not a unit of acceleration"):
-        signal(universal(tmp_path / "unit.uff", unit="mm"))
+        load_recording(universal(tmp_path / "unit.uff", unit="mm"))
     whole = universal(tmp_path / "cut.uff").read_text()
     (tmp_path / "cut.uff").write_text(whole[:2000])
     with pytest.raises(InputError, match=r"cut off|can be read"):
-        signal(tmp_path / "cut.uff")
+        load_recording(tmp_path / "cut.uff")
 
 
 def tdms(path, *, remarks=(["windy"],), **properties):
@@ -140,21 +140,21 @@ def tdms(path, *, remarks=(["windy"],), **properties):
 
 
 def test_a_tdms_file_is_read(tmp_path):
-    found = signal(tdms(tmp_path / "run.tdms"))
+    found = load_recording(tdms(tmp_path / "run.tdms"))
     front = found.channels[0]
     assert (front.name, front.quantity, front.direction) == ("front", "acceleration", "z")
     assert front.values == pytest.approx(WAVE)
     assert found.channels[found.tacho].name == "tacho"
     assert any("remark of run.tdms holds no numbers" in one for one in found.cautions)
     with pytest.raises(InputError, match="does not say its rate"):
-        signal(tdms(tmp_path / "bare.tdms", wf_increment=None))
-    assert signal(tmp_path / "bare.tdms", rate=500.0).channels[0].rate == 500.0
+        load_recording(tdms(tmp_path / "bare.tdms", wf_increment=None))
+    assert load_recording(tmp_path / "bare.tdms", rate=500.0).channels[0].rate == 500.0
 
 
 def test_a_tdms_file_cut_off_is_read_as_far_as_it_goes(tmp_path):
     whole = tdms(tmp_path / "run.tdms", remarks=()).read_bytes()
     (tmp_path / "cut.tdms").write_bytes(whole[:-4000])
-    found = signal(tmp_path / "cut.tdms")
+    found = load_recording(tmp_path / "cut.tdms")
     assert any("cut off" in one for one in found.cautions)
 
 
@@ -187,7 +187,7 @@ def test_broken_files_are_refused_by_name(tmp_path, name):
     content, why = BROKEN[name]
     (tmp_path / name).write_bytes(content)
     with pytest.raises(InputError, match=why) as caught:
-        signal(tmp_path / name)
+        load_recording(tmp_path / name)
     assert caught.value.field
 
 
@@ -209,26 +209,26 @@ def test_any_file_cut_anywhere_or_spoilt_is_no_traceback(tmp_path, suffix):
             spoilt[place] = rng.integers(0, 256)
         path.write_bytes(bytes(spoilt))
         with contextlib.suppress(InputError):
-            found = signal(path)
+            found = load_recording(path)
             assert all(np.all(np.isfinite(one.values)) for one in found.channels)
 
 
 def test_what_is_missing_or_unknown_is_told(tmp_path):
     with pytest.raises(InputError, match="No such file"):
-        signal(tmp_path / "none.csv")
+        load_recording(tmp_path / "none.csv")
     path = table(tmp_path / "run.csv")
     with pytest.raises(InputError, match="did you mean front"):
-        signal(path, tacho="frint")
+        load_recording(path, tacho="frint")
     with pytest.raises(InputError, match="channel front measures acceleration"):
-        signal(path, tacho="front")
+        load_recording(path, tacho="front")
     with pytest.raises(InputError) as caught:
-        signal(path, pulses_per_turn=0.0, rate=-1.0, full_scale=float("nan"))
+        load_recording(path, pulses_per_turn=0.0, rate=-1.0, full_scale=float("nan"))
     assert [one.field for one in caught.value.problems] == ["pulses_per_turn", "rate", "full_scale"]
     with pytest.raises(InputError, match="1 titles given"):
-        signal(path, titles=["tacho"])
+        load_recording(path, titles=["tacho"])
     with pytest.raises(InputError, match="there is no channel 'x'"):
-        signal(path, titles={"x": "tacho"})
-    assert signal(path, titles={"tacho": "angle_deg"}).channels[0].quantity == "angle"
+        load_recording(path, titles={"x": "tacho"})
+    assert load_recording(path, titles={"tacho": "angle_deg"}).channels[0].quantity == "angle"
 
 
 def test_a_file_too_large_is_not_read(tmp_path):
@@ -236,13 +236,13 @@ def test_a_file_too_large_is_not_read(tmp_path):
     with path.open("wb") as stream:
         stream.truncate(10**9)  # sparse: takes no room
     with pytest.raises(InputError, match="larger than 200 MB"):
-        signal(path)
+        load_recording(path)
 
 
 def test_what_is_doubtful_is_a_caution(tmp_path):
     rows = [[t, p, w, "", 0.0] for t, p, w in zip(TIME, TACHO, np.clip(WAVE, -0.8, 0.8), strict=True)]
     rows[50][2] = "#N/A"
-    found = signal(table(tmp_path / "run.csv", "time_s,tacho,clipped_g,gone_g,dead_g", rows))
+    found = load_recording(table(tmp_path / "run.csv", "time_s,tacho,clipped_g,gone_g,dead_g", rows))
     told = "\n".join(found.cautions)
     assert "clipped: 1 of its values" in told
     assert "clipped: clipped at its limits" in told
@@ -255,27 +255,29 @@ def test_what_is_doubtful_is_a_caution(tmp_path):
 
 def test_a_dead_or_missing_tacho_is_told(tmp_path):
     rows = [[t, 0.0, w] for t, w in zip(TIME, WAVE, strict=True)]
-    dead = signal(table(tmp_path / "dead.csv", rows=rows))
+    dead = load_recording(table(tmp_path / "dead.csv", rows=rows))
     assert dead.tacho is None
     assert any("the tacho is dead" in one for one in dead.cautions)
-    gone = signal(table(tmp_path / "gone.csv", "time_s,front_g", [[t, w] for t, w in zip(TIME, WAVE, strict=True)]))
+    gone = load_recording(
+        table(tmp_path / "gone.csv", "time_s,front_g", [[t, w] for t, w in zip(TIME, WAVE, strict=True)])
+    )
     assert any("There is no tacho" in one for one in gone.cautions)
-    two = signal(table(tmp_path / "two.csv", "time_s,tacho_a,tacho_b"))
+    two = load_recording(table(tmp_path / "two.csv", "time_s,tacho_a,tacho_b"))
     assert (two.tacho, two.channels[0].name) == (0, "a")
     assert any("a was taken as the tacho; b could be" in one for one in two.cautions)
 
 
 def test_times_and_rate_that_differ_are_told(tmp_path):
-    found = signal(table(tmp_path / "run.csv"), rate=2000.0)
+    found = load_recording(table(tmp_path / "run.csv"), rate=2000.0)
     assert any("1000 values a second, not 2000" in one for one in found.cautions)
     assert found.trust < 1.0
-    assert signal(table(tmp_path / "bare.csv", "a_g,b_g,c_g"), rate=2000.0).channels[0].rate == 2000.0
+    assert load_recording(table(tmp_path / "bare.csv", "a_g,b_g,c_g"), rate=2000.0).channels[0].rate == 2000.0
 
 
 def test_reading_can_be_stopped(tmp_path, monkeypatch):
     monkeypatch.setattr("cardan.io.signals.csv.CHUNK", 100)
     told = []
-    found = signal(table(tmp_path / "run.csv"), progress=lambda share: told.append(share) or "stop")
+    found = load_recording(table(tmp_path / "run.csv"), progress=lambda share: told.append(share) or "stop")
     assert told == [0.25]
     assert found.channels[0].values.size == 100
     assert any("Reading was stopped" in one for one in found.cautions)
@@ -299,7 +301,7 @@ def test_overflown_numbers_of_a_wav_are_told(tmp_path):
     with wave.open(str(tmp_path / "run.wav"), "wb") as file:
         file.setparams((1, 2, 1000, 0, "NONE", ""))
         file.writeframes(struct.pack(f"<{counts.size}h", *counts))
-    found = signal(tmp_path / "run.wav", titles=["front_g"])
+    found = load_recording(tmp_path / "run.wav", titles=["front_g"])
     assert any("overflown" in one for one in found.cautions)
     assert found.trust < 0.2
 
@@ -316,7 +318,7 @@ def test_overflown_numbers_of_a_wav_are_told(tmp_path):
 )
 def test_heads_as_loggers_write_them_are_read(tmp_path, titles):
     path = table(tmp_path / "run.csv", titles)
-    found = signal(path)
+    found = load_recording(path)
     front = found.channels[1]
     assert (front.name, front.quantity, front.direction, front.unit) == ("front", "acceleration", "z", "g")
     assert front.values == pytest.approx(WAVE * 9.80665)
@@ -329,7 +331,7 @@ def test_heads_as_loggers_write_them_are_read(tmp_path, titles):
 def test_text_of_other_programs_is_read(tmp_path, code):
     path = table(tmp_path / "run.csv", "time_s,speed [°/s],front [m/s²]")
     path.write_bytes(path.read_text(encoding="utf-8").encode(code))
-    found = signal(path)
+    found = load_recording(path)
     assert [one.unit for one in found.channels] == ["deg_s", "m_s2"]
 
 
@@ -338,23 +340,23 @@ def test_a_bad_line_is_named_by_its_number_in_the_file(tmp_path):
     lines = path.read_text().splitlines()
     path.write_text("\n".join(["# note", "", *lines[:50], "1,2", *lines[50:]]))
     with pytest.raises(InputError, match="line 53 has not 3 cells"):
-        signal(path)
+        load_recording(path)
 
 
 def test_volts_of_nothing_named_are_no_tacho(tmp_path):
-    found = signal(table(tmp_path / "run.csv", "time_s,ch1_V,ch2 [V]"))
+    found = load_recording(table(tmp_path / "run.csv", "time_s,ch1_V,ch2 [V]"))
     assert [one.quantity for one in found.channels] == ["other", "other"]
     assert found.tacho is None
-    assert signal(tmp_path / "run.csv", tacho="ch1").tacho == 0
+    assert load_recording(tmp_path / "run.csv", tacho="ch1").tacho == 0
 
 
 def test_whole_numbers_of_a_wav_without_a_scale_are_doubted(tmp_path):
     with wave.open(str(tmp_path / "run.wav"), "wb") as file:
         file.setparams((1, 2, 1000, 0, "NONE", ""))
         file.writeframes(struct.pack("<400h", *(np.round(WAVE * 20000).astype(int))))
-    assert signal(tmp_path / "run.wav", titles=["front_g"]).trust < 0.5
-    assert signal(tmp_path / "run.wav", titles=["front_g"], full_scale=50.0).trust == 1.0
-    assert signal(tmp_path / "run.wav", titles=["tacho"]).trust == 1.0
+    assert load_recording(tmp_path / "run.wav", titles=["front_g"]).trust < 0.5
+    assert load_recording(tmp_path / "run.wav", titles=["front_g"], full_scale=50.0).trust == 1.0
+    assert load_recording(tmp_path / "run.wav", titles=["tacho"]).trust == 1.0
 
 
 def test_a_universal_file_that_is_cut_off_is_told(tmp_path):
@@ -362,8 +364,8 @@ def test_a_universal_file_that_is_cut_off_is_told(tmp_path):
     channels = tuple(Channel(name=name, values=WAVE, rate=1000.0) for name in ("a", "b", "c"))
     path = tmp_path / "run.uff"
     cardan.save(Signal(channels=channels), path)
-    assert not any("cut off" in one for one in signal(path).cautions)
+    assert not any("cut off" in one for one in load_recording(path).cautions)
     path.write_bytes(path.read_bytes()[:-4000])
-    found = signal(path)
+    found = load_recording(path)
     assert len(found.channels) == 2
     assert any("cut off" in one for one in found.cautions)

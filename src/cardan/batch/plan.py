@@ -19,8 +19,8 @@ from cardan.maths.arrays import Array
 from cardan.maths.compiled.threads import share
 from cardan.texts import _
 
-from .answering.asking import STATUS_COLUMN, Asked, Device, ask_of
-from .points.axes import Axis, Listed, Points
+from .answering.asking import STATUS_COLUMN, Device, DriveEvaluator, evaluator
+from .points.axes import Axis, Points, TableAxis
 from .points.fields import TEXT_FEASIBLE, spread_out
 from .search.goals import Limit, check_names, excess, limit_of
 from .table.reductions import Reduce, States, at_work, reduce_of
@@ -42,7 +42,7 @@ class SweepWork:
 
     Attributes
     ----------
-    ask : Asked
+    ask : DriveEvaluator
         Questions, and the drive in which fields vary.
     points : Points
     limits : tuple of Limit
@@ -52,7 +52,7 @@ class SweepWork:
         What to call it.
     """
 
-    ask: Asked
+    ask: DriveEvaluator
     points: Points
     limits: tuple[Limit, ...] = ()
     reduce: tuple[Reduce, ...] = ()
@@ -186,7 +186,8 @@ def work_of(
     ----------
     drive : Drive
     vary : mapping of str to sequence, or sequence of Axis
-        Path with unit -> list of values; or `Spaced`, `Listed` and `Drawn` axes. Every point of their product is one.
+        Path with unit -> list of values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every point of their
+        product is one.
     ask : sequence of str
         Names of questions, see `questions`.
     reduce : sequence of str or Reduce
@@ -232,7 +233,7 @@ def work_of(
     facts = {name for axis in axes for name in axis.facts}
     paths = [name for axis in axes for name in axis.fields if name not in facts]
     try:
-        asked = ask_of(drive, paths, ask, known=known, device=device, size=points.size)
+        asked = evaluator(drive, paths, ask, known=known, device=device, size=points.size)
         problems += [] if problems else _misfits(asked, points)
         if not problems:
             bare = SweepWork(ask=asked, points=points)
@@ -247,7 +248,7 @@ def work_of(
     return SweepWork(ask=asked, points=points, limits=tuple(limits), reduce=tuple(reduces), title=title or drive.name)
 
 
-def _misfits(asked: Asked, points: Points) -> Iterator[Problem]:
+def _misfits(asked: DriveEvaluator, points: Points) -> Iterator[Problem]:
     """Yield fields that are given words where they hold numbers, and the like."""
     first = points.values(0, 1)
     found = (spot.misfit(first[spot.path]) for spot in asked.spots)
@@ -282,7 +283,7 @@ def _collect(problems: list[Problem], into: list[Any], make: Any) -> None:
         problems += error.problems
 
 
-def listed(drive: Drive, path: str, values: Any) -> Listed:
+def listed(drive: Drive, path: str, values: Any) -> TableAxis:
     """Return the axis of a path with a list of values; a path of a list of numbers takes lists of them.
 
     Raises
@@ -302,4 +303,4 @@ def listed(drive: Drive, path: str, values: Any) -> Listed:
     if not isinstance(given, Sequence) or isinstance(given, str):
         check([Problem(path, _("a list of values is needed"))])
     fields, rows = spread_out(path, list(given))
-    return Listed(fields=fields, rows=tuple(rows), name=path)
+    return TableAxis(fields=fields, rows=tuple(rows), name=path)

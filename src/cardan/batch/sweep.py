@@ -40,8 +40,8 @@ def sweep(
     ----------
     drive : Drive
     vary : mapping of str to sequence, or sequence of Axis
-        Path with unit, as in the drive file, -> its values; or axes: `Spaced`, `Listed`, `Drawn`. Every combination is
-        a point.
+        Path with unit, as in the drive file, -> its values; or axes: `GridAxis`, `TableAxis`, `SampledAxis`. Every
+        combination is a point.
     ask : sequence of str
         Names of questions: ``"speed_fluctuation"``, ``"life"``.
     reduce : sequence of str or Reduce

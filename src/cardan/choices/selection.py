@@ -15,7 +15,7 @@ SLACK = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Need:
+class JointDuty:
     """What a joint must do.
 
     Attributes
@@ -88,12 +88,14 @@ class Candidate:
         return "rejected" if self.causes else "conditional" if self.flags else "ok"
 
 
-def select_joint(need: Need, *, known: Catalogue | None = None, include_beyond: bool = False) -> tuple[Candidate, ...]:
+def select_joint(
+    need: JointDuty, *, known: Catalogue | None = None, include_beyond: bool = False
+) -> tuple[Candidate, ...]:
     """Return every type of joint of the catalogue with what is for and against it, the best first.
 
     Parameters
     ----------
-    need : Need
+    need : JointDuty
     known : Catalogue, optional
         The shipped one when not given.
     include_beyond : bool
@@ -107,7 +109,7 @@ def select_joint(need: Need, *, known: Catalogue | None = None, include_beyond: 
 
     Examples
     --------
-    >>> found = select_joint(Need(torque=2.5e6, joint_angle=math.radians(9.0), speed=6.28))
+    >>> found = select_joint(JointDuty(torque=2.5e6, joint_angle=math.radians(9.0), speed=6.28))
     >>> sorted(one.row.id for one in found if one.state == "ok")
     ['mill_slipper', 'super_heavy']
     """
@@ -122,7 +124,7 @@ def select_joint(need: Need, *, known: Catalogue | None = None, include_beyond: 
     return tuple(sorted(judged, key=rank))
 
 
-def _judged(row: JointType, need: Need) -> Candidate:
+def _judged(row: JointType, need: JointDuty) -> Candidate:
     torque = need.torque * need.service_factor
     causes, flags = set(), set()
 

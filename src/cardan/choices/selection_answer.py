@@ -15,8 +15,8 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.texts import _, plural
 
-from .selection import Candidate, Need, select_joint
-from .selection_reasons import Reason, SizeFit, fitting_sizes, need_of, reasons
+from .selection import Candidate, JointDuty, select_joint
+from .selection_reasons import Reason, SizeFit, fitting_sizes, joint_duty, reasons
 
 TONES: dict[str, Tone] = {"ok": "good", "conditional": "warning", "rejected": "failed"}
 
@@ -27,14 +27,14 @@ class Selection:
 
     Attributes
     ----------
-    need : Need
+    need : JointDuty
     types : tuple of Candidate
         Every type of the catalogue: accepted, under conditions, rejected.
     sizes : tuple of SizeFit
         Every size of it.
     """
 
-    need: Need
+    need: JointDuty
     types: tuple[Candidate, ...]
     sizes: tuple[SizeFit, ...]
 
@@ -42,18 +42,18 @@ class Selection:
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for a choice of its joints."""
     try:
-        need_of(drive)
+        joint_duty(drive)
     except InputError as error:
         return all_of([one.field for one in error.problems])
     return ()
 
 
-def selected(need: Need, *, known: Catalogue | None = None, modern: bool = False) -> Selection:
+def selected(need: JointDuty, *, known: Catalogue | None = None, modern: bool = False) -> Selection:
     """Return what could be taken for a need.
 
     Parameters
     ----------
-    need : Need
+    need : JointDuty
     known : Catalogue, optional
         The shipped one when not given.
     modern : bool
@@ -65,7 +65,7 @@ def selected(need: Need, *, known: Catalogue | None = None, modern: bool = False
 
 def ask(drive: Drive, *, known: Catalogue | None = None, joint: int | None = None) -> Selection:
     """Return what could be taken for the joints of a drive, or for one of them."""
-    return selected(need_of(drive, joint=joint, known=known), known=known)
+    return selected(joint_duty(drive, joint=joint, known=known), known=known)
 
 
 def answer(_drive: Drive | None, result: Selection) -> Answer:

@@ -19,7 +19,7 @@ from cardan.errors import Problem, check
 from cardan.questions.forces.turn_loads import case_loads, load_cases
 from cardan.texts import _
 
-from .selection import SLACK, Candidate, Need
+from .selection import SLACK, Candidate, JointDuty
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,9 +68,9 @@ class SizeFit:
         return not self.reasons
 
 
-def need_of(
+def joint_duty(
     drive: Drive, duty: Duty | None = None, *, joint: int | None = None, known: Catalogue | None = None
-) -> Need:
+) -> JointDuty:
     """Return what the joints of a drive must do: the largest torque, bend and speed of one joint or of all of them.
 
     Parameters
@@ -85,7 +85,7 @@ def need_of(
 
     Returns
     -------
-    Need
+    JointDuty
         Torque without the factor for shocks, which is its service factor.
 
     Raises
@@ -95,7 +95,7 @@ def need_of(
 
     Examples
     --------
-    >>> found = need_of(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))
+    >>> found = joint_duty(Drive.from_angles([0.1, 0.3]), Duty(torque=100.0, speed=50.0, shock_factor=1.5))
     >>> print(f"{found.torque:.3f} {found.joint_angle} {found.service_factor}")
     104.675 0.3 1.5
     """
@@ -124,7 +124,7 @@ def need_of(
     outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]
     outer = max((one for one in outers if one is not None), default=None)
     used = whole.duty
-    return Need(
+    return JointDuty(
         torque=float(np.max(torque)),
         joint_angle=float(np.max(joint_angle)),
         speed=float(np.max(made.top_speed if made.top_speed is not None else 0.0)),
@@ -135,21 +135,21 @@ def need_of(
     )
 
 
-def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
+def reasons(candidate: Candidate, need: JointDuty) -> tuple[Reason, ...]:
     """Return why a type of joint is rejected, or under which conditions it is accepted.
 
     Parameters
     ----------
     candidate : Candidate
         Of `select_joint` for this need.
-    need : Need
+    need : JointDuty
 
     Examples
     --------
     >>> from cardan.answers.reader import USUAL
     >>> from cardan.choices.selection import select_joint
     >>> from cardan.units import deg
-    >>> need = Need(torque=50.0, joint_angle=20 * deg, speed=10.0)
+    >>> need = JointDuty(torque=50.0, joint_angle=20 * deg, speed=10.0)
     >>> said = next(reasons(one, need)[0].message for one in select_joint(need) if one.row.id == "light")
     >>> said.told(USUAL)
     '50 N·m is more than its 12.5 N·m'
@@ -157,7 +157,7 @@ def reasons(candidate: Candidate, need: Need) -> tuple[Reason, ...]:
     return tuple(_reason(code, candidate, need) for code in (*candidate.causes, *candidate.flags))
 
 
-def _reason(code: str, candidate: Candidate, need: Need) -> Reason:
+def _reason(code: str, candidate: Candidate, need: JointDuty) -> Reason:
     row, torque = candidate.row, need.torque * need.service_factor
     figures = {
         "torque": (torque, row.max_torque, "torque"),
@@ -188,12 +188,12 @@ def _reason(code: str, candidate: Candidate, need: Need) -> Reason:
     return Reason(code=code, message=texts[code], source=row.source)
 
 
-def fitting_sizes(need: Need, *, known: Catalogue | None = None) -> tuple[SizeFit, ...]:
+def fitting_sizes(need: JointDuty, *, known: Catalogue | None = None) -> tuple[SizeFit, ...]:
     """Return every size of the catalogue with what its maker's figures say, those that fit first, the smallest first.
 
     Parameters
     ----------
-    need : Need
+    need : JointDuty
     known : Catalogue, optional
         The shipped one when not given.
 
@@ -205,7 +205,7 @@ def fitting_sizes(need: Need, *, known: Catalogue | None = None) -> tuple[SizeFi
     Examples
     --------
     >>> from cardan.units import deg
-    >>> found = fitting_sizes(Need(torque=700.0, joint_angle=10 * deg, speed=100.0))
+    >>> found = fitting_sizes(JointDuty(torque=700.0, joint_angle=10 * deg, speed=100.0))
     >>> found[0].row.id, round(found[0].headroom, 2)
     ('example-58', 1.26)
     """
@@ -218,7 +218,7 @@ def fitting_sizes(need: Need, *, known: Catalogue | None = None) -> tuple[SizeFi
     return tuple(sorted(found, key=lambda one: (not one.fits, _outer(one.row), one.row.id)))
 
 
-def _size_reasons(row: JointSize, need: Need) -> Iterator[Reason]:
+def _size_reasons(row: JointSize, need: JointDuty) -> Iterator[Reason]:
     rating = row.rating
     if rating is None:
         return

@@ -97,7 +97,7 @@ OPTIONS = {
     "titles": "--title",
     "full_scale": "--full-scale",
 }
-"""Argument of `cardan.recordings.signal` -> option."""
+"""Argument of `cardan.recordings.load_recording` -> option."""
 
 
 def recorded(path: Path, how: Reading, progress: Callable[[float], object] | None = None) -> Signal:
@@ -111,14 +111,14 @@ def recorded(path: Path, how: Reading, progress: Callable[[float], object] | Non
         Everything that is wrong with the file, with its name.
     """
     from cardan.errors import InputError
-    from cardan.io.signals import signal
+    from cardan.io.signals import load_recording
 
     from .failure import about
 
     titles = _pairs(how.titles, "--title")
     with about(str(path)):
         try:
-            return signal(
+            return load_recording(
                 path,
                 tacho=how.tacho,
                 pulses_per_turn=how.pulses_per_turn,

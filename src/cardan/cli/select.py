@@ -10,9 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from cardan.catalogue import Catalogue, catalogue, with_files
-from cardan.choices.selection import Need
+from cardan.choices.selection import JointDuty
 from cardan.choices.selection_answer import answer, selected
-from cardan.choices.selection_reasons import need_of
+from cardan.choices.selection_reasons import joint_duty
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check
 from cardan.io.drive_file import known_to
@@ -126,14 +126,14 @@ def _changes(
     return {name: value for name, value in said.items() if value is not None}
 
 
-def _need(torque: float | None, speed_rpm: float | None, changes: dict[str, Any]) -> Need:
+def _need(torque: float | None, speed_rpm: float | None, changes: dict[str, Any]) -> JointDuty:
     """Return a need from options alone."""
     given = {"--torque-Nm": torque, "--joint-angle-deg": changes.get("joint_angle"), "--speed-rpm": speed_rpm}
     check(
         Problem(name, _("missing; give it, or a drive file"), "missing") for name, one in given.items() if one is None
     )
     try:
-        return Need(torque=torque or 0.0, speed=(speed_rpm or 0.0) * rpm, **changes)
+        return JointDuty(torque=torque or 0.0, speed=(speed_rpm or 0.0) * rpm, **changes)
     except InputError as error:
         raise error.renamed(_option) from error
 
@@ -145,9 +145,9 @@ def _of_drive(
     speed_rpm: float | None,
     changes: dict[str, Any],
     known: Catalogue,
-) -> Need:
+) -> JointDuty:
     """Return the need of a drive, what the options say in place of it."""
     try:
-        return replace(need_of(on_duty(drive, speed_rpm, torque), joint=joint, known=known), **changes)
+        return replace(joint_duty(on_duty(drive, speed_rpm, torque), joint=joint, known=known), **changes)
     except InputError as error:
         raise error.renamed(_option) from error

@@ -13,7 +13,7 @@ from cardan.io import save
 from cardan.io.signals import WRITERS
 from cardan.questions.diagnosis.expected import FAULTS, expected_orders
 from cardan.questions.diagnosis.fault_answer import answer, answer_of_list
-from cardan.questions.diagnosis.simulate import Runs
+from cardan.questions.diagnosis.simulate import TestSchedule
 from cardan.questions.diagnosis.simulate import simulate_fault as simulated
 from cardan.texts import _
 from cardan.units import nearest, rpm
@@ -95,9 +95,9 @@ def simulate_fault(
         try:
             found = expected_orders(drive, fault, severity=severity, shaft=shaft)
             if out is not None:
-                runs = Runs(run_up=run_up, hold=hold, rate=rate)
+                runs = TestSchedule(run_up=run_up, hold=hold, rate=rate)
                 if steady is not None:
-                    runs = Runs(run_up=0.0, hold=hold, rate=rate, held=steady * rpm / found.speed[1])
+                    runs = TestSchedule(run_up=0.0, hold=hold, rate=rate, held=steady * rpm / found.speed[1])
                 made = simulated(drive, fault, severity=severity, seed=seed, snr=snr, runs=runs, shaft=shaft)
         except InputError as error:
             raise error.renamed(lambda field: NAMES.get(field, field)) from error

@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import Any
 
 from cardan.batch.plan import listed
-from cardan.batch.points.axes import Axis, Drawn, Listed, Spaced
+from cardan.batch.points.axes import Axis, GridAxis, SampledAxis, TableAxis
 from cardan.batch.points.designs import METHODS
 from cardan.batch.points.distributions import DISTRIBUTIONS, Distribution
 from cardan.batch.points.fields import present, spread_out
@@ -52,7 +52,7 @@ def _single(one: Table, drive: Drive | None) -> Axis | None:
         values = one.items("values")
         return listed(drive, key, values) if drive is not None else None
     start, stop, count = one.number("from"), one.number("to"), one.whole("count")
-    return Spaced(field=key, start=start, stop=stop, count=count) if len(one.problems) == before else None
+    return GridAxis(field=key, start=start, stop=stop, count=count) if len(one.problems) == before else None
 
 
 def _rows(one: Table) -> Axis | None:
@@ -78,7 +78,7 @@ def _rows(one: Table) -> Axis | None:
     said = tuple(
         name if fact == "name" else fact for fact in dict.fromkeys([*facts, *(["name"] if "name" in keys else [])])
     )
-    return Listed(fields=tuple(fields), rows=tuple(zip(*columns, strict=True)), name=name, facts=said)
+    return TableAxis(fields=tuple(fields), rows=tuple(zip(*columns, strict=True)), name=name, facts=said)
 
 
 def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
@@ -100,7 +100,7 @@ def _drawn(one: Table, drive: Drive | None, seed: int) -> Axis | None:
             one.refuse(f"correlations[{k}]", _('is not a correlation; write ["one key", "another key", 0.5]'))
     if one.problems or not distributions:
         return None
-    return Drawn(
+    return SampledAxis(
         distributions=distributions,
         count=count,
         seed=own,

@@ -8,8 +8,8 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from cardan.batch.answering.asking import Asked, ask_of
-from cardan.batch.points.axes import Drawn
+from cardan.batch.answering.asking import DriveEvaluator, evaluator
+from cardan.batch.points.axes import SampledAxis
 from cardan.batch.points.distributions import Distribution
 from cardan.batch.search.boundary import Boundary, boundary
 from cardan.batch.search.goals import Goal, Limit, check_names, goal_of, limit_of
@@ -32,7 +32,7 @@ class Search:
 
     Attributes
     ----------
-    ask : Asked
+    ask : DriveEvaluator
         What answers over the fields of ``between``.
     bounds : tuple of (float, float)
     goals : tuple of Goal
@@ -45,7 +45,7 @@ class Search:
         Of a global search or one for several goals.
     """
 
-    ask: Asked
+    ask: DriveEvaluator
     bounds: tuple[tuple[float, float], ...]
     goals: tuple[Goal, ...]
     limits: tuple[Limit, ...] = ()
@@ -85,7 +85,7 @@ class Owing:
 
     Attributes
     ----------
-    ask : Asked
+    ask : DriveEvaluator
         What answers over the fields that the plan draws from distributions.
     spread : tuple of Distribution
     answers : tuple of str
@@ -94,7 +94,7 @@ class Owing:
     confidence : float
     """
 
-    ask: Asked
+    ask: DriveEvaluator
     spread: tuple[Distribution, ...]
     answers: tuple[str, ...] = ()
     samples: int = 1024
@@ -120,7 +120,7 @@ class Following:
 
     Attributes
     ----------
-    ask : Asked
+    ask : DriveEvaluator
         What answers over the two fields of ``between``.
     bounds : tuple of (float, float)
     limits : tuple of Limit
@@ -129,7 +129,7 @@ class Following:
     accuracy : float
     """
 
-    ask: Asked
+    ask: DriveEvaluator
     bounds: tuple[tuple[float, float], ...]
     limits: tuple[Limit, ...]
     coarse: tuple[int, int] = (16, 16)
@@ -203,7 +203,7 @@ def _search(plan: Plan, table: Table) -> Search | None:
     )
 
 
-def _start(ask: Asked, bounds: tuple[tuple[float, float], ...], given: Table | None) -> tuple[float, ...]:
+def _start(ask: DriveEvaluator, bounds: tuple[tuple[float, float], ...], given: Table | None) -> tuple[float, ...]:
     """Return where a search begins: as given, else where the drive stands, no farther out than the box."""
     from cardan.batch.points.fields import present
 
@@ -220,7 +220,7 @@ def _start(ask: Asked, bounds: tuple[tuple[float, float], ...], given: Table | N
 
 
 def _owing(plan: Plan, table: Table) -> Owing | None:
-    drawn = next((axis for axis in plan.axes if isinstance(axis, Drawn)), None)
+    drawn = next((axis for axis in plan.axes if isinstance(axis, SampledAxis)), None)
     if drawn is None:
         table.refuse("", _("needs a [[vary]] with design and fields: how they are distributed"))
     elif drawn.correlations:
@@ -284,7 +284,7 @@ def _constraints(plan: Plan) -> tuple[Limit, ...]:
     return tuple(limit_of(text) for text in plan.constraints)
 
 
-def _between(plan: Plan, table: Table) -> tuple[Asked | None, tuple[tuple[float, float], ...]]:
+def _between(plan: Plan, table: Table) -> tuple[DriveEvaluator | None, tuple[tuple[float, float], ...]]:
     """Return what answers over the fields of ``between``, and their ranges."""
     given: Mapping[str, Any] = table.table("between").given
     if not given:
@@ -307,15 +307,15 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < float("inf")
 
 
-def _asked(plan: Plan, table: Table, paths: tuple[str, ...]) -> Asked | None:
+def _asked(plan: Plan, table: Table, paths: tuple[str, ...]) -> DriveEvaluator | None:
     try:
-        return ask_of(plan.drive, paths, plan.ask, known=plan.known, device=plan.device)
+        return evaluator(plan.drive, paths, plan.ask, known=plan.known, device=plan.device)
     except InputError as error:
         table.follow("", error)
         return None
 
 
-def _named(table: Table, named: Any, ask: Asked) -> None:
+def _named(table: Table, named: Any, ask: DriveEvaluator) -> None:
     try:
         check_names(named, ask.answers)
     except InputError as error:

@@ -11,7 +11,7 @@ from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.io.signals import SIGNAL_FORMATS, signal
+from cardan.io.signals import SIGNAL_FORMATS, load_recording
 from cardan.questions.diagnosis.answer import answer
 from cardan.questions.diagnosis.examination import examine
 from cardan.questions.diagnosis.signals.signal import DIRECTIONS, TURNING, Channel, Signal
@@ -131,7 +131,7 @@ def recorded(
     """
     told = progress or (lambda _share: None)
     found = _placed(
-        signal(
+        load_recording(
             path,
             tacho=said.tacho,
             pulses_per_turn=said.pulses_per_turn,

@@ -14,11 +14,11 @@ from cardan.app.state.workspace import Workspace
 from cardan.errors import InputError
 from cardan.io import example, example_text
 from cardan.io.signals import write
-from cardan.recordings import Runs, simulate_fault
+from cardan.recordings import TestSchedule, simulate_fault
 from cardan.report.recorded import Recorded
 
 DRIVE = "truck-supports"
-SHORT = Runs(run_up=4.0, hold=1.5, rate=500.0)
+SHORT = TestSchedule(run_up=4.0, hold=1.5, rate=500.0)
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ from cardan import (
     rotor_response,
     torsion_response,
 )
-from cardan.batch.answering.asking import ask_of
+from cardan.batch.answering.asking import evaluator
 from cardan.batch.answering.many import many
 from cardan.batch.answering.questions import questions
 from cardan.batch.work import Status
@@ -86,7 +86,7 @@ def drawn(case, count=60):
 def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
     drive, paths, points = drawn(case)
     names = NAMES + (["length"] if case == "points" else [])
-    ask = ask_of(drive, paths, names)
+    ask = evaluator(drive, paths, names)
     assert ask.fast
     found = ask(points)
     answered = found["status"] == 0
@@ -105,7 +105,7 @@ def test_all_points_at_once_are_what_each_drive_made_anew_tells(case):
 def test_jax_tells_what_numpy_tells(case, names):
     pytest.importorskip("jax")
     drive, paths, points = drawn(case, 33)
-    here, there = (ask_of(drive, paths, names, device=device)(points) for device in ("cpu", "gpu"))
+    here, there = (evaluator(drive, paths, names, device=device)(points) for device in ("cpu", "gpu"))
     assert np.array_equal(here["status"], there["status"])
     for name, values in here.items():  # other libraries round sines differently; α_eq is a root, hence 1e-8 near 0
         assert np.allclose(there[name], values, rtol=1e-9, atol=1e-8, equal_nan=True)
@@ -114,13 +114,15 @@ def test_jax_tells_what_numpy_tells(case, names):
 @pytest.mark.slow
 def test_the_kernel_tells_what_plain_arrays_tell():
     drive, paths, points = drawn("points", 200)
-    plain, compiled = (ask_of(drive, paths, NAMES, size=size)(points) for size in (0, 10**6))
+    plain, compiled = (evaluator(drive, paths, NAMES, size=size)(points) for size in (0, 10**6))
     for name, values in plain.items():
         assert np.allclose(compiled[name], values, rtol=1e-9, atol=1e-8, equal_nan=True)
 
 
 def test_answers_stand_in_the_unit_of_their_column():
-    found = ask_of(ANGLES, ["joints[0].joint_angle_deg"], ["alpha_eq", "acceleration", "ratio"])(np.asarray([[10.0]]))
+    found = evaluator(ANGLES, ["joints[0].joint_angle_deg"], ["alpha_eq", "acceleration", "ratio"])(
+        np.asarray([[10.0]])
+    )
     joint = equivalent_joint(with_values(ANGLES, {"joints[0].joint_angle_deg": 10.0}))
     assert found["alpha_eq_deg"][0] == pytest.approx(joint.joint_angle / deg)
     assert found["output_acceleration_rad_s2"][0] == pytest.approx(joint.max_acceleration * (2000 * rpm) ** 2)
@@ -129,7 +131,7 @@ def test_answers_stand_in_the_unit_of_their_column():
 
 def test_other_fields_remake_the_drive():
     drive = example("truck-duty-cycle")
-    ask = ask_of(drive, ["joints[2].size", "duty.shock_factor"], ["life", "speed_fluctuation"])
+    ask = evaluator(drive, ["joints[2].size", "duty.shock_factor"], ["life", "speed_fluctuation"])
     assert not ask.fast
     given = {"joints[2].size": np.asarray(["example-150", "example-180"]), "duty.shock_factor": np.asarray([1.2, 1.2])}
     found = ask.rows(given, 2)
@@ -141,21 +143,21 @@ def test_other_fields_remake_the_drive():
 def test_losses_over_friction():
     drive = example("pto-drive")
     path = "joints[0].friction"
-    found = ask_of(drive, [path], ["losses"])(np.asarray([[0.01], [0.05]]))
+    found = evaluator(drive, [path], ["losses"])(np.asarray([[0.01], [0.05]]))
     again = losses(with_values(drive, {path: 0.05}))
     assert found["heat_W"][1] == pytest.approx(again.heat)
     assert found["efficiency"][1] == pytest.approx(again.efficiency)
 
 
 def test_a_point_that_makes_no_drive_says_so_and_why():
-    ask = ask_of(ANGLES, ["joints[0].cross.span_mm"], ["speed_fluctuation"])
+    ask = evaluator(ANGLES, ["joints[0].cross.span_mm"], ["speed_fluctuation"])
     assert ask(np.asarray([[60.0], [-1.0]]))["status"].tolist() == [Status.ANSWERED, Status.NO_DRIVE]
     problems = ask.at({"joints[0].cross.span_mm": -1.0})[2]
     assert problems[0].field == "joints[0].cross.span_mm"
 
 
 def test_a_question_without_an_answer_leaves_the_others_theirs():
-    ask = ask_of(ANGLES, ["duty.torque_Nm"], ["life", "speed_fluctuation"])
+    ask = evaluator(ANGLES, ["duty.torque_Nm"], ["life", "speed_fluctuation"])
     found = ask(np.asarray([[100.0]]))
     assert found["status"][0] == Status.NO_ANSWER
     assert np.isnan(found["life_h"][0])
@@ -165,7 +167,7 @@ def test_a_question_without_an_answer_leaves_the_others_theirs():
 def test_joints_with_laws_of_their_own_are_seen_over_a_turn():
     text = 'format = 1\n[[joints]]\nkind = "tracta"\njoint_angle_deg = 10\n'
     drive = loads(text.replace("tracta", "pin_coupling") + "driving_distance_mm = 50\ndriven_distance_mm = 52\n")
-    ask = ask_of(drive, ["joints[0].joint_angle_deg"], ["speed_fluctuation", "alpha_eq", "joint_angle"])
+    ask = evaluator(drive, ["joints[0].joint_angle_deg"], ["speed_fluctuation", "alpha_eq", "joint_angle"])
     assert not ask.fast
     found = ask(np.asarray([[0.0], [10.0], [20.0]]))
     assert np.all(found["status"] == 0)
@@ -221,7 +223,7 @@ SAME = {
 def test_a_sweep_tells_what_the_question_tells_by_itself(name):
     example_name, alone = SAME[name]
     drive = example(example_name)
-    answers, status, problems = ask_of(drive, [], [name]).at({})
+    answers, status, problems = evaluator(drive, [], [name]).at({})
     assert (status, problems) == (0, ())
     for value, same in zip(answers.values(), alone(drive), strict=False):
         if same:
@@ -236,7 +238,7 @@ def test_every_question_that_has_a_number_has_a_column():
 @pytest.mark.parametrize("name", DRIVES)
 def test_questions_about_the_whole_drive_are_answered(name):
     drive = example(DRIVES[name])
-    answers, status, problems = ask_of(drive, [], [name]).at({})
+    answers, status, problems = evaluator(drive, [], [name]).at({})
     assert (status, problems) == (0, ())
     assert all(np.isfinite(value) for value in list(answers.values())[:1])
 
@@ -254,19 +256,19 @@ def test_questions_about_the_whole_drive_are_answered(name):
 )
 def test_what_cannot_be_asked_is_refused(paths, names, expected):
     with pytest.raises(InputError, match=expected):
-        ask_of(Drive.from_angles([0.1, 0.1]), paths, names)
+        evaluator(Drive.from_angles([0.1, 0.1]), paths, names)
 
 
 def test_an_acceleration_needs_a_speed_or_varies_it():
     bare = Drive.from_angles([0.1, 0.1])
     with pytest.raises(InputError, match=r"duty\.speed"):
-        ask_of(bare, ["joints[0].joint_angle_deg"], ["acceleration"])
-    assert ask_of(bare, ["duty.speed_rpm"], ["acceleration"])(np.asarray([[100.0]]))["status"].tolist() == [0]
+        evaluator(bare, ["joints[0].joint_angle_deg"], ["acceleration"])
+    assert evaluator(bare, ["duty.speed_rpm"], ["acceleration"])(np.asarray([[100.0]]))["status"].tolist() == [0]
 
 
 def test_the_gpu_answers_motion_alone():
     with pytest.raises(InputError, match="GPU"):
-        ask_of(example("truck-duty-cycle"), ["duty.torque_Nm"], ["life"], device="gpu")
+        evaluator(example("truck-duty-cycle"), ["duty.torque_Nm"], ["life"], device="gpu")
 
 
 @pytest.mark.parametrize("case", ["angles", "pair", "slopes", "mixed"])
@@ -275,7 +277,7 @@ def test_the_formulas_keep_to_the_array_standard(case):
     import array_api_strict as xp
 
     drive, paths, points = drawn(case, 20)
-    ask = ask_of(drive, paths, NAMES)
+    ask = evaluator(drive, paths, NAMES)
     si = {spot.bare: spot.si(points[:, k]) for k, spot in enumerate(ask.spots)}
     here, real = many(drive, si, 20)
     there, same = many(drive, si, 20, xp=xp)

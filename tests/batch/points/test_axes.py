@@ -7,17 +7,20 @@ from scipy import stats
 from cardan import InputError
 from cardan.batch.points.axes import Points
 from cardan.batch.points.designs import METHODS, shuffled, uniforms
-from cardan.sweeps import Drawn, Listed, Normal, Spaced, Triangular, Truncated, Uniform
+from cardan.sweeps import GridAxis, Normal, SampledAxis, TableAxis, Triangular, Truncated, Uniform
 
 
 def test_a_grid_is_evenly_spaced_with_both_ends():
-    grid = Spaced(field="a", start=-1.0, stop=0.3, count=14)
+    grid = GridAxis(field="a", start=-1.0, stop=0.3, count=14)
     assert np.allclose(grid.values(np.arange(14))["a"], np.linspace(-1.0, 0.3, 14), rtol=0, atol=1e-15)
     assert grid.values(np.asarray([13]))["a"][0] == 0.3
 
 
 def test_points_are_the_product_of_the_axes_the_first_one_slowest():
-    axes = (Spaced(field="a", start=0, stop=1, count=2), Listed(fields=("b", "c"), rows=((1, "x"), (2, "y"), (3, "z"))))
+    axes = (
+        GridAxis(field="a", start=0, stop=1, count=2),
+        TableAxis(fields=("b", "c"), rows=((1, "x"), (2, "y"), (3, "z"))),
+    )
     found = Points(axes=axes).values(0, 6)
     assert found["a"].tolist() == [0, 0, 0, 1, 1, 1]
     assert found["b"].tolist() == [1, 2, 3, 1, 2, 3]
@@ -30,7 +33,7 @@ def test_no_axes_are_one_point():
 
 
 def test_a_hundred_million_points_are_not_made_before_they_are_asked_for():
-    axes = tuple(Spaced(field=f"f{k}", start=0, stop=1, count=100) for k in range(4))
+    axes = tuple(GridAxis(field=f"f{k}", start=0, stop=1, count=100) for k in range(4))
     points = Points(axes=axes)
     assert points.size == 10**8
     assert points.values(10**8 - 1, 10**8) == {f"f{k}": 1.0 for k in range(4)}
@@ -82,7 +85,7 @@ def test_distributions_are_those_of_scipy(given, same):
 
 def test_correlated_fields_are_correlated_and_keep_their_distributions():
     both = {"a": Normal(mean=0, std=1), "b": Normal(mean=5, std=2), "c": Uniform(low=0, high=1)}
-    drawn = Drawn(distributions=both, count=2**13, method="sobol", correlations=(("a", "b", -0.7),))
+    drawn = SampledAxis(distributions=both, count=2**13, method="sobol", correlations=(("a", "b", -0.7),))
     found = drawn.values(np.arange(2**13))
     assert abs(np.corrcoef(found["a"], found["b"])[0, 1] + 0.7) < 0.01
     assert abs(np.corrcoef(found["a"], found["c"])[0, 1]) < 0.01
@@ -91,30 +94,30 @@ def test_correlated_fields_are_correlated_and_keep_their_distributions():
 
 def test_correlated_points_are_the_same_bit_for_bit_one_by_one():
     three = {name: Normal(mean=0, std=1) for name in "abc"}
-    drawn = Drawn(distributions=three, count=200, seed=7, correlations=(("a", "b", 0.5), ("b", "c", -0.3)))
+    drawn = SampledAxis(distributions=three, count=200, seed=7, correlations=(("a", "b", 0.5), ("b", "c", -0.3)))
     whole = drawn.values(np.arange(200))
     for k in range(200):
         assert all(whole[name][k] == one[0] for name, one in drawn.values(np.asarray([k])).items())
 
 
 def test_a_design_across_another_axis_draws_each_point_once():
-    drawn = Drawn(distributions={"a": Uniform(low=0, high=1)}, count=5, seed=3)
-    found = Points(axes=(drawn, Spaced(field="b", start=0, stop=2, count=3))).values(0, 15)
+    drawn = SampledAxis(distributions={"a": Uniform(low=0, high=1)}, count=5, seed=3)
+    found = Points(axes=(drawn, GridAxis(field="b", start=0, stop=2, count=3))).values(0, 15)
     assert np.array_equal(found["a"], np.repeat(drawn.values(np.arange(5))["a"], 3))
 
 
 @pytest.mark.parametrize(
     ("make", "field"),
     [
-        (lambda: Spaced(field="a", start=0, stop=np.inf, count=3), "a: to"),
-        (lambda: Spaced(field="a", start=0, stop=1, count=0), "a: count"),
-        (lambda: Listed(fields=("a",), rows=()), "a"),
-        (lambda: Listed(fields=("a", "b"), rows=((1,),)), "a[0]"),
-        (lambda: Drawn(distributions={}, count=3), "fields"),
+        (lambda: GridAxis(field="a", start=0, stop=np.inf, count=3), "a: to"),
+        (lambda: GridAxis(field="a", start=0, stop=1, count=0), "a: count"),
+        (lambda: TableAxis(fields=("a",), rows=()), "a"),
+        (lambda: TableAxis(fields=("a", "b"), rows=((1,),)), "a[0]"),
+        (lambda: SampledAxis(distributions={}, count=3), "fields"),
         (lambda: Uniform(low=1, high=1), "high"),
         (lambda: Normal(mean=0, std=0), "std"),
         (lambda: Triangular(low=0, mode=2, high=1), "mode"),
-        (lambda: Points(axes=(Spaced(field="a", start=0, stop=1, count=2),) * 2), "a"),
+        (lambda: Points(axes=(GridAxis(field="a", start=0, stop=1, count=2),) * 2), "a"),
     ],
 )
 def test_what_is_no_axis_is_refused(make, field):
@@ -127,4 +130,4 @@ def test_correlations_that_contradict_each_other_are_refused():
     three = {name: Normal(mean=0, std=1) for name in "abc"}
     odd = (("a", "b", 0.9), ("b", "c", 0.9), ("a", "c", -0.9))
     with pytest.raises(InputError, match="contradict"):
-        Drawn(distributions=three, count=2, correlations=odd)
+        SampledAxis(distributions=three, count=2, correlations=odd)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import mathieu_a, mathieu_b
 
-from cardan.batch.answering.asking import ask_of
+from cardan.batch.answering.asking import evaluator
 from cardan.batch.answering.evaluators import Formula
 from cardan.batch.search.boundary import boundary
 from cardan.batch.search.goals import Limit
@@ -110,7 +110,7 @@ def test_a_drive_that_swings_itself_up():
     drive = example("unstable-drive")
     fields = "duty.speed_rpm", "joints[0].joint_angle_deg"
     box = [(1280.0, 1400.0), (10.0, 26.0)]
-    found = boundary(ask_of(drive, fields, ["stability"]), box, LIMIT, coarse=(6, 2), halvings=0, accuracy=0.1)
+    found = boundary(evaluator(drive, fields, ["stability"]), box, LIMIT, coarse=(6, 2), halvings=0, accuracy=0.1)
     speeds, joint_angles = np.linspace(*box[0], 7), np.linspace(*box[1], 3)
     verdict = stability(drive, over=dict(zip(fields, (speeds, joint_angles), strict=True))).verdict
     np.testing.assert_array_equal(found.kept, (verdict == Verdict.STABLE).ravel())

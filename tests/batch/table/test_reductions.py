@@ -13,13 +13,13 @@ from cardan.batch.table import summaries
 from cardan.batch.table.kinds import KINDS
 from cardan.batch.table.reductions import Reduce, at_work, reduce_of
 from cardan.batch.work import Column
-from cardan.sweeps import Listed, Spaced
+from cardan.sweeps import GridAxis, TableAxis
 
 COUNT = 600
 POINTS = Points(
     axes=(
-        Listed(fields=("maker",), rows=(("a",), ("b",), ("c",)), facts=("maker",)),
-        Spaced(field="x_mm", start=0.0, stop=1.0, count=COUNT // 3),
+        TableAxis(fields=("maker",), rows=(("a",), ("b",), ("c",)), facts=("maker",)),
+        GridAxis(field="x_mm", start=0.0, stop=1.0, count=COUNT // 3),
     )
 )
 COLUMNS = tuple(

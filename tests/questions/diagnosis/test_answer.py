@@ -15,12 +15,12 @@ from cardan.questions.diagnosis.fault_answer import answer as answer_of_fault
 from cardan.questions.diagnosis.fault_answer import by_torque, grows
 from cardan.questions.diagnosis.findings import diagnose
 from cardan.questions.diagnosis.match import Signs
-from cardan.questions.diagnosis.simulate import Runs, simulate_fault
+from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 from cardan.report.content import Excerpt
 from cardan.report.page import page as page_of
 from cardan.report.renderer import RENDERERS
 
-SHORT = Runs(run_up=5.0, hold=2.0, rate=1024.0)
+SHORT = TestSchedule(run_up=5.0, hold=2.0, rate=1024.0)
 
 
 @pytest.fixture(scope="module")

@@ -8,10 +8,10 @@ from cardan.io import example
 from cardan.questions.diagnosis.doubts import FAR, MISFIT, PLACELESS, SIZELESS, doubts
 from cardan.questions.diagnosis.plant import plant
 from cardan.questions.diagnosis.signals.signal import Signal
-from cardan.questions.diagnosis.signals.turning import rotation
-from cardan.questions.diagnosis.simulate import Runs, simulate_fault
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
+from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 
-SHORT = Runs(run_up=4.0, hold=1.0, rate=1024.0)
+SHORT = TestSchedule(run_up=4.0, hold=1.0, rate=1024.0)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def recording(drive):
 
 
 def told(signal, base):
-    return list(doubts(signal, rotation(signal), base))
+    return list(doubts(signal, estimate_rotation(signal), base))
 
 
 def at_rate(signal, share):

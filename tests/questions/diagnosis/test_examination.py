@@ -10,10 +10,10 @@ from cardan.io import example
 from cardan.questions.diagnosis.examination import examine
 from cardan.questions.diagnosis.findings import diagnose
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.questions.diagnosis.signals.turning import rotation
-from cardan.questions.diagnosis.simulate import Runs, simulate_fault
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
+from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 
-SHORT = Runs(run_up=5.0, hold=2.0, rate=1024.0)
+SHORT = TestSchedule(run_up=5.0, hold=2.0, rate=1024.0)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,7 @@ def test_two_sensors_across_the_shaft_make_an_orbit(recording, drive):
 
 
 def angle_of(recording):
-    shaft = rotation(recording)
+    shaft = estimate_rotation(recording)
     return shaft.angle_at(recording.channels[0].time)
 
 

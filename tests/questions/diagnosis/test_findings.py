@@ -13,7 +13,7 @@ from cardan.questions.diagnosis.findings import BY_SIGNS, diagnose
 from cardan.questions.diagnosis.match import Signs, likely_causes
 from cardan.questions.diagnosis.model import fitted, shipped
 from cardan.questions.diagnosis.signals.signal import Channel, Signal
-from cardan.questions.diagnosis.simulate import Runs, simulate_fault
+from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 from tests.questions.diagnosis.calibrate import JUDGED, PAGE, RESULT, judged, named, tables
 from tests.questions.diagnosis.recorded_faults import CALIBRATION, EVALUATION, case, recording
 
@@ -144,7 +144,9 @@ def shaking_as(signal, made):
 
 @pytest.fixture(scope="module")
 def short():
-    return simulate_fault(example("truck-supports"), "unbalance", seed=4, runs=Runs(run_up=4.0, hold=1.5, rate=1024.0))
+    return simulate_fault(
+        example("truck-supports"), "unbalance", seed=4, runs=TestSchedule(run_up=4.0, hold=1.5, rate=1024.0)
+    )
 
 
 @pytest.mark.slow

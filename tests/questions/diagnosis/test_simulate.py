@@ -5,10 +5,10 @@ from cardan import InputError
 from cardan.io import example
 from cardan.questions.diagnosis.expected import expected_orders
 from cardan.questions.diagnosis.signals.order_tracks import tracked_orders
-from cardan.questions.diagnosis.signals.turning import rotation
-from cardan.questions.diagnosis.simulate import Runs, simulate_fault
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
+from cardan.questions.diagnosis.simulate import TestSchedule, simulate_fault
 
-SHORT = Runs(run_up=4.0, hold=2.0)
+SHORT = TestSchedule(run_up=4.0, hold=2.0)
 
 
 def test_a_seed_says_everything():
@@ -22,7 +22,7 @@ def test_a_seed_says_everything():
 def test_a_clean_recording_holds_the_orders_expected():
     drive = example("truck-supports")
     signal = simulate_fault(drive, "unbalance", seed=3, snr=80.0, runs=SHORT)
-    shaft = rotation(signal)
+    shaft = estimate_rotation(signal)
     found = tracked_orders(signal.channel("centre radial"), shaft, (1.0, 2.0, 4.0))
     lines = expected_orders(drive, "unbalance")
     top = lines.speed[1]
@@ -31,7 +31,7 @@ def test_a_clean_recording_holds_the_orders_expected():
     held = np.abs(found.speed / (0.8 * top) - 1.0) < 0.01
     # Each line has a factor of its own by chance, exp(±3 · 0.25) at most, and the lines may partly cancel.
     assert 0.2 * most < np.median(found.amplitude[0, held]) < 2.2 * most
-    assert rotation(signal).speeds[1] == pytest.approx(top, rel=0.02)
+    assert estimate_rotation(signal).speeds[1] == pytest.approx(top, rel=0.02)
 
 
 @pytest.mark.parametrize("snr", [0.0, 10.0])
@@ -48,7 +48,7 @@ def test_noise_is_as_strong_as_asked(snr):
 
 def test_bad_options_come_all_at_once():
     with pytest.raises(InputError) as told:
-        simulate_fault(example("car-propshaft"), snr=float("nan"), runs=Runs(hold=0.0, rate=-1.0))
+        simulate_fault(example("car-propshaft"), snr=float("nan"), runs=TestSchedule(hold=0.0, rate=-1.0))
     assert [one.field for one in told.value.problems] == ["snr", "runs.hold", "runs.rate"]
 
 
@@ -67,12 +67,12 @@ def test_a_recording_that_is_stopped_lacks_sensors_and_one_beyond_the_memory_is_
     whole = simulate_fault(drive, "bent", seed=1, runs=SHORT)
     assert np.array_equal(part.channel("output radial").values, whole.channel("output radial").values)
     with pytest.raises(InputError, match=r"runs\.rate"):
-        simulate_fault(drive, runs=Runs(run_up=1e7))
+        simulate_fault(drive, runs=TestSchedule(run_up=1e7))
 
 
 def test_without_a_run_up_it_keeps_one_speed():
     drive = example("truck-supports")
-    found = rotation(simulate_fault(drive, runs=Runs(run_up=0.0, hold=2.0, held=0.5, rate=1024.0)))
+    found = estimate_rotation(simulate_fault(drive, runs=TestSchedule(run_up=0.0, hold=2.0, held=0.5, rate=1024.0)))
     low, high = found.speeds
     # Pulses are timed to a part of a sample: 15 turns a second, 1024 values.
     assert (low, high) == pytest.approx((0.5 * 1800 * np.pi / 30,) * 2, rel=2e-3)

@@ -40,7 +40,7 @@ def _named(names: tuple[str, ...]) -> tuple[SweepQuestion, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
+class DriveEvaluator:
     """Questions about a drive in which some fields vary.
 
     Attributes
@@ -198,7 +198,7 @@ STATUS_COLUMN = Column(name=STATUS, unit="", role="status", text=TEXT_STATUS)
 """The column of states."""
 
 
-def ask_of(
+def evaluator(
     drive: Drive,
     paths: Sequence[str],
     ask: Sequence[str],
@@ -206,7 +206,7 @@ def ask_of(
     known: Catalogue | None = None,
     device: Device = "cpu",
     size: int = 0,
-) -> Asked:
+) -> DriveEvaluator:
     """Return what answers questions about a drive at any values of some of its fields.
 
     Parameters
@@ -225,7 +225,7 @@ def ask_of(
 
     Returns
     -------
-    Asked
+    DriveEvaluator
         points (n, d) in the units of the paths -> arrays (n,) of answers and the status.
 
     Raises
@@ -235,7 +235,7 @@ def ask_of(
 
     Examples
     --------
-    >>> asked = ask_of(Drive.from_angles([0.3, 0.3]), ["joints[1].joint_angle_deg"], ["alpha_eq"])
+    >>> asked = evaluator(Drive.from_angles([0.3, 0.3]), ["joints[1].joint_angle_deg"], ["alpha_eq"])
     >>> rows = asked(np.asarray([[10.0], [95.0]]))
     >>> rows["alpha_eq_deg"], rows["status"]
     (array([14.05239431,         nan]), array([0, 1], dtype=int8))
@@ -262,7 +262,7 @@ def ask_of(
     if drive.form != "points":
         text = _("only drives given by joint centres have lengths here")
         problems += [Problem(f"ask.{one.name}", text) for one in named if one.needs_centres]
-    made = Asked(
+    made = DriveEvaluator(
         drive=drive,
         spots=spots,
         questions=tuple(ask),

@@ -68,7 +68,7 @@ class Axis(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spaced:
+class GridAxis:
     """Evenly spaced values of a field, both ends among them.
 
     Parameters
@@ -82,7 +82,7 @@ class Spaced:
 
     Examples
     --------
-    >>> Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=3).values(np.arange(3))
+    >>> GridAxis(field="duty.speed_rpm", start=1000, stop=2000, count=3).values(np.arange(3))
     {'duty.speed_rpm': array([1000., 1500., 2000.])}
     """
 
@@ -138,7 +138,7 @@ class Spaced:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Listed:
+class TableAxis:
     """Rows of values: each row gives every field its value.
 
     Parameters
@@ -154,7 +154,7 @@ class Listed:
 
     Examples
     --------
-    >>> two = Listed(fields=("shafts[1].outer_mm", "shafts[1].wall_mm"), rows=((60.0, 2.0), (70.0, 1.5)))
+    >>> two = TableAxis(fields=("shafts[1].outer_mm", "shafts[1].wall_mm"), rows=((60.0, 2.0), (70.0, 1.5)))
     >>> two.size, two.values(np.asarray([1]))["shafts[1].wall_mm"]
     (2, array([1.5]))
     """
@@ -205,7 +205,7 @@ class Listed:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawn:
+class SampledAxis:
     """Points drawn from distributions: at random, or spread evenly by a quasi-random sequence.
 
     Parameters
@@ -225,7 +225,7 @@ class Drawn:
     Examples
     --------
     >>> from cardan.batch.points.distributions import Uniform
-    >>> drawn = Drawn(distributions={"joints[0].joint_angle_deg": Uniform(low=0, high=20)}, count=8, method="lhs")
+    >>> drawn = SampledAxis(distributions={"joints[0].joint_angle_deg": Uniform(low=0, high=20)}, count=8, method="lhs")
     >>> sorted((drawn.values(np.arange(8))["joints[0].joint_angle_deg"] // 2.5).tolist())
     [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     """
@@ -317,8 +317,8 @@ class Points:
 
     Examples
     --------
-    >>> speeds = Spaced(field="duty.speed_rpm", start=1000, stop=2000, count=2)
-    >>> sizes = Listed(fields=("joints[0].size",), rows=(("a",), ("b",), ("c",)))
+    >>> speeds = GridAxis(field="duty.speed_rpm", start=1000, stop=2000, count=2)
+    >>> sizes = TableAxis(fields=("joints[0].size",), rows=(("a",), ("b",), ("c",)))
     >>> points = Points(axes=(speeds, sizes))
     >>> points.size, points.values(2, 5)["joints[0].size"]
     (6, array(['c', 'a', 'b'], dtype='<U1'))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from cardan.calc.calculation import Calculation, Values, at_least_zero, given, gives, positive
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import BalanceNorm, Lubrication, PartLimit
-from cardan.choices.selection import Need, select_joint
+from cardan.choices.selection import JointDuty, select_joint
 from cardan.errors import Problem
 from cardan.formulas.upkeep import lubrication_shares, shaft_sections
 from cardan.questions.bending.balance import allowed_unbalance
@@ -133,7 +133,7 @@ def _uses(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 
 
 def _select(values: Values) -> Values:
-    need = Need(
+    need = JointDuty(
         torque=values["torque"],
         joint_angle=values["angle"],
         speed=values["speed"],

@@ -37,7 +37,7 @@ LEAST_VALUES = 16
 __all__ = ["SIGNAL_FORMATS", "WRITERS", "signal", "write"]
 
 
-def signal(
+def load_recording(
     path: str | Path,
     *,
     tacho: str | None = None,
@@ -90,7 +90,7 @@ def signal(
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder) / "run.csv"
     ...     _ = file.write_text("\\n".join(rows))
-    ...     found = signal(file)
+    ...     found = load_recording(file)
     >>> front = found.measured[0]
     >>> front.name, front.quantity, front.direction, round(front.rate), found.channels[found.tacho].name
     ('front', 'acceleration', 'z', 1000, 'tacho')

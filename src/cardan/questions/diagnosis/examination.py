@@ -20,7 +20,7 @@ from .signals.orbit import Orbit, orbit
 from .signals.order_tracks import TrackedOrders, tracked_orders
 from .signals.orders import OrderMap, OrderSpectrum, order_map, order_spectrum
 from .signals.signal import Channel, Signal
-from .signals.spectra import integrated
+from .signals.spectra import integrate
 from .signals.torsional import KEPT, LEAST_TEETH, TorsionalVibration, torsional_vibration
 from .signals.turning import Rotation
 from .signals.watching import Progress, Watch
@@ -219,7 +219,7 @@ def _way(channel: Channel, shaft: Rotation) -> Channel:
     low = SLOWEST * shaft.speeds[0] / (2.0 * math.pi)
     times = {"displacement": 0, "velocity": 1, "acceleration": 2}[channel.quantity]
     for _time in range(times):
-        channel = integrated(channel, low=low)
+        channel = integrate(channel, low=low)
     return channel
 
 

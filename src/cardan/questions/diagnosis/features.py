@@ -33,7 +33,7 @@ from .levels import (
 from .plant import Plant, plant
 from .signals.order_tracks import TrackedOrders, tracked_orders
 from .signals.signal import Signal
-from .signals.turning import LEAST_TURNS, Rotation, rotation
+from .signals.turning import LEAST_TURNS, Rotation, estimate_rotation
 from .signals.watching import Progress, Watch
 
 NAMES = (
@@ -170,7 +170,7 @@ def features(
     base, healthy = _known(drive)
     watch = Watch(progress, 1 + 2 * len(signal.measured))
     speeds = speed_range or (None if signal.tacho is not None else base.speed)
-    shaft = rotation(signal, speed_range=speeds, progress=watch)
+    shaft = estimate_rotation(signal, speed_range=speeds, progress=watch)
     radial, axial = accelerations(signal, shaft, base, watch)
     if not radial:
         raise no_vibration(signal, shaft)

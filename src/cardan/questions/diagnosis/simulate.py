@@ -24,7 +24,7 @@ MOST_VALUES = 2e7
 
 
 @dataclass(frozen=True, kw_only=True)
-class Runs:
+class TestSchedule:
     """How a recording runs: up at one torque, then held at two.
 
     Attributes
@@ -47,8 +47,10 @@ class Runs:
     torques: tuple[float, float, float] = (0.6, 1.0, -0.25)
     rate: float = 2048.0
 
+    __test__ = False  # a name that starts with Test is no test to pytest
 
-RUNS = Runs()
+
+RUNS = TestSchedule()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +70,7 @@ def simulate_fault(
     severity: float = 1.0,
     seed: int = 0,
     snr: float = 10.0,
-    runs: Runs = RUNS,
+    runs: TestSchedule = RUNS,
     shaft: int | None = None,
     progress: Progress | None = None,
 ) -> Signal:
@@ -86,7 +88,7 @@ def simulate_fault(
         Of all that is by chance.
     snr : float [dB]
         Power of what follows the shaft over that of the noise, in each channel of vibration.
-    runs : Runs
+    runs : TestSchedule
         Run-up and holds.
     shaft : int, optional
         Number of the shaft with the fault.
@@ -152,7 +154,7 @@ def simulate_fault(
     return Signal(name=f"{fault} {seed}", channels=tuple(channels), tacho=0, cautions=cautions)
 
 
-def _problems(snr: float, runs: Runs) -> list[Problem]:
+def _problems(snr: float, runs: TestSchedule) -> list[Problem]:
     found = []
     if not math.isfinite(snr):
         found.append(Problem("snr", _("is not finite"), "not_finite"))
@@ -170,7 +172,7 @@ def _problems(snr: float, runs: Runs) -> list[Problem]:
     return found
 
 
-def _course(expected: Expected, runs: Runs) -> _Course:
+def _course(expected: Expected, runs: TestSchedule) -> _Course:
     """Return angle, speed and torque: up evenly, then down to the held speed in a second, and a change of torque."""
     low, top = expected.speed
     held = runs.held * top

@@ -14,12 +14,12 @@ from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.questions.diagnosis.figures.orders import LINES, map_figure
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.recordings import orbit, order_map, order_spectrum, rotation, torsional_vibration, tracked_orders
+from cardan.recordings import estimate_rotation, orbit, order_map, order_spectrum, torsional_vibration, tracked_orders
 from tests.builders.recordings import recorded
 
 SIGNAL = recorded({1: (0.5, 0.0), 2: (2.0, 1.0)}, noise=0.05)
 FRONT = SIGNAL.channel("front")
-SHAFT = rotation(SIGNAL)
+SHAFT = estimate_rotation(SIGNAL)
 SPECTRUM = order_spectrum(FRONT, SHAFT)
 MAP = order_map(FRONT, SHAFT)
 TRACKS = tracked_orders(FRONT, SHAFT, [1.0, 2.0])
@@ -75,7 +75,7 @@ def test_a_map_has_a_line_for_each_range_of_speed_with_orders_and_resonances():
 
 def test_a_steady_run_is_drawn_over_time():
     steady = recorded({1: (0.5, 0.0)}, gain=0.0)
-    (figure,) = figures.for_result(tracked_orders(steady.channel("front"), rotation(steady), [1.0]))
+    (figure,) = figures.for_result(tracked_orders(steady.channel("front"), estimate_rotation(steady), [1.0]))
     assert figure.panels[0].x.unit == "s"
     unmarked = replace(TRACKS, phased=False)
     assert len(figures.for_result(unmarked)[0].panels) == 1

@@ -9,7 +9,7 @@ from cardan.questions.diagnosis.signals.order_tracks import tracked_orders
 from cardan.questions.diagnosis.signals.order_windows import turned
 from cardan.questions.diagnosis.signals.orders import order_map, order_spectrum
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.questions.diagnosis.signals.turning import Rotation, rotation
+from cardan.questions.diagnosis.signals.turning import Rotation, estimate_rotation
 from tests.builders.recordings import angle_of, recorded
 
 ORDERS = {1: (1.0, 0.4), 2: (0.5, -1.0), 3: (0.1, 2.0)}
@@ -39,7 +39,7 @@ def test_a_pure_order_keeps_its_amplitude_at_even_angles(order, phase, first, ga
 
 def test_amplitudes_and_phases_of_a_run_up_are_those_put_in():
     signal = recorded(ORDERS)
-    found = order_spectrum(signal.channel("front"), rotation(signal))
+    found = order_spectrum(signal.channel("front"), estimate_rotation(signal))
     for order, (amplitude, phase) in ORDERS.items():
         assert found.at(order) == pytest.approx(amplitude, rel=2e-3)
         line = found.coherent[found.order == order][0]
@@ -51,7 +51,7 @@ def test_amplitudes_and_phases_of_a_run_up_are_those_put_in():
 
 def test_in_noise_the_orders_still_stand_out():
     signal = recorded(ORDERS, noise=0.5)
-    found = order_spectrum(signal.channel("front"), rotation(signal))
+    found = order_spectrum(signal.channel("front"), estimate_rotation(signal))
     assert found.at(2.0) == pytest.approx(0.5, abs=0.05)
     assert {round(order) for order, _size in found.peaks(count=2)} == {1, 2}
     assert np.median(found.amplitude / found.floor) == pytest.approx(1.0, abs=0.1)
@@ -59,7 +59,7 @@ def test_in_noise_the_orders_still_stand_out():
 
 def test_a_flat_top_reads_orders_between_the_lines():
     signal = recorded({1.53: (1.0, 0.0)})
-    shaft = rotation(signal)
+    shaft = estimate_rotation(signal)
     flat = order_spectrum(signal.channel("front"), shaft, window="flattop").at(1.53)
     hann = order_spectrum(signal.channel("front"), shaft, window="hann").at(1.53)
     assert flat == pytest.approx(1.0, abs=3e-3)
@@ -117,7 +117,7 @@ def test_tracked_orders_follow_a_resonance():
 
 def test_orders_near_each_other_are_told_apart():
     signal = recorded({1: (1.0, 0.0), 1.2: (0.5, 1.0)})
-    shaft = rotation(signal)
+    shaft = estimate_rotation(signal)
     found = tracked_orders(signal.channel("front"), shaft, [1.0, 1.2])
     assert np.median(found.amplitude, axis=1) == pytest.approx([1.0, 0.5], abs=5e-3)
     with pytest.raises(InputError, match="told apart in 16 turns"):
@@ -127,7 +127,7 @@ def test_orders_near_each_other_are_told_apart():
 def test_all_bad_options_are_told():
     signal = recorded(ORDERS, seconds=2.0)
     with pytest.raises(InputError) as caught:
-        order_spectrum(signal.channels[1], rotation(signal), highest=-1.0, turns=1, window="box")
+        order_spectrum(signal.channels[1], estimate_rotation(signal), highest=-1.0, turns=1, window="box")
     assert [one.field for one in caught.value.problems] == ["highest", "turns", "window"]
 
 
@@ -135,12 +135,12 @@ def test_a_channel_from_another_time_is_refused():
     signal = recorded(ORDERS, seconds=2.0)
     late = Channel(name="late", values=signal.channels[1].values, rate=4000.0, start=100.0)
     with pytest.raises(InputError, match="late: shares 0 turns"):
-        order_spectrum(late, rotation(signal))
+        order_spectrum(late, estimate_rotation(signal))
 
 
 def test_a_map_that_is_stopped_ends_where_it_was_read_to_and_long_ones_are_read_in_blocks(monkeypatch):
     signal = recorded(ORDERS)
-    shaft, front = rotation(signal), signal.channel("front")
+    shaft, front = estimate_rotation(signal), signal.channel("front")
     whole = order_map(front, shaft)
     tracked = tracked_orders(front, shaft)
     monkeypatch.setattr("cardan.questions.diagnosis.signals.order_windows.BLOCK", 3000)

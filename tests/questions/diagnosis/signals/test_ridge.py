@@ -5,7 +5,7 @@ from scipy.signal import bilinear, lfilter
 from cardan import InputError
 from cardan.questions.diagnosis.signals.ridge import ridge
 from cardan.questions.diagnosis.signals.signal import Channel, Signal
-from cardan.questions.diagnosis.signals.turning import rotation
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
 from tests.builders.recordings import recorded
 
 INSIDE = np.linspace(1.0, 5.0, 41)
@@ -14,7 +14,7 @@ TRUE = 2 * np.pi * (15.0 + 2.0 * INSIDE)
 
 def found(orders, *, noise=0.5, seed=0, **given):
     signal = recorded(orders, first=15.0, gain=2.0, rate=2000.0, noise=noise, seed=seed, tacho=False)
-    return rotation(signal, **given)
+    return estimate_rotation(signal, **given)
 
 
 @pytest.mark.parametrize("orders", [{1: (1.0, 0.3), 2: (0.4, 0.0)}, {2: (1.0, 0.3), 1: (0.4, 0.0)}])
@@ -87,9 +87,9 @@ def test_several_channels_help():
 
 def test_nothing_to_look_at_is_refused():
     with pytest.raises(InputError, match="neither a tacho nor a channel"):
-        rotation(Signal(channels=(Channel(name="dead", values=np.zeros(100), rate=100.0),)))
+        estimate_rotation(Signal(channels=(Channel(name="dead", values=np.zeros(100), rate=100.0),)))
     with pytest.raises(InputError, match="too little to find a speed"):
-        rotation(Signal(channels=(Channel(name="short", values=np.arange(10.0), rate=100.0),)))
+        estimate_rotation(Signal(channels=(Channel(name="short", values=np.arange(10.0), rate=100.0),)))
 
 
 def test_a_search_that_is_stopped_has_tried_one_length_of_the_window():
@@ -108,5 +108,5 @@ def test_channels_that_end_a_little_apart_are_sought_in_together():
     channels = [Channel(name="a", rate=2000.0, values=row[:-90]), Channel(name="b", rate=2000.0, values=row)]
     channels.append(Channel(name="short", rate=2000.0, values=row[:400]))
     for some in (channels, channels[::-1]):
-        found = rotation(Signal(channels=tuple(some)), order=1.0)
+        found = estimate_rotation(Signal(channels=tuple(some)), order=1.0)
         assert found.speed_at(2.0) == pytest.approx(2 * np.pi * 24, rel=0.01)

@@ -4,7 +4,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from cardan import InputError
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.questions.diagnosis.signals.spectra import cepstrum, integrated
+from cardan.questions.diagnosis.signals.spectra import cepstrum, integrate
 from cardan.questions.diagnosis.signals.turning import Rotation
 
 TIME = np.arange(8000) / 2000
@@ -14,11 +14,11 @@ INSIDE = slice(1500, 6500)
 def test_integrals_of_vibrations_are_those_by_hand():
     tones = {12.0: (1.0, 0.3), 47.0: (0.2, 1.0)}
     values = sum(a * np.cos(2 * np.pi * f * TIME + p) for f, (a, p) in tones.items())
-    moving = integrated(Channel(name="a", values=values + 5.0, rate=2000.0, place="supports[0]"), low=3.0)
+    moving = integrate(Channel(name="a", values=values + 5.0, rate=2000.0, place="supports[0]"), low=3.0)
     want = sum(a / (2 * np.pi * f) * np.sin(2 * np.pi * f * TIME + p) for f, (a, p) in tones.items())
     assert (moving.quantity, moving.place) == ("velocity", "supports[0]")
     assert np.allclose(moving.values[INSIDE], want[INSIDE], rtol=0, atol=1e-3 * np.max(want))
-    way = integrated(moving, low=3.0)
+    way = integrate(moving, low=3.0)
     want = -sum(a / (2 * np.pi * f) ** 2 * np.cos(2 * np.pi * f * TIME + p) for f, (a, p) in tones.items())
     assert way.quantity == "displacement"
     assert np.allclose(way.values[INSIDE], want[INSIDE], rtol=0, atol=0.02 * np.max(want))  # the ends ring a while
@@ -28,7 +28,7 @@ def test_drift_is_cut_where_sums_run_away():
     rng = np.random.default_rng(0)
     values = np.cos(2 * np.pi * 20 * TIME) + 0.05 + rng.normal(scale=0.1, size=TIME.size)
     summed = cumulative_trapezoid(values, TIME, initial=0.0)
-    found = integrated(Channel(name="a", values=values, rate=2000.0), low=5.0).values
+    found = integrate(Channel(name="a", values=values, rate=2000.0), low=5.0).values
     want = np.sin(2 * np.pi * 20 * TIME) / (2 * np.pi * 20)
     assert np.max(np.abs(summed - want)) > 0.1
     assert np.max(np.abs(found - want)[INSIDE]) < 0.002
@@ -36,7 +36,7 @@ def test_drift_is_cut_where_sums_run_away():
 
 def test_what_has_no_integral_is_refused():
     with pytest.raises(InputError) as caught:
-        integrated(Channel(name="m", quantity="torque", values=TIME, rate=2000.0), low=0.0)
+        integrate(Channel(name="m", quantity="torque", values=TIME, rate=2000.0), low=0.0)
     assert [one.field for one in caught.value.problems] == ["channel", "low"]
 
 

@@ -3,7 +3,7 @@ import pytest
 
 from cardan import InputError
 from cardan.questions.diagnosis.signals.signal import Channel, Signal
-from cardan.questions.diagnosis.signals.turning import rotation
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
 from tests.builders.recordings import angle_of, recorded
 
 TIME = np.arange(12000) / 2000
@@ -11,7 +11,7 @@ TIME = np.arange(12000) / 2000
 
 def alone(quantity, values, *, per_turn=1.0, rate=2000.0, **given):
     channel = Channel(name="tacho", quantity=quantity, values=values, rate=rate)
-    return rotation(Signal(channels=(channel,), tacho=0, pulses_per_turn=per_turn), **given)
+    return estimate_rotation(Signal(channels=(channel,), tacho=0, pulses_per_turn=per_turn), **given)
 
 
 @pytest.mark.parametrize("per_turn", [1, 2, 60])
@@ -70,7 +70,7 @@ def test_a_wrong_sampling_rate_shows_in_lengths_that_differ():
     found = recorded({1: (1.0, 0.0)})
     front = found.channels[1]
     wrong = Channel(name="front", values=front.values, rate=2 * front.rate)
-    doubted = rotation(Signal(channels=(found.channels[0], wrong), tacho=0))
+    doubted = estimate_rotation(Signal(channels=(found.channels[0], wrong), tacho=0))
     assert "wrong sampling rate" in doubted.cautions[0]
     assert doubted.confidence < 0.5
 

@@ -173,12 +173,12 @@ def order_spectrum(
     --------
     >>> import numpy as np
     >>> from cardan.questions.diagnosis.signals.signal import Signal
-    >>> from cardan.questions.diagnosis.signals.turning import rotation
+    >>> from cardan.questions.diagnosis.signals.turning import estimate_rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> tacho = Channel(name="tacho", quantity="pulses", rate=4000.0, values=np.sin(angle))
     >>> shaking = Channel(name="front", rate=4000.0, values=0.5 * np.cos(2 * angle + 1.0))
-    >>> found = order_spectrum(shaking, rotation(Signal(channels=(tacho, shaking), tacho=0)))
+    >>> found = order_spectrum(shaking, estimate_rotation(Signal(channels=(tacho, shaking), tacho=0)))
     >>> print(f"{found.at(2.0):.4f}, {np.angle(found.coherent[found.order == 2.0])[0]:.4f} rad")
     0.5000, 1.0000 rad
     """

@@ -55,7 +55,7 @@ class Cepstrum:
         return float(self.lag[k]), float(self.value[k])
 
 
-def integrated(channel: Channel, *, low: float) -> Channel:
+def integrate(channel: Channel, *, low: float) -> Channel:
     """Return a channel integrated over time: acceleration to velocity, velocity to displacement, speed to angle.
 
     Parameters
@@ -84,7 +84,7 @@ def integrated(channel: Channel, *, low: float) -> Channel:
     --------
     >>> time = np.arange(4000) / 1000
     >>> shaking = Channel(name="front", values=np.cos(2 * np.pi * 20 * time), rate=1000.0)
-    >>> moving = integrated(integrated(shaking, low=5.0), low=5.0)
+    >>> moving = integrate(integrate(shaking, low=5.0), low=5.0)
     >>> print(moving.quantity, f"{np.max(moving.values[1000:3000]) * (2 * np.pi * 20) ** 2:.4f}")
     displacement 1.0000
     """

@@ -133,7 +133,7 @@ def _carried_on(curve: Any, knots: Array, at: Array) -> Array:
     return np.asarray(curve(inside) + slope * (at - inside))
 
 
-def rotation(
+def estimate_rotation(
     signal: Signal,
     *,
     speed_range: tuple[float, float] | None = None,
@@ -172,7 +172,7 @@ def rotation(
     >>> time = np.arange(8000) / 2000
     >>> pulses = np.cos(2 * np.pi * (10 * time + 2 * time**2))
     >>> tacho = Channel(name="tacho", quantity="pulses", rate=2000.0, values=pulses)
-    >>> found = rotation(Signal(channels=(tacho,), tacho=0))
+    >>> found = estimate_rotation(Signal(channels=(tacho,), tacho=0))
     >>> print(f"{found.turns:.0f} turns, {found.speed_at(2.0) / (2 * np.pi):.1f} 1/s at 2 s")
     71 turns, 18.0 1/s at 2 s
     """
