@@ -7,14 +7,12 @@ import pytest
 from cardan.checks import check
 from cardan.drive.drive import Drive
 from cardan.io import example
-from cardan.report.key_figures import key_figures, key_table
-from cardan.report.subject import asked
 from cardan.units import deg
+from tests.report.first_page import key_rows
 
 
 def row(drive):
-    keys = key_table(key_figures(asked(drive, None, None))).rows
-    return next(one for one in keys if one[0].text.startswith("largest joint angle"))
+    return next(one for one in key_rows(drive) if one[0].text.startswith("largest joint angle"))
 
 
 @pytest.mark.parametrize("name", ["truck-duty-cycle", "pto-drive"])

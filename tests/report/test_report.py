@@ -17,6 +17,7 @@ from cardan.report.block import Page, Words
 from cardan.report.content import moved, phased
 from cardan.report.report import page, report
 from cardan.units import deg
+from tests.report.first_page import key_rows
 
 VOID = {"meta", "br", "link", "img", "hr", "input"}
 
@@ -123,7 +124,6 @@ def test_an_infeasible_drive_says_why_and_what_bend_would_do():
 
 def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     """Its two joint angles of 20° differ by 5e-5°: the file gives coordinates to a micrometre."""
-    from cardan.report.key_figures import key_figures, key_table
     from cardan.report.subject import asked
     from cardan.report.summary import uniformity
 
@@ -134,7 +134,7 @@ def test_a_drive_even_but_for_rounded_coordinates_is_not_called_uneven():
     drawn = yokes.blocks[0].figure.sentence
     said = [uniformity(on).text, yokes.answer, proof(yokes), drawn, moved(on.drive)[0].answer]
     assert all("but for the rounding" in text.lower() for text in said)
-    rows = {row[0].text: row for row in key_table(key_figures(on)).rows}
+    rows = {row[0].text: row for row in key_rows(on.drive)}
     assert rows["angle error of the output, ±"][1].text == "9.283·10⁻⁶"
     assert "times smaller" not in "".join(parsed(page(on.drive)).words)
 
@@ -169,15 +169,9 @@ def test_a_turn_between_yokes_is_told_as_the_line_that_other_pages_name():
 
 
 def test_key_figures_name_the_pose_that_is_worst():
-    from cardan.report.key_figures import key_figures, key_table
-    from cardan.report.subject import asked
-
-    rows = {
-        row[0].text: row[1].text
-        for row in key_table(key_figures(asked(example("rolling-mill-upper-spindle"), None, None))).rows
-    }
+    rows = {row[0].text: row[1].text for row in key_rows(example("rolling-mill-upper-spindle"))}
     assert rows["largest joint angle, joint 1, in the pose roll change"] == "3.719"
-    rows = {row[0].text: row[1] for row in key_table(key_figures(asked(example("truck-rear-axle"), None, None))).rows}
+    rows = {row[0].text: row[1] for row in key_rows(example("truck-rear-axle"))}
     assert float(rows["largest joint angle while moving, joint 2, in the pose empty"].full) == pytest.approx(
         13.5, abs=0.1
     )

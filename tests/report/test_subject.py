@@ -11,9 +11,9 @@ from cardan.io import example
 from cardan.questions.motion.equivalence import SPECK
 from cardan.report.block import Picture, Words
 from cardan.report.content import moved, phased
-from cardan.report.key_figures import key_figures, key_table
 from cardan.report.subject import Subject
 from cardan.report.summary import uniformity
+from tests.report.first_page import key_rows
 
 SMALL = math.radians(0.05)
 
@@ -55,9 +55,5 @@ def test_yokes_that_leave_a_speck_cure_a_drive_whose_joints_undo_each_other():
 
 @pytest.mark.parametrize("joint_angles", [[SMALL], [0.0, SMALL]])
 def test_a_small_acceleration_is_told(joint_angles):
-    (row,) = [
-        row
-        for row in key_table(key_figures(Subject(drive=Drive.from_angles(joint_angles)))).rows
-        if "acceleration" in row[0].text
-    ]
+    (row,) = [row for row in key_rows(Drive.from_angles(joint_angles)) if "acceleration" in row[0].text]
     assert row[1].text == "7.615·10⁻⁷"

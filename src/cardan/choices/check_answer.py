@@ -15,6 +15,7 @@ from cardan.catalogue import Catalogue
 from cardan.checks.alike import alike, title_of
 from cardan.checks.checks import CHECKS, check
 from cardan.checks.figure import check_figures
+from cardan.checks.key_figures import key_figures
 from cardan.checks.verdict import Verdict
 from cardan.checks.verdict_table import missing_table, share, verdict_key, verdict_records, verdict_table
 from cardan.drive.drive import Drive
@@ -133,6 +134,7 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
         figures=lambda: check_figures(result.verdicts, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
         remarks=tuple(_remarks(result, sources=sources, missing=missing)),
+        keys=tuple(key_figures(drive, result.verdicts)),
         facts={
             "passed": not result.failed,
             "remedies": [asdict(one) for one in result.remedies],

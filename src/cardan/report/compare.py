@@ -17,6 +17,7 @@ from cardan.answers.quantity import Joined, Quantity
 from cardan.answers.reader import reader
 from cardan.catalogue import Catalogue
 from cardan.checks import Verdict, check
+from cardan.checks.key_figures import key_figures as verdict_figures
 from cardan.checks.verdict_table import TONES
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
@@ -27,14 +28,26 @@ from cardan.texts import _, plural
 
 from .answers import answered, subject
 from .block import Block, Cell, Column, Page, Picture, Table, Tone, Words, shown, words
-from .followed import Followed, figures_by_laws
-from .key_figures import key_figures
+from .page import key_figures
 from .subject import Progress, Subject
 
 Sense: TypeAlias = Literal["less", "more", ""]
 """Whether a smaller or a greater figure is better; empty where neither is."""
 
-PAGES = ("forces", "losses", "accuracy", "torsion", "bending", "life", "strength", "mobility", "assembly")
+PAGES = (
+    "motion",
+    "phasing",
+    "articulation",
+    "forces",
+    "losses",
+    "accuracy",
+    "torsion",
+    "bending",
+    "life",
+    "strength",
+    "mobility",
+    "assembly",
+)
 """Parts of the report whose key figures are compared."""
 
 ALIKE = 1e-9
@@ -154,13 +167,12 @@ def _told(progress: Progress | None, k: int, count: int, share: float) -> object
 
 def _keys(one: Variant, progress: Callable[[float], object]) -> list[KeyFigure]:
     """Return the key figures of a drive."""
-    on: object = one.subject
-    pages = []
+    told = []
     for k, name in enumerate(PAGES):
-        pages.append(answered(name, one.subject))
+        told.append(answered(name, one.subject).keys)
         if progress((k + 1) / (len(PAGES) + 1)) == "stop":
             break
-    return figures_by_laws(on, pages) if isinstance(on, Followed) else key_figures(one.subject, pages)
+    return key_figures([*told, tuple(verdict_figures(one.drive, one.verdicts))])
 
 
 def _figures(variants: Sequence[Variant], found: Sequence[Sequence[Any]]) -> Table:

@@ -32,22 +32,17 @@ from .followed import (
     Followed,
     asked_by_laws,
     changes_by_laws,
-    figures_by_laws,
     judgement_by_laws,
     method_by_laws,
     warnings_by_laws,
 )
-from .key_figures import key_figures, key_table
 from .lacking import refused
 from .loaded import loaded
 from .method import method
-from .page import page
+from .page import key_figures, key_table, page
 from .subject import Subject, asked
 from .summary import changes, judgement, warnings
 from .verdicts import Judged, judged
-
-OWN = ("motion", "phasing", "articulation")
-"""Questions whose key figures the first page words in its own way."""
 
 
 def today() -> str:
@@ -169,7 +164,7 @@ def content(
         limits,
         said=judgement(on, pages),
         warned=tuple(warnings(on, pages)),
-        figures=key_figures(on, _with_keys(pages)),
+        figures=key_figures([*(one.keys for one in pages), limits.keys]),
         changed=changes(on),
     )
 
@@ -189,7 +184,7 @@ def _by_laws(on: Followed, source_text: str | None) -> Content:
         limits,
         said=judgement_by_laws(on, pages),
         warned=tuple(warnings_by_laws(on, pages)),
-        figures=figures_by_laws(on, _with_keys(pages)),
+        figures=key_figures([*(one.keys for one in pages), limits.keys]),
         changed=changes_by_laws(on),
     )
 
@@ -251,8 +246,3 @@ def _phased_by_laws(drive: Drive) -> Page:
         return phased(drive, yokes.ask(drive))
     except InputError as error:
         return replace(refused("phasing", _("Phasing of the yokes"), error), alarms=())
-
-
-def _with_keys(pages: Sequence[Page]) -> list[Page]:
-    """Return the pages whose key figures the first page does not work out by itself."""
-    return [one for one in pages if one.name not in OWN]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cardan import __version__
-from cardan.answers.answer import KeyFigure, Tone
+from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, say
 from cardan.catalogue import Catalogue
 from cardan.drive.bodies.solids import Solids, solids
@@ -20,13 +20,11 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.maths.arrays import Array
-from cardan.questions.motion.answer import answer
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
 from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.swing import Swing, swing
-from cardan.questions.motion.turning import Turning
 from cardan.texts import _, plural
 
 from .block import (
@@ -98,12 +96,6 @@ def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
         text = too_steep(joint, k, float(joint_angle))
         if text:
             yield Words(text=text, tone="failed")
-
-
-def figures_by_laws(on: Followed, pages: Sequence[Page]) -> list[KeyFigure]:
-    """Return the figures a reader compares drives by."""
-    said = answer(on.drive, Turning(motion=on.found, each=on.whole))
-    return [*said.keys, *(one for page in pages for one in page.keys)]
 
 
 def changes_by_laws(on: Followed) -> Words:

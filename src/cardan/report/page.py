@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from cardan.answers.answer import Answer, Depth, KeyFigure
 from cardan.answers.printed import SHOWN, Cell, framed, number, printed
 from cardan.answers.quantity import Quantity, say, told
-from cardan.answers.reader import Reader
+from cardan.answers.reader import Reader, reader
 from cardan.texts import _
 
-from .block import Block, Listing, Page, Picture, Points, Words
+from .block import Block, Listing, Page, Picture, Points, Table, Words, verdict_columns
 
 MOST = 1000.0
 """A limit that is exceeded more often is told as exceeded beyond that."""
@@ -57,6 +57,25 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
     if minded:
         yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))
     yield from (Listing(title=one.title, text=one.text) for one in answer.listings if one.depth in shown)
+
+
+def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:
+    """Return the key figures of the first page, by which drives are compared.
+
+    Parameters
+    ----------
+    told : iterable of sequence of KeyFigure
+        Those of each answer. Of a name that several tell the last one counts, which knows more, where the first stood.
+    """
+    found: dict[str, list[KeyFigure]] = {}
+    for keys in told:
+        found.update({name: [one for one in keys if one.name == name] for name in dict.fromkeys(k.name for k in keys)})
+    return [one for keys in found.values() for one in keys]
+
+
+def key_table(keys: Sequence[KeyFigure]) -> Table:
+    """Return key figures as a table: what, value, unit, limit, utilisation, verdict."""
+    return Table(columns=verdict_columns(), rows=[row(one, reader()) for one in keys])
 
 
 def row(key: KeyFigure, reader: Reader) -> list[Cell]:

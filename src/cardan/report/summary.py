@@ -13,13 +13,12 @@ from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.maths.ties import foremost
 from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
 from cardan.questions.motion.kinds import too_steep
-from cardan.questions.phases.answer import excess
+from cardan.questions.phases.answer import CALM, UTMOST, excess
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
 
 from .block import Page, Table, Tone, Words, shown, table
-from .key_figures import CALM, UTMOST
 from .subject import Subject
 
 ILL = 80.0

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cardan.answers.answer import KeyFigure
 from cardan.answers.reader import reader
+from cardan.checks.key_figures import key_figures
 from cardan.choices.check_answer import answer, ask, remedy_table, urgent
 from cardan.errors import InputError
 from cardan.texts import _, plural
@@ -27,11 +30,14 @@ class Judged:
         Those that matter most, for the first page.
     changes : Table or None
         The changes that help most, for the first page; None where nothing fails.
+    keys : sequence of KeyFigure
+        Key figures with their limits.
     """
 
     page: Page | None = None
     lights: Table | None = None
     changes: Table | None = None
+    keys: Sequence[KeyFigure] = ()
 
 
 def judged(on: Subject) -> Judged:
@@ -39,14 +45,15 @@ def judged(on: Subject) -> Judged:
     try:
         result = ask(on.drive, known=on.known)
     except InputError as error:
-        return Judged(page=refused("check", _("Checks"), error))
+        return Judged(page=refused("check", _("Checks"), error), keys=tuple(key_figures(on.drive, ())))
     if result is None:
-        return Judged()
-    keys, left = urgent(result)
+        return Judged(keys=tuple(key_figures(on.drive, ())))
+    said, (shown, left) = answer(on.drive, result), urgent(result)
     note = plural("One more check passed.", "{count} more checks passed.", left).format(count=left) if left else ""
-    rows = [row(one, reader()) for one in keys]
+    rows = [row(one, reader()) for one in shown]
     return Judged(
-        page=page(answer(on.drive, result), reader()),
+        page=page(said, reader()),
+        keys=said.keys,
         lights=Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note),
         changes=table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None,
     )

@@ -43,7 +43,7 @@ def test_a_spline_that_runs_out_fails_in_every_form():
     assert (said.tone, said.code) == ("failed", 1)
     assert "Failed: the spline of shaft 2 bottoms" in words(said)
     assert not data(said, USUAL)["passed"]
-    gap = next(one for one in said.keys if one.name == "gap_2")
+    gap = next(one for one in said.keys if one.name == "spline_gap_2")
     assert (gap.verdict, gap.tone) == ("too little", "failed")
     assert [figure.name for figure in said.figures()] == ["joint_angles", "sliding"]
 

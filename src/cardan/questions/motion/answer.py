@@ -18,6 +18,7 @@ from cardan.figures.figure import Figure
 from cardan.figures.palette import colour
 from cardan.figures.palette import shaft as shaft_role
 from cardan.maths.arrays import Array
+from cardan.maths.ties import foremost
 from cardan.texts import _, plural
 from cardan.units import deg
 
@@ -351,6 +352,8 @@ def _remarks(drive: Drive, result: Turning) -> Iterator[Remark]:
 def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
     each, speed, even = result.each, result.motion.speed, result.fluctuation < SYNCHRONOUS
     share, allowed = result.fluctuation, drive.limits.speed_fluctuation
+    joint_angle = np.asarray(given_chain(drive).joint_angle)
+    joint = int(foremost(joint_angle / [one.steepest for one in drive.joints]))
     tone: Tone = "plain" if allowed is None else "good" if share <= allowed else "failed"
     yield KeyFigure(
         name="speed_fluctuation",
@@ -377,6 +380,9 @@ def _keys(drive: Drive, result: Turning) -> Iterator[KeyFigure]:
             place=say(_("at {speed}"), speed=Quantity(abs(float(speed)), "angular_speed")),
             value=Quantity(steep, "angular_acceleration"),
         )
+    place = say(_("joint {number}"), number=joint + 1)
+    value = Quantity(float(joint_angle[joint]), "angle")
+    yield KeyFigure(name="joint_angle", title=_("largest joint angle"), place=place, value=value)
 
 
 def _facts(result: Turning) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone, heads
-from cardan.answers.quantity import Quantity, Say, say
+from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -32,6 +32,10 @@ KEYS = {
     "moving_speed_fluctuation": "moving_speed_fluctuation",
 }
 """What a worst instant is called for programs, where that is not its name in Python."""
+
+
+CLOSE = 0.9
+"""Share of a limit from which it is near."""
 
 
 def lacking(drive: Drive) -> Lacking:
@@ -242,36 +246,55 @@ def _remarks(drive: Drive, found: Articulation) -> Iterator[Remark]:
 
 
 def _keys(drive: Drive, found: Articulation) -> Iterator[KeyFigure]:
-    places = {
-        "speed_fluctuation": _("if it stopped there, at {time}"),
-        "moving_speed_fluctuation": _("while moving, at {time}"),
+    titles = {
+        "speed_fluctuation": _("largest speed fluctuation if it stopped on its way"),
+        "moving_speed_fluctuation": _("largest speed fluctuation while moving"),
     }
     for one in found.worst:
-        if one.what in places:
+        if one.what in titles:
             yield KeyFigure(
-                name=KEYS[one.what],
-                title=_("largest speed fluctuation δ over the movement"),
-                place=say(places[one.what], time=_time(one.time)),
-                value=Quantity(one.value, "share"),
+                name=f"{one.what}_moving",
+                title=titles[one.what],
+                place=say(_("at {time}"), time=_time(one.time)),
+                value=Quantity(one.value, "share", 3),
             )
-    overlap = drive.limits.spline_overlap
     for spline in found.splines:
         short = {flag.field.rpartition(".")[2] for flag in spline.flags}
-        for field, title, left, limit in (
-            ("engaged", _("shortest engaged length of the spline of shaft {k}"), spline.engaged_min, overlap),
-            ("gap", _("least way left to bottoming of shaft {k}"), spline.gap_min, None),
-        ):
+        for field, left in (("engaged", spline.engaged_min), ("gap", spline.gap_min)):
             if left is not None:
-                bad = field in short
-                yield KeyFigure(
-                    name=f"{field}_{spline.shaft}",
-                    title=say(title, k=spline.shaft),
-                    value=Quantity(left, "length", decimals=1),
-                    limit=None if limit is None else Quantity(limit, "length", trim=True),
-                    better="more",
-                    verdict=_("too little") if bad else _("passed"),
-                    tone="failed" if bad else "good",
-                )
+                yield spline_key(drive, spline.shaft, field, left, failed=field in short)
+
+
+def spline_key(drive: Drive, shaft: int, field: str, left: float, *, failed: bool, note: Text = "") -> KeyFigure:
+    """Return what is left of a spline as a key figure.
+
+    Parameters
+    ----------
+    drive : Drive
+    shaft : int
+        Its number.
+    field : {"engaged", "gap"}
+        Whether engaged length or remaining travel is left.
+    left : float [m]
+    failed : bool
+        Whether that is too little.
+    note : Text
+        When it is so.
+    """
+    limit = drive.limits.spline_overlap if field == "engaged" else None
+    titles = {"engaged": _("shortest engaged length of the spline"), "gap": _("least remaining travel of the spline")}
+    close = limit is not None and left > 0.0 and limit / left >= CLOSE
+    tone: Tone = "failed" if failed else "warning" if close else "good"
+    return KeyFigure(
+        name=f"spline_{field}_{shaft}",
+        title=titles[field],
+        place=Joined([say(_("shaft {number}"), number=shaft), note]),
+        value=Quantity(left, "length", decimals=1),
+        limit=None if limit is None else Quantity(limit, "length", 6, trim=True),
+        better="more",
+        tone=tone,
+        verdict={"failed": _("too little"), "warning": _("near the limit"), "good": _("passed")}[tone],
+    )
 
 
 def _history(found: Articulation) -> Table:

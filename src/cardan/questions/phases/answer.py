@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table
+from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Say, Text, say
 from cardan.answers.question import Lacking
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
@@ -34,6 +34,12 @@ from .phases import phases as ask
 from .setting import YokeSetting
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
+
+CALM = 1e-3
+"""Speed fluctuation below which a drive is called nearly uniform: some tenth of what one joint of 5° does."""
+
+UTMOST = 1e-9
+"""Changes of the speed fluctuation smaller than this help nobody."""
 
 WIDEST = 7
 """With more yokes than this the table of settings is turned: shafts downwards."""
@@ -84,7 +90,7 @@ def answer(drive: Drive, result: Phasing, *, fixed: Mapping[int, float] | None =
             *((_costs(drive, result),) if several and result.settings else ()),
         ),
         remarks=tuple(_remarks(drive, result, fixed or {}, nearest)),
-        keys=tuple(_keys(result)),
+        keys=tuple(_keys(drive, result)),
         facts=_facts(drive, result),
         full=lambda: _everything(drive, result),
         code=0 if result.complete else 1,
@@ -515,19 +521,29 @@ def spread(found: Phasing) -> Iterator[Remark]:
     yield Remark(text=say(text, costs=Joined(parts, between=" / "), shafts=" / ".join(map(str, numbers))))
 
 
-def _keys(found: Phasing) -> Iterator[KeyFigure]:
-    least = min((one.speed_fluctuation for one in found.settings), default=found.as_built.speed_fluctuation)
-    title = _("least speed fluctuation δ by other yoke angles")
-    yield KeyFigure(name="least_speed_fluctuation", title=title, value=Quantity(float(least), "share"))
-    share = found.as_built.pose_speed_fluctuation
-    if share.size:
-        worst = int(foremost(share))
-        yield KeyFigure(
-            name="pose_speed_fluctuation",
-            title=_("speed fluctuation δ of the output"),
-            place=say(_("in the pose {name}"), name=found.poses[worst]),
-            value=Quantity(float(share[worst]), "share"),
-        )
+def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
+    verdict, tone = _uniformity(drive, found)
+    title, share = _("speed fluctuation δ of the output"), float(found.as_built.speed_fluctuation)
+    yield KeyFigure(name="speed_fluctuation", title=title, value=Quantity(share, "share"), verdict=verdict, tone=tone)
+    posed = found.as_built.pose_speed_fluctuation
+    if posed.size and float(np.max(posed)) > share + UTMOST:
+        place = say(_("in the pose {name}"), name=found.poses[int(foremost(posed))])
+        value = Quantity(float(np.max(posed)), "share")
+        yield KeyFigure(name="pose_speed_fluctuation", title=title, place=place, value=value)
+
+
+def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
+    """Return verdict and tone of the speed fluctuation."""
+    share, length = float(found.as_built.speed_fluctuation), closure(drive).length
+    if share < SYNCHRONOUS:
+        return _("exactly uniform"), "good"
+    if is_rounding(drive, share, length):
+        return _("uniform but for rounding"), "good"
+    if share < CALM:
+        return _("nearly uniform"), "plain"
+    if found.feasible or is_rounding(drive, found.speed_fluctuation_min, length):
+        return _("can be made uniform"), "warning"
+    return _("cannot be uniform"), "warning"
 
 
 def _facts(drive: Drive, found: Phasing) -> dict[str, Any]:
