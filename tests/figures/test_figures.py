@@ -4,6 +4,8 @@ import io
 import re
 from dataclasses import replace
 from html import escape
+from importlib import import_module
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -285,3 +287,14 @@ def test_panels_that_are_zero_throughout_are_left_out():
     close = book_figure(book_comparison(Drive.from_angles([0.004, 0.003]), np.linspace(0.0, 6.0, 99)))
     most = max(float(np.max(np.abs(one.y))) for one in close.panels[1].series if isinstance(one, Curve))
     assert most > 0.5 * close.panels[1].y.high
+
+
+def test_every_result_with_figures_is_found_from_its_own_folder():
+    """A folder of results tells in `figure` or `figures` beside it, or in one above, what makes their figures."""
+    root = Path(figures.__file__).parent.parent
+    homes = [*root.rglob("figure.py"), *root.rglob("figures/__init__.py")]
+    tables = [import_module(".".join(("cardan", *home.relative_to(root).with_suffix("").parts))) for home in homes]
+    found = {kind: made for one in tables for kind, made in getattr(one, "FIGURES", {}).items()}
+    assert len(found) > 40
+    for kind, made in found.items():
+        assert figures._maker(kind) is made

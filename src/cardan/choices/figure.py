@@ -169,3 +169,7 @@ def _rows(found: Sizing) -> list[tuple[str, float, str]]:
         return [(one.id, one.utilisation, role(one.utilisation)) for one in found.tried if one.worst is not None]
     made = sorted(found.made, key=lambda one: -float(one.utilisation))
     return [(one.title, float(one.utilisation), role(float(one.utilisation))) for one in made]
+
+
+FIGURES = {Sizing: sizing_figures, TradeOff: trade_off_figures}
+"""Result -> what makes its figures."""

@@ -160,3 +160,7 @@ def fatigue_figure(found: Strength) -> Figure:
             ),
         ),
     )
+
+
+FIGURES = {Strength: strength_figures}
+"""Result -> what makes its figures."""

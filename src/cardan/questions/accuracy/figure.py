@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -283,3 +283,10 @@ def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
         source=_("Every joint a closed loop of four axes, exactly; first order Book (171), (180), chained"),
         rows=tuple(rows),
     )
+
+
+FIGURES: dict[type, Callable[..., tuple[Figure, ...]]] = {
+    ToleranceBand: tolerance_figures,
+    TransmissionError: error_figures,
+}
+"""Result -> what makes its figures."""

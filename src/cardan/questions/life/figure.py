@@ -269,3 +269,7 @@ def _decades(label: str, values: np.ndarray) -> Axis:
     ticks = tuple(value for value in marks if low <= value <= high)
     texts = tuple(significant(value, 1) for value in ticks)
     return Axis(label=label, unit="h", dimension="duration", low=low, high=high, ticks=ticks, texts=texts, log=True)
+
+
+FIGURES = {Life: life_figures}
+"""Result -> what makes its figures."""

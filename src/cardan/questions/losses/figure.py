@@ -255,3 +255,7 @@ def _best(found: LossMap) -> Say | str:
         torque=Quantity(float(found.torque[t]), "torque", 3),
         share=Quantity(float(share[s, t]), "share"),
     )
+
+
+FIGURES = {Losses: losses_figures, LossMap: map_figures}
+"""Result -> what makes its figures."""

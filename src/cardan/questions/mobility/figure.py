@@ -333,3 +333,7 @@ def closure_figures(found: FiniteMobility) -> tuple[Figure, ...]:
             rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels),
         ),
     )
+
+
+FIGURES = {Mobility: mobility_figures, MobilityTurn: turn_figures, FiniteMobility: closure_figures}
+"""Result -> what makes its figures."""

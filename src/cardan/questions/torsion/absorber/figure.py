@@ -133,3 +133,7 @@ def logarithmic(label: str, curves: Sequence[Array]) -> Axis:
     kept = tuple(one for one in ticks if low <= one <= high)
     texts = tuple(written([one])[0] for one in kept)
     return Axis(label=label, unit="Nm", dimension="torque", low=low, high=high, ticks=kept, texts=texts, log=True)
+
+
+FIGURES = {Absorber: absorber_figures}
+"""Result -> what makes its figures."""

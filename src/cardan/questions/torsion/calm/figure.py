@@ -128,3 +128,7 @@ def _search(found: Calm) -> Panel:
         x=axis(_("round of the search"), "", [np.asarray([0.0, max(longest - 1.0, 1.0)])], margin=0.0, count=4),
         y=logarithmic(_("Smallest peak so far ±"), runs),
     )
+
+
+FIGURES = {Calm: calm_figures}
+"""Result -> what makes its figures."""

@@ -244,3 +244,7 @@ def _along(train: TorsionalTrain, position: Array) -> Array:
     last = float(np.max(train.position))
     ends.append(last if last > ends[-1] else 2.0 * ends[-1])
     return np.interp(position, ends, np.arange(len(ends), dtype=float))
+
+
+FIGURES = {TorsionModes: modes_figures}
+"""Result -> what makes its figures."""

@@ -241,3 +241,7 @@ def _cells(x: Array, y: Array, mask: Array, role: str, opacity: float, word: str
 def _edges(values: Array) -> Array:
     middle = 0.5 * (values[1:] + values[:-1])
     return np.concatenate([values[:1], middle, values[-1:]])
+
+
+FIGURES = {Stability: stability_figures}
+"""Result -> what makes its figures."""

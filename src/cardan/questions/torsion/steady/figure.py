@@ -311,3 +311,7 @@ def waterfall_figure(found: TorsionResponse) -> Figure:
         rows=(Row(panels=(panel,), height=3.0),),
         legend=False,
     )
+
+
+FIGURES = {TorsionResponse: response_figures}
+"""Result -> what makes its figures."""

@@ -69,3 +69,7 @@ def transient_figure(found: Transient) -> Figure:
         else _("exact equations of motion, steps held to their error"),
         rows=(Row(panels=(torques,), height=2.0), Row(panels=(speeds,), height=1.4)),
     )
+
+
+FIGURES = {Transient: transient_figures}
+"""Result -> what makes its figures."""
