@@ -25,8 +25,8 @@ from .drive.drive import Drive as Drive
 from .errors import CardanError as CardanError
 from .errors import InputError as InputError
 from .io.drive_file import load as load
-from .io.drive_file import save as save
 from .io.examples import example as example
+from .io.saving import save as save
 from .questions.accuracy.accuracy import TransmissionError as TransmissionError
 from .questions.accuracy.accuracy import transmission_error as transmission_error
 from .questions.accuracy.allocation import Allocation as Allocation
@@ -45,8 +45,8 @@ from .questions.forces.drive_forces import Forces as Forces
 from .questions.forces.forces import forces as forces
 from .questions.forces.moving_forces import MovingForces as MovingForces
 from .questions.forces.moving_forces import moving_forces as moving_forces
-from .questions.life.life import Life as Life
 from .questions.life.life import life as life
+from .questions.life.lives import Life as Life
 from .questions.losses.losses import Losses as Losses
 from .questions.losses.losses import losses as losses
 from .questions.mobility.mobility import Mobility as Mobility

@@ -15,6 +15,7 @@ from .questions.diagnosis.signals.orders import OrderMap as OrderMap
 from .questions.diagnosis.signals.orders import OrderSpectrum as OrderSpectrum
 from .questions.diagnosis.signals.orders import order_map as order_map
 from .questions.diagnosis.signals.orders import order_spectrum as order_spectrum
+from .questions.diagnosis.signals.rotation import Rotation as Rotation
 from .questions.diagnosis.signals.signal import Channel as Channel
 from .questions.diagnosis.signals.signal import Signal as Signal
 from .questions.diagnosis.signals.spectra import Cepstrum as Cepstrum
@@ -22,7 +23,6 @@ from .questions.diagnosis.signals.spectra import cepstrum as cepstrum
 from .questions.diagnosis.signals.spectra import integrate as integrate
 from .questions.diagnosis.signals.torsional import TorsionalVibration as TorsionalVibration
 from .questions.diagnosis.signals.torsional import torsional_vibration as torsional_vibration
-from .questions.diagnosis.signals.turning import Rotation as Rotation
 from .questions.diagnosis.signals.turning import estimate_rotation as estimate_rotation
 from .questions.diagnosis.simulate import TestSchedule as TestSchedule
 from .questions.diagnosis.simulate import simulate_fault as simulate_fault

@@ -13,11 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from gettext import NullTranslations, translation
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from gettext import NullTranslations
 
 DOMAIN = "cardan"
 FOLDER = Path(__file__).parent / "locale"
@@ -77,8 +74,6 @@ def speaking(code: str) -> Iterator[None]:
 
 @cache
 def _catalogue(code: str) -> NullTranslations:
-    from gettext import translation
-
     return translation(DOMAIN, FOLDER, languages=[code], fallback=True)
 
 

@@ -17,7 +17,8 @@ from cardan.app.state.recordings import DIAGNOSIS, close_all
 from cardan.app.state.session import Session
 from cardan.app.state.workspace import Workspace
 from cardan.figures import Figure
-from cardan.io import edit, example_text
+from cardan.io import example_text
+from cardan.io.edit import edit
 from cardan.report.block import Page
 
 jobs = Jobs(1)

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from cardan.app.state.jobs import KEPT, Jobs
-from cardan.app.state.work import REMEDIES, VERDICTS, Question, asked, result
+from cardan.app.state.question import Question, asked
+from cardan.app.state.work import REMEDIES, VERDICTS, result
 from cardan.drive.drive import Drive
 from cardan.io import example
 from cardan.report.block import Page

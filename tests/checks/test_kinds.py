@@ -10,7 +10,7 @@ import pytest
 from cardan import Drive, check, motion, strength
 from cardan.checks.design import design
 from cardan.drive.cross import Cross
-from cardan.drive.drive import Input
+from cardan.drive.described import Input
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.joints import ConstantVelocity, DoubleCardan, ElasticHalfCardan, Hooke, PinCoupling, Rzeppa, Tripod

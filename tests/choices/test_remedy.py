@@ -15,7 +15,8 @@ from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft, Spline, Unbalance
-from cardan.io import dumps, edit, loads
+from cardan.io import dumps, loads
+from cardan.io.edit import edit
 from cardan.units import deg, mm, rpm
 
 HOUR = 3600.0

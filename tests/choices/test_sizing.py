@@ -15,15 +15,15 @@ from cardan.choices.preferred import R20, R40, round_up
 from cardan.choices.sized import CHECKS
 from cardan.choices.sizing import size
 from cardan.choices.trade_off import front, trade_off
-from cardan.drive.body import Segment
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.fields.paths import with_values
 from cardan.drive.joint_parts import Needles
 from cardan.drive.material import Material
-from cardan.drive.shaft import Layup, Ply, Shaft
+from cardan.drive.shaft import Layup, Ply, Segment, Shaft
 from cardan.formulas.shaft_strength import shaft_diameter
-from cardan.io import dumps, edit, loads
+from cardan.io import dumps, loads
+from cardan.io.edit import edit
 from cardan.units import deg, mm, rpm
 
 C45 = Material(grade="C45")

@@ -7,7 +7,7 @@ import pytest
 
 from cardan import load
 from cardan.checks import CHECKS, check
-from cardan.io import edit
+from cardan.io.edit import edit
 from tests.cli.test_forces import plain, widest
 
 CAR = """format = 1

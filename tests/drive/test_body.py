@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
-from cardan.drive.body import Lump, Segment, body_length, pieces, softness
+from cardan.drive.body import body_length, pieces, softness
 from cardan.drive.material import Material
 from cardan.drive.models.train import train
-from cardan.drive.shaft import Layup, Ply, Shaft
+from cardan.drive.shaft import Layup, Lump, Ply, Segment, Shaft
 from cardan.io import dumps, loads
 
 DRIVE = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (1.0, 0, 0), (1.5, 0, -0.1)])

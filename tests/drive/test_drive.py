@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
-from cardan.drive.drive import Input, Output
+from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty
 from cardan.drive.fields.validity import MAX_JOINTS
 from cardan.drive.joints import JOINTS, Hooke

@@ -1,4 +1,4 @@
-"""Which module imports which, as the source says it: those inside functions and for type checking alone too."""
+"""Which module imports which, as the source says it: those for type checking alone and those made later too."""
 
 from __future__ import annotations
 
@@ -41,6 +41,8 @@ def _imported(name: str, path: Path) -> Iterator[str]:
                 # What a package hands on comes from the package, a module of it from the module.
                 if found := _known(f"{base}.{one.name}") or _known(base):
                     yield found
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "later":
+            yield from filter(None, [_known(ast.literal_eval(node.args[0]))])
 
 
 def _known(name: str) -> str:
@@ -88,3 +90,45 @@ def _reached(name: str, arrows: Mapping[str, Iterable[str]]) -> set[str]:
             seen.add(one)
             ahead.extend(arrows.get(one, ()))
     return seen
+
+
+def hidden() -> dict[str, set[str]]:
+    """Return the modules with an import that does not stand at the top for every reader, each with where it stands."""
+    found: dict[str, set[str]] = {}
+    for name, path in modules().items():
+        tree = ast.parse(path.read_text("utf-8"))
+        open_ones = {id(node) for node in tree.body}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import | ast.ImportFrom) and id(node) not in open_ones:
+                found.setdefault(name, set()).add(_place(tree, node))
+    return found
+
+
+def _place(tree: ast.Module, wanted: ast.AST) -> str:
+    """Return the name of the function around a node, or the kind of statement at the top of the module."""
+    around = [node for node in ast.walk(tree) if node is not tree and any(one is wanted for one in ast.walk(node))]
+    named = [node.name for node in around if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
+    return f"{named[-1]}()" if named else type(around[0]).__name__.lower()
+
+
+def borrowed() -> list[str]:
+    """Return where a module takes a private name of another one of the package: imported, or by its module."""
+    found = []
+    for name, path in modules().items():
+        tree = ast.parse(path.read_text("utf-8"))
+        taken = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+        names = {one.asname or one.name for node in taken for one in node.names}
+        found += [f"{name}: {one.name}" for node in taken for one in node.names if _is_private(one.name)]
+        found += [
+            f"{name}: {node.value.id}.{node.attr}"
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Attribute)
+            and isinstance(node.value, ast.Name)
+            and node.value.id in names
+            and _is_private(node.attr)
+        ]
+    return found
+
+
+def _is_private(name: str) -> bool:
+    return name.startswith("_") and name != "_" and not name.startswith("__")

@@ -9,7 +9,8 @@ import pytest
 
 from cardan import InputError
 from cardan.drive.fields.paths import with_values
-from cardan.io import edit, example_names, example_text, loads
+from cardan.io import example_names, example_text, loads
+from cardan.io.edit import edit
 
 FORMS = """format = 1
 # above

@@ -10,7 +10,8 @@ from cardan.drive.duty import Duty
 from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import place
 from cardan.errors import InputError
-from cardan.io import edit, example, example_names, example_text, loads
+from cardan.io import example, example_names, example_text, loads
+from cardan.io.edit import edit
 from cardan.register import QUESTIONS, groups
 from cardan.report import subject as subjects
 from cardan.report.answers import answered, subject

@@ -10,7 +10,11 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 from nicegui import ui
+from starlette.responses import Response
 
+from cardan.drive.bodies.solids import solids
+from cardan.figures.drive import space_figure
+from cardan.figures.render_svg import inline_svg
 from cardan.io import example, example_names, example_text
 from cardan.texts import _
 
@@ -50,8 +54,6 @@ def serve_files(app: Any) -> None:
 
 def _picture(name: str) -> Any:
     """Answer with the picture of a shipped example."""
-    from starlette.responses import Response
-
     text = example_picture(name)
     head = {"Cache-Control": "max-age=86400"}
     return Response(text, 200 if text else 404, head, media_type="image/svg+xml")
@@ -60,10 +62,6 @@ def _picture(name: str) -> Any:
 @cache
 def example_picture(name: str) -> str:
     """Return the picture of a shipped example as SVG; nothing where there is none of that name."""
-    from cardan.drive.bodies.solids import solids
-    from cardan.figures.drive import space_figure
-    from cardan.figures.render_svg import inline_svg
-
     if name not in example_names():
         return ""
     drive = example(name)

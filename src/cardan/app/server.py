@@ -10,14 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cardan.errors import InputError, MissingExtraError, refuse
+from cardan.errors import InputError, refuse
 from cardan.files import refusal
-from cardan.texts import _, language
+from cardan.later import later
+from cardan.texts import _, language, mark
 
 from .guard import LOCAL, VISITOR, Guard
 from .state.choices import choices_of
+from .state.jobs import Jobs
+from .state.recordings import close_all
 from .state.session import Session
 from .state.workspace import Workspace
+
+nicegui = later("nicegui", mark("the app needs NiceGUI: pip install 'cardan[app]'"))
+pages = later("cardan.app.page")
 
 PORT = 8321
 """Port that is tried first; any free one when it is taken and none was asked for."""
@@ -72,14 +78,7 @@ def start(how: Start) -> None:
     MissingExtraError
         NiceGUI is not installed.
     """
-    try:
-        from nicegui import app, ui
-    except ImportError:
-        raise MissingExtraError(_("the app needs NiceGUI: pip install 'cardan[app]'")) from None
-    from . import page
-    from .state.jobs import Jobs
-    from .state.recordings import close_all
-
+    app, ui, page = nicegui().app, nicegui().ui, pages()
     if not how.folder.is_dir():
         raise refuse(str(how.folder), _("is not a folder"))
     if how.file:
@@ -90,7 +89,7 @@ def start(how: Start) -> None:
     app.on_shutdown(close_all)
     page.serve_files(app)
 
-    @ui.page("/", title="cardan", favicon=page.ICON, response_timeout=20)
+    @ui.page("/", title="cardan", favicon=page.ICON, response_timeout=20)  # type: ignore[untyped-decorator]
     def index(client: Any) -> None:
         session = _session(how, client.request)
         with session.speaking():
@@ -120,9 +119,7 @@ def start(how: Start) -> None:
 
 def _session(how: Start, request: Any) -> Session:
     """Return a session for one window of a visitor."""
-    from . import page
-
-    kept = page.kept_choices(request.cookies)
+    kept = pages().kept_choices(request.cookies)
     choices = choices_of({"language": language(), **kept})
     folder = how.folder
     notice = ""
@@ -138,7 +135,7 @@ def _session(how: Start, request: Any) -> Session:
     example = request.query_params.get("example", "")
     try:
         if example:
-            page.open_example(session, example)
+            pages().open_example(session, example)
         elif asked:
             session.open(session.workspace.read(asked), asked)
     except InputError as error:

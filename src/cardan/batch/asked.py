@@ -7,8 +7,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from cardan.batch.figures.designs import ranks_figure
+from cardan.batch.figures.map import heat_figure, histogram_figure
+from cardan.batch.figures.sweep import parallel_figure, pareto_figure
 from cardan.batch.search.goals import Goal, Limit, check_names
-from cardan.batch.table.results import Results
+from cardan.batch.table.results import TABLE, Results
+from cardan.batch.table.sql import quoted
+from cardan.batch.table.views import histogram_of, map_of, ranks_of
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.texts import _
@@ -139,9 +144,6 @@ class Asked:
         return tuple(column.name for column in points if self._varies(column))
 
     def _distinct(self, name: str) -> int:
-        from cardan.batch.table.results import TABLE
-        from cardan.batch.table.sql import quoted
-
         return int(self.results.query(f"SELECT count(DISTINCT {quoted(name)}) AS n FROM {TABLE}")["n"][0])
 
     def _drawn(self) -> str:
@@ -150,8 +152,6 @@ class Asked:
         return self.answer.name
 
     def _lines(self) -> Any:
-        from cardan.batch.figures.sweep import parallel_figure
-
         name = self._drawn()
         goal = self.goals[0] if self.goals and not self.of else Goal(name=name)
         columns = [
@@ -164,16 +164,11 @@ class Asked:
         return parallel_figure(columns, rows, goal=goal, total=self.results.count(self.where))
 
     def _pareto(self) -> Any:
-        from cardan.batch.figures.sweep import pareto_figure
-
         names = [goal.name for goal in self.goals]
         others = self.results.sample(names, DOTTED, where=self.where)
         return pareto_figure(self.results.columns, self.goals, self.rows, others)
 
     def _map(self) -> Any:
-        from cardan.batch.figures.map import heat_figure
-        from cardan.batch.table.views import map_of
-
         over = self.over or self._fields()[:2]
         if len(over) < 2:
             raise refuse("--kind", _("a map needs two fields that vary; name them by --over"))
@@ -183,15 +178,9 @@ class Asked:
         return heat_figure(found.across, found.up, found.value, found.x, found.y, found.values, how=how)
 
     def _histogram(self) -> Any:
-        from cardan.batch.figures.map import histogram_figure
-        from cardan.batch.table.views import histogram_of
-
         found = histogram_of(self.results, self._drawn(), where=self.where)
         marks = {_("mean"): found.mean} if found.mean == found.mean else {}
         return histogram_figure(found.column, found.edges, found.counts, marks=marks, unknown=found.unknown)
 
     def _tornado(self) -> Any:
-        from cardan.batch.figures.designs import ranks_figure
-        from cardan.batch.table.views import ranks_of
-
         return ranks_figure(ranks_of(self.results, self._drawn(), where=self.where))

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from cardan.batch.table.reduction import Reduce
 from cardan.catalogue import Catalogue, shortened
 from cardan.drive.drive import Drive
 from cardan.drive.fields.tables import tree_of
@@ -18,12 +19,13 @@ from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.threads import share
 from cardan.texts import _
+from cardan.version import VERSION
 
 from .answering.asking import STATUS_COLUMN, Device, DriveEvaluator, evaluator
 from .points.axes import Axis, Points, TableAxis
 from .points.fields import TEXT_FEASIBLE, spread_out
 from .search.goals import Limit, check_names, excess, limit_of
-from .table.reductions import Reduce, States, at_work, reduce_of
+from .table.reductions import States, at_work, reduce_of
 from .work import FEASIBLE, STATUS, Column, Reduction, Rows, State, Status
 
 BLOCK = 2**13
@@ -91,11 +93,9 @@ class SweepWork:
     @cached_property
     def provenance(self) -> Mapping[str, Any]:
         """What the rows come from: version, drive, axes with their seeds, questions, units."""
-        from cardan import __version__
-
         return {
             "program": "cardan",
-            "version": __version__,
+            "version": VERSION,
             "title": self.title,
             "drive": tree_of(shortened(self.ask.drive, self.ask.known)),
             "vary": [axis.told() for axis in self.points.axes],

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from cardan.batch.table.reduction import Reduce
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 
@@ -15,7 +16,6 @@ from .engine.running import Keeping, run
 from .plan import work_of
 from .points.axes import Axis
 from .search.goals import Limit
-from .table.reductions import Reduce
 from .table.swept import Sweep
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -140,8 +141,6 @@ def arrangement_phase(
     >>> arrangement_phase("a")
     0.0
     """
-    import math
-
     free = {"a": (), "b": ("yoke_angle",), "c": ("plane_twist",), "d": ("plane_twist", "yoke_angle")}
     if arrangement not in free:
         raise refuse("arrangement", _("{given} is none of a, b, c, d").format(given=repr(arrangement)))

@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.errors import CardanError, InputError, refuse
 from cardan.maths.arrays import Array
@@ -212,11 +213,9 @@ class MasslessDrive:
         start : array (4,)
             Angles of the two inertias [rad], their speeds over the mean speed.
         """
-        from scipy.integrate import solve_ivp
-
         begin = np.concatenate((start, np.eye(4).ravel()))
         scale = max(1.0, float(np.max(np.abs(start))))
-        found = solve_ivp(
+        found = scipy.integrate.solve_ivp(
             self._rate, (0.0, np.pi), begin, method="DOP853", rtol=TOLERANCE, atol=1e-2 * TOLERANCE * scale
         )
         return found.y[:4, -1], found.y[4:, -1].reshape(4, 4)

@@ -13,6 +13,7 @@ import typer
 from cardan import register
 from cardan.answers.question import Question
 from cardan.texts import _
+from cardan.version import VERSION
 
 from .lazy import Entry, Group
 
@@ -185,9 +186,7 @@ app = typer.Typer(
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from cardan import __version__
-
-        typer.echo(f"cardan {__version__}")
+        typer.echo(f"cardan {VERSION}")
         raise typer.Exit
 
 

@@ -5,19 +5,27 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
+from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import Annotated, TypeAlias
 
 import typer
 
+from cardan.drive.drive import Drive
+from cardan.drive.fields.keys import spelled
+from cardan.drive.fields.ranges import HUGE
+from cardan.errors import InputError, Problem, check, refuse
+from cardan.register import QUESTIONS
 from cardan.texts import _
+from cardan.units import rpm
 
+from .failure import about
 from .options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
-from .output import check_common, check_speed
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-    from cardan.errors import Problem
+from .output import check_common, check_speed, print_text
+from .progress import watching
+from .source import STDIN, read
+from .tell import tell
 
 TorqueNm: TypeAlias = Annotated[
     float | None,
@@ -86,16 +94,10 @@ def check_options(
 
 def check_torque(torque: float | None) -> None:
     """Refuse a torque that is not a finite number, or one that no drive has."""
-    from math import isfinite
-
-    from cardan.errors import refuse
-
     if torque is None:
         return
     if not isfinite(torque):
         raise refuse("--torque-Nm", _("{value} is not a finite number").format(value=torque))
-
-    from cardan.drive.fields.ranges import HUGE
 
     if abs(torque) > HUGE:
         raise refuse("--torque-Nm", _("{value} is not allowed; no drive has such a number").format(value=torque))
@@ -106,10 +108,6 @@ def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Driv
 
     A torque there is steady, and stands in place of a duty cycle and of a measured torque too.
     """
-    from dataclasses import replace
-
-    from cardan.units import rpm
-
     duty = drive.duty
     if speed_rpm is not None:
         duty = replace(duty, speed=speed_rpm * rpm)
@@ -121,11 +119,6 @@ def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Driv
 @contextmanager
 def keys_of(file: Path) -> Iterator[None]:
     """Name the file and its keys, with their units, in whatever an answer misses."""
-    from cardan.errors import InputError, Problem
-
-    from .failure import about
-    from .source import STDIN
-
     with about(_("standard input") if file == STDIN else str(file)):
         try:
             yield
@@ -155,8 +148,6 @@ def key_of(field: str) -> str:
         unit = "Nm_per_rad"  # a shaft or a station twists
     if unit:
         return f"{field}_{unit}"
-    from cardan.drive.fields.keys import spelled
-
     return spelled(field)
 
 
@@ -177,14 +168,6 @@ def command_of(name: str) -> Callable[..., int]:
         csv: AsCsv = False,
         plot: Plot = None,
     ) -> int:
-        from cardan.errors import Problem, check
-        from cardan.register import QUESTIONS
-
-        from .output import print_text
-        from .progress import watching
-        from .source import read
-        from .tell import tell
-
         question = QUESTIONS[name]
         check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
         drive = on_duty(read(file), speed_rpm, torque)

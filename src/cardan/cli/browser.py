@@ -7,7 +7,10 @@ from typing import Annotated
 
 import typer
 
+from cardan.app.server import Start, start
 from cardan.texts import _
+
+from .failure import about
 
 
 def browser(
@@ -39,10 +42,6 @@ def browser(
     ] = False,
 ) -> int:
     """Open the app in the browser."""
-    from cardan.app.server import Start, start
-
-    from .failure import about
-
     there = (file or Path.cwd()).resolve()
     folder, name = (there, "") if there.is_dir() else (there.parent, there.name)
     with about(str(file or folder)):

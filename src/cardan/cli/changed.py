@@ -8,7 +8,8 @@ from typing import Any
 
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import with_values
-from cardan.io import dumps, edit
+from cardan.io import dumps
+from cardan.io.edit import edit
 
 from .output import write_text
 

@@ -13,6 +13,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.models.forms import in_form
 from cardan.errors import refuse
 from cardan.files import write_bytes
+from cardan.io.saving import save
 from cardan.scene.gltf import render
 from cardan.scene.scene import scene
 from cardan.texts import _
@@ -64,7 +65,7 @@ def convert(
     if out == STDIN:
         print_text(io.dumps(moved))
         return 0
-    io.save(moved, out)
+    save(moved, out)
     return tell(
         Answer(
             name="convert",

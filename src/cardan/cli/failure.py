@@ -7,6 +7,7 @@ where one fits.
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -15,7 +16,10 @@ from typing import Any
 from unicodedata import category
 
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem
+from cardan.files import refusal
 from cardan.texts import _, plural
+
+from .typer_words import reworded
 
 DONE, FAILED, BAD_INPUT, FAULT, INTERRUPTED = 0, 1, 2, 70, 130
 """Exit codes."""
@@ -48,8 +52,6 @@ def about(name: str) -> Iterator[None]:
 
 def reason(error: OSError) -> str:
     """Return why the system refused a file, in its own words, without numbers."""
-    from cardan.files import refusal
-
     return refusal(error).lower()
 
 
@@ -106,8 +108,6 @@ def _reader_gone(error: BaseException | None) -> bool:
 def _usage(error: Any) -> str:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "cardan"
-    from .typer_words import reworded
-
     text = reworded(" ".join(str(error.format_message()).split()).replace("Value error, ", ""))
     text = text[:1].lower() + text[1:].rstrip(".")
     return _("{text}; see {command} --help").format(text=text, command=command)
@@ -121,8 +121,6 @@ def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequen
 
 
 def _json(head: str, subject: str, problems: Sequence[Problem], code: int) -> str:
-    import json
-
     listed = [
         {"field": problem.field, "message": problem.message, **({"code": problem.code} if problem.code else {})}
         for problem in problems

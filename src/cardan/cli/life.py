@@ -10,7 +10,7 @@ import typer
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.questions.life.answer import answer, ask
-from cardan.questions.life.life import METHODS
+from cardan.questions.life.lives import METHODS
 from cardan.texts import _
 
 from .asked import TorqueNm, check_options, keys_of, on_duty

@@ -6,11 +6,21 @@ cardan itself; 130 interrupted.
 
 from __future__ import annotations
 
+import gettext
 import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
+
+from cardan.errors import refuse
+from cardan.later import later
+from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
+
+app, failure = later("cardan.cli.app"), later("cardan.cli.failure")
+"""The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
+readers = later("cardan.answers.reader")
+"""In what units and signs the reader is told; the help needs none."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -23,16 +33,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        from cardan.texts import language, speaking
-
         with speaking(os.environ.get("CARDAN_LANG", "")):
             asked, rest = _asked(given)
             with speaking(asked or language()), _all_speaking():
                 return _read(rest)
     except BaseException as error:
-        from .failure import answer
-
-        return answer(error, given)
+        return int(failure().answer(error, given))
 
 
 def _read(given: list[str]) -> int:
@@ -41,9 +47,7 @@ def _read(given: list[str]) -> int:
     signs, rest = _taken(rest, "--decimal")
     if not units and not signs:
         return _run(rest)
-    from cardan.answers.reader import chosen, reading
-
-    with reading(chosen(units, signs[-1] if signs else ".")):
+    with readers().reading(readers().chosen(units, signs[-1] if signs else ".")):
         return _run(rest)
 
 
@@ -66,21 +70,15 @@ def _run(given: list[str]) -> int:
     """Run one command in the language spoken here; help texts are made where modules are loaded, so that comes now."""
     try:
         sys.stdout, sys.stderr = sys.stdout or _nowhere(), sys.stderr or _nowhere()
-        from .app import app
-
         for stream in (sys.stdout, sys.stderr):
             if hasattr(stream, "reconfigure"):
                 stream.reconfigure(errors="replace")
-        code = app(given or ["--help"], prog_name="cardan", standalone_mode=False)
+        code = app().app(given or ["--help"], prog_name="cardan", standalone_mode=False)
         sys.stdout.flush()
     except BaseException as error:
-        from .failure import answer
-
-        return answer(error, given)
+        return int(failure().answer(error, given))
     if code == 130:
-        from .failure import interrupted
-
-        return interrupted(given)
+        return int(failure().interrupted(given))
     return code if isinstance(code, int) else 0
 
 
@@ -97,12 +95,8 @@ def _asked(given: Sequence[str]) -> tuple[str, list[str]]:
 
 
 def _known(given: str) -> str:
-    from cardan.texts import LANGUAGES, _
-
     if given in LANGUAGES:
         return given
-    from cardan.errors import refuse
-
     text = _("there is no language {given}; there are {known}")
     raise refuse("--lang", text.format(given=repr(given), known=", ".join(LANGUAGES)))
 
@@ -110,13 +104,9 @@ def _known(given: str) -> str:
 @contextmanager
 def _all_speaking() -> Iterator[None]:
     """Let typer, which asks the `gettext` of the process, and processes started from here speak the language too."""
-    from cardan.texts import DOMAIN, FOLDER, language
-
     if language() == "en":
         yield
         return
-    import gettext
-
     names = {name: os.environ.get(name) for name in ("LANGUAGE", "CARDAN_LANG")}
     domain = gettext.textdomain()
     gettext.bindtextdomain(DOMAIN, str(FOLDER))

@@ -8,8 +8,11 @@ from collections.abc import Iterable
 from math import isfinite
 from pathlib import Path
 
+from cardan.drive.fields.ranges import HUGE
 from cardan.errors import refuse
+from cardan.files import write_text as write
 from cardan.texts import _
+from cardan.units import rpm
 
 FIGURE_SUFFIXES = (".svg", ".png", ".pdf", ".html")
 
@@ -74,18 +77,8 @@ def check_new(path: Path, *, force: bool, field: str = "FILE") -> None:
 
 def write_text(path: Path, text: str, option: str) -> None:
     """Write a text file, whole or not at all."""
-    from cardan.files import write_text as write
-
     check_target(path, option)
     write(path, text)
-
-
-def check_report_target(path: Path, *, interactive: bool) -> None:
-    """Refuse a report of an unknown form or in a place that cannot be written, before any work is done."""
-    from cardan.report.renderer import renderer_for
-
-    renderer_for(path, interactive=interactive, field="--out")
-    check_target(path, "--out")
 
 
 def check_speed(speed_rpm: float | None) -> None:
@@ -94,9 +87,5 @@ def check_speed(speed_rpm: float | None) -> None:
         return
     if not isfinite(speed_rpm):
         raise refuse("--speed-rpm", _("{value} is not a finite number").format(value=speed_rpm))
-
-    from cardan.drive.fields.ranges import HUGE
-    from cardan.units import rpm
-
     if abs(speed_rpm) * rpm > HUGE:
         raise refuse("--speed-rpm", _("{value} is not allowed; no drive has such a number").format(value=speed_rpm))

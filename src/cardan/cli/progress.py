@@ -6,7 +6,11 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from threading import Lock, Timer
 from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
 from cardan.texts import _
 from cardan.units import thousands
@@ -29,8 +33,6 @@ def watching(what: str, *, count: int = 0) -> Iterator[Callable[[float], None]]:
     if not sys.stderr.isatty():
         yield lambda _share: None
         return
-    from threading import Lock, Timer
-
     bar = _Bar(what, count)
     lock = Lock()
 
@@ -70,9 +72,6 @@ class _Bar:
             self.shown.update(self.task, completed=self.share, total=1.0, pace=told)
 
     def begin(self) -> None:
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
-
         telling = (TextColumn("{task.fields[pace]}"),) if self.count else ()
         if self.ended:
             return

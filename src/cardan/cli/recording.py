@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 import typer
 
+from cardan.drive.drive import Drive
+from cardan.errors import InputError, Problem
+from cardan.io.signals import load_recording
+from cardan.questions.diagnosis.signals.signal import DIRECTIONS, Signal
 from cardan.texts import _
 
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-    from cardan.errors import Problem
-    from cardan.questions.diagnosis.signals.signal import Signal
+from .failure import RefusedError, about
+from .source import read
 
 Tacho: TypeAlias = Annotated[
     str | None,
@@ -110,11 +112,6 @@ def recorded(path: Path, how: Reading, progress: Callable[[float], object] | Non
     RefusedError
         Everything that is wrong with the file, with its name.
     """
-    from cardan.errors import InputError
-    from cardan.io.signals import load_recording
-
-    from .failure import about
-
     titles = _pairs(how.titles, "--title")
     with about(str(path)):
         try:
@@ -145,11 +142,6 @@ def read_both(
     RefusedError, InputError
         Everything that is wrong with one of the files, or with both.
     """
-    from cardan.errors import InputError, Problem
-
-    from .failure import RefusedError
-    from .source import read
-
     try:
         signal = recorded(path, how, progress)
     except RefusedError as first:
@@ -168,8 +160,6 @@ def read_both(
 
 def _pairs(given: Sequence[str], option: str) -> dict[str, str]:
     """Return name -> value of ``name=value``, all that are none at once."""
-    from cardan.errors import InputError, Problem
-
     split = [one.partition("=") for one in given]
     text = _("{text} is not NAME=…, with the name of a channel")
     bad = [
@@ -190,10 +180,6 @@ def placed(recording: Signal, places: Sequence[str], drive: Drive) -> Signal:
     InputError
         There is no such channel, part of the drive or direction; all at once.
     """
-    from dataclasses import replace
-
-    from cardan.errors import InputError
-
     said = _pairs(places, "--place")
     problems = list(_bad_places(recording, said, drive))
     if problems:
@@ -209,9 +195,6 @@ def placed(recording: Signal, places: Sequence[str], drive: Drive) -> Signal:
 
 
 def _bad_places(recording: Signal, said: dict[str, str], drive: Drive) -> Iterator[Problem]:
-    from cardan.errors import InputError, Problem
-    from cardan.questions.diagnosis.signals.signal import DIRECTIONS
-
     for name, value in said.items():
         try:
             recording.channel(name)

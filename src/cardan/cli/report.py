@@ -15,12 +15,13 @@ from cardan.answers.reader import reader
 from cardan.io.drive_file import known_to
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.swing import each_shaft
+from cardan.report.renderer import renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
 from cardan.units import rpm
 
 from .options import AsJson, DriveFile, SpeedRpm
-from .output import check_report_target, check_speed
+from .output import check_speed, check_target
 from .progress import watching
 from .source import STDIN, read_with_text
 from .tell import tell
@@ -52,7 +53,8 @@ def report(
 ) -> int:
     """Put everything on one page."""
     place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
-    check_report_target(place, interactive=interactive)
+    renderer_for(place, interactive=interactive, field="--out")
+    check_target(place, "--out")
     check_speed(speed_rpm)
     drive, text = read_with_text(file)
     if speed_rpm is not None:

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from cardan.errors import InputError, Problem
-from cardan.io import save
+from cardan.io.saving import save
 from cardan.io.signals import WRITERS
 from cardan.questions.diagnosis.expected import FAULTS, expected_orders
 from cardan.questions.diagnosis.fault_answer import answer, answer_of_list

@@ -5,14 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from cardan.drive.drive import Drive
+from cardan.errors import refuse
+from cardan.io import load, loads
 from cardan.texts import _
 
 from .failure import about
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
 
 STDIN = Path("-")
 
@@ -27,16 +26,12 @@ def read(path: Path, catalogues: Sequence[Path] = ()) -> Drive:
     """
     if path == STDIN:
         return read_with_text(path, catalogues)[0]
-    from cardan.io import load
-
     with about(str(path)):
         return load(path, catalogues=catalogues)
 
 
 def read_with_text(path: Path, catalogues: Sequence[Path] = ()) -> tuple[Drive, str]:
     """Return the drive of a file and the file's text; see `read`."""
-    from cardan.io import loads
-
     if path != STDIN:
         drive = read(path, catalogues)
         with about(str(path)):
@@ -62,8 +57,6 @@ def stdin_text() -> str:
     InputError
         It is no text.
     """
-    from cardan.errors import refuse
-
     stream = getattr(sys.stdin, "buffer", None)
     try:
         return stream.read().decode("utf-8-sig") if stream else sys.stdin.read()

@@ -15,8 +15,9 @@ from cardan.choices.sizing import size
 from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import with_values
 from cardan.errors import InputError, refuse
-from cardan.io import dumps, edit
+from cardan.io import dumps
 from cardan.io.drive_file import known_to
+from cardan.io.edit import edit
 from cardan.texts import _
 
 from .apply import check_copy

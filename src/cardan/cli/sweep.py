@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from cardan.batch.answer import answer
+from cardan.batch.engine.cluster import Cluster
+from cardan.batch.engine.engines import Engine, InProcess, Processes
+from cardan.batch.engine.running import run
+from cardan.batch.table.swept import read_sweep
+from cardan.errors import Problem, check, refuse
+from cardan.io.plan_file import Plan, read_plan
 from cardan.texts import _
 
+from .failure import about
 from .options import AsCsv, AsJson, MoreRows, Plot
-
-if TYPE_CHECKING:
-    from cardan.batch.engine.engines import Engine
-    from cardan.io.plan_file import Plan
-
+from .output import check_common
+from .sweep_design import designed
+from .tell import tell
+from .torsion_parts import ended, keeping
 
 HELD = 200_000
 """A table of at most so many points is held without a folder."""
@@ -86,28 +93,15 @@ def sweep(
     plot: Plot = None,
 ) -> int:
     """Ask questions of a drive at every point of a plan."""
-    from .failure import about
-    from .output import check_common
-    from .tell import tell
-    from .torsion_parts import ended, keeping
-
     check_common(json=json, csv=csv, plot=plot)
     _check(into, resume, engine, scheduler, device)
-
-    from cardan.batch.answer import answer
-    from cardan.batch.engine.running import run
-    from cardan.io.plan_file import read_plan
 
     with about(str(plan)):
         read = read_plan(plan, catalogues=catalogue or ())
         chosen = _design(read, design, plot)
     if chosen:
-        from .sweep_design import designed
-
         return designed(read, plan, chosen, json=json, csv=csv, plot=plot)
     if csv and read.rows == "none":
-        from cardan.errors import refuse
-
         raise refuse("--csv", _("the plan keeps no rows"))
     with about(str(plan)):
         work = read.work(device=device)  # type: ignore[arg-type]
@@ -128,8 +122,6 @@ def sweep(
 
 def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str | None, device: str | None) -> None:
     """Refuse options that are none or contradict each other."""
-    from cardan.errors import Problem, check
-
     known = ("in-process", "processes", "cluster")
     text = _("{value} is none of {choices}")
     problems = []
@@ -143,15 +135,11 @@ def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str |
         problems.append(Problem("--resume", _("missing; --into names the folder of the sweep")))
     check(problems)
     if resume and into is not None:
-        from cardan.batch.table.swept import read_sweep
-
         read_sweep(into)
 
 
 def _design(read: Plan, design: str | None, plot: Path | None) -> str:
     """Return the design that is to choose the points: the one asked for, or the only one where nothing else varies."""
-    from cardan.errors import refuse
-
     if design is not None and design not in read.parts:
         given = ", ".join(read.parts) or _("none")
         raise refuse("--design", _("the plan has no [{name}]; it has: {given}").format(name=design, given=given))
@@ -163,14 +151,10 @@ def _design(read: Plan, design: str | None, plot: Path | None) -> str:
 
 def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str | None) -> Engine:
     """Return where to work: as the options say, else as the plan says."""
-    from cardan.batch.engine.engines import InProcess, Processes
-
     address = scheduler or read.scheduler
     kind = engine or ("cluster" if scheduler else read.engine)
     count = workers or read.workers
     if kind == "cluster":
-        from cardan.batch.engine.cluster import Cluster
-
         return Cluster(scheduler=address or None, workers=count)
     if kind == "processes":
         return Processes(workers=count)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from shlex import join
 from textwrap import fill, wrap
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich.console import Console
 from rich.text import Text
@@ -18,14 +18,12 @@ from cardan.answers.data import as_csv, as_json, data
 from cardan.answers.printed import SHOWN, Column, Table, printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import Reader, reader
+from cardan.drive.drive import Drive
 from cardan.figures import save
+from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
 from .output import print_lines, print_text
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-    from cardan.mechanism.mechanism import Mechanism
 
 GAP = 2
 """Blanks between columns."""

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from cardan.errors import Problem, check
-from cardan.io import edit
+from cardan.io.edit import edit
 from cardan.maths.curves.evolution import Evolution
 from cardan.questions.torsion.calm.answer import answer
 from cardan.questions.torsion.calm.calm import Grid, calm

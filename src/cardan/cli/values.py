@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from typing import Any
 
 PLAIN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
@@ -16,9 +18,6 @@ def value_of(text: str) -> Any:
     >>> value_of("[1, 2]"), value_of("true"), value_of(".35"), value_of("+3."), value_of("exact")
     ([1, 2], True, 0.35, 3.0, 'exact')
     """
-    import json
-    import re
-
     try:
         return json.loads(text)
     except ValueError:

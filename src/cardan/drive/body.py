@@ -3,47 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from cardan.errors import Problem
 from cardan.maths.linear.laminate import PlyStiffness, laminate_moduli
 from cardan.texts import _
-from cardan.units import mm, plain, quantity
+from cardan.units import mm
 
 from .material import Material
-
-if TYPE_CHECKING:
-    from .shaft import Shaft
+from .shaft import Shaft
 
 FITS = 1e-3
 """Stretches may miss the length of their shaft by this share; they are stretched to fit."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Segment:
-    """Stretch of a shaft with one cross section."""
-
-    length: float = quantity("length", doc="length of the stretch", above=0.0)
-    outer: float = quantity("length", doc="outer diameter", above=0.0)
-    inner: float = quantity("length", 0.0, doc="inner diameter of a tube", low=0.0)
-    material: Material | None = plain(None, doc="material; steel when not given")
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Lump:
-    """Yoke, flange or other part that a shaft carries, beside its body."""
-
-    position: float = quantity(
-        "length", doc="place along the power flow from the joint before; on shaft 1 from joint 1, so zero or negative"
-    )
-    mass: float = quantity("mass", doc="mass", low=0.0)
-    polar_inertia: float = quantity("inertia", 0.0, doc="moment of inertia about the shaft's axis", low=0.0)
-    diametral_inertia: float = quantity(
-        "inertia", 0.0, doc="moment of inertia about an axis across through its own centre of mass", low=0.0
-    )
 
 
 class Piece(NamedTuple):

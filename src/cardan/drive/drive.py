@@ -4,43 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, TypeAlias
 
 from cardan.errors import check
-from cardan.units import plain, quantity
 
-from .duty import Duty, Limits
-from .joints import Hooke, Joint
-from .joints.joint import Point
-from .movement import Movement
-from .pose import Pose
-from .settings import Settings
+from .described import Described, Input, Output
+from .fields.validity import point_problems, problems, wrong_count
+from .joints import Hooke
 from .shaft import Shaft
-from .station import Station
-from .support import Support
-
-Form: TypeAlias = Literal["points", "angles", "slopes"]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Input:
-    """The driving end."""
-
-    point: Point | None = quantity("length", None, doc="any point of the input axis before joint 1")
-    start_phase: float = quantity(
-        "angle", 0.0, doc="angle of the driving yoke of joint 1 from the plane of that joint at the start"
-    )
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Output:
-    """The driven end."""
-
-    point: Point | None = quantity("length", None, doc="any point of the output axis behind the last joint")
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Drive:
+class Drive(Described):
     """A universal-joint drive as described by one drive file, in SI.
 
     ``shafts`` may be given for any of the numbers 1 to n+1; missing ones are filled in with their defaults.
@@ -57,38 +31,9 @@ class Drive:
     'angles'
     """
 
-    format: ClassVar[int] = 1
-
-    name: str = plain("", doc="name of the drive")
-    note: str = plain("", doc="what the reader of the report should know")
-    settings: Settings = plain(Settings(), doc="surroundings of the drive")
-    input: Input = plain(Input(), doc="the driving end")
-    output: Output = plain(Output(), doc="the driven end")
-    joints: tuple[Joint, ...] = plain(doc="the joints in the order of the power flow")
-    shafts: tuple[Shaft, ...] = plain((), doc="the shafts, any of them, by their number")
-    supports: tuple[Support, ...] = plain((), doc="bearings that hold the shafts in the housing")
-    stations: tuple[Station, ...] = plain((), doc="masses that turn with the shafts, beside those of the shafts")
-    duty: Duty = plain(Duty(), doc="what the drive does")
-    limits: Limits = plain(Limits(), doc="limits over the built-in ones")
-    movements: tuple[Movement, ...] = plain((), doc="how the points of the drive move")
-    poses: tuple[Pose, ...] = plain((), doc="standing variants of the drive")
-
     def __post_init__(self) -> None:
-        from .fields.validity import all_shafts, problems
-
         check(problems(self))
-        object.__setattr__(self, "shafts", all_shafts(self))
-
-    @property
-    def form(self) -> Form:
-        """In which form the geometry is given."""
-        if any(joint.centre is not None for joint in self.joints):
-            return "points"
-        if any(joint.joint_angle is not None for joint in self.joints):
-            return "angles"
-        if any(shaft.side_slope is not None or shaft.plan_slope is not None for shaft in self.shafts):
-            return "slopes"
-        return "points" if self.input.point is not None or self.output.point is not None else "slopes"
+        object.__setattr__(self, "shafts", self.all_shafts())
 
     @classmethod
     def from_points(
@@ -112,8 +57,6 @@ class Drive:
         name : str
             Name of the drive.
         """
-        from .fields.validity import point_problems, wrong_count
-
         rows = [tuple(float(x) for x in point) for point in points]
         check(point_problems(rows))
         check(wrong_count("yoke_angles", yoke_angles, len(rows) - 3, empty=True))
@@ -150,8 +93,6 @@ class Drive:
         name : str
             Name of the drive.
         """
-        from .fields.validity import wrong_count
-
         between = max(len(joint_angles) - 1, 0)
         check(
             [

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from .body import body_length
+from .described import Described
 from .shaft import Shaft
-
-if TYPE_CHECKING:
-    from .drive import Drive
 
 SAME = 1e-9
 """Places of a shaft nearer than this share of its length, or of a metre, are one."""
@@ -31,12 +28,12 @@ class Place:
     stations: tuple[int, ...] = ()
 
 
-def shaft_places(drive: Drive, number: int, length: float | None) -> tuple[Place, ...]:
+def shaft_places(drive: Described, number: int, length: float | None) -> tuple[Place, ...]:
     """Return the places of a shaft along the power flow: its two ends with the stations between, or one if it is rigid.
 
     Parameters
     ----------
-    drive : Drive
+    drive : Described
     number : int
         Of the shaft, from 1.
     length : float or None [m]
@@ -77,7 +74,7 @@ def shaft_places(drive: Drive, number: int, length: float | None) -> tuple[Place
     )
 
 
-def line_length(drive: Drive, number: int, known: float | None) -> float | None:
+def line_length(drive: Described, number: int, known: float | None) -> float | None:
     """Return the length of a shaft [m]: between its joints, else that of its body, else to its outermost station."""
     shaft = numbered(drive, number)
     length = known if shaft is None else body_length(shaft, known)
@@ -87,7 +84,7 @@ def line_length(drive: Drive, number: int, known: float | None) -> float | None:
     return max((abs(one) for one in places), default=0.0) or None
 
 
-def is_elastic(drive: Drive, number: int, length: float | None) -> bool:
+def is_elastic(drive: Described, number: int, length: float | None) -> bool:
     """Tell whether a shaft can twist: it has a stiffness, a body of known length, or an element from a station."""
     shaft = numbered(drive, number)
     if shaft is not None and (shaft.stiffness is not None or (shaft.has_body and length is not None)):
@@ -97,6 +94,6 @@ def is_elastic(drive: Drive, number: int, length: float | None) -> bool:
     return any(station.shaft == number and station.to_next is not None for station in drive.stations)
 
 
-def numbered(drive: Drive, number: int) -> Shaft | None:
+def numbered(drive: Described, number: int) -> Shaft | None:
     """Return the shaft of a number; None where the drive does not describe it."""
     return next((shaft for shaft in drive.shafts if shaft.number == number), None)

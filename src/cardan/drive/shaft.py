@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from cardan.units import plain, quantity
 
-from .body import Lump, Segment
 from .crack import ShaftCrack
 from .material import Material
 
@@ -73,6 +72,30 @@ class Layup:
     angles: tuple[float, ...] = quantity("angle", doc="angle of each ply from the axis of the shaft")
     ply_thickness: float = quantity("length", doc="thickness of a ply", above=0.0)
     ply: Ply = plain(doc="elastic figures of a ply")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Segment:
+    """Stretch of a shaft with one cross section."""
+
+    length: float = quantity("length", doc="length of the stretch", above=0.0)
+    outer: float = quantity("length", doc="outer diameter", above=0.0)
+    inner: float = quantity("length", 0.0, doc="inner diameter of a tube", low=0.0)
+    material: Material | None = plain(None, doc="material; steel when not given")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Lump:
+    """Yoke, flange or other part that a shaft carries, beside its body."""
+
+    position: float = quantity(
+        "length", doc="place along the power flow from the joint before; on shaft 1 from joint 1, so zero or negative"
+    )
+    mass: float = quantity("mass", doc="mass", low=0.0)
+    polar_inertia: float = quantity("inertia", 0.0, doc="moment of inertia about the shaft's axis", low=0.0)
+    diametral_inertia: float = quantity(
+        "inertia", 0.0, doc="moment of inertia about an axis across through its own centre of mass", low=0.0
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
 
+from cardan.answers.reader import reader
 from cardan.drive.drive import Drive
+from cardan.errors import refuse
+from cardan.files import write_bytes
+from cardan.later import later
+from cardan.texts import _
 
 from .drive import drive_figures
 from .figure import Figure
+from .for_reader import for_reader
+from .render_plotly import render as page
+from .render_svg import document
+
+pixels = later("cardan.figures.render_matplotlib")
+"""What draws by pixels and as PDF, by a heavy library."""
 
 FIGURES = {Drive: drive_figures}
 """Sort of result -> what makes its figures; a folder of results has such a table in `figure` or `figures` beside it."""
+
 
 SUFFIXES = (".svg", ".png", ".pdf", ".html")
 """Kinds of picture that `save` writes."""
@@ -81,8 +94,6 @@ def save(figures: Figure | Sequence[Figure], path: Path | str) -> Path:
     InputError
         The suffix is none of these, or the file cannot be written.
     """
-    from cardan.files import write_bytes
-
     place = Path(path)
     write_bytes(place, drawn(figures, place.suffix.lower(), str(path)))
     return place
@@ -105,30 +116,15 @@ def drawn(figures: Figure | Sequence[Figure], suffix: str, name: str = "") -> by
     InputError
         The suffix is none of these.
     """
-    from cardan.errors import refuse
-    from cardan.texts import _
-
     if suffix not in SUFFIXES:
         known = ", ".join(SUFFIXES)
         raise refuse("path", _("{path} should end in one of {known}").format(path=name or suffix, known=known))
-    from cardan.answers.reader import reader
-
-    from .for_reader import for_reader
-
     given = (figures,) if isinstance(figures, Figure) else tuple(figures)
     several = tuple(for_reader(one, reader()) for one in given)
     if suffix == ".html":
-        from .render_plotly import render as page
-
         return page(several).encode("utf-8")
     if suffix == ".svg":
-        from .render_svg import document
-
         return document(several).encode("utf-8")
-    import io
-
-    from .render_matplotlib import render
-
     stream = io.BytesIO()
-    render(several, stream, suffix[1:])  # type: ignore[arg-type]
+    pixels().render(several, stream, suffix[1:])
     return stream.getvalue()

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import IO, Any, Literal, TypeAlias
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure as Canvas
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import NullLocator
 
 from . import palette
 from .figure import Axis, Band, Bars, Cells, Curve, Figure, Mesh, Note, Panel, Rule, Series, Shape
 from .page import LINE, Box, Entry, Label, Page, labels, laid_out, ranges
 from .projection import facets, onto
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Canvas
 
 Format: TypeAlias = Literal["png", "pdf"]
 
@@ -59,8 +65,6 @@ def render(
     words : bool
         With title, sentence and source: in a file of its own.
     """
-    from matplotlib import rc_context
-
     several = (figures,) if isinstance(figures, Figure) else tuple(figures)
     pages = [laid_out(figure, words=words) for figure in several]
     with rc_context(STYLE):  # type: ignore[arg-type]
@@ -76,8 +80,6 @@ def render(
 
 
 def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) -> None:
-    from matplotlib.backends.backend_pdf import PdfPages
-
     metadata = {"Creator": "cardan", "Title": figures[0].title, "CreationDate": None}
     with PdfPages(target, metadata=metadata) as book:
         for page in pages:
@@ -87,9 +89,7 @@ def _pdf(pages: Sequence[Page], figures: Sequence[Figure], target: IO[bytes]) ->
 
 
 def _canvas(width: float, height: float) -> Canvas:
-    from matplotlib.figure import Figure as Sheet
-
-    return Sheet(figsize=(width, height))
+    return Canvas(figsize=(width, height))
 
 
 def _draw(canvas: Canvas, page: Page, down: float) -> None:
@@ -193,8 +193,6 @@ def _frame(axes: Axes, panel: Panel, box: Box) -> None:
 
 
 def _scale(axes: Axes, name: str, one: Axis) -> None:
-    from matplotlib.ticker import NullLocator
-
     if one.log:
         (axes.set_xscale if name == "x" else axes.set_yscale)("log")
     scale = axes.xaxis if name == "x" else axes.yaxis
@@ -208,15 +206,11 @@ def _flat(panel: Panel, x: Any, y: Any, z: Any) -> tuple[Any, Any]:
     """Return points on paper."""
     if panel.view is None or z is None:
         return x, y
-    import numpy as np
-
     seen = onto(panel.view, np.stack(np.broadcast_arrays(x, y, z), axis=-1))
     return seen[..., 0], seen[..., 1]
 
 
 def _solids(axes: Axes, panel: Panel, meshes: Sequence[Mesh]) -> None:
-    from matplotlib.collections import PolyCollection
-
     found = facets(panel.view, meshes)  # type: ignore[arg-type]
     axes.add_collection(
         PolyCollection(
@@ -301,8 +295,6 @@ def _note(axes: Axes, panel: Panel, item: Note) -> None:
 
 def _rim() -> list[Any]:
     """Return the white rim of words over lines."""
-    from matplotlib.patheffects import withStroke
-
     return [withStroke(linewidth=2.4, foreground="white")]
 
 
@@ -330,9 +322,6 @@ def _bars(axes: Axes, item: Bars, order: float) -> None:
 
 
 def _cells(axes: Axes, item: Cells, order: float) -> None:
-    import numpy as np
-    from matplotlib.colors import ListedColormap
-
     shades = ListedColormap([palette.scale(k / 255.0) for k in range(256)])
     shares = np.ma.masked_invalid(item.share)
     axes.pcolormesh(item.x, item.y, shares, cmap=shades, vmin=0.0, vmax=1.0, zorder=order)

@@ -6,12 +6,15 @@ import json
 from collections.abc import Sequence
 from html import escape
 
+from cardan.later import later
 from cardan.texts import language
 
 from . import palette
 from .figure import Figure
 from .page import laid_out
 from .plotly_panel import PanelWriter, Spec
+
+plotly = later("plotly.offline")
 
 INCH = 118.0
 """Pixels of the screen per inch of print."""
@@ -53,9 +56,7 @@ def _caption(figure: Figure) -> str:
 
 def program() -> str:
     """Return the drawing program, to be put into a page once."""
-    from plotly.offline import get_plotlyjs
-
-    return str(get_plotlyjs()).replace("</script", "<\\/script")
+    return str(plotly().get_plotlyjs()).replace("</script", "<\\/script")
 
 
 def fragment(figure: Figure) -> str:

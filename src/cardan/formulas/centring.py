@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import scipy
+
 from cardan.drive.joints.laws.double_cardan import even_share, split, unevenness
 from cardan.errors import Problem, check
 from cardan.texts import _
@@ -71,13 +73,12 @@ def best_centring(joint_angle_max: float, joint_angle_min: float = 0.0) -> Centr
     0.51459 1.691e-03 9.774e-03
     """
     check(_problems(joint_angle_max, joint_angle_min))
-    from scipy.optimize import brentq
 
     def unequal(share: float) -> float:
         return _signed(_peak(share, joint_angle_min, joint_angle_max), share) + _signed(joint_angle_max, share)
 
     low, high = float(even_share(joint_angle_min)), float(even_share(joint_angle_max))
-    share = float(brentq(unequal, low, high, xtol=1e-15, rtol=1e-14))
+    share = float(scipy.optimize.brentq(unequal, low, high, xtol=1e-15, rtol=1e-14))
     peak = _peak(share, joint_angle_min, joint_angle_max)
     return Centring(
         share=share,

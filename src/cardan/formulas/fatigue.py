@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import NormalDist
 
 from cardan.maths.arrays import Array, ArrayLike, floats, namespace
 from cardan.units import mm
@@ -65,8 +66,6 @@ def reliability_factor(reliability: float) -> float:
     """
     if reliability in RELIABILITIES:
         return RELIABILITIES[reliability]
-    from statistics import NormalDist
-
     places = [NormalDist().inv_cdf(share) for share in RELIABILITIES]
     factors = list(RELIABILITIES.values())
     at = NormalDist().inv_cdf(reliability)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.drive.joints.laws.pilot_lever import even_length, plane_error
 from cardan.errors import refuse
@@ -79,7 +80,6 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
     low, high = _bracket(b, smallest, largest)
     if low == high:
         return LeverChoice(b=b, c=low, error=0.0, below=largest, above=largest, even=largest)
-    from scipy.optimize import brentq
 
     def unlike(c: float) -> float:
         (_at, most), (_place, least) = _extremes(b, c, smallest, largest)
@@ -87,7 +87,7 @@ def lever_choice(b: float, largest: float, *, smallest: float = 0.0) -> LeverCho
 
     if unlike(high) < 0.0:
         raise refuse("b", _no_lever(b, largest))
-    c = float(brentq(unlike, low, high, xtol=1e-16 * low, rtol=1e-15))
+    c = float(scipy.optimize.brentq(unlike, low, high, xtol=1e-16 * low, rtol=1e-15))
     (above, most), (below, least) = _extremes(b, c, smallest, largest)
     exact = b * (1.0 + b) / c
     half = math.sqrt(max((exact - (1.0 - b)) * (exact + (1.0 - b)), 0.0) / (4.0 * b))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from .drive_file import dumps, load, loads, save
-from .edit import edit
+from .drive_file import dumps, load, loads
 from .examples import example, example_mechanism, example_names, example_text, mechanism_names, recording_names
 from .mechanism_file import load_either, load_mechanism, loads_either, loads_mechanism
 from .reference import mechanism_reference, reference
@@ -12,7 +11,6 @@ from .starter import starter
 
 __all__ = [
     "dumps",
-    "edit",
     "example",
     "example_mechanism",
     "example_names",
@@ -28,7 +26,6 @@ __all__ = [
     "mechanism_schema",
     "recording_names",
     "reference",
-    "save",
     "schema",
     "starter",
 ]

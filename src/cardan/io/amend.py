@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, TypeAlias, get_args, get_origin
 
+import tomlkit
+
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED, fields_of, spellings_of
 from cardan.errors import refuse
@@ -51,8 +53,6 @@ def amend(text: str, values: Mapping[str, Any]) -> str:
     [duty]
     speed_rpm = 3000
     """
-    import tomlkit
-
     document = parsed(text)
     for path, value in values.items():
         with tables_only(path):
@@ -93,8 +93,6 @@ def insert(text: str, path: str, values: Mapping[str, Any]) -> str:
     shaft = 2
     position_mm = 300
     """
-    import tomlkit
-
     document = parsed(text)
     *steps, name, place = steps_of(path)
     with tables_only(path):
@@ -135,8 +133,6 @@ def parsed(text: str) -> Any:
     InputError
         It is no TOML.
     """
-    import tomlkit
-
     try:
         return tomlkit.parse(text)
     except (ValueError, RecursionError) as error:  # of the parser, of Python for thousands of digits, too deep
@@ -187,8 +183,6 @@ def kind_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
 
 def held_at(document: Any, steps: tuple[Step, ...] | list[Step]) -> Any:
     """Return the table that steps lead to, made where the file does not have it yet."""
-    import tomlkit
-
     table = document
     for k, step in enumerate(steps):
         if isinstance(step, int):

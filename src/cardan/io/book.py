@@ -9,8 +9,10 @@ import re
 import zipfile
 from typing import IO, Any
 
-from cardan.errors import MissingExtraError
-from cardan.texts import _
+from cardan.later import later
+from cardan.texts import mark
+
+xlsxwriter = later("xlsxwriter", mark("a workbook needs XlsxWriter: pip install 'cardan[xlsx]'"))
 
 MOST_ROWS = 1_048_576
 """Rows of a sheet."""
@@ -64,12 +66,8 @@ def opened(stream: IO[bytes], *, title: str, made: datetime.date | None = None) 
     MissingExtraError
         What writes workbooks is not installed.
     """
-    try:
-        from xlsxwriter import Workbook
-    except ImportError:
-        raise MissingExtraError(_("a workbook needs XlsxWriter: pip install 'cardan[xlsx]'")) from None
     day = made or datetime.date(2000, 1, 1)
-    book = Workbook(stream, QUIET)
+    book = xlsxwriter().Workbook(stream, QUIET)
     book.set_properties(
         {"title": words(title)[:LONGEST_TITLE], "created": datetime.datetime(day.year, day.month, day.day)}
     )

@@ -12,12 +12,11 @@ from cardan.catalogue import Catalogue, catalogue, completed, shortened, with_fi
 from cardan.drive.drive import Drive
 from cardan.drive.fields.tables import tree_of
 from cardan.errors import Problem, check, refuse
-from cardan.files import Enclosed, folder_of, refusal, write_text
+from cardan.files import Enclosed, folder_of, refusal
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
 
 from .reader import drive_from_tree
-from .shifts import keep_rows
 from .writer import toml_text
 
 MAX_BYTES = 20_000_000
@@ -160,53 +159,6 @@ def dumps(thing: Drive | Mechanism, *, form: str = "toml") -> str:
     """
     tree = tree_of(shortened(thing) if isinstance(thing, Drive) else thing)
     return json.dumps(tree, ensure_ascii=False, indent=2) + "\n" if form == "json" else toml_text(tree)
-
-
-def save(thing: Any, path: str | Path) -> None:
-    """Write a drive, a mechanism, a recording or a result to a file; the suffix says how.
-
-    Parameters
-    ----------
-    thing : Drive, Mechanism, Signal or result
-        A drive or a mechanism is written as ``.toml`` or ``.json``, with the CSV files that it names beside it where
-        there are none yet; a recording as ``.csv``, ``.wav``, ``.uff`` or ``.tdms``; a result in one of the formats of
-        `cardan.io.formats`.
-    path : str or Path
-        Replaced as a whole or not at all.
-
-    Raises
-    ------
-    InputError
-        The suffix is not known, the file cannot be written, or a CSV file there holds other rows than the drive.
-
-    Examples
-    --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     save(Drive.from_angles([0.1]), Path(folder) / "drive.toml")
-    ...     load(Path(folder) / "drive.toml").form
-    'angles'
-    """
-    where = Path(path)
-    if not isinstance(thing, Drive | Mechanism):
-        from cardan.questions.diagnosis.signals.signal import Signal
-
-        if isinstance(thing, Signal):
-            from .signals import write as write_signal
-
-            write_signal(thing, where)
-            return
-        from .formats import write
-
-        write(thing, where)
-        return
-    form = where.suffix.lower().lstrip(".")
-    if form not in ("toml", "json"):
-        raise refuse(str(where), _("a drive is saved as .toml or .json"))
-    text = dumps(thing, form=form)
-    if isinstance(thing, Drive):
-        keep_rows(thing, where.parent)
-    write_text(where, text)
 
 
 def parsed(text: str, form: str, name: str) -> dict[str, Any]:

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import tomlkit
+
 from cardan.drive.fields.paths import place, read, with_values
 from cardan.files import Enclosed
 
@@ -49,8 +51,6 @@ def edit(
     [[joints]]
     joint_angle_deg = 25
     """
-    import tomlkit
-
     drive = loads(text, folder=folder, catalogues=catalogues)
     wanted = with_values(drive, values)
     document = tomlkit.parse(text)
@@ -96,8 +96,6 @@ def _table(document: Any, steps: Sequence[str | int]) -> Any:
 
 
 def _inside(table: Any, step: str | int) -> Any:
-    import tomlkit
-
     if isinstance(step, str) and step not in table:
         inline = isinstance(table, tomlkit.items.InlineTable)
         table[step] = tomlkit.aot() if step == "shafts" else tomlkit.inline_table() if inline else tomlkit.table()
@@ -106,8 +104,6 @@ def _inside(table: Any, step: str | int) -> Any:
 
 def shaft_table(tables: Any, number: int) -> Any:
     """Return the table of a shaft, a new one at the end where the file does not describe it yet."""
-    import tomlkit
-
     for table in tables:
         if table.get("number") == number:
             return table

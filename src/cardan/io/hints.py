@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import is_dataclass
+from difflib import SequenceMatcher
 from functools import cache
 from typing import Any, get_args
 
@@ -120,8 +121,6 @@ def _near(cls: type, key: str, cutoff: float = 0.0) -> str:
 
 
 def _alike(one: str, two: str) -> float:
-    from difflib import SequenceMatcher
-
     return SequenceMatcher(None, one, two).ratio()
 
 

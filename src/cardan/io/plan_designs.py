@@ -11,6 +11,7 @@ import numpy as np
 from cardan.batch.answering.asking import DriveEvaluator, evaluator
 from cardan.batch.points.axes import SampledAxis
 from cardan.batch.points.distributions import Distribution
+from cardan.batch.points.fields import present
 from cardan.batch.search.boundary import Boundary, boundary
 from cardan.batch.search.goals import Goal, Limit, check_names, goal_of, limit_of
 from cardan.batch.search.optimise import Global, Local, Optimum, optimise
@@ -205,8 +206,6 @@ def _search(plan: Plan, table: Table) -> Search | None:
 
 def _start(ask: DriveEvaluator, bounds: tuple[tuple[float, float], ...], given: Table | None) -> tuple[float, ...]:
     """Return where a search begins: as given, else where the drive stands, no farther out than the box."""
-    from cardan.batch.points.fields import present
-
     found = []
     for column, (low, high) in zip(ask.points, bounds, strict=True):
         if given is not None and given.has(column.name):

@@ -14,7 +14,8 @@ from cardan.batch.points.axes import Axis
 from cardan.batch.points.fields import spots_of
 from cardan.batch.search.goals import limit_of
 from cardan.batch.table.kinds import KINDS
-from cardan.batch.table.reductions import BINS, Reduce, reduce_of
+from cardan.batch.table.reduction import BINS, Reduce
+from cardan.batch.table.reductions import reduce_of
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, Problem, check, refuse

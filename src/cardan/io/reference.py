@@ -7,10 +7,10 @@ from dataclasses import is_dataclass
 from typing import Any, get_args, get_origin
 
 from cardan.drive.accuracy import Cost, Error, Tolerance
-from cardan.drive.body import Lump, Segment
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
-from cardan.drive.drive import Drive, Input, Output
+from cardan.drive.described import Input, Output
+from cardan.drive.drive import Drive
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
 from cardan.drive.fields.keys import NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.drive.fields.ranges import allowed
@@ -23,7 +23,7 @@ from cardan.drive.material import Material
 from cardan.drive.movement import MOVEMENTS, Spectrum
 from cardan.drive.pose import Pose
 from cardan.drive.settings import Settings
-from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline, Unbalance
+from cardan.drive.shaft import Layup, Lump, Notch, Ply, Segment, Shaft, Spline, Unbalance
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.drive.support import Support
 from cardan.mechanism.mechanism import Mechanism

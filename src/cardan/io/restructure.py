@@ -6,6 +6,8 @@ import re
 from collections.abc import Callable, Mapping, MutableMapping
 from typing import Any
 
+import tomlkit
+
 from cardan.errors import refuse
 from cardan.texts import _
 
@@ -43,8 +45,6 @@ def with_joint(text: str, at: int) -> str:
     [[joints]]
     joint_angle_deg = 10
     """
-    import tomlkit
-
     document = parsed(text)
     joints = _joints(document)
     if not 0 <= at <= len(joints):
@@ -74,8 +74,6 @@ def without_joint(text: str, at: int) -> str:
     InputError
         The text is no TOML, or it is the only joint.
     """
-    import tomlkit
-
     document = parsed(text)
     joints = _joints(document)
     if not 0 <= at < len(joints):
@@ -101,8 +99,6 @@ def joint_moved(text: str, at: int, to: int) -> str:
     at, to : int
         Index of the joint before and behind.
     """
-    import tomlkit
-
     document = parsed(text)
     joints = _joints(document)
     if not (0 <= at < len(joints) and 0 <= to < len(joints)):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import tomlkit
+
 from cardan.drive.drive import Drive
 from cardan.drive.fields.tables import tree_of
 
@@ -48,8 +50,6 @@ def put_station(text: str, drive: Drive, number: int, *, folder: str | Path = ".
     absorber = {inertia_kg_m2 = 0.002, stiffness_Nm_per_rad = 40}
     <BLANKLINE>
     """
-    import tomlkit
-
     wanted: dict[str, Any] = tree_of(drive)["stations"][number]
     document = tomlkit.parse(text)
     tables: Any = document.get("stations")
@@ -100,8 +100,6 @@ def station_text(drive: Drive, number: int) -> str:
 
 
 def _inline(values: dict[str, Any]) -> Any:
-    import tomlkit
-
     table = tomlkit.inline_table()
     for key, value in values.items():
         table[key] = _inline(value) if isinstance(value, dict) else whole(value)

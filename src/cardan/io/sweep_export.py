@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from cardan.batch.table.results import Results
-from cardan.batch.table.sql import only_select
+from cardan.batch.table.sql import duckdb, only_select, pyarrow
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
 from cardan.files import refusal, write_bytes
@@ -88,8 +88,6 @@ def _whole(path: Path) -> Iterator[Path]:
 
 def _copied(results: Results, path: Path, wanted: Path, rows: Rows | None, where: str) -> int:
     """Write a table by the database and return its rows."""
-    import duckdb
-
     how = "FORMAT CSV, HEADER"
     if wanted.suffix.lower() == ".parquet":
         about = json.dumps({"columns": results.units, "provenance": dict(results.provenance)}, ensure_ascii=False)
@@ -105,15 +103,14 @@ def _copied(results: Results, path: Path, wanted: Path, rows: Rows | None, where
             target = str(path).replace("'", "''")
             written = connection.execute(f"COPY ({source}\n) TO '{target}' ({how})").fetchone()
             return int(written[0]) if written else 0
-    except duckdb.Error as error:
+    except duckdb().Error as error:
         text = _("cannot be written: {why}").format(why=str(error).splitlines()[0])
         raise refuse(str(wanted), text) from None
 
 
 def _arrow(rows: Rows) -> Any:
     """Return rows as a table, with null for what is not a number."""
-    import pyarrow as pa
-
+    pa = pyarrow()
     return pa.table({name: pa.array(np.asarray(column), from_pandas=True) for name, column in rows.items()})
 
 

@@ -33,7 +33,7 @@ class Applicable:
     effect : str
         What it comes to, in a few words.
     values : mapping of str to value
-        Path with unit -> value, as `cardan.io.edit` takes them; empty where the file has it so.
+        Path with unit -> value, as `cardan.io.edit.edit` takes them; empty where the file has it so.
     """
 
     label: str

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import cast
 
-from cardan import __version__
 from cardan.answers.answer import KeyFigure
 from cardan.answers.reader import reader
 from cardan.book import answer as classical
@@ -25,6 +24,7 @@ from cardan.questions.motion.articulation import Articulation
 from cardan.questions.phases import answer as yokes
 from cardan.questions.phases.phases import Phasing
 from cardan.texts import _
+from cardan.version import VERSION
 
 from .block import Page, Table, Words
 from .description import description
@@ -117,7 +117,7 @@ class Excerpt:
     title: str
     page: Page
     note: str = ""
-    version: str = __version__
+    version: str = VERSION
     date: str = field(default_factory=today)
 
 
@@ -203,7 +203,7 @@ def _written(
     return Content(
         title=drive.name or _("Universal-joint drive"),
         note=drive.note,
-        version=__version__,
+        version=VERSION,
         date=today(),
         judgement=said,
         warnings=warned,

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan import __version__
 from cardan.answers.answer import Tone
 from cardan.answers.quantity import Quantity, say
 from cardan.catalogue import Catalogue
@@ -26,6 +25,7 @@ from cardan.questions.motion.kinds import kind_name, too_steep
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _, plural
+from cardan.version import VERSION
 
 from .block import (
     Listing,
@@ -128,5 +128,5 @@ def method_by_laws(on: Followed, source_text: str | None) -> Page:
     ]
     if source_text is not None:
         blocks.append(Listing(title=_("Input file"), text=source_text))
-    answer = _("Calculated by cardan {version}.").format(version=__version__)
+    answer = _("Calculated by cardan {version}.").format(version=VERSION)
     return Page(name="method", title=_("Method and evidence"), answer=answer, blocks=blocks)

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cardan.figures.figure import Figure
+from cardan.figures.render_plotly import fragment
+from cardan.figures.render_plotly import program as drawing
+from cardan.figures.render_svg import inline_svg
+from cardan.later import later
 from cardan.texts import _, language
 
 from .block import Listing, Picture, Points, Table, Words
+from .content import Content, Excerpt
 
-if TYPE_CHECKING:
-    from .content import Content, Excerpt
+jinja2 = later("jinja2")
 
 
 def written(content: Content) -> bytes:
@@ -34,9 +38,7 @@ def interactive(content: Content) -> bytes:
     content : Content
         What it says.
     """
-    from cardan.figures.render_plotly import fragment, program
-
-    return _page(content, fragment, program()).encode()
+    return _page(content, fragment, drawing()).encode()
 
 
 def text(content: Content) -> str:
@@ -47,8 +49,6 @@ def text(content: Content) -> str:
     content : Content
         What it says.
     """
-    from cardan.figures.render_svg import inline_svg
-
     return _page(content, inline_svg, "")
 
 
@@ -60,8 +60,6 @@ def excerpt(part: Excerpt) -> bytes:
     part : Excerpt
         The page.
     """
-    from cardan.figures.render_svg import inline_svg
-
     return _page(part, inline_svg, "", "excerpt.html").encode()
 
 
@@ -77,13 +75,11 @@ def _kind(block: object) -> str:
 
 
 def _template(name: str) -> Any:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
     folder = Path(__file__).parent / "templates"
-    world = Environment(
-        loader=FileSystemLoader(folder),
+    world = jinja2().Environment(
+        loader=jinja2().FileSystemLoader(folder),
         autoescape=True,
-        undefined=StrictUndefined,
+        undefined=jinja2().StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan import __version__
 from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
@@ -15,6 +14,7 @@ from cardan.book.evidence import SelfCheck
 from cardan.questions.motion.kinds import kind_name
 from cardan.texts import _
 from cardan.units import deg
+from cardan.version import VERSION
 
 from .block import Block, Listing, Page, Table, Words, table
 from .subject import Subject
@@ -42,7 +42,7 @@ def method(on: Subject, source_text: str | None) -> Page:
         if passed
         else _("Calculated by cardan {version}; a self-check leaves more than rounding.")
     )
-    said = text.format(version=__version__)
+    said = text.format(version=VERSION)
     return Page(name="method", title=_("Method and evidence"), answer=said, blocks=blocks)
 
 

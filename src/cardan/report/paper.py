@@ -9,7 +9,7 @@ from itertools import accumulate
 from typing import Any
 
 from cardan.answers.printed import framed
-from cardan.figures import Figure
+from cardan.figures import Figure, pixels
 from cardan.figures.page import laid_out
 from cardan.io.book import leads_to, put, words
 
@@ -222,10 +222,10 @@ class Paper:
         for k, column in enumerate(table.columns):
             self._put(table, k, headed(column), self._looks(**HEAD, **_side(k, column)))
         self._next(high + 2)
-        for row, pixels in zip(table.rows, rows, strict=True):
+        for row, tall in zip(table.rows, rows, strict=True):
             for k, (column, cell) in enumerate(zip(table.columns, row, strict=True)):
                 self._cell(table, k, column, cell)
-            self._next(pixels)
+            self._next(tall)
         if table.note:
             self.line(table.note, font_size=9, color="muted")
 
@@ -285,13 +285,11 @@ class Paper:
 
     def image(self, figure: Figure, *, most: float = math.inf) -> None:
         """Insert a picture of a figure, without its words, at most so many pixels high."""
-        from cardan.figures.render_matplotlib import render
-
         page = laid_out(figure, words=False)
         high = self._high(min(most, INCH * page.height), 6 * LINE)
         self.keep(high + 3 * LINE)
         stream = io.BytesIO()
-        render(figure, stream, "png", dpi=DPI, words=False)
+        pixels().render(figure, stream, "png", dpi=DPI, words=False)
         scale = high / page.height / 96.0
         options = {
             "image_data": stream,

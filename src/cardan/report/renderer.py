@@ -6,15 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cardan.errors import MissingExtraError, refuse
 from cardan.texts import _
 
 from . import html, typeset, workbook
-
-if TYPE_CHECKING:
-    from .content import Content, Excerpt
+from .content import Content, Excerpt
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,15 +9,18 @@ import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from cardan.figures.figure import Figure
+from cardan.figures.render_svg import inline_svg
+from cardan.later import later
 from cardan.texts import _, language
 
 from .block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
+from .content import Content, Excerpt
 
-if TYPE_CHECKING:
-    from .content import Content, Excerpt
+typst = later("typst")
+matplotlib = later("matplotlib")
 
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
@@ -67,15 +70,16 @@ def excerpt(part: Excerpt) -> bytes:
 
 def _set(data: dict[str, Any]) -> bytes:
     """Return what the template makes of its data."""
-    import typst
-    from matplotlib import get_data_path
-
-    found, _warnings = typst.Compiler(
-        TEMPLATE,
-        root=TEMPLATE.parent,
-        font_paths=[Path(get_data_path()) / "fonts" / "ttf"],
-        sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
-    ).compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
+    found, _warnings = (
+        typst()
+        .Compiler(
+            TEMPLATE,
+            root=TEMPLATE.parent,
+            font_paths=[Path(matplotlib().get_data_path()) / "fonts" / "ttf"],
+            sys_inputs={"report": json.dumps(_printable(data), ensure_ascii=False)},
+        )
+        .compile_with_warnings(format="pdf", pdf_standards=[STANDARD])
+    )
     assert isinstance(found, bytes)  # a single file, and no place was given to write it to
     return found
 
@@ -149,7 +153,5 @@ def _toned(tone: Tone) -> dict[str, str]:
 
 
 def _picture(figure: Figure) -> dict[str, Any]:
-    from cardan.figures.render_svg import inline_svg
-
     said = {"title": figure.title, "sentence": figure.sentence, "source": figure.source}
     return {"kind": "picture", "drawing": inline_svg(figure, fonts=FONTS), **said}

@@ -6,7 +6,7 @@ import datetime
 import io
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
 from cardan.texts import _
@@ -14,11 +14,9 @@ from cardan.texts import _
 from .block import Listing, Page, Picture, Table
 from .chart_data import ChartData
 from .charts import split
+from .content import Content, Excerpt
 from .looks import CODE, Looks
 from .paper import LINE, Paper
-
-if TYPE_CHECKING:
-    from .content import Content, Excerpt
 
 SKETCH = 260.0
 """Pixels of the drive on the first page, from top to bottom."""

@@ -26,6 +26,8 @@ from cardan.questions.motion.moving_points import moving_points
 from cardan.texts import _
 
 from .lines import drawn_round
+from .loads import loads
+from .modes import shapes
 from .parts import Scene, SceneArrow, SceneBody, SceneMode
 from .utilisation import Use, scale, use_colour, used
 
@@ -89,13 +91,9 @@ def scene(
     arrows: tuple[SceneArrow, ...] = ()
     modes: tuple[SceneMode, ...] = ()
     if with_forces:
-        from .loads import loads
-
         arrows, more, told = loads(build.drive, build, size)
         groups, missing = (*groups, *more), {**missing, **told}
     if with_modes:
-        from .modes import shapes
-
         modes, told = shapes(build.drive, build, size)
         missing = {**missing, **told}
     uses = used(verdicts)

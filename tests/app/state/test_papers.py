@@ -11,8 +11,9 @@ from zipfile import ZipFile
 import pytest
 
 from cardan.app.state import papers
+from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import Question, asked, result
+from cardan.app.state.work import result
 from cardan.app.state.workspace import Workspace
 from cardan.figures import Figure
 from cardan.io import example_text

@@ -10,14 +10,13 @@ from cardan import Drive, InputError, forces
 from cardan.catalogue import completed
 from cardan.checks import check
 from cardan.checks.strength.strength import STRENGTH, strength
-from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty, Harmonic, History, Limits
 from cardan.drive.joint_parts import Needles, Section, Yoke
 from cardan.drive.joints import Hooke
 from cardan.drive.material import Material
 from cardan.drive.models.chain import chain
-from cardan.drive.shaft import Layup, Notch, Ply, Shaft, Spline
+from cardan.drive.shaft import Layup, Lump, Notch, Ply, Segment, Shaft, Spline
 from cardan.maths.kernel import mobius
 from cardan.questions.forces.turn_loads import turn_loads
 from cardan.units import deg, mm, rpm

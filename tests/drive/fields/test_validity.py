@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError, motion
-from cardan.drive.drive import Input, Output
+from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty, Limits
 from cardan.drive.fields.ranges import HUGE, allowed, in_range, out_of_range, shown
 from cardan.drive.fields.validity import point_problems

@@ -10,7 +10,7 @@ import pytest
 
 from cardan import Drive, motion, phases
 from cardan.drive.bodies.solids import arms, solids
-from cardan.drive.drive import Input
+from cardan.drive.described import Input
 from cardan.drive.drives import stack
 from cardan.drive.joints import (
     JOINTS,

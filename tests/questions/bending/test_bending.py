@@ -9,11 +9,10 @@ import pytest
 
 from cardan import Drive, InputError, example
 from cardan.book.stepped import Node, stepped_speeds
-from cardan.drive.body import Lump, Segment
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Duty
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.shaft import Lump, Segment, Shaft, Spline
 from cardan.drive.support import Support
 from cardan.formulas.critical_speed import speed_margin, uniform_speed
 from cardan.maths.linear.rotor_beams import round_section

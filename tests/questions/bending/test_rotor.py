@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from cardan import Drive, InputError
-from cardan.drive.body import Lump, weight
+from cardan.drive.body import weight
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.machine import RunUp
-from cardan.drive.shaft import Shaft, Unbalance
+from cardan.drive.shaft import Lump, Shaft, Unbalance
 from cardan.io import example
 from cardan.questions.bending.cracked_rotor import cracked_rotor
 from cardan.questions.bending.rotor import rotor

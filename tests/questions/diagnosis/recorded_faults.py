@@ -6,7 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from cardan.drive.drive import Drive, Input, Output
+from cardan.drive.described import Input, Output
+from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.joints.hooke import Hooke
 from cardan.drive.shaft import Shaft

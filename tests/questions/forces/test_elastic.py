@@ -5,9 +5,9 @@ import pytest
 
 from cardan import assembly, example, forces
 from cardan.drive.accuracy import Error
-from cardan.drive.body import Segment
 from cardan.drive.duty import Duty
 from cardan.drive.models.train import train, train_of_points
+from cardan.drive.shaft import Segment
 from cardan.questions.forces.forces import kinetostatics
 from cardan.questions.forces.reactions import Held
 

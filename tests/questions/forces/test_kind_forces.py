@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cardan import Drive, example, forces
-from cardan.drive.drive import Input, Output
+from cardan.drive.described import Input, Output
 from cardan.drive.duty import Duty
 from cardan.drive.joints import JOINTS, ConstantVelocity, DoubleCardan, Hooke, Rzeppa, Tracta, Tripod
 from cardan.drive.models.geometry import geometry

@@ -11,7 +11,8 @@ from cardan.answers.reader import USUAL, Reader
 from cardan.drive.duty import History
 from cardan.io import example
 from cardan.questions.life.answer import answer, ask, lacking
-from cardan.questions.life.life import METHODS, life
+from cardan.questions.life.life import life
+from cardan.questions.life.lives import METHODS
 from cardan.report.page import page, row
 from cardan.texts import speaking
 

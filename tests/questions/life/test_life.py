@@ -17,7 +17,8 @@ from cardan.formulas.joint_rating import book_life
 from cardan.formulas.needle_bearing import needle_rating
 from cardan.questions.life.bearing_life import bearing_life, maker_life
 from cardan.questions.life.duty_cycle import combined_life, equivalent_torque
-from cardan.questions.life.life import METHODS, life
+from cardan.questions.life.life import life
+from cardan.questions.life.lives import METHODS
 from cardan.units import deg, rpm
 
 HOUR = 3600.0

@@ -9,11 +9,12 @@ from typing import Any
 from nicegui import background_tasks, ui
 
 from cardan.app.state.jobs import Job, Jobs, own_fault
+from cardan.app.state.question import Question, asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import Question, asked, result
+from cardan.app.state.work import result
 from cardan.drive.drive import Drive
 from cardan.errors import CardanError, InputError
-from cardan.io import edit
+from cardan.io.edit import edit
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, settings

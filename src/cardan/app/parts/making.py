@@ -8,8 +8,8 @@ from typing import Any
 from nicegui import ui
 
 from cardan.app.state.jobs import Jobs
+from cardan.app.state.question import Question
 from cardan.app.state.session import Session
-from cardan.app.state.work import Question
 from cardan.texts import _
 
 from .dialogs import asking

@@ -8,8 +8,9 @@ from html import escape
 from nicegui import ui
 
 from cardan.app.state.jobs import Job, Jobs, own_fault
+from cardan.app.state.question import asked
 from cardan.app.state.session import Session
-from cardan.app.state.work import REMEDIES, VERDICTS, asked, result
+from cardan.app.state.work import REMEDIES, VERDICTS, result
 from cardan.errors import CardanError
 from cardan.report.answers import subject
 from cardan.report.applying import Applicable, synchronous

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nicegui import run, ui
 
 import cardan
+from cardan import Verdict
 from cardan.app.scene.element import SceneView
 from cardan.app.state.jobs import own_fault
 from cardan.app.state.session import Session
@@ -19,9 +20,6 @@ from cardan.texts import _
 
 from .menus import drop_down
 from .timers import Timer
-
-if TYPE_CHECKING:
-    from cardan import Verdict
 
 TURNING = -1
 """In place of the index of a mode shape: the drive turns."""

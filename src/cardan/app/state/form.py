@@ -10,9 +10,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, is_dataclass
 from typing import Any, Literal, TypeAlias, get_args, get_origin
 
+from cardan.catalogue import catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import KINDS, NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.errors import Problem
+from cardan.io.amend import kind_at, steps_of
 from cardan.texts import _
 
 Sort: TypeAlias = Literal[
@@ -303,8 +305,6 @@ def _titled(title: str, table: Mapping[str, Any]) -> str:
 
 def _found(tree: Mapping[str, Any], path: str) -> tuple[Any, Mapping[str, Any], Any]:
     """Return class, table and base class of the table at a path."""
-    from cardan.io.amend import kind_at, steps_of
-
     if not path:
         return Drive, tree, Drive
     steps = steps_of(path)
@@ -352,8 +352,6 @@ def _entry(one: Field, table: Mapping[str, Any], path: str) -> Entry:
 
 
 def _offered(one: Field) -> tuple[str, ...]:
-    from cardan.catalogue import catalogue
-
     return tuple(catalogue().tables.get(OFFERED.get(one.name, ""), {}))
 
 

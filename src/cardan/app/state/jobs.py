@@ -10,7 +10,8 @@ from typing import Any, Literal, TypeAlias
 
 from cardan.texts import _, speaking
 
-from .work import Question, result
+from .question import Question
+from .work import result
 from .worker import Done, Failed, Made, Share, Worker
 
 State: TypeAlias = Literal["waiting", "running", "done", "failed", "cancelled"]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
+from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import refuse
 from cardan.figures import Figure
@@ -17,11 +19,8 @@ from cardan.report.exports import Exported, exported
 from cardan.report.renderer import renderer_for
 from cardan.texts import _
 
-if TYPE_CHECKING:  # who asks a question and who answers it know each other
-    from cardan.catalogue import Catalogue
-
-    from .session import Session
-    from .work import Progress, Question
+from .question import Progress, Question, asked
+from .session import Session
 
 Form: TypeAlias = Literal["html", "interactive", "pdf", "xlsx", "json"]
 
@@ -42,8 +41,6 @@ def asked_for(session: Session, name: str, **choices: Any) -> Question | None:
         Of a report its ``form``; of a part the ``thing`` and its ``kind``; of a comparison the ``variants``, names and
         drives.
     """
-    from .work import asked
-
     return asked(session, name, **choices)
 
 
@@ -115,6 +112,4 @@ def safe(name: str, otherwise: str = "drive") -> str:
     >>> safe("Truck: 4 joints / rear"), safe("../..")
     ('Truck-4-joints-rear', 'drive')
     """
-    import re
-
     return re.sub(r"[\W_]+", "-", name).strip("-")[:60].strip("-") or otherwise

@@ -10,12 +10,11 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from cardan.errors import CardanError
 
-if TYPE_CHECKING:  # who works on other questions need not load all of ours
-    from .work import Progress, Question
+from .question import Progress, Question
 
 Made: TypeAlias = "Callable[[Question, Progress], Any]"
 """What answers a question; picklable."""

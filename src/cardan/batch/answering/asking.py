@@ -17,12 +17,15 @@ from cardan.catalogue import Catalogue, catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import CardanError, InputError, MissingExtraError, Problem, check
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Compiled, Method, Plain, has_numba
 from cardan.texts import _
 
 from .many import Many, many, one
 from .questions import asked
+
+gpu = later("cardan.batch.answering.gpu")
 
 Device: TypeAlias = Literal["cpu", "gpu"]
 """What computes questions about motion: NumPy and the kernels, or JAX on its default device."""
@@ -137,9 +140,8 @@ class DriveEvaluator:
         return [(name, np.broadcast_to(column, (count,))) for name, column in self._told(found)], real
 
     def _on_gpu(self, si: Mapping[str, Array], count: int) -> tuple[list[tuple[str, Array]], Array]:
-        from .gpu import answered
-
-        return answered(self.drive, self.questions, si, count)
+        found: tuple[list[tuple[str, Array]], Array] = gpu().answered(self.drive, self.questions, si, count)
+        return found
 
     def _told(self, found: Many) -> Iterator[tuple[str, Array]]:
         """Yield the columns of questions about motion."""

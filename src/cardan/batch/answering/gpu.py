@@ -11,12 +11,15 @@ import numpy as np
 from cardan.answers.sweepable import OutputColumn
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import mixed
-from cardan.errors import MissingExtraError
+from cardan.later import later
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import mark
 
 from .many import many
 from .questions import asked
+
+jax = later("jax", mark("computing on a GPU needs JAX: pip install 'cardan[gpu]'"))
+numpy = later("jax.numpy")
 
 PIECES = (2**10, 2**15, 2**20)
 """Points that the device is given at a time: the least of these that holds them, filled up.
@@ -33,14 +36,8 @@ def jax_numpy() -> tuple[Any, Any]:
     MissingExtraError
         It is not installed.
     """
-    try:
-        import jax
-    except ImportError:
-        raise MissingExtraError(_("computing on a GPU needs JAX: pip install 'cardan[gpu]'")) from None
-    jax.config.update("jax_enable_x64", True)
-    import jax.numpy as xp
-
-    return jax, xp
+    jax().config.update("jax_enable_x64", True)
+    return jax(), numpy()
 
 
 def answered(

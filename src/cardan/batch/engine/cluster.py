@@ -14,23 +14,21 @@ import time
 import uuid
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
-from cardan import __version__
 from cardan.batch.chunks import Chunk
 from cardan.errors import InputError, refuse
 from cardan.maths.compiled.threads import processors
 from cardan.texts import _, language, speaking
+from cardan.version import VERSION
 
 from .cluster_here import library, local_cluster
 from .engines import OFTEN, Done, EngineLostError, Heard, died, reason
-
-if TYPE_CHECKING:
-    from distributed import Client, Future
 
 T = TypeVar("T")
 
@@ -110,11 +108,11 @@ def _worked(link: _Link, task: Callable[[Chunk], T], waiting: Iterator[Chunk]) -
 
     Chunks over which workers died are tried once more at the end, each alone: then it is known which one kills.
     """
-    told = pickle.dumps((task, language(), __version__))
+    told = pickle.dumps((task, language(), VERSION))
     again: deque[Chunk] = deque()
     suspects: deque[Chunk] = deque()
     alone: Chunk | None = None
-    out: dict[Any, tuple[Chunk, Future]] = {}
+    out: dict[Any, tuple[Chunk, Any]] = {}
     ready: SimpleQueue[Any] = SimpleQueue()
     link.connect()
     while True:
@@ -182,7 +180,7 @@ class _Link:
 
     def __init__(self, address: str, patience: float, heard: Heard) -> None:
         self.address, self.patience, self.heard = address, patience, heard
-        self.client: Client | None = None
+        self.client: Any = None
         self.stopped = False
         self._threads, self._looked = 0, float("-inf")
         self._alone: float | None = None
@@ -240,7 +238,7 @@ class _Link:
             Some run another version of Python or of this program, or lack it.
         """
         ask = "(__import__('sys').version_info[:2], __import__('cardan').__version__)"
-        here = (sys.version_info[:2], __version__)
+        here = (sys.version_info[:2], VERSION)
         found = self.client.run(eval, ask, on_error="return") if self.client is not None else {}
         odd = {where: told for where, told in found.items() if told != here}
         if odd:
@@ -265,7 +263,7 @@ class _Link:
             raise EngineLostError(_workless(self.address, self.patience))
         return self._threads
 
-    def give(self, told: bytes, chunk: Chunk) -> Future | None:
+    def give(self, told: bytes, chunk: Chunk) -> Any:
         """Give a chunk away; None where the line breaks."""
         try:
             if self.client is None:
@@ -274,7 +272,7 @@ class _Link:
         except Exception:  # the client is closed
             return None
 
-    def taken(self, chunk: Chunk, future: Future) -> Done[Any] | None:
+    def taken(self, chunk: Chunk, future: Any) -> Done[Any] | None:
         """Return what became of a chunk; None where it has to be waited for once more, or done again.
 
         Raises
@@ -282,15 +280,11 @@ class _Link:
         _KilledError
             Workers died.
         """
-        from concurrent.futures import CancelledError
-
-        from distributed import KilledWorker
-
         if future.status in GONE or future.status == "pending":
             return None
         try:
             value, failure = future.result(timeout=self.patience)
-        except KilledWorker as error:
+        except library().KilledWorker as error:
             raise _KilledError(int(getattr(error, "allowed_failures", 0)) + 1) from None
         except (CancelledError, TimeoutError, OSError):
             return None
@@ -308,8 +302,8 @@ def _work(told: bytes, chunk: Chunk) -> tuple[Any, str | None]:
     """Work on a chunk; runs on a worker."""
     try:
         task, code, version = _read(told)
-        if version != __version__:
-            return None, _odd("", (sys.version_info[:2], __version__), (sys.version_info[:2], version))
+        if version != VERSION:
+            return None, _odd("", (sys.version_info[:2], VERSION), (sys.version_info[:2], version))
         with speaking(code):
             return task(chunk), None
     except Exception as error:  # the other chunks are still worth having

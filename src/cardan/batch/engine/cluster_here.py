@@ -9,33 +9,19 @@ import signal
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from cardan.errors import MissingExtraError
-from cardan.texts import _
+from cardan.later import later
+from cardan.texts import mark
 
 from .engines import EngineLostError, deaf, stillborn
-
-if TYPE_CHECKING:
-    from distributed import LocalCluster
 
 PART = 5.0
 """Seconds that a cluster of ours has to end."""
 
 
-def library() -> Any:
-    """Return ``distributed``.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not installed.
-    """
-    try:
-        import distributed
-    except ImportError:
-        raise MissingExtraError(_("a cluster needs dask.distributed: pip install 'cardan[cluster]'")) from None
-    return distributed
+library = later("distributed", mark("a cluster needs dask.distributed: pip install 'cardan[cluster]'"))
+"""``dask.distributed``."""
 
 
 @contextmanager
@@ -82,7 +68,7 @@ def local_cluster(workers: int) -> Iterator[str]:
             _end(cluster)
 
 
-def _end(cluster: LocalCluster) -> None:
+def _end(cluster: Any) -> None:
     """End a cluster of ours at once: a chunk that is worked on is worth nothing any more."""
     for _attempt in range(2):  # one may just have been about to be started
         for nanny in list(cluster.workers.values()):

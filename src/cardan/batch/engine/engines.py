@@ -6,6 +6,7 @@ chunks that fail among them. Closing the iterator ends everything that the engin
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import pickle
 import signal
@@ -14,16 +15,14 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from multiprocessing.connection import Connection, wait
+from typing import Any, Generic, Protocol, TypeVar
 
 from cardan.batch.chunks import Chunk
 from cardan.errors import CardanError, InputError, MissingExtraError, refuse
 from cardan.files import refusal
 from cardan.maths.compiled.threads import processors
 from cardan.texts import _, language, plural, speaking
-
-if TYPE_CHECKING:
-    from multiprocessing.connection import Connection
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -168,8 +167,6 @@ class Processes:
         EngineLostError
             The processes die before they can begin.
         """
-        from multiprocessing.connection import wait
-
         told = pickle.dumps((task, language()))
         waiting = iter(chunks)
         again: deque[_Held] = deque()
@@ -257,8 +254,6 @@ class _Worker:
     """A process and the line to it."""
 
     def __init__(self, told: bytes) -> None:
-        import multiprocessing
-
         context = multiprocessing.get_context("spawn")
         self.line, far = context.Pipe()
         self.process = context.Process(target=_serve, args=(far,), daemon=True, name="cardan-sweep")
@@ -345,8 +340,6 @@ def _answer(task: Callable[[Chunk], Any], chunk: Chunk) -> bytes:
 
 
 def _die_with_parent() -> None:
-    import multiprocessing
-
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

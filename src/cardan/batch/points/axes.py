@@ -14,6 +14,7 @@ from itertools import pairwise
 from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
@@ -276,12 +277,10 @@ class SampledAxis:
         """Return the values at places ``index`` (k,), arrays (k,); drawn over the runs that the places make up."""
         share = self._shares(index)
         if self._factor is not None:
-            from scipy.special import ndtr, ndtri
-
             # Term by term: how a product of matrices rounds depends on how many rows it has.
-            scores: Array = ndtri(share).T
+            scores: Array = scipy.special.ndtri(share).T
             mixed = [sum(weight * score for weight, score in zip(row, scores, strict=True)) for row in self._factor]
-            share = ndtr(np.stack(mixed, axis=-1))
+            share = scipy.special.ndtr(np.stack(mixed, axis=-1))
         return {path: one.at(share[:, k]) for k, (path, one) in enumerate(self.distributions.items())}
 
     def _shares(self, index: Array) -> Array:

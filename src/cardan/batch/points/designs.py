@@ -6,6 +6,7 @@ import warnings
 from typing import Any
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -66,9 +67,7 @@ def _random(dimensions: int, seed: int, start: int, stop: int) -> Array:
 
 def _engine(kind: str, dimensions: int, seed: int) -> Any:
     """Return a scrambled sequence of scipy."""
-    from scipy.stats import qmc
-
-    return getattr(qmc, kind)(dimensions, scramble=True, rng=np.random.default_rng(seed))
+    return getattr(scipy.stats.qmc, kind)(dimensions, scramble=True, rng=np.random.default_rng(seed))
 
 
 _KEPT: dict[tuple[int, int], tuple[Any, int]] = {}

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
+import scipy
 
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
@@ -104,9 +105,7 @@ class Normal:
 
     def at(self, share: Array) -> Array:
         """Return the values (k,) below which the shares (k,) lie."""
-        from scipy.special import ndtri
-
-        found: Array = self.mean + self.std * ndtri(share)
+        found: Array = self.mean + self.std * scipy.special.ndtri(share)
         return found
 
     def told(self) -> dict[str, Any]:
@@ -142,10 +141,10 @@ class Truncated:
 
     def at(self, share: Array) -> Array:
         """Return the values (k,) below which the shares (k,) lie."""
-        from scipy.special import ndtr, ndtri
-
-        below, above = (float(ndtr((bound - self.mean) / self.std)) for bound in (self.low, self.high))
-        found: Array = np.clip(self.mean + self.std * ndtri(below + (above - below) * share), self.low, self.high)
+        below, above = (float(scipy.special.ndtr((bound - self.mean) / self.std)) for bound in (self.low, self.high))
+        found: Array = np.clip(
+            self.mean + self.std * scipy.special.ndtri(below + (above - below) * share), self.low, self.high
+        )
         return found
 
     def told(self) -> dict[str, Any]:

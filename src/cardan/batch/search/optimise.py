@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.batch.points.designs import uniforms
 from cardan.batch.work import STATUS, Column, Rows
@@ -284,11 +285,9 @@ def optimise(
 
 def _evolve(search: _Search, how: Global) -> bool:
     """Search the whole box and return whether the search has converged."""
-    from scipy.optimize import differential_evolution
-
     box: Any = [(0.0, 1.0)] * len(search.low)
     count = max(5, how.population * len(search.low))
-    found: Any = differential_evolution(
+    found: Any = scipy.optimize.differential_evolution(
         search.ranked,
         box,
         maxiter=how.generations,
@@ -305,8 +304,6 @@ def _evolve(search: _Search, how: Global) -> bool:
 
 def _descend(search: _Search, how: Local, start: Array, *, small: bool) -> bool:
     """Go downhill and return whether the place is found."""
-    from scipy.optimize import NonlinearConstraint, minimize
-
     box: Any = [(0.0, 1.0)] * len(search.low)
     options: Any = {
         "maxfev": how.most,
@@ -316,12 +313,12 @@ def _descend(search: _Search, how: Local, start: Array, *, small: bool) -> bool:
     }
     limits: Any = ()
     if search.limits:
-        limits = NonlinearConstraint(lambda share: search.single(share)[1], -math.inf, 0.0)
+        limits = scipy.optimize.NonlinearConstraint(lambda share: search.single(share)[1], -math.inf, 0.0)
 
     def cost(share: Any) -> Any:
         return search.single(share)[0]
 
-    found: Any = minimize(
+    found: Any = scipy.optimize.minimize(
         cost,
         start,
         method="COBYQA",

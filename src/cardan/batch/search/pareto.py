@@ -9,14 +9,20 @@ from typing import Any
 import numpy as np
 
 from cardan.batch.work import STATUS, Column, Rows
-from cardan.errors import MissingExtraError, Problem, check
+from cardan.errors import Problem, check
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.curves.fronts import front
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .goals import Evaluator, Goal, Limit, check_names, excess
 from .optimise import KEPT, UNANSWERED, Bounds, check_bounds
 from .pieces import Progress, StoppedError, tell
+
+MISSING = mark("a search for several goals needs pymoo: pip install 'cardan[pareto]'")
+nsga2 = later("pymoo.algorithms.moo.nsga2", MISSING)
+problem = later("pymoo.core.problem")
+optimize = later("pymoo.optimize")
 
 WORST = 1e9
 """Cost of a point without an answer: pymoo takes no nan."""
@@ -213,14 +219,9 @@ class _Archive:
 
 def _evolve(archive: _Archive, population: int, generations: int, seed: int) -> None:
     """Let generations of points better each other."""
-    try:
-        from pymoo.algorithms.moo.nsga2 import NSGA2
-        from pymoo.core.problem import Problem as Moo
-        from pymoo.optimize import minimize
-    except ImportError:
-        raise MissingExtraError(_("a search for several goals needs pymoo: pip install 'cardan[pareto]'")) from None
+    evolution = nsga2()
 
-    class Box(Moo):  # type: ignore[misc]
+    class Box(problem().Problem):  # type: ignore[misc]
         """The goals over the box."""
 
         def __init__(self) -> None:
@@ -235,4 +236,4 @@ def _evolve(archive: _Archive, population: int, generations: int, seed: int) -> 
         def _evaluate(self, x: Any, out: dict[str, Any], *_args: Any, **_options: Any) -> None:
             out["F"], out["G"] = archive.costs(np.asarray(x, dtype=float))
 
-    minimize(Box(), NSGA2(pop_size=population), ("n_gen", generations), seed=seed, verbose=False)
+    optimize().minimize(Box(), evolution.NSGA2(pop_size=population), ("n_gen", generations), seed=seed, verbose=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -13,9 +13,7 @@ from cardan.batch.work import State
 from cardan.maths.arrays import Array
 
 from . import summaries
-
-if TYPE_CHECKING:
-    from .reductions import Reduce
+from .reduction import Reduce
 
 Value: TypeAlias = dict[str, Any]
 """What is told of one group: ``value`` and what belongs to it."""

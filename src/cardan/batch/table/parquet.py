@@ -15,17 +15,17 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 import numpy as np
 
 from cardan.batch.chunks import Chunk
 from cardan.batch.work import Column, Rows, State
-from cardan.errors import MissingExtraError
-from cardan.texts import _
+from cardan.later import later
+from cardan.texts import _, mark
 
-if TYPE_CHECKING:
-    import pyarrow as pa
+library = later("pyarrow.parquet", mark("keeping a sweep in a folder needs pyarrow: pip install 'cardan[sweep]'"))
+pyarrow = later("pyarrow")
 
 FORMAT = 1
 SUFFIX = ".parquet"
@@ -70,21 +70,6 @@ class Label:
             "provenance": self.provenance,
         }
         return json.dumps(told, ensure_ascii=False, sort_keys=True).encode()
-
-
-def library() -> Any:
-    """Return ``pyarrow.parquet``.
-
-    Raises
-    ------
-    MissingExtraError
-        It is not installed.
-    """
-    try:
-        import pyarrow.parquet
-    except ImportError:
-        raise MissingExtraError(_("keeping a sweep in a folder needs pyarrow: pip install 'cardan[sweep]'")) from None
-    return pyarrow.parquet
 
 
 def write_chunk(path: Path, chunk: Chunk, label: Label, rows: Rows | None, states: Sequence[State]) -> None:
@@ -169,8 +154,6 @@ def flaw(path: Path, chunk: Chunk, label: Label) -> str:
     label : Label
         Of the sweep it should belong to.
     """
-    import pyarrow as pa
-
     try:
         with library().ParquetFile(path, page_checksum_verification=True) as file:
             beside, twin = file.metadata.metadata or {}, file.schema_arrow.metadata or {}  # the format holds both
@@ -186,7 +169,7 @@ def flaw(path: Path, chunk: Chunk, label: Label) -> str:
                 return _("it belongs to something else")
             for group in range(file.num_row_groups):
                 file.read_row_group(group)
-    except (pa.ArrowException, OSError, ValueError, KeyError):
+    except (pyarrow().ArrowException, OSError, ValueError, KeyError):
         return _("it is damaged")
     return ""
 
@@ -218,9 +201,8 @@ def rows_of(path: Path, names: Iterable[str] | None = None) -> Rows:
     return {name: _array(table.column(name)) for name in wanted or table.column_names}
 
 
-def _table(label: Label, rows: Rows) -> pa.Table:
-    import pyarrow as pa
-
+def _table(label: Label, rows: Rows) -> Any:
+    pa = pyarrow()
     arrays = [pa.array(np.asarray(rows[column.name])) for column in label.columns]
     fields = [
         pa.field(column.name, array.type, metadata={b"unit": column.unit.encode(), b"role": column.role.encode()})
@@ -229,7 +211,7 @@ def _table(label: Label, rows: Rows) -> pa.Table:
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 
-def _array(column: pa.ChunkedArray) -> Any:
+def _array(column: Any) -> Any:
     array = column.to_numpy()
     return array.astype(np.str_) if array.dtype == object and column.null_count == 0 else array
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cardan.batch.points.axes import Axis, Points
-from cardan.batch.search.goals import Limit, limit_of
+from cardan.batch.search.goals import limit_of
 from cardan.batch.work import FEASIBLE, STATUS, Column, Rows, State, Status
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
@@ -19,78 +19,14 @@ from cardan.texts import _
 from cardan.units import nearest
 
 from .kinds import KINDS, Kind, Part
+from .reduction import Reduce
 from .summaries import BINS as MOST_BINS
 
 GROUPS = 10_000
 """More groups than this are refused: a table of the rows is what is wanted then."""
 
-BINS = 50
-"""Bins of a histogram when none are asked for."""
 
 _PERCENT = re.compile(r"p(\d+(?:\.\d+)?)\s+(.*)")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reduce:
-    """What is to be told of a column, as a plan says it.
-
-    Attributes
-    ----------
-    kind : str
-        One of `KINDS`.
-    of : str
-        Column; for ``count`` and ``share`` empty.
-    by : tuple of str
-        Axes, by their names or by a field of theirs: one answer for each of their places.
-    where : tuple of Limit
-        Rows that count; those without an answer never do.
-    percent : float
-        Of a percentile.
-    bins : int
-    low, high : float or None
-        Of a histogram; without them it has bins of a power of two that cover all numbers.
-    name : str
-        Among the results; made of the rest when empty.
-
-    Examples
-    --------
-    >>> reduce_of("p95 speed_fluctuation by duty.speed_rpm").label
-    'p95 speed_fluctuation by duty.speed_rpm'
-    """
-
-    kind: str
-    of: str = ""
-    by: tuple[str, ...] = ()
-    where: tuple[Limit, ...] = ()
-    percent: float = 50.0
-    bins: int = BINS
-    low: float | None = None
-    high: float | None = None
-    name: str = ""
-
-    @property
-    def label(self) -> str:
-        """Name among the results."""
-        if self.name:
-            return self.name
-        words = [f"p{self.percent:g}" if self.kind == "percentile" else self.kind]
-        limits = " and ".join(str(one) for one in self.where)
-        words += [self.of, f"where {limits}" if limits else ""] if self.of else [limits]
-        return " ".join(word for word in words if word) + (" by " + ", ".join(self.by) if self.by else "")
-
-    def told(self) -> dict[str, Any]:
-        """Return it as the table of a plan file."""
-        found: dict[str, Any] = {"kind": self.kind}
-        found |= {"of": self.of} if self.of else {}
-        found |= {"by": list(self.by)} if self.by else {}
-        found |= {"where": [str(one) for one in self.where]} if self.where else {}
-        if self.kind == "percentile":
-            found["percent"] = self.percent
-        if self.kind == "histogram":
-            found |= {"bins": self.bins} | {
-                k: getattr(self, k) for k in ("low", "high") if getattr(self, k) is not None
-            }
-        return found | ({"name": self.name} if self.name else {})
 
 
 def reduce_of(text: str) -> Reduce:

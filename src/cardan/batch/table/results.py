@@ -15,11 +15,11 @@ import numpy as np
 from cardan.batch.search.goals import Goal, Limit, check_names
 from cardan.batch.search.pareto import pareto
 from cardan.batch.work import STATUS, Column, Rows
-from cardan.errors import MissingExtraError, refuse
+from cardan.errors import refuse
 from cardan.texts import _
 
 from .parquet import SUFFIX
-from .sql import arrow, cell, condition, damage, filled, listed, only_select, quoted, sql_names, told_error
+from .sql import arrow, cell, condition, damage, duckdb, filled, listed, only_select, quoted, sql_names, told_error
 from .store import manifest_of, names_in
 from .swept import Sweep, read_sweep
 
@@ -239,10 +239,8 @@ class Results:
         writes : Path, optional
             The one file that may be written; nothing else of the disk can be reached.
         """
-        import duckdb
-
         chosen = self.parts if parts is None else tuple(parts)
-        connection = duckdb.connect(":memory:")
+        connection = duckdb().connect(":memory:")
         try:
             files = [str(part) for part in chosen if isinstance(part, Path)]
             held: list[Rows] = [part for part in chosen if not isinstance(part, Path)]
@@ -261,9 +259,9 @@ class Results:
             connection.execute("SET enable_external_access = false")
             connection.execute("SET lock_configuration = true")
             yield connection
-        except (duckdb.IOException, duckdb.InvalidInputException) as error:
+        except (duckdb().IOException, duckdb().InvalidInputException) as error:
             if writes is not None or (
-                isinstance(error, duckdb.InvalidInputException) and "parquet" not in str(error).lower()
+                isinstance(error, duckdb().InvalidInputException) and "parquet" not in str(error).lower()
             ):
                 raise
             raise refuse(str(self.sweep.folder), damage(error)) from None
@@ -276,12 +274,10 @@ class Results:
 
     def _answered(self, sql: str, parts: Sequence[Part]) -> Rows:
         """Return what a question finds in pieces of the table."""
-        import duckdb
-
         try:
             with self.opened(parts) as connection:
                 found = connection.execute(only_select(connection, self.named(sql))).fetchnumpy()
-        except duckdb.Error as error:
+        except duckdb().Error as error:
             raise refuse("query", told_error(error)) from None
         return {name: filled(column) for name, column in found.items()}
 
@@ -320,10 +316,7 @@ def results(source: Sweep | str | Path) -> Results:
     Traceback (most recent call last):
     cardan.errors.InputError: no such folder: holds no sweep
     """
-    try:
-        import duckdb  # noqa: F401
-    except ImportError:
-        raise MissingExtraError(_("reading the table of a sweep needs duckdb: pip install 'cardan[sweep]'")) from None
+    duckdb()
     sweep = source if isinstance(source, Sweep) else read_sweep(source)
     folder = sweep.folder
     if folder is None:

@@ -11,8 +11,12 @@ import numpy as np
 
 from cardan.batch.work import Column, Rows
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.maths.arrays import Array
-from cardan.texts import _
+from cardan.texts import _, mark
+
+duckdb = later("duckdb", mark("reading the table of a sweep needs duckdb: pip install 'cardan[sweep]'"))
+pyarrow = later("pyarrow")
 
 _PLAIN = re.compile(r"[A-Za-z_]\w*")
 _QUOTED = r"'(?:[^']|'')*'|\"(?:[^\"]|\"\")*\""
@@ -62,8 +66,7 @@ def listed(files: Sequence[str]) -> str:
 
 def arrow(rows: Rows) -> Any:
     """Return rows as a table that a database reads."""
-    import pyarrow as pa
-
+    pa = pyarrow()
     return pa.table({name: pa.array(np.asarray(column)) for name, column in rows.items()})
 
 
@@ -95,10 +98,8 @@ def only_select(connection: Any, sql: str) -> Any:
     InputError
         It is none, several, or one that changes something.
     """
-    import duckdb
-
     statements = connection.extract_statements(sql)
-    if len(statements) != 1 or statements[0].type != duckdb.StatementType.SELECT:
+    if len(statements) != 1 or statements[0].type != duckdb().StatementType.SELECT:
         raise refuse("query", _("only one SELECT is answered; the table itself is never changed"))
     return statements[0]
 

@@ -23,6 +23,11 @@ from cardan.texts import _, plural
 
 from .parquet import PART, SUFFIX, Label, flaw, library, put, states_of, write_chunk
 
+try:
+    import fcntl
+except ImportError:
+    fcntl = None  # type: ignore[assignment]
+
 FORMAT = 1
 MANIFEST, SUMMARY, LOCK = "manifest.json", "summary.json", ".lock"
 
@@ -301,9 +306,7 @@ def _alone(path: Path) -> Iterator[None]:
 
 def _locked(handle: int) -> bool:
     """Lock a file; true where it is ours now, or where no lock is to be had on such a disk."""
-    try:
-        import fcntl
-    except ImportError:  # another system
+    if fcntl is None:  # another system
         return True
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

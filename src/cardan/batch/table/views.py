@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.batch.work import Column
 from cardan.errors import refuse
@@ -215,8 +216,6 @@ def ranks_of(results: Results, answer: str, *, fields: Sequence[str] = (), where
     -----
     Of all rows with an answer, or of `DRAWN` drawn from them.
     """
-    from scipy.stats import rankdata
-
     column = results.column(answer)
     numbers = {one.name: one for one in results.numbers}
     chosen = [results.column(name) for name in fields] or [one for one in results.numbers if one.role == "point"]
@@ -225,10 +224,10 @@ def ranks_of(results: Results, answer: str, *, fields: Sequence[str] = (), where
         raise refuse("tornado", _("{name} holds no numbers").format(name=problem))
     told = " AND ".join([*([f"({where})"] if where else []), f"{quoted(answer)} IS NOT NULL"])
     rows = results.sample(list(dict.fromkeys([answer, *(one.name for one in chosen)])), DRAWN, where=told)
-    mine = rankdata(rows[answer])
+    mine = scipy.stats.rankdata(rows[answer])
     found = []
     for one in chosen:
-        other = rankdata(rows[one.name])
+        other = scipy.stats.rankdata(rows[one.name])
         if one.name != answer and len(mine) > 1 and np.ptp(other) > 0.0 and np.ptp(mine) > 0.0:
             found.append((float(np.corrcoef(mine, other)[0, 1]), one))
     found.sort(key=lambda pair: -abs(pair[0]))

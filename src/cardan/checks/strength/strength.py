@@ -39,7 +39,7 @@ from . import (
     yoke_strength,
 )
 from .joint_strength import JointStrength, joint_strength
-from .left_out import LeftOut
+from .omitted import LeftOut
 from .section import sections
 from .shaft_strength import ShaftStrength, lasting, shaft_strength
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from cardan.drive.described import Described
 from cardan.drive.machine import TorqueHistory
 from cardan.errors import Problem
 from cardan.texts import _
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
 
 WHOLE = 1e-4
 """Shares of a duty cycle may miss the whole time by this, 0.01 %."""
@@ -19,7 +16,7 @@ SLACK = 1e-12
 """What sums of decimal fractions may be off beside that."""
 
 
-def duty_problems(drive: Drive) -> Iterator[Problem]:
+def duty_problems(drive: Described) -> Iterator[Problem]:
     """Yield what contradicts itself in the duty cycle of a drive, and keys of a rating that is not there."""
     duty = drive.duty
     if duty.blocks:

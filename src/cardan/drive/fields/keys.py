@@ -10,7 +10,7 @@ from itertools import islice
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from cardan.drive.drive import Drive
+from cardan.drive.described import Described
 from cardan.drive.duty import History
 from cardan.drive.joints import DEFAULT, JOINTS, Joint
 from cardan.drive.machine import LAWS, MachineTorque
@@ -123,7 +123,7 @@ def _spellings_of(cls: Any) -> dict[str, tuple[str, float]]:
     }
 
 
-def spelled(path: str, root: Any = Drive) -> str:
+def spelled(path: str, root: Any = Described) -> str:
     """Return the path of a field of a file that describes a ``root`` as we write it, with the unit we prefer.
 
     Examples
@@ -156,11 +156,12 @@ def key_of(bare: str) -> str:
     return path if unit is None else f"{bare}_{unit}"
 
 
-def in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
+def in_a_joint(drive: Described, key: str, inner: str = "") -> tuple[str, ...]:
     """Return the path of a key in the first joint that can have it; none where no joint of the drive can.
 
     Examples
     --------
+    >>> from cardan.drive.drive import Drive
     >>> in_a_joint(Drive.from_angles([0.3]), "friction"), in_a_joint(Drive.from_angles([0.3]), "cross", ".span")
     (('joints[0].friction',), ('joints[0].cross.span',))
     """
@@ -168,7 +169,7 @@ def in_a_joint(drive: Drive, key: str, inner: str = "") -> tuple[str, ...]:
     return tuple(f"joints[{k}].{key}{inner}" for k in islice(able, 1))
 
 
-def meant(path: str, root: Any = Drive) -> str:
+def meant(path: str, root: Any = Described) -> str:
     """Return what a field means that a path without unit leads to, not translated; empty where it leads nowhere.
 
     Examples

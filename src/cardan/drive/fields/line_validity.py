@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from cardan.drive.described import Described
 from cardan.drive.line import is_elastic, line_length, shaft_places
 from cardan.drive.machine import MachineTorque
 from cardan.drive.shaft import Shaft
@@ -14,14 +14,11 @@ from cardan.units import mm, nearest
 
 from .parts import ROUNDING, known_lengths, place_problems
 
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-
 ENDS = ("input", "output")
 """Words for the two ends of a drive; no station may be called so."""
 
 
-def line_problems(drive: Drive) -> Iterator[Problem]:
+def line_problems(drive: Described) -> Iterator[Problem]:
     """Yield what contradicts itself in the stations and torques of a drive, and keys that nothing can use in it."""
     lengths = _lengths(drive)
     yield from _station_problems(drive, lengths)
@@ -35,14 +32,14 @@ def line_problems(drive: Drive) -> Iterator[Problem]:
     yield from _torque_problems(drive)
 
 
-def _lengths(drive: Drive) -> dict[int, float]:
+def _lengths(drive: Described) -> dict[int, float]:
     """Return the lengths of the shafts by their number, of end shafts too, as far as the drive says them [m]."""
     known = known_lengths(drive)
     found = {k: line_length(drive, k, known.get(k)) for k in range(1, len(drive.joints) + 2)}
     return {k: length for k, length in found.items() if length is not None}
 
 
-def _station_problems(drive: Drive, lengths: dict[int, float]) -> Iterator[Problem]:
+def _station_problems(drive: Described, lengths: dict[int, float]) -> Iterator[Problem]:
     names: set[str] = set()
     known = known_lengths(drive)
     for k, station in enumerate(drive.stations):
@@ -75,7 +72,7 @@ def _station_problems(drive: Drive, lengths: dict[int, float]) -> Iterator[Probl
             yield from _order_problems(drive, number, lengths.get(number))
 
 
-def _order_problems(drive: Drive, number: int, length: float | None) -> Iterator[Problem]:
+def _order_problems(drive: Described, number: int, length: float | None) -> Iterator[Problem]:
     """Yield elements that lead nowhere, and two of them from one place."""
     for place in (places := shaft_places(drive, number, length)):
         leading = [k for k in place.stations if drive.stations[k].to_next is not None]
@@ -86,7 +83,7 @@ def _order_problems(drive: Drive, number: int, length: float | None) -> Iterator
             yield Problem(f"stations[{k}].to_next", message)
 
 
-def _twist_problems(drive: Drive, shaft: Shaft, lengths: dict[int, float]) -> Iterator[Problem]:
+def _twist_problems(drive: Described, shaft: Shaft, lengths: dict[int, float]) -> Iterator[Problem]:
     path = f"shafts[{shaft.number - 1}]"
     spline = shaft.spline
     if spline is not None and spline.stiffness is not None and shaft.stiffness is not None:
@@ -103,7 +100,7 @@ def _twist_problems(drive: Drive, shaft: Shaft, lengths: dict[int, float]) -> It
             yield Problem(f"{path}.{name}", text)
 
 
-def _torque_problems(drive: Drive) -> Iterator[Problem]:
+def _torque_problems(drive: Described) -> Iterator[Problem]:
     duty = drive.duty
     known = (*ENDS, *(station.name for station in drive.stations if station.name))
     given: list[tuple[str, MachineTorque]] = [

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import fields
-from typing import TYPE_CHECKING
 
 from cardan.drive.body import body_problems
-from cardan.drive.crack import crack_problems
+from cardan.drive.described import Described
 from cardan.drive.joints import Joint
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
@@ -16,14 +15,11 @@ from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import mm, rpm
 
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-
 ROUNDING = 1e-9
 """A part may stick out of its shaft by this share of the length: what is left of rounding."""
 
 
-def part_problems(drive: Drive) -> Iterator[Problem]:
+def part_problems(drive: Described) -> Iterator[Problem]:
     """Yield what contradicts itself in the parts of a drive, and keys that nothing can use beside the others."""
     for i, joint in enumerate(drive.joints):
         yield from _joint(joint, f"joints[{i}]")
@@ -33,7 +29,7 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
             path = f"shafts[{shaft.number - 1}]"
             yield from _body(shaft, path)
             yield from body_problems(shaft, length.get(shaft.number), path)
-            yield from crack_problems(shaft, path)
+            yield from _crack(shaft, path)
             for k, lump in enumerate(shaft.masses):
                 yield from place_problems(shaft.number, lump.position, len(drive.joints), length, f"{path}.masses[{k}]")
             yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")
@@ -49,7 +45,7 @@ def part_problems(drive: Drive) -> Iterator[Problem]:
                 yield Problem(f"duty.{name}", _("there is no duty torque that this could belong to"))
 
 
-def known_lengths(drive: Drive) -> dict[int, float]:
+def known_lengths(drive: Described) -> dict[int, float]:
     """Return the lengths of the shafts between two joints by their number, as far as the drive says them [m]."""
     between = range(2, len(drive.joints) + 1)
     centres = [joint.centre for joint in drive.joints]
@@ -93,6 +89,22 @@ def _body(shaft: Shaft, path: str) -> Iterator[Problem]:
         yield Problem(f"{path}.wall", _("is more than half the outer diameter"))
     if shaft.centre_of_mass is not None and shaft.mass is None and not shaft.has_body:
         yield Problem(f"{path}.centre_of_mass", _("the shaft has no mass: give its mass or its body"))
+
+
+def _crack(shaft: Shaft, path: str) -> Iterator[Problem]:
+    """Yield what contradicts itself in a crack."""
+    crack = shaft.crack
+    if crack is None:
+        return
+    if bool(crack.losses) == (crack.depth_ratio is not None):
+        yield Problem(f"{path}.crack", _("give either its losses or its depth_ratio"), "inconsistent")
+    if crack.losses and len(crack.losses) != 2:
+        yield Problem(f"{path}.crack.losses", _("needs two shares, along the crack and across it"), "inconsistent")
+    if any(not 0.0 <= one < 1.0 for one in crack.losses):
+        yield Problem(f"{path}.crack.losses", _("needs to be at least 0 and below 1"), "out_of_range")
+    if crack.depth_ratio is not None and (shaft.inner or shaft.wall or any(one.inner for one in shaft.segments)):
+        text = _("is of a solid shaft; a tube needs its losses")
+        yield Problem(f"{path}.crack.depth_ratio", text, "inconsistent")
 
 
 def _spline(shaft: Shaft, length: float | None, path: str) -> Iterator[Problem]:

@@ -10,15 +10,18 @@ import re
 from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, is_dataclass, replace
-from typing import Any, get_args, get_origin
+from typing import Any, TypeVar, get_args, get_origin
 
-from cardan.drive.drive import Drive
+from cardan.drive.described import Described
 from cardan.errors import InputError, Problem, check
 from cardan.texts import _
 from cardan.units import DIMENSIONS, nearest
 
 from .keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled, spellings_of
 from .ranges import in_range, out_of_range
+
+D = TypeVar("D", bound=Described)
+"""A drive, checked or not."""
 
 _STEP = re.compile(r"([A-Za-z_][A-Za-z0-9_]*)((?:\[\d+\])*)$")
 
@@ -48,7 +51,7 @@ class Place:
     spelling: str
 
 
-def place(drive: Drive, path: str) -> Place:
+def place(drive: Described, path: str) -> Place:
     """Return where a path leads in a drive.
 
     Raises
@@ -83,11 +86,12 @@ def place(drive: Drive, path: str) -> Place:
     raise _lost(path, _("it leads to a whole table, not to a value"))
 
 
-def read(drive: Drive, path: str) -> Any:
+def read(drive: Described, path: str) -> Any:
     """Return the value a path leads to, in the path's unit.
 
     Examples
     --------
+    >>> from cardan.drive.drive import Drive
     >>> drive = Drive.from_points([(0, 0, 0), (0.3, 0, 0), (1, 0.1, 0)])
     >>> read(drive, "joints[0].centre_mm[0]")
     300.0
@@ -113,7 +117,7 @@ def _held(owner: Any, field: Field) -> Any:
     return value
 
 
-def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
+def with_values(drive: D, values: Mapping[str, Any]) -> D:
     """Return the drive with other values, each given by its path in the path's unit.
 
     Parameters
@@ -135,6 +139,7 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
 
     Examples
     --------
+    >>> from cardan.drive.drive import Drive
     >>> drive = Drive.from_angles([0.1, 0.2])
     >>> with_values(drive, {"shafts[1].yoke_angle_deg": 90}).shafts[1].yoke_angle
     1.5707963267948966
@@ -147,10 +152,10 @@ def with_values(drive: Drive, values: Mapping[str, Any]) -> Drive:
         raise error.renamed(lambda field: _as_given(field, given)) from None
 
 
-def _with_tops(drive: Drive, values: Mapping[str, Any]) -> dict[str, Any]:
+def _with_tops(drive: Described, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a drive with other values put in."""
     problems: list[Problem] = []
-    tops = {name: getattr(drive, name) for name in fields_of(Drive)}
+    tops = {name: getattr(drive, name) for name in fields_of(Described)}
     for path, value in values.items():
         try:
             there = place(drive, path)
@@ -163,7 +168,7 @@ def _with_tops(drive: Drive, values: Mapping[str, Any]) -> dict[str, Any]:
     return tops
 
 
-def bare_path(drive: Drive, path: str) -> str:
+def bare_path(drive: Described, path: str) -> str:
     """Return a path as Python writes it, without its unit."""
     words = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in place(drive, path).steps)
     return "".join(words).removeprefix(".")
@@ -179,7 +184,7 @@ def _as_given(field: str, given: Mapping[str, str]) -> str:
     return spelled(field)
 
 
-def pose_drives(drive: Drive) -> tuple[Drive, ...]:
+def pose_drives(drive: D) -> tuple[D, ...]:
     """Return the drive in each of its poses, without poses of its own.
 
     Raises
@@ -191,21 +196,19 @@ def pose_drives(drive: Drive) -> tuple[Drive, ...]:
     return tuple(with_values(bare, dict(pose.set)) for pose in drive.poses)
 
 
-def pose_problems(drive: Drive, *, whole: bool) -> Iterator[Problem]:
+def pose_problems(drive: Described, *, whole: bool) -> Iterator[Problem]:
     """Yield what is wrong with the poses of a drive.
 
     Parameters
     ----------
-    drive : Drive
+    drive : Described
         The drive; it need not be checked yet.
     whole : bool
         Whether it is free of other problems, so that its poses can be judged as drives too.
     """
-    from .validity import all_shafts
-
     bare = copy(drive)
     object.__setattr__(bare, "poses", ())
-    object.__setattr__(bare, "shafts", all_shafts(drive))
+    object.__setattr__(bare, "shafts", drive.all_shafts())
     for k, pose in enumerate(drive.poses):
         try:
             if whole:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from cardan.drive.body import FITS
 from cardan.drive.cross import Cross
+from cardan.drive.described import Described
 from cardan.drive.duty import Vehicle
 from cardan.drive.joint_parts import Needles
 from cardan.drive.material import Material
@@ -15,9 +15,6 @@ from cardan.drive.shaft import Shaft, Spline
 from cardan.errors import Problem
 from cardan.texts import _
 from cardan.units import mm
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
 
 ROUNDING = 1e-9
 """Sizes that differ by this share are the same."""
@@ -27,7 +24,7 @@ ROOM = 0.02
 """More needles than fit by this share are a matter of rounded diameters."""
 
 
-def size_problems(drive: Drive) -> Iterator[Problem]:
+def size_problems(drive: Described) -> Iterator[Problem]:
     """Yield sizes that do not go together, and keys that nothing can use beside the others."""
     for i, joint in enumerate(drive.joints):
         if joint.cross is not None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from cardan.drive.described import Described
+from cardan.drive.movement import Movement
 from cardan.drive.shaft import Shaft
 from cardan.errors import Problem
 from cardan.texts import _
@@ -14,12 +16,9 @@ from cardan.texts import _
 from .duty_validity import duty_problems
 from .line_validity import line_problems
 from .parts import part_problems
+from .paths import pose_problems
 from .ranges import HUGE, range_problems
 from .size_validity import size_problems
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
-    from cardan.drive.movement import Movement
 
 MAX_JOINTS = 1000
 """More joints than this are refused: no drive has them, and a report could not show them."""
@@ -88,13 +87,7 @@ def _folds(axes: Sequence[Sequence[float] | None]) -> Iterator[tuple[int, str]]:
             yield i, message.format(one=i, two=i + 1, joint_angle=joint_angle)
 
 
-def all_shafts(drive: Drive) -> tuple[Shaft, ...]:
-    """Return shafts 1 to n+1, the ones not given with their defaults."""
-    given = {shaft.number: shaft for shaft in drive.shafts}
-    return tuple(given.get(k) or Shaft(number=k) for k in range(1, len(drive.joints) + 2))
-
-
-def problems(drive: Drive) -> Iterator[Problem]:
+def problems(drive: Described) -> Iterator[Problem]:
     """Yield everything that is wrong with a drive."""
     n = len(drive.joints)
     if not n:
@@ -119,12 +112,12 @@ def problems(drive: Drive) -> Iterator[Problem]:
     yield from _pose_problems(drive, whole=not found)
 
 
-def axis_points(drive: Drive) -> list[tuple[float, float, float]]:
+def axis_points(drive: Described) -> list[tuple[float, float, float]]:
     """Return input point, joint centres and output point of a drive given by points."""
     return [drive.input.point, *(joint.centre for joint in drive.joints), drive.output.point]  # type: ignore[list-item]
 
 
-def _place_problems(drive: Drive) -> Iterator[Problem]:
+def _place_problems(drive: Described) -> Iterator[Problem]:
     """Yield joints that coincide and joints that fold back, as far as the geometry is known."""
     n = len(drive.joints)
     if drive.form == "points":
@@ -152,18 +145,16 @@ def _sloped_axis(shaft: Shaft | None) -> tuple[float, float, float] | None:
     return (1.0 / size, y / size, z / size)
 
 
-def _unused(drive: Drive) -> Iterator[Problem]:
+def _unused(drive: Described) -> Iterator[Problem]:
     """Yield what no question can use in this drive."""
     if drive.limits.spline_overlap is not None and not any(shaft.spline for shaft in drive.shafts):
         yield Problem("limits.spline_overlap", _("no shaft of this drive has a spline that it could limit"))
 
 
-def _pose_problems(drive: Drive, *, whole: bool) -> Iterator[Problem]:
+def _pose_problems(drive: Described, *, whole: bool) -> Iterator[Problem]:
     """Yield what is wrong with the poses: their paths and values; if the drive is whole, what they make of it."""
     if not drive.poses:
         return
-    from .paths import pose_problems
-
     names: set[str] = set()
     for k, pose in enumerate(drive.poses):
         if pose.name in names:
@@ -213,7 +204,7 @@ def shaft_problems(shafts: Sequence[Shaft], n: int) -> Iterator[Problem]:
                 )
 
 
-def _form_problems(drive: Drive) -> Iterator[Problem]:
+def _form_problems(drive: Described) -> Iterator[Problem]:
     """Yield what is missing from the form in use, and what belongs to another."""
     form = drive.form
     given: list[tuple[str, str, bool]] = [

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from cardan.drive.drive import Drive, Form
+from cardan.drive.described import Form
+from cardan.drive.drive import Drive
 from cardan.drive.fields.paths import place
 from cardan.drive.joints.joint import Point
 from cardan.drive.movement import Movement

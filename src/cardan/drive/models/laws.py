@@ -9,19 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.joint import PLACES
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array, namespace, unit_complex
 from cardan.maths.kernel import mobius
 from cardan.texts import _
-
-if TYPE_CHECKING:
-    from cardan.drive.drive import Drive
 
 NEGLIGIBLE = 1e-6
 """What a joint may leave beside its nearest map [rad] to be taken by it: a fifth of a second of arc."""

@@ -8,12 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from cardan.errors import InputError, MissingExtraError, refuse
+from cardan.errors import InputError, refuse
+from cardan.later import later
 from cardan.questions.diagnosis.signals.signal import Signal
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .columns import title_of
 from .raw import Asked, Column, Raw, content
+
+nptdms = later("nptdms", mark("TDMS files need the extra `signals`: pip install 'cardan[signals]'"))
+log = later("nptdms.log")
 
 suffix = ".tdms"
 
@@ -31,16 +35,10 @@ def read(path: Path, asked: Asked) -> Raw:
     MissingExtraError
         What reads such files is not installed.
     """
-    try:
-        from nptdms import TdmsFile
-        from nptdms.log import log_manager
-    except ImportError:
-        text = _("TDMS files need the extra `signals`: pip install 'cardan[signals]'")
-        raise MissingExtraError(text) from None
     name = path.name
-    log_manager.set_level(logging.ERROR)  # what it warns of is asked for below
+    log().log_manager.set_level(logging.ERROR)  # what it warns of is asked for below
     try:
-        file = TdmsFile.read(io.BytesIO(content(path, name, MAX_BYTES)))
+        file = nptdms().TdmsFile.read(io.BytesIO(content(path, name, MAX_BYTES)))
         cut = bool(file.file_status.incomplete_final_segment)
         groups = file.groups()
         rows = [(group, channel, channel[:]) for group in groups for channel in group.channels()]
@@ -81,16 +79,11 @@ def content_of(signal: Signal) -> bytes:
     MissingExtraError
         What writes such files is not installed.
     """
-    try:
-        from nptdms import ChannelObject, TdmsWriter
-    except ImportError:
-        text = _("TDMS files need the extra `signals`: pip install 'cardan[signals]'")
-        raise MissingExtraError(text) from None
     stream = io.BytesIO()
-    with TdmsWriter(stream) as writer:
+    with nptdms().TdmsWriter(stream) as writer:
         writer.write_segment(
             [
-                ChannelObject(
+                nptdms().ChannelObject(
                     "recording",
                     title_of(one.name, one.quantity, one.place, one.direction),
                     one.values,

@@ -10,13 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from cardan.errors import MissingExtraError, Problem, check, refuse
+from cardan.errors import Problem, check, refuse
+from cardan.later import later
 from cardan.questions.diagnosis.signals.quality import evened
 from cardan.questions.diagnosis.signals.signal import Signal
-from cardan.texts import _
+from cardan.texts import _, mark
 
 from .columns import title_of
 from .raw import Asked, Column, Raw, content
+
+pyuff = later("pyuff", mark("universal files need the extra `signals`: pip install 'cardan[signals]'"))
 
 suffix = ".uff"
 
@@ -46,17 +49,12 @@ def read(path: Path, asked: Asked) -> Raw:
     MissingExtraError
         What reads such files is not installed.
     """
-    try:
-        import pyuff
-    except ImportError:
-        text = _("universal files need the extra `signals`: pip install 'cardan[signals]'")
-        raise MissingExtraError(text) from None
     name = path.name
     marks = len(re.findall(rb"^ *-1 *\r?$", content(path, name, MAX_BYTES), re.MULTILINE))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            file = pyuff.UFF(str(path))
+            file = pyuff().UFF(str(path))
             kinds = [int(one) for one in file.get_set_types()]
             wanted = [k for k, kind in enumerate(kinds) if kind == 58]
             found = file.read_sets(wanted) if wanted else []
@@ -112,19 +110,14 @@ def content_of(signal: Signal) -> bytes:
     MissingExtraError
         What writes such files is not installed.
     """
-    try:
-        import pyuff
-    except ImportError:
-        text = _("universal files need the extra `signals`: pip install 'cardan[signals]'")
-        raise MissingExtraError(text) from None
     titles = [title_of(one.name, one.quantity, one.place, one.direction) for one in signal.channels]
     text = _("is longer than the {most} letters of a line of a universal file")
     check(Problem(one, text.format(most=MOST_LETTERS), "out_of_range") for one in titles if len(one) > MOST_LETTERS)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "recording.uff"
-        pyuff.UFF(str(path)).write_sets(
+        pyuff().UFF(str(path)).write_sets(
             [
-                pyuff.prepare_58(
+                pyuff().prepare_58(
                     func_type=1,
                     rsp_node=k + 1,
                     rsp_dir=0,

@@ -7,6 +7,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import scipy
 
 from cardan.errors import check, refuse
 from cardan.questions.diagnosis.signals.signal import Signal
@@ -29,15 +30,13 @@ def read(path: Path, asked: Asked) -> Raw:
     InputError
         It is no such file, or holds nothing.
     """
-    from scipy.io import wavfile
-
     name = path.name
     found = content(path, name, MAX_BYTES)
     cautions = []
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         try:
-            whole_rate, values = wavfile.read(io.BytesIO(found))
+            whole_rate, values = scipy.io.wavfile.read(io.BytesIO(found))
         except Exception as error:  # a header of nonsense makes all sorts
             raise refuse(name, _("is not a WAV file that can be read: {why}").format(why=error)) from None
     if any("premature" in str(one.message) for one in told):
@@ -88,13 +87,13 @@ def content_of(signal: Signal) -> bytes:
     InputError
         Its channels differ in rate, start or length, or the rate is no whole number.
     """
-    from scipy.io import wavfile
-
     check(unlike(signal))
     rate = signal.channels[0].rate
     if abs(rate - round(rate)) > 1e-6 * rate:
         text = _("{value:.6g} values a second; a WAV file holds whole numbers only")
         raise refuse("channels[0].rate", text.format(value=rate), "out_of_range")
     stream = io.BytesIO()
-    wavfile.write(stream, round(rate), np.stack([one.values for one in signal.channels], axis=1).astype(np.float32))
+    scipy.io.wavfile.write(
+        stream, round(rate), np.stack([one.values for one in signal.channels], axis=1).astype(np.float32)
+    )
     return stream.getvalue()

@@ -9,7 +9,10 @@ from typing import TypeAlias
 import numpy as np
 
 from cardan.errors import MissingExtraError, refuse
+from cardan.later import later
 from cardan.texts import _
+
+lanes = later("cardan.maths.compiled.lanes")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -41,7 +44,7 @@ Method: TypeAlias = Plain | Compiled
 def has_numba() -> bool:
     """Tell whether the kernels can be built here; imports numba."""
     try:
-        from . import lanes  # noqa: F401
+        lanes()
     except ImportError:
         return False
     return True

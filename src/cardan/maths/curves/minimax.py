@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -74,8 +75,6 @@ def least_peak(curves: Curves, start: Array) -> LeastPeak:
     >>> found.place, round(found.peak, 6)
     (array([0.4]), 0.09)
     """
-    from scipy.optimize import minimize
-
     asked = idle = 0
     last: dict[bytes, tuple[Array, Array]] = {}
     best, least = np.clip(start, 0.0, 1.0), np.inf
@@ -108,7 +107,7 @@ def least_peak(curves: Curves, start: Array) -> LeastPeak:
         return np.column_stack([-joint_angle / size, np.ones(len(joint_angle))])
 
     count = len(start)
-    solve: Any = minimize
+    solve: Any = scipy.optimize.minimize
     try:
         ended = solve(
             lambda z: float(z[-1]),

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.kernel import frames
@@ -138,9 +139,7 @@ def interpolated(at: ArrayLike, values: ArrayLike, times: Array) -> Jet:
     >>> value, rate, acceleration
     (array([2.25]), array([3.]), array([2.]))
     """
-    from scipy.interpolate import CubicSpline
-
-    spline: Any = CubicSpline(np.asarray(at, dtype=float), np.asarray(values, dtype=float), axis=0)
+    spline: Any = scipy.interpolate.CubicSpline(np.asarray(at, dtype=float), np.asarray(values, dtype=float), axis=0)
     return spline(times), spline(times, 1), spline(times, 2)
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -36,9 +37,7 @@ HALVING = 129
 
 @cache
 def _half_band() -> Array:
-    from scipy.signal import firwin
-
-    return firwin(HALVING, 0.5, window=("kaiser", BETA))
+    return scipy.signal.firwin(HALVING, 0.5, window=("kaiser", BETA))
 
 
 @cache
@@ -71,11 +70,9 @@ def halved(values: Array) -> Array:
     >>> bool(np.max(np.abs(halved(slow) - slow[::2])[60:-60]) < 4e-5)
     True
     """
-    from scipy.signal import oaconvolve
-
     middle = HALVING // 2
     padded = _continued(values, min(middle, values.size - 1))
-    whole = oaconvolve(padded, _half_band(), mode="same")
+    whole = scipy.signal.oaconvolve(padded, _half_band(), mode="same")
     first = (padded.size - values.size) // 2
     return whole[first : first + values.size : 2]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -40,8 +41,6 @@ def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
     >>> lowest(np.eye(2), np.diag([0.25, -1.0]), 2)[0]
     array([ 4., nan])
     """
-    from scipy.linalg import eigh
-
     size = stiffness.shape[-1]
     wanted = min(count, size)
     outer = np.broadcast_shapes(stiffness.shape[:-2], inertia.shape[:-2])
@@ -50,7 +49,9 @@ def lowest(stiffness: Array, inertia: Array, count: int) -> tuple[Array, Array]:
         return roots, vectors
     one, other = (np.broadcast_to(part, (*outer, size, size)) for part in (stiffness, inertia))
     for at in np.ndindex(outer):
-        inverse, shape = eigh(other[at], one[at], subset_by_index=[size - wanted, size - 1], check_finite=False)
+        inverse, shape = scipy.linalg.eigh(
+            other[at], one[at], subset_by_index=[size - wanted, size - 1], check_finite=False
+        )
         inverse, shape = inverse[::-1], shape[:, ::-1]
         there = inverse > NONE * abs(inverse[0])
         roots[(*at, slice(0, wanted))] = np.where(there, 1.0 / np.where(there, inverse, 1.0), np.nan)

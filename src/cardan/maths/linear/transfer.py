@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array, ArrayLike
 
@@ -128,8 +129,6 @@ def _bracket(whole: Line, spin: float | None, number: int, low: float) -> tuple[
 
 def _root(whole: Line, spin: float | None, number: int, bracket: tuple[float, float]) -> float:
     """Return the speed at which the count of `modes_below` comes to a number."""
-    from scipy.optimize import brentq
-
     low, high = bracket
     pieces = _pieces(whole, high, spin)
     while high - low > PRECISE * high:
@@ -152,7 +151,7 @@ def _root(whole: Line, spin: float | None, number: int, bracket: tuple[float, fl
     def signed(speed: float) -> float:
         return float(_spectrum(pieces, speed, spin)[0][number - inside - 1])
 
-    return float(brentq(signed, low, high, xtol=PRECISE * high, rtol=PRECISE))
+    return float(scipy.optimize.brentq(signed, low, high, xtol=PRECISE * high, rtol=PRECISE))
 
 
 def _spectrum(pieces: _Pieces, speed: float, spin: float | None) -> tuple[Array, int]:

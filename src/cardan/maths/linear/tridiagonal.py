@@ -14,9 +14,13 @@ from typing import Any
 
 import numpy as np
 
+from cardan.later import later
 from cardan.maths.arrays import NUMBERS, Array, ArrayLike, complex_of, namespace, real
 from cardan.maths.compiled.method import Compiled, Method, chosen
 from cardan.maths.compiled.threads import share
+
+groups_of = later("cardan.maths.compiled.lanes")
+compiled = later("cardan.maths.compiled.tridiagonal")
 
 LARGE = 1_000_000
 """Places times frequencies from which the kernel is worth loading numba."""
@@ -199,25 +203,23 @@ def _swept(
 def _compiled(
     outer: tuple[int, ...], places: tuple[Array, ...], couplings: tuple[Array, ...], omega: Array, threads: int | None
 ) -> Response:
-    from cardan.maths.compiled.lanes import LANES
-    from cardan.maths.compiled.tridiagonal import NUMBERS, kernel
-
+    lanes, kernel, numbers_each = groups_of().LANES, compiled().kernel, compiled().NUMBERS
     n, f = int(places[0].shape[-1]), omega.size
-    rows, groups = math.prod(outer), -(-f // LANES)
-    table = np.zeros((*outer, n, NUMBERS))
+    rows, groups = math.prod(outer), -(-f // lanes)
+    table = np.zeros((*outer, n, numbers_each))
     for column, values in enumerate(places):
         table[..., column] = values
     for column, values in enumerate(couplings, start=len(places)):
         table[..., :-1, column] = values
-    padded = np.ones(groups * LANES)
+    padded = np.ones(groups * lanes)
     padded[:f] = omega
-    moved, flow = (np.empty((*outer, n, groups * LANES), dtype=complex) for _result in range(2))
+    moved, flow = (np.empty((*outer, n, groups * lanes), dtype=complex) for _result in range(2))
     numbers = table.reshape(-1), n, padded, moved.view(float).reshape(-1), flow.view(float).reshape(-1)
 
     def work(first: int, last: int) -> None:
         kernel(*numbers, first, last)
 
-    share(work, rows * groups, threads=threads, least=max(1, _THREAD // (n * LANES)))
+    share(work, rows * groups, threads=threads, least=max(1, _THREAD // (n * lanes)))
     return Response(displacement=moved[..., :f], flow=flow[..., : n - 1, :f])
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array, ArrayLike
 
@@ -52,8 +53,6 @@ def chirp(time: ArrayLike, omega: ArrayLike, zeta: ArrayLike, rate: ArrayLike) -
     >>> x.real
     array([ 1.94433623, -3.35990165,  2.59807693])
     """
-    from scipy.special import wofz
-
     t, w, z, a = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (time, omega, zeta, rate)))
     z = np.where(np.abs(z - 1.0) < CONFLUENT, 1.0 - CONFLUENT, z)
     p = np.sqrt(0.5 * a) * np.exp(-0.25j * np.pi)
@@ -66,8 +65,8 @@ def chirp(time: ArrayLike, omega: ArrayLike, zeta: ArrayLike, rate: ArrayLike) -
         first, last = (np.where(one.real < 0.0, -1.0, 1.0) for one in (begin, end))
         passed = first != last
         free = np.where(passed, np.exp(np.where(passed, s * t + begin * begin, 0.0)), 0.0)
-        total = (last - first) * free - last * swing * wofz(1j * last * end)
-        total = total + first * np.exp(s * t) * wofz(1j * first * begin)
+        total = (last - first) * free - last * swing * scipy.special.wofz(1j * last * end)
+        total = total + first * np.exp(s * t) * scipy.special.wofz(1j * first * begin)
         found.append(total * np.sqrt(np.pi) / (2.0 * p))
         rates.append(s * found[-1])
     share = w * w / (2.0 * root)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from cardan.later import later
 from cardan.maths.arrays import NUMBERS, Array, ArrayLike, namespace, real
 from cardan.maths.compiled.buffers import buffers
 from cardan.maths.compiled.method import Compiled, Method, chosen
@@ -16,6 +17,8 @@ from cardan.maths.compiled.splitting import plan
 from cardan.maths.compiled.threads import share
 
 from .mathieu import check_range, exponents
+
+compiled = later("cardan.maths.compiled.mathieu_map")
 
 LARGE = 100_000
 """Points from which on the kernel is the default."""
@@ -131,12 +134,10 @@ def stability_map(
 
 
 def _compiled(a: Array, q: Array, out: Array, reach: float, threads: int | None) -> None:
-    from cardan.maths.compiled.mathieu_map import kernel
-
     table, ladder, places = plans()
 
     def work(first: int, last: int) -> None:
-        kernel(a, q, table, ladder, places, reach, first, last, out)
+        compiled().kernel(a, q, table, ladder, places, reach, first, last, out)
 
     share(work, a.shape[0], threads=threads, least=max(1, 4096 // a.shape[1]))
 

@@ -11,6 +11,7 @@ import math
 from typing import TypeAlias
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -140,8 +141,6 @@ def orbit(ratio: float, damping: float, humps: Array, losses: Losses, still: com
 def _solved(
     reach: int, ratio: float, damping: float, humps: Array, losses: Losses, forces: tuple[complex, complex]
 ) -> Array:
-    from scipy.linalg import LinAlgError, solve_banded
-
     (mean, half), order = _halves(losses), np.arange(1 - reach, 2 + reach)
     count, band = order.size, 2 * len(humps) - 1
     rows = np.zeros((2 * band + 1, 2 * count), dtype=complex)
@@ -158,8 +157,8 @@ def _solved(
     right[2 * middle], right[2 * middle + 2] = forces
     right[2 * (middle + 2) + 1], right[2 * (middle + 1) + 1] = np.conj(forces)
     try:
-        return np.asarray(solve_banded((band, band), rows, right, check_finite=False))[::2]
-    except LinAlgError:
+        return np.asarray(scipy.linalg.solve_banded((band, band), rows, right, check_finite=False))[::2]
+    except scipy.linalg.LinAlgError:
         return np.full(count, complex(np.nan, np.nan))
 
 

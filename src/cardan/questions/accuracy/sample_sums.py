@@ -9,11 +9,14 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import chain
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.method import Compiled, Method, chosen
 from cardan.maths.compiled.threads import share
 
 from .accuracy import TransmissionError, ahead, course, links, located_shafts, one_turn, sensitivity, walk
+
+compiled = later("cardan.maths.compiled.samples")
 
 BATCHES = 8
 """Independent draws whose scatter tells how far a result is to be trusted."""
@@ -167,8 +170,6 @@ class Exact:
 
     def _compiled(self, errors: Array, sums: tuple[Sums, Sums], room: int, method: Compiled) -> bool:
         """Add a batch by the kernel; false, and nothing added, where a joint cannot be assembled."""
-        from cardan.maths.compiled.samples import kernel
-
         count, positions, joints = len(errors), len(self.start[0]), len(self.joint_angle)
         phi = one_turn(positions)
         shared = (*self.start, *self.ideal, sums[0].centre, np.cos(phi), np.sin(phi), np.cos(2 * phi), np.sin(2 * phi))
@@ -189,7 +190,7 @@ class Exact:
 
         def work(first: int, last: int) -> None:
             piece = np.zeros(2 * positions * LANES)
-            kernel(*numbers, count, room, first, last, piece, sizes.reshape(-1), kept.reshape(-1))
+            compiled().kernel(*numbers, count, room, first, last, piece, sizes.reshape(-1), kept.reshape(-1))
             pieces.append(piece)
 
         share(work, count // LANES, threads=method.threads, least=max(1, _THREAD // (positions * LANES)))

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.drive.accuracy import Tolerance
 from cardan.drive.drive import Drive
@@ -157,9 +158,7 @@ def drawn(limits: Array, distributions: Sequence[str], count: int, *, seed: int,
     for child in np.random.SeedSequence(seed).spawn(BATCHES):
         rng = np.random.default_rng(child)
         if points == "sobol":
-            from scipy.stats import qmc
-
-            shares = qmc.Sobol(len(limits), rng=rng).random_base2(math.ceil(math.log2(each)))
+            shares = scipy.stats.qmc.Sobol(len(limits), rng=rng).random_base2(math.ceil(math.log2(each)))
         else:
             shares = rng.random((each, len(limits)))
         yield _errors(shares, limits, distributions)
@@ -184,10 +183,8 @@ def _from_share(share: Array, kind: str) -> Array:
         return 2.0 * share - 1.0
     if kind == "triangular":
         return np.where(share < 0.5, np.sqrt(2.0 * share) - 1.0, 1.0 - np.sqrt(2.0 * (1.0 - share)))
-    from scipy.special import ndtri
-
     least = 2.0**-54  # scrambled points can touch zero
-    found: Array = SIGMA["normal"] * ndtri(np.clip(share, least, 1.0 - least))
+    found: Array = SIGMA["normal"] * scipy.special.ndtri(np.clip(share, least, 1.0 - least))
     return found
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 
 from cardan.errors import refuse
 from cardan.formulas.run_up import Progress
@@ -62,13 +63,11 @@ def followed(
     >>> swing[-1].round(9)
     array([-1., -0.])
     """
-    from scipy.integrate import DOP853
-
     if (time[-1] - time[0]) / longest > MOST:
         raise refuse("end", _("more than {most:.0e} steps would be needed").format(most=MOST), "out_of_range")
     if time.size < 2 or time[-1] == time[0]:
         return np.tile(state, (time.size, 1)), False
-    solver = DOP853(rate, time[0], state, time[-1], rtol=RELATIVE, atol=small, max_step=longest)
+    solver = scipy.integrate.DOP853(rate, time[0], state, time[-1], rtol=RELATIVE, atol=small, max_step=longest)
     found = np.empty((time.size, state.size))
     found[0], done, told = state, 1, 0.0
     while done < time.size:

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.texts import _
 from cardan.units import rpm
 
 from .levels import Track, stands_out
 from .plant import Plant
 from .signals.signal import Signal
-from .signals.turning import Rotation
 
 TOO_FAST = 1.15
 """Times the top speed of the drive that a recording may reach."""

@@ -11,6 +11,7 @@ from cardan.answers.quantity import Text
 from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, refuse
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.texts import _
 
 from .expected import FAULTS, Expected, expected_orders
@@ -22,7 +23,6 @@ from .signals.orders import OrderMap, OrderSpectrum, order_map, order_spectrum
 from .signals.signal import Channel, Signal
 from .signals.spectra import integrate
 from .signals.torsional import KEPT, LEAST_TEETH, TorsionalVibration, torsional_vibration
-from .signals.turning import Rotation
 from .signals.watching import Progress, Watch
 
 SHAKING = ("acceleration", "velocity", "displacement")

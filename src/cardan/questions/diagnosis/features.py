@@ -13,6 +13,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.rotation import LEAST_TURNS, Rotation
 from cardan.texts import _
 
 from .doubts import doubts, silent
@@ -33,7 +34,7 @@ from .levels import (
 from .plant import Plant, plant
 from .signals.order_tracks import TrackedOrders, tracked_orders
 from .signals.signal import Signal
-from .signals.turning import LEAST_TURNS, Rotation, estimate_rotation
+from .signals.turning import estimate_rotation
 from .signals.watching import Progress, Watch
 
 NAMES = (

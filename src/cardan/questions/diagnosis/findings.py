@@ -11,6 +11,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue
 from cardan.catalogue.rows import Fault
 from cardan.drive.drive import Drive
+from cardan.errors import refuse
 from cardan.texts import _
 
 from .features import Features, features
@@ -130,8 +131,6 @@ def diagnose(
     if isinstance(shown, Signs):
         return _by_signs(shown, 1.0, known)
     if drive is None:
-        from cardan.errors import refuse
-
         raise refuse("drive", _("a recording can only be judged beside the drive that it is of"), "missing")
     return weighed(features(shown, drive, speed_range=speed_range, progress=progress), known=known)
 

@@ -6,14 +6,15 @@ import math
 from typing import Literal
 
 import numpy as np
+import scipy
 
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.rotation import Rotation
 
 from .levels import TURNS
 from .signals.order_tracks import TrackedOrders, tracked_orders
 from .signals.signal import Channel, Signal
-from .signals.turning import Rotation
 from .signals.watching import Watch
 
 
@@ -38,8 +39,6 @@ def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, 
     (float, float)
         Shares of the mean; nan where no channel tells.
     """
-    from scipy.signal import butter, sosfiltfilt
-
     best = {1.0: math.nan, 2.0: math.nan}
     for channel in signal.measured:
         watch.next()
@@ -51,7 +50,10 @@ def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, 
         cut = max(6.0 * float(np.max(first.speed)) / (2.0 * math.pi), 0.1 * channel.rate)
         if cut > 0.4 * channel.rate or channel.values.size < 100:
             continue
-        rough = sosfiltfilt(butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values) ** 2
+        rough = (
+            scipy.signal.sosfiltfilt(scipy.signal.butter(4, cut, "high", fs=channel.rate, output="sos"), channel.values)
+            ** 2
+        )
         try:
             found = tracked_orders(
                 Channel(name=channel.name, quantity="other", values=rough, rate=channel.rate, start=channel.start),
@@ -73,6 +75,4 @@ def knocks(signal: Signal, shaft: Rotation, first: TrackedOrders, which: Array, 
 
 def running(values: Array, width: float, *, ends: Literal["constant", "reflect"] = "constant") -> Array:
     """Return the running mean over a width, as if there were nothing beyond the ends, or with its ``reflect``ion."""
-    from scipy.ndimage import uniform_filter1d
-
-    return np.asarray(uniform_filter1d(values, max(1, int(width)), mode=ends))
+    return np.asarray(scipy.ndimage.uniform_filter1d(values, max(1, int(width)), mode=ends))

@@ -9,13 +9,13 @@ import numpy as np
 
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.texts import _
 
 from .expected import Expected
 from .plant import Plant
 from .signals.order_tracks import TrackedOrders, tracked_orders
 from .signals.signal import Channel, Signal
-from .signals.turning import Rotation
 from .signals.watching import Watch
 
 ORDERS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)

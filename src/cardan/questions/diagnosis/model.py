@@ -8,6 +8,7 @@ from functools import lru_cache
 from importlib import resources
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -112,8 +113,6 @@ def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: f
     Least of −Σ log p + ½ pull Σ w² over the weights w but those of 1 (maximum a posteriori), by L-BFGS; convex, so that
     the answer does not depend on a start.
     """
-    from scipy.optimize import minimize
-
     names = tuple(sorted(set(cause), key=lambda one: (one != "healthy", one)))
     spread = np.nanstd(value, axis=0)
     bare = Model(
@@ -139,5 +138,7 @@ def fitted(value: Array, cause: list[str], features: tuple[str, ...], *, pull: f
         slope = (np.exp(level - total[:, None]) - truth).T @ terms + pull * pulled
         return cost, slope.ravel()
 
-    best = minimize(surprise, bare.weight.ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 2000})
+    best = scipy.optimize.minimize(
+        surprise, bare.weight.ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 2000}
+    )
     return replace(bare, weight=np.asarray(best.x).reshape(bare.weight.shape))

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+import scipy
 
 from cardan.drive.drive import Drive
 from cardan.errors import Problem, check
@@ -213,11 +214,9 @@ def _shaken(expected: Expected, kind: str, direction: str, course: _Course, rng:
 
 def _noised(values: Array, course: _Course, snr: float, rng: np.random.Generator) -> Array:
     """Return a channel with noise and with what is not of the drive."""
-    from scipy.signal import lfilter
-
     power = float(np.mean(values**2)) or 1e-12
     white = rng.normal(size=values.size)
-    brown = lfilter([1.0], [1.0, -0.97], rng.normal(size=values.size))
+    brown = scipy.signal.lfilter([1.0], [1.0, -0.97], rng.normal(size=values.size))
     noise = math.sqrt(0.5) * (white + brown / float(np.std(brown)))
     level = math.sqrt(power * 10.0 ** (-snr / 10.0))
     other = sum(

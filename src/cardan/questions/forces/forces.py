@@ -16,7 +16,7 @@ from cardan.drive.movement import Movement
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike, namespace, real
 from cardan.maths.curves.paths import Path
-from cardan.questions.motion.motion import positions
+from cardan.questions.motion.motion import motion, positions
 from cardan.questions.motion.moving_chain import moving_centres
 from cardan.questions.motion.moving_points import moving_path, start_time
 from cardan.texts import _
@@ -206,8 +206,6 @@ def _harmonics(harmonics: Sequence[tuple[float, float, float]], torque_at: str, 
     xp = namespace(angle)
     if not harmonics:
         return xp.zeros_like(angle)
-    from cardan.questions.motion.motion import motion
-
     at = angle if torque_at == "input" else motion(whole.chain, angle).output_angle
     return sum(size * xp.cos(order * at + phase) for order, size, phase in harmonics)
 

@@ -18,9 +18,9 @@ from cardan.texts import _, mark
 
 from .figure import life_figures
 from .joint_bearings import joint_bearings
-from .life import METHODS, Life
 from .life import life as ask
 from .life_cautions import LEAST
+from .lives import METHODS, Life
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 

@@ -15,7 +15,7 @@ from cardan.figures.palette import dash_of, shaft
 from cardan.maths.ties import foremost
 from cardan.texts import _
 
-from .life import Life
+from .lives import Life
 
 HOUR = 3600.0
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,170 +13,15 @@ from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.models.train import train
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
-from cardan.maths.arrays import Array, ArrayLike
-from cardan.maths.ties import foremost
+from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
 from .bearing_loads import BearingLoads, bearing_loads
-from .duty_cycle import combined_life, damage_shares, equivalent_torque
 from .joint_bearings import JointBearings, Missing, joint_bearings
-from .life_cautions import Caution, cautions
+from .life_cautions import cautions
+from .lives import METHODS, Life
 from .rainflow import Cycles, Levels, rainflow, time_at_level
-
-METHODS = ("iso", "simple", "maker", "book")
-"""Ways to a life: ISO 281 exactly and by the mean load, the maker's formula, the book's."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Life:
-    """Life of the joints of a drive in its duty cycle.
-
-    Attributes
-    ----------
-    parts : tuple of Block (b,)
-        Parts of the duty cycle; one for a steady duty, one a level for a measured torque.
-    share : array (b,)
-        Their shares of the time.
-    joint_angle : array (b, n) [rad]
-        Bend of each joint in each part.
-    torque : array (b, n) [N·m]
-        Mean torque that enters each joint, without the factor for shocks.
-    journal_force : array (b, n) [N]
-        Largest load of a journal in a turn, with the factor for shocks; nan without a span.
-    bearings : JointBearings
-        Capacities and ratings of the joints.
-    driving, driven : arrays (b, n) [s]
-        Life by ISO 281 of the bearings in the driving and in the driven yoke, exactly over the turn.
-    simple, maker, book : arrays (b, n) [s]
-        Life of the joints by the mean load, by the maker's formula and by the book's. All lives are those that the
-        share ``reliability`` reaches; infinite where nothing is damaged, nan where a key misses.
-    shock_factor, reliability, reliability_factor : float
-        f_d, share of joints that last, a_1.
-    demanded : float or None [s]
-        Life that the duty asks for.
-    method : str
-        Which of `METHODS` the properties go by.
-    history : Levels or None
-        Time at each level of the measured torque.
-    cycles : Cycles or None
-        Its cycles by rainflow.
-    cautions : tuple of Caution
-        What to mind.
-    uncounted : tuple of Missing
-        Lives left out, each with the key to add.
-    assumed : tuple of str
-        Paths of what the drive does not say and the answer assumes.
-    """
-
-    parts: tuple[Block, ...]
-    share: Array
-    joint_angle: Array
-    torque: Array
-    journal_force: Array
-    bearings: JointBearings
-    driving: Array
-    driven: Array
-    simple: Array
-    maker: Array
-    book: Array
-    shock_factor: float
-    reliability: float
-    reliability_factor: float
-    demanded: float | None
-    method: str
-    history: Levels | None = None
-    cycles: Cycles | None = None
-    cautions: tuple[Caution, ...] = ()
-    uncounted: tuple[Missing, ...] = ()
-    assumed: tuple[str, ...] = ()
-
-    @property
-    def iso(self) -> Array:
-        """Life of the joints by ISO 281 in each part, the shorter of both yokes, array (b, n) [s]."""
-        return np.minimum(self.driving, self.driven)
-
-    def of(self, method: str) -> Array:
-        """Return the life of every joint in the whole duty cycle by one of `METHODS`, array (n,) [s].
-
-        Parameters
-        ----------
-        method : str
-            ``iso``: the shorter of both yokes, each with the damage of its own parts.
-        """
-        if method == "iso":
-            return np.minimum(self.combined(self.driving), self.combined(self.driven))
-        return self.combined(getattr(self, method))
-
-    def combined(self, lives: Array) -> Array:
-        """Return lives (b, n) in the parts put together over the duty cycle, array (n,) [s]."""
-        return combined_life(lives.T, self.share)
-
-    @property
-    def joints(self) -> Array:
-        """Life of every joint by the chosen method, array (n,) [s]; nan where a key misses."""
-        return self.of(self.method)
-
-    @property
-    def drive(self) -> float:
-        """Life of the joint that fails first [s]."""
-        return float(np.nanmin(self.joints))
-
-    @property
-    def governing(self) -> int:
-        """Number of the joint that fails first."""
-        return int(foremost(self.joints, least=True)) + 1
-
-    @property
-    def damage(self) -> Array:
-        """Share of each part in the damage of each joint, array (b, n); zeros where nothing is damaged."""
-        if self.method == "iso":
-            side = self.combined(self.driving) <= self.combined(self.driven)
-            lives = np.where(side, self.driving, self.driven)
-        else:
-            lives = getattr(self, self.method)
-        return np.matrix_transpose(damage_shares(np.matrix_transpose(lives), self.share))
-
-    @property
-    def equivalent_torque(self) -> Array:
-        """Constant torque that damages each joint as much at its mean speed times bend, array (n,) [N·m]."""
-        speed = np.asarray([part.speed for part in self.parts])
-        return equivalent_torque(self.torque.T, self.share, speed=speed, joint_angle=self.joint_angle.T)
-
-    @property
-    def speed_angle(self) -> Array:
-        """Mean of speed times bend of each joint, array (n,) [rad²/s]."""
-        speed = np.asarray([abs(part.speed) for part in self.parts])
-        found: Array = np.sum((self.share * speed)[:, None] * self.joint_angle, axis=0)
-        return found
-
-    @property
-    def enough(self) -> bool | None:
-        """Whether the drive lasts as long as the duty asks for; None where it asks for nothing."""
-        return None if self.demanded is None else self.drive >= self.demanded
-
-    @property
-    def needed_capacity(self) -> Array:
-        """Dynamic capacity that each joint needs for the life demanded, by ISO 281, array (n,) [N]; nan without one."""
-        if self.demanded is None:
-            return np.full(self.bearings.capacity.shape, np.nan)
-        with np.errstate(divide="ignore"):
-            return self.bearings.capacity * (self.demanded / self.of("iso")) ** (1.0 / POWER)
-
-    @property
-    def torque_margin(self) -> float:
-        """By which factor all torques may grow until the drive lasts just as long as demanded; nan without a demand."""
-        return math.nan if self.demanded is None else float((self.drive / self.demanded) ** (1.0 / POWER))
-
-    def loaded(self, factor: ArrayLike) -> Array:
-        """Return the life of every joint by the chosen method with all loads times a factor, array (f, n) [s].
-
-        Parameters
-        ----------
-        factor : array (f,)
-            Above zero.
-        """
-        return self.joints / np.asarray(factor, dtype=float)[:, None] ** POWER
 
 
 def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -> Life:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cardan.answers.quantity import Quantity, Text, say
+from cardan.answers.quantity import Quantity, say
 from cardan.formulas.joint_rating import (
     LEAST_JOINT_ANGLE,
     LIFE_RANGE,
@@ -20,33 +18,13 @@ from cardan.formulas.joint_rating import (
 from cardan.maths.arrays import Array, ArrayLike, floats
 from cardan.texts import _
 
-if TYPE_CHECKING:
-    from .life import Life
+from .lives import Caution, Life
 
 LEAST = Quantity(LEAST_JOINT_ANGLE, "angle", trim=True)
 """As what smaller joint angles count."""
 
 HEAVY = 0.5
 """ISO 281 holds for loads up to this share of the capacity."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Caution:
-    """Something to mind.
-
-    Attributes
-    ----------
-    code : str
-        ``small_oscillation``, ``angle_clamped_3deg``, ``extrapolated``, ``no_swing`` or ``heavy_load``.
-    joint : int
-        Number of the joint; 0 where it is the duty.
-    message : Text
-        In one sentence.
-    """
-
-    code: str
-    joint: int
-    message: Text
 
 
 def clamped(joint_angle: ArrayLike) -> Array:

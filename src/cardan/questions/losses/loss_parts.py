@@ -19,6 +19,7 @@ from cardan.questions.motion.articulation import articulation
 from cardan.texts import _
 
 from .loss_model import Holding, Model
+from .support_friction import response, trouble
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -133,8 +134,6 @@ def _supports(drive: Drive, machine: Train, short: list[Uncounted]) -> tuple[Arr
     if not np.any(rub):
         return rub, found
     if not short:
-        from .support_friction import trouble
-
         why = trouble(machine)
         text = _("{why}; friction in them is not counted")
         message = text.format(why=why)
@@ -172,8 +171,6 @@ def model_of(drive: Drive, duty: Duty, parts: Parts) -> Model:
     drag = np.zeros(n) if machine.drag is None else machine.drag
 
     def holding(angle: Array) -> Holding:
-        from .support_friction import response
-
         return response(machine, drag, angle)
 
     return Model(

@@ -15,6 +15,8 @@ from cardan.mechanism.constraints import Constraints, constraints
 from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair, axes
 
+from .drive_mechanism import mechanism_of
+
 Hold: TypeAlias = Literal["free", "needed", "strained"]
 
 TAKES_PART = 1e-7
@@ -186,8 +188,6 @@ def mobility(thing: Drive | Mechanism) -> Mobility:
     """
     if isinstance(thing, Mechanism):
         return _mobility(thing)
-    from .drive_mechanism import mechanism_of
-
     return _mobility(mechanism_of(thing))
 
 

@@ -19,6 +19,7 @@ from cardan.mechanism.mechanism import Mechanism
 from cardan.mechanism.pair import Pair, axes
 from cardan.texts import _
 
+from .drive_mechanism import mechanism_of
 from .mobility import TAKES_PART, JointHold, stresses
 
 Gain: TypeAlias = Literal["slide", "align", "align_slide", "turn", "drop"]
@@ -140,8 +141,6 @@ def repairs(thing: Drive | Mechanism, *, most: int = MOST) -> tuple[Repair, ...]
     ([('A', 'SG')], 0)
     """
     if not isinstance(thing, Mechanism):
-        from .drive_mechanism import mechanism_of
-
         thing = mechanism_of(thing)
     system = constraints(thing)
     stress = stresses(system)

@@ -11,6 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
 from cardan.drive.models.chain import Chain
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.compiled import plain
 from cardan.maths.compiled.buffers import buffers
@@ -21,6 +22,8 @@ from cardan.texts import _
 
 from .equivalence import SYNCHRONOUS
 from .traces import rows_of
+
+compiled = later("cardan.maths.compiled.extremes")
 
 LARGE = 100_000
 """Drives that are worth loading the kernel: half a second in a new process, two when first compiled."""
@@ -152,11 +155,11 @@ def _plain(chain: Chain, room: tuple[Array, ...]) -> None:
 
 
 def _compiled(chain: Chain, room: tuple[Array, ...], *, threads: int | None) -> None:
-    from cardan.maths.compiled.extremes import kernel
-
     places = [place.reshape(-1) for place in room]
 
     def work(first: int, last: int) -> None:
-        kernel(chain.joint_angle, chain.plane_twist, chain.yoke_angle, chain.start_phase, first, last, *places)
+        compiled().kernel(
+            chain.joint_angle, chain.plane_twist, chain.yoke_angle, chain.start_phase, first, last, *places
+        )
 
     share(work, int(chain.joint_angle.shape[0]), threads=threads, least=_PIECE)

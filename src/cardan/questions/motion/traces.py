@@ -11,6 +11,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.drives import Drives, kinematics
 from cardan.drive.models.chain import Chain
 from cardan.errors import refuse
+from cardan.later import later
 from cardan.maths.arrays import Array, ArrayLike, namespace, real, unit_complex
 from cardan.maths.compiled import plain
 from cardan.maths.compiled.buffers import buffers
@@ -19,6 +20,8 @@ from cardan.maths.compiled.threads import share
 from cardan.texts import _
 
 from .motion import positions
+
+compiled = later("cardan.maths.compiled.traces")
 
 LARGE = 10_000_000
 """Values of each output that are worth loading the kernel: half a second in a new process, two when first compiled."""
@@ -164,13 +167,11 @@ def _plain(chain: Chain, phi: Array, speed: Array, acceleration: Array, room: tu
 def _compiled(
     chain: Chain, phi: Array, speed: Array, acceleration: Array, room: tuple[Array, ...], *, threads: int | None
 ) -> None:
-    from cardan.maths.compiled.traces import kernel, position_arrays
-
-    shared = position_arrays(phi)
+    shared = compiled().position_arrays(phi)
     places = [place.reshape(-1) for place in room]
 
     def work(first: int, last: int) -> None:
-        kernel(
+        compiled().kernel(
             *(chain.joint_angle, chain.plane_twist, chain.yoke_angle, chain.start_phase, speed, acceleration),
             *(*shared, phi.size, first, last, *places),
         )

@@ -7,6 +7,7 @@ the whole family, follows the goal along the closure, and puts the end exactly o
 from __future__ import annotations
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import mobius
@@ -92,8 +93,6 @@ def _leftover(choice: Choice, yoke_angle: Array) -> float:
 
 def _followed(figure: Blocks, choice: Choice, goal: Goal, start: Array) -> Array:
     """Follow the goal along the closure (sequential quadratic programming)."""
-    from scipy.optimize import minimize
-
     free = list(figure.free)
     near = start[free]
 
@@ -121,7 +120,7 @@ def _followed(figure: Blocks, choice: Choice, goal: Goal, start: Array) -> Array
             up, down = np.split(goal.cost(choice, whole(x + both), blur=blur), 2)
             return (up - down) / (2.0 * h)
 
-        near = minimize(
+        near = scipy.optimize.minimize(
             cost,
             near,
             jac=slope,

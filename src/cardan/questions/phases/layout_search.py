@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy
 
 from cardan.drive.models.chain import Chain
 from cardan.drive.models.geometry import geometry_from_points
@@ -211,8 +212,6 @@ def _minimised(search: Search, start: Array, objective: _Objective, *, closed: b
 
     The last unknown is the bound over all versines, or over all gaps, in units of the start's.
     """
-    from scipy.optimize import minimize
-
     versine, sides, _length = search.measured(start)
     size = max(float(np.max(versine)), 1e-9)
     total = max(float(np.sum(sides)), 1e-9)
@@ -275,7 +274,7 @@ def _minimised(search: Search, start: Array, objective: _Objective, *, closed: b
     if pair or held:
         kept.append({"type": "eq", "fun": difference, "jac": difference_slope})
     first = 1.0 if closed else float(search.gap(start)) / total
-    found = minimize(
+    found = scipy.optimize.minimize(
         goal,
         np.append(start, first),
         jac=slope,

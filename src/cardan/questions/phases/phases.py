@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.fields.paths import pose_drives
 from cardan.drive.fields.validity import wrong_count
 from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.errors import InputError, Problem, check
@@ -237,8 +238,6 @@ def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:
 def _poses(drive: Drive, poses: Mapping[str, Drive] | None) -> tuple[tuple[str, ...], list[Chain], Array]:
     """Return names, kinematics and shares of the poses."""
     if poses is None and drive.poses:
-        from cardan.drive.fields.paths import pose_drives
-
         given = list(zip((pose.name for pose in drive.poses), pose_drives(drive), strict=True))
         said = [pose.share for pose in drive.poses]
     else:

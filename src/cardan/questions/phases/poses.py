@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+import scipy
 
 from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array
@@ -129,8 +130,6 @@ def _put(start: Array, free: list[int], x: Array) -> Array:
 
 def _min_max(poses: Chain, share: Array, start: Array, free: list[int], scale: float) -> Array:
     """Minimise t with |b|² ≤ t in every pose."""
-    from scipy.optimize import minimize
-
     unit = (0.25 * scale) ** 2
 
     def room(z: Array) -> Array:
@@ -150,7 +149,7 @@ def _min_max(poses: Chain, share: Array, start: Array, free: list[int], scale: f
         return pick
 
     kept: Any = {"type": "ineq", "fun": room, "jac": room_slope}
-    found = minimize(
+    found = scipy.optimize.minimize(
         top_of,
         np.append(start[free], top),
         jac=rise,
@@ -163,8 +162,6 @@ def _min_max(poses: Chain, share: Array, start: Array, free: list[int], scale: f
 
 def _least_mean(poses: Chain, share: Array, start: Array, free: list[int], scale: float) -> Array:
     """Minimise Σ share δ with rounded corners."""
-    from scipy.optimize import minimize
-
     near = start[free]
     for blur in BLURS:
 
@@ -174,5 +171,5 @@ def _least_mean(poses: Chain, share: Array, start: Array, free: list[int], scale
             each = share * 8.0 * (1.0 + 2.0 * square) / uneven
             return float(np.sum(share * uneven)) / scale, np.sum(each[:, None] * slope, axis=0) / scale
 
-        near = minimize(mean, near, jac=True, method="SLSQP", options=OPTIONS).x
+        near = scipy.optimize.minimize(mean, near, jac=True, method="SLSQP", options=OPTIONS).x
     return _put(start, free, near)

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.drive.models.chain import Chain
 from cardan.errors import refuse
@@ -160,8 +161,6 @@ def _met(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run
     For the half (a, b) up to and with the turn in the middle and the half (p, q) behind it, \\|b_whole\\| =
     \\|p\\| \\|a\\| \\|u - v\\| with the points u = b/a*, v = -q/p of the unit disk.
     """
-    from scipy.spatial import cKDTree
-
     cut = min(
         range(1, len(run.pitched) + 1),
         key=lambda c: max(math.prod(run.counts[:c]), math.prod(run.counts[c:])),
@@ -174,7 +173,7 @@ def _met(chain: Chain, yoke_angle: Array, places: Mapping[int, Array], run: _Run
     a, b = _turned(_enumerated(chain, yoke_angle, places, first), _turns(chain, yoke_angle, places, middle))
     p, q = _enumerated(chain, yoke_angle, places, _run(chain, range(middle + 1, chain.joints), places))
     u, v = b / np.conj(a), -q / p
-    tree = cKDTree(np.column_stack((u.real, u.imag)))
+    tree = scipy.spatial.cKDTree(np.column_stack((u.real, u.imag)))
     target = np.column_stack((v.real, v.imag))
     near = min(count, len(u))
     distance, other = (np.reshape(x, (len(v), near)) for x in tree.query(target, k=near))

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 
 from cardan import InputError
 from cardan.questions.diagnosis.signals.orbit import Ellipse, orbit
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.questions.diagnosis.signals.turning import Rotation
 from tests.builders.recordings import angle_of
 
 TIME = np.arange(8000) / 2000

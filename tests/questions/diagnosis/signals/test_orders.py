@@ -8,8 +8,9 @@ from cardan import InputError
 from cardan.questions.diagnosis.signals.order_tracks import tracked_orders
 from cardan.questions.diagnosis.signals.order_windows import turned
 from cardan.questions.diagnosis.signals.orders import order_map, order_spectrum
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.signal import Channel
-from cardan.questions.diagnosis.signals.turning import Rotation, estimate_rotation
+from cardan.questions.diagnosis.signals.turning import estimate_rotation
 from tests.builders.recordings import angle_of, recorded
 
 ORDERS = {1: (1.0, 0.4), 2: (0.5, -1.0), 3: (0.1, 2.0)}

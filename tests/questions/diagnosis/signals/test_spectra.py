@@ -3,9 +3,9 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 
 from cardan import InputError
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.signal import Channel
 from cardan.questions.diagnosis.signals.spectra import cepstrum, integrate
-from cardan.questions.diagnosis.signals.turning import Rotation
 
 TIME = np.arange(8000) / 2000
 INSIDE = slice(1500, 6500)

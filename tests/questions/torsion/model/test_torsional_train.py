@@ -11,12 +11,11 @@ import pytest
 from hypothesis import given, settings
 
 from cardan import Drive, InputError, motion
-from cardan.drive.body import Lump, Segment
 from cardan.drive.duty import Duty, Harmonic
 from cardan.drive.joints import Hooke
 from cardan.drive.machine import ConstantTorque, Engine, EngineHarmonic, HarmonicTorque, LinearTorque
 from cardan.drive.material import Material
-from cardan.drive.shaft import Shaft, Spline
+from cardan.drive.shaft import Lump, Segment, Shaft, Spline
 from cardan.drive.station import Absorber, Pendulum, Station, ToNext
 from cardan.questions.torsion.model.torsional_balance import places
 from cardan.questions.torsion.model.torsional_modes import straight_modes

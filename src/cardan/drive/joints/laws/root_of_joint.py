@@ -6,6 +6,7 @@ The joint maps w = e^(2iθ) to w' = (w - τ)/(1 - τw); the vector is e^(iθ') =
 from __future__ import annotations
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array, ArrayLike
 
@@ -38,8 +39,6 @@ def vector_orders(tau: ArrayLike, order: ArrayLike) -> Array:
     >>> vector_orders(0.1, [-1, 1, 2, 3])
     array([-0.05006274,  0.99749529,  0.        ,  0.04981211])
     """
-    from scipy.special import hyp2f1
-
     t = np.asarray(tau, dtype=float)
     found = np.zeros((*t.shape, len(np.atleast_1d(order))))
     for k, n in enumerate(np.atleast_1d(order)):
@@ -47,10 +46,10 @@ def vector_orders(tau: ArrayLike, order: ArrayLike) -> Array:
         if n % 2 == 0:
             continue
         if p >= 0:
-            found[..., k] = _rising(0.5, p) * t**p * hyp2f1(-0.5, p + 0.5, p + 1.0, t * t)
+            found[..., k] = _rising(0.5, p) * t**p * scipy.special.hyp2f1(-0.5, p + 0.5, p + 1.0, t * t)
         else:
             q = -p
-            found[..., k] = _rising(-0.5, q) * t**q * hyp2f1(q - 0.5, 0.5, q + 1.0, t * t)
+            found[..., k] = _rising(-0.5, q) * t**q * scipy.special.hyp2f1(q - 0.5, 0.5, q + 1.0, t * t)
     return found
 
 

@@ -5,8 +5,8 @@ from cardan.questions.diagnosis.expected import Expected
 from cardan.questions.diagnosis.signals.orbit import Orbit
 from cardan.questions.diagnosis.signals.order_tracks import TrackedOrders
 from cardan.questions.diagnosis.signals.orders import OrderMap, OrderSpectrum
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
-from cardan.questions.diagnosis.signals.turning import Rotation
 
 from .examination import examination_figures
 from .expected import expected_figures

@@ -12,8 +12,8 @@ from cardan.figures.figure import Axis, Curve, Figure, Panel, Row
 from cardan.figures.palette import shaft
 from cardan.maths.ties import foremost, foremost_of
 from cardan.questions.diagnosis.signals.orbit import Orbit
+from cardan.questions.diagnosis.signals.rotation import Rotation
 from cardan.questions.diagnosis.signals.torsional import TorsionalVibration
-from cardan.questions.diagnosis.signals.turning import Rotation
 from cardan.texts import _
 from cardan.units import deg, rpm
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
+import scipy
 
 from cardan.answers.numbers import significant
 from cardan.answers.quantity import Quantity, Text, say
@@ -341,9 +342,7 @@ def _longest_run(speed: Array) -> tuple[int, int] | None:
     """
     if speed.size < 3 or float(np.ptp(speed)) < 0.02 * float(np.mean(speed)):
         return None
-    from scipy.ndimage import median_filter
-
-    way = np.sign(np.diff(median_filter(speed, size=5, mode="nearest")))  # a stray window turns no run
+    way = np.sign(np.diff(scipy.ndimage.median_filter(speed, size=5, mode="nearest")))  # a stray window turns no run
     ends = np.concatenate([[0], np.flatnonzero(np.diff(way)) + 1, [way.size]])
     runs = [(int(first), int(last) + 1) for first, last in pairwise(ends)]
     best = max(runs, key=lambda run: abs(float(speed[run[1] - 1] - speed[run[0]])))

@@ -13,8 +13,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .order_windows import TURNS, turned
+from .rotation import Rotation
 from .signal import Channel
-from .turning import Rotation
 
 POINTS = 181
 """Points of an ellipse."""

@@ -13,8 +13,8 @@ from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .order_windows import TURNS, cut, refused, turned, window_shape, windows_of
+from .rotation import Rotation
 from .signal import Channel
-from .turning import Rotation
 from .watching import Progress
 
 
@@ -106,7 +106,7 @@ def tracked_orders(
     Examples
     --------
     >>> import numpy as np
-    >>> from cardan.questions.diagnosis.signals.turning import Rotation
+    >>> from cardan.questions.diagnosis.signals.rotation import Rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> shaking = Channel(name="front", rate=4000.0, values=np.cos(angle) + 0.2 * np.sin(1.35 * angle))

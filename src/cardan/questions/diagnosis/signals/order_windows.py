@@ -13,8 +13,8 @@ from cardan.maths.arrays import Array
 from cardan.maths.curves.resampling import read_slowly
 from cardan.texts import _
 
+from .rotation import LEAST_TURNS, Rotation
 from .signal import Channel
-from .turning import LEAST_TURNS, Rotation
 from .watching import Progress
 
 HIGHEST = 10.0

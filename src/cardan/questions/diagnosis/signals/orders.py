@@ -10,13 +10,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.errors import check
 from cardan.maths.arrays import Array
 
 from .order_windows import HIGHEST, TURNS, cut, line_width, lines_of, refused, turned
+from .rotation import Rotation
 from .signal import Channel
-from .turning import Rotation
 from .watching import Progress
 
 
@@ -246,7 +247,7 @@ def order_map(
     Examples
     --------
     >>> import numpy as np
-    >>> from cardan.questions.diagnosis.signals.turning import Rotation
+    >>> from cardan.questions.diagnosis.signals.rotation import Rotation
     >>> time = np.arange(20000) / 4000
     >>> angle = 2 * np.pi * (8 * time + 3 * time**2)
     >>> shaking = Channel(name="front", rate=4000.0, values=np.cos(2 * angle) + np.cos(300 * time))
@@ -282,6 +283,4 @@ def _kept(highest: float, used: int, per_turn: int) -> int:
 
 def _floor(amplitude: Array, turns: int) -> Array:
     """Return the running median over two orders, which lines do not lift."""
-    from scipy.ndimage import median_filter
-
-    return np.asarray(median_filter(amplitude, size=2 * turns + 1, mode="nearest"))
+    return np.asarray(scipy.ndimage.median_filter(amplitude, size=2 * turns + 1, mode="nearest"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from cardan.errors import refuse
 from cardan.maths.arrays import Array
@@ -162,8 +163,6 @@ def counted(channel: Channel, *, level: float | None = None, hysteresis: float |
 
 def _around(between: Array) -> Array:
     """Return what each time between pulses should be: the median of those to both sides of it."""
-    from numpy.lib.stride_tricks import sliding_window_view
-
     padded = np.pad(between, AROUND, mode="reflect" if between.size > AROUND else "edge")
     windows = sliding_window_view(padded, 2 * AROUND + 1)
     return np.asarray(np.median(np.delete(windows, AROUND, axis=1), axis=1))

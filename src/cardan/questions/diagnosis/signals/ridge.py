@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 
 from cardan.errors import refuse
@@ -19,8 +20,8 @@ from cardan.maths.curves.resampling import halved
 from cardan.texts import _
 from cardan.units import rpm
 
+from .rotation import LEAST_TURNS, Rotation
 from .signal import Channel
-from .turning import LEAST_TURNS, Rotation
 from .watching import Progress, Watch
 
 BAND = (1.5, 250.0)
@@ -256,9 +257,7 @@ def _drawn(rows: Sequence[Array], rate: float, length: float, watch: Watch) -> _
 
 def _powers(row: Array, begins: Array, count: int) -> Array:
     """Return the power spectra of windows of a row, padded to twice their length; in blocks, to bound the memory."""
-    from scipy.signal.windows import hann
-
-    shape, place = hann(count, sym=False), np.arange(count)
+    shape, place = scipy.signal.windows.hann(count, sym=False), np.arange(count)
     found = np.empty((begins.size, count + 1))
     block = max(1, BLOCK // count)
     for first in range(0, begins.size, block):
@@ -269,11 +268,9 @@ def _powers(row: Array, begins: Array, count: int) -> Array:
 
 def _around(power: Array) -> Array:
     """Return the median about each line of each spectrum; all spectra in one row, which is what is fast."""
-    from scipy.ndimage import median_filter
-
     room = min(AROUND, power.shape[1])
     wide = np.pad(power, ((0, 0), (room, room)), mode="symmetric")
-    found = median_filter(wide.ravel(), size=2 * AROUND + 1, mode="reflect").reshape(wide.shape)
+    found = scipy.ndimage.median_filter(wide.ravel(), size=2 * AROUND + 1, mode="reflect").reshape(wide.shape)
     return np.asarray(found[:, room:-room])
 
 
@@ -369,10 +366,7 @@ def _seen(found: _Path, multiples: Sequence[float]) -> bool:
 
 def _angle(channel: Channel, found: _Path) -> tuple[Array, Array]:
     """Return times and angle of the ridge's own order, sharpened by the phase of the vibration along it."""
-    from scipy.ndimage import gaussian_filter1d
-    from scipy.signal import oaconvolve
-
-    smooth = gaussian_filter1d(found.frequency, 1.0, mode="nearest")
+    smooth = scipy.ndimage.gaussian_filter1d(found.frequency, 1.0, mode="nearest")
     begin, end = channel.start, channel.start + channel.duration
     time = np.arange(begin, end, 0.5 * float(found.map.time[1] - found.map.time[0]))
     local = np.interp(time, begin + found.map.time, smooth)
@@ -383,7 +377,7 @@ def _angle(channel: Channel, found: _Path) -> tuple[Array, Array]:
     turned = (row - np.mean(row)) * np.exp(-1j * np.interp(begin + np.arange(row.size) / rate, time, angle))
     sigma = 0.25 * found.map.window * rate
     reach = np.arange(-math.ceil(4.0 * sigma), math.ceil(4.0 * sigma) + 1)
-    calm = oaconvolve(turned, np.exp(-0.5 * (reach / sigma) ** 2), mode="same")
+    calm = scipy.signal.oaconvolve(turned, np.exp(-0.5 * (reach / sigma) ** 2), mode="same")
     at = np.clip(np.rint((time - begin) * rate).astype(int), 0, row.size - 1)
     sharp = angle + np.unwrap(np.angle(calm[at]))
     return (time, sharp) if float(np.min(np.diff(sharp))) > 0.0 else (time, angle)

@@ -6,14 +6,15 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
 from .order_windows import turned
+from .rotation import Rotation
 from .signal import Channel
-from .turning import Rotation
 
 NEXT = {"acceleration": "velocity", "velocity": "displacement", "angular_speed": "angle"}
 """Quantity -> its integral over time."""
@@ -97,12 +98,10 @@ def integrate(channel: Channel, *, low: float) -> Channel:
         text = _("{value:.6g} Hz given; a frequency above 0 and below {limit:.6g} Hz is needed")
         problems.append(Problem("low", text.format(value=low, limit=0.5 * channel.rate), "out_of_range"))
     check(problems)
-    from scipy.fft import next_fast_len
-
     values = channel.values - np.mean(channel.values)
     count = values.size
     begin = count - 1
-    whole = np.pad(values, (begin, next_fast_len(3 * count) - 2 * count + 1), mode="symmetric")
+    whole = np.pad(values, (begin, scipy.fft.next_fast_len(3 * count) - 2 * count + 1), mode="symmetric")
     whole = whole - np.mean(whole)
     frequency = np.fft.rfftfreq(whole.size, 1.0 / channel.rate)
     factor = np.zeros(frequency.size, dtype=complex)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.errors import Problem, check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -189,9 +190,7 @@ def _averaged(values: Array, window: int) -> Array:
 
 def _ahead(times: Array, even: Array, angle: Array) -> tuple[Array, Array]:
     """Return by how much the angle is ahead of the even turning at each pulse [rad], and its speed [rad/s]."""
-    from scipy.interpolate import CubicSpline
-
-    curve = CubicSpline(even, angle)
+    curve = scipy.interpolate.CubicSpline(even, angle)
     return angle - curve(times), np.asarray(curve(times, 1))
 
 
@@ -209,10 +208,8 @@ def _tooth_error(twist: Array, number: Array, teeth: int, kept: int, known: Arra
 
 def _at_even_angles(twist: Array, angle: Array) -> Array:
     """Return the twist where the even turning, not the shaft, stands at whole teeth."""
-    from scipy.interpolate import CubicSpline
-
     twist = twist - np.mean(twist)
-    found = CubicSpline(angle - twist, twist)(angle)
+    found = scipy.interpolate.CubicSpline(angle - twist, twist)(angle)
     return np.asarray(found - np.mean(found))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.machine import HarmonicTorque
+from cardan.drive.models.chain import given_chain, turning
 from cardan.errors import refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.texts import _
@@ -242,8 +243,6 @@ def orders(drive: Drive, duty: Duty) -> list[tuple[float, str]]:
     >>> [order for order, _cause in orders(Drive.from_angles([0.1]), Duty(engine=Engine(cylinders=6)))]
     [2.0, 3.0, 4.0, 6.0]
     """
-    from cardan.drive.models.chain import given_chain, turning
-
     found: dict[float, str] = {}
     if np.any(turning(given_chain(drive), drive.joints, near=True).joint_angle > STRAIGHT):
         found |= {2.0: _("joints"), 4.0: _("joints")}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 
@@ -208,8 +209,6 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     """
     if not pendulums:
         return straight_modes(model).omega / order
-    from scipy.linalg import eigvals
-
     turning = np.zeros(len(model.elements))
     turning[list(pendulums)] = model.stiffness[list(pendulums)] / speed**2
     fixed = np.where(turning > 0.0, 0.0, model.stiffness)
@@ -217,7 +216,7 @@ def meeting_speeds(model: TorsionalModel, order: float, pendulums: tuple[int, ..
     plain, more = (_stiffness(model, one)[first:, first:] for one in (fixed, turning))
     mass = np.zeros(model.coordinates)
     np.add.at(mass, list(model.coordinate), model.inertia)
-    values = np.asarray(eigvals(plain, order**2 * np.diag(mass[first:]) - more), dtype=complex)
+    values = np.asarray(scipy.linalg.eigvals(plain, order**2 * np.diag(mass[first:]) - more), dtype=complex)
     real = np.isfinite(values) & (np.abs(values.imag) < STILL * np.abs(values)) & (values.real > 0.0)
     squares = sorted(float(one) for one in values.real[real])
     found: Array = np.sqrt([one for one in squares if one > STILL**2 * squares[-1]])

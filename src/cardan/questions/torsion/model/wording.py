@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,8 +11,7 @@ from cardan.answers.quantity import Joined, Quantity, Text, listed, say
 from cardan.maths.arrays import ArrayLike
 from cardan.texts import _
 
-if TYPE_CHECKING:
-    from .torsional_train import TorsionalTrain
+from .torsional_train import TorsionalTrain
 
 
 def assumptions(train: TorsionalTrain) -> Iterator[Remark]:

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.threads import share
 from cardan.maths.periodic.floquet import STAGES, collocation
@@ -16,6 +17,8 @@ from cardan.questions.torsion.model.torsional_balance import joint_law
 from cardan.questions.torsion.model.torsional_batch import Turning
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.steady.steady_start import at_rest, straight_frequencies
+
+compiled = later("cardan.maths.compiled.floquet")
 
 LANES = 8
 """Drives that the kernel takes at once."""
@@ -87,8 +90,6 @@ def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> M
         H.
     threads : int, optional
     """
-    from cardan.maths.compiled.floquet import kernel
-
     count = len(turning.speed)
     padded = -(-count // LANES) * LANES
     drives = _numbers(turning)
@@ -108,7 +109,7 @@ def mapped(turning: Turning, harmonics: int, *, threads: int | None = None) -> M
     flat = known.reshape(-1)
     run = partial(
         _call,
-        kernel,
+        compiled().kernel,
         (_plan(turning.model, n, drives.shape[-1]), drives.reshape(-1), bases, back, phase, nodes, scheme),
         (np.asarray([begins[int(one)] for one in steps], dtype=np.intp), steps.astype(np.intp)),
         (turning.period, turning.model.free, ROUNDS),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 from cardan.maths.compiled.torsion_line import SPEED_LIMIT, TWIST_LIMIT
@@ -269,8 +270,6 @@ def _first_zero(past: Callable[[float], float], before: float, after: float) -> 
     Where the piece begins at the end of a contact rounding may make it so there too: if it falls from there, the place
     is the one at which it has risen again.
     """
-    from scipy.optimize import brentq
-
     low = before
     if past(before) >= 0.0:
         shares = (0.5**k for k in range(1, HALVINGS + 1))
@@ -278,7 +277,7 @@ def _first_zero(past: Callable[[float], float], before: float, after: float) -> 
         low = next((time for time in fallen if past(time) < 0.0), before)
         if low == before:
             return before
-    return float(brentq(past, low, after, xtol=1e-15))
+    return float(scipy.optimize.brentq(past, low, after, xtol=1e-15))
 
 
 def _implicit(task: Task, freedom: Freedom) -> bool:

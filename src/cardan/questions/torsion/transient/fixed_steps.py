@@ -11,6 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from cardan.errors import Problem, check, refuse
+from cardan.later import later
 from cardan.maths.arrays import Array
 from cardan.maths.compiled import plain_torsion
 from cardan.maths.compiled import torsion_line as lines
@@ -26,6 +27,8 @@ from cardan.texts import _
 from .marching import breaks_of
 from .simulation import Extremes, Progress, Simulation, Status, reported
 from .swiftness import contact_period, forced_rate, own_rates
+
+compiled = later("cardan.maths.compiled.torsion_block")
 
 STABLE = 5.0
 """Largest step times the fastest rate that the method bears."""
@@ -299,6 +302,5 @@ class _Run:
 def _block(line: lines.Line, state: lines.State, plain: bool) -> Block:
     if plain:
         return plain_torsion.Block(line, state)
-    from cardan.maths.compiled.torsion_block import Block as CompiledBlock
-
-    return CompiledBlock(line, state)
+    block: Block = compiled().Block(line, state)
+    return block

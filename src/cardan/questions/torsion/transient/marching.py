@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+import scipy
 
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.radau import Radau, Step
@@ -127,8 +128,6 @@ class Explicit:
         longest: float,
         first: float | None,
     ) -> None:
-        from scipy.integrate import DOP853
-
         start, q, rate, work = state
         self.count = count = len(freedom.free)
         forces, motion = forces_of(model), freedom.motion
@@ -147,7 +146,7 @@ class Explicit:
         relative, absolute = tolerance
         size = _energy_size(model, freedom, start, q, rate)
         least = 100.0 * np.finfo(float).eps
-        self.solver = DOP853(
+        self.solver = scipy.integrate.DOP853(
             derivative,
             start,
             np.concatenate((q, rate, [work])),

@@ -1,0 +1,84 @@
+"""A question about the drive that a user works on, as it goes to another process."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from cardan.answers.reader import USUAL, Reader
+from cardan.drive.drive import Drive
+from cardan.files import Enclosed
+
+from .session import Session
+
+Progress: TypeAlias = Callable[[float], object]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Question:
+    """What somebody wants to know.
+
+    Parameters
+    ----------
+    name : str
+        A question of `cardan.register.QUESTIONS`, `VERDICTS`, `REMEDIES`, one of `papers`, or `recordings.DIAGNOSIS`.
+    drive : Drive
+        About which drive.
+    folder : Path
+        Where files that the drive names are looked for, and nowhere else.
+    language : str
+        In which language.
+    reader : Reader
+        In which units, with which decimal sign.
+    choices : mapping of str to value
+        What the user chose beside the drive.
+    """
+
+    name: str
+    drive: Drive
+    folder: Path
+    language: str = "en"
+    reader: Reader = USUAL
+    choices: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def key(self) -> str:
+        """The same for questions with the same answer."""
+        files = []
+        for name in self.drive.settings.catalogues:
+            try:
+                told = (Enclosed(self.folder) / name).stat()
+                files.append((name, told.st_mtime_ns, told.st_size))
+            except Exception:  # a file that is not there, or not to be read: the answer will say so
+                files.append((name, 0, 0))
+        seen = (self.language, sorted(self.reader.units.items()), self.reader.decimal)
+        whole = (self.name, self.drive, str(self.folder), seen, sorted(self.choices.items()), files)
+        return hashlib.sha256(pickle.dumps(whole)).hexdigest()
+
+
+def asked(session: Session, name: str, **choices: Any) -> Question | None:
+    """Return the question about the drive that a user works on; None while there is none.
+
+    Parameters
+    ----------
+    session : Session
+        What the user works on.
+    name : str
+        Which question.
+    **choices
+        What the user chose beside the drive.
+    """
+    if session.drive is None:
+        return None
+    return Question(
+        name=name,
+        drive=session.drive,
+        folder=session.workspace.folder,
+        language=session.choices.language,
+        reader=session.reader,
+        choices=choices,
+    )

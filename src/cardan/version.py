@@ -1,0 +1,3 @@
+"""Which cardan this is."""
+
+VERSION = "0.1.0"

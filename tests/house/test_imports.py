@@ -1,0 +1,35 @@
+"""Imports stand at the top of a file, and what is heavy is loaded when it is needed."""
+
+import subprocess
+import sys
+
+import pytest
+
+from .imports import borrowed, circles, hidden, imports
+
+LATER = {
+    "cardan": {"if"},  # names of the package, each imported on its first use; type checkers read them
+    "cardan.answers.question": {"if"},  # the register of questions is light: help must not load numpy
+    "cardan.batch.table.store": {"try"},  # `fcntl` is not on every system
+}
+"""Modules with another import than at their top, and where; all else that is loaded late is `cardan.later.later`."""
+
+
+def test_imports_stand_at_the_top():
+    assert hidden() == LATER
+
+
+def test_private_names_stay_in_their_module():
+    assert borrowed() == []
+
+
+@pytest.mark.slow
+def test_no_module_needs_itself():
+    """Whatever the folders: not through imports for type checking, nor through those made later."""
+    assert circles(imports()) == []
+
+
+def test_the_package_alone_loads_nothing_heavy():
+    told = "import sys, cardan; sys.exit(', '.join({'numpy', 'typer'} & {*sys.modules}) or 0)"
+    run = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=False)
+    assert not run.returncode, run.stderr
