@@ -11,7 +11,7 @@ import pytest
 from cardan import io as files
 from cardan.calc import CALCULATIONS, calc
 from cardan.questions.motion.equivalence import equivalent_joint
-from cardan.report import renderer
+from cardan.report.render import renderer
 from tests.cli.conftest import EXAMPLES
 
 TRUCK = EXAMPLES / "truck-printed-angles.toml"

@@ -19,11 +19,11 @@ from cardan.app.parts.blocks import block_html
 from cardan.cli.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
-from cardan.report import html
 from cardan.report.answers import page_of, subject
 from cardan.report.block import Block, Cell, Listing, Page, Picture
 from cardan.report.content import Excerpt
-from cardan.report.exports import exported
+from cardan.report.render import html
+from cardan.report.render.exports import exported
 from cardan.texts import language
 
 SILENT = ("name", "role", "roles", "dash", "side", "level", "tone", "source", "title", "full", "form", "amount", "keys")

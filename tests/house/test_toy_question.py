@@ -8,7 +8,7 @@ from cardan.io import loads
 from cardan.register import QUESTIONS, groups
 from cardan.report.answers import answered, subject
 from cardan.report.content import content
-from cardan.report.html import text
+from cardan.report.render.html import text
 from cardan.sweeps import sweep
 from tests.cli.conftest import cardan, drive_file  # noqa: F401 - fixtures
 from tests.fixtures.toy_question import QUESTION

@@ -23,7 +23,7 @@ from cardan.questions.diagnosis.findings import diagnose as causes_of
 from cardan.questions.diagnosis.match import Signs, symptoms
 from cardan.report.content import Excerpt
 from cardan.report.page import page
-from cardan.report.renderer import Renderer, form_of
+from cardan.report.render.renderer import Renderer, form_of
 from cardan.texts import _
 from cardan.units import nearest
 

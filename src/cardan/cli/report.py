@@ -15,7 +15,7 @@ from cardan.answers.reader import reader
 from cardan.io.drive_file import known_to
 from cardan.questions.motion.answer import sentence
 from cardan.questions.motion.swing import each_shaft
-from cardan.report.renderer import renderer_for
+from cardan.report.render.renderer import renderer_for
 from cardan.report.report import report as write
 from cardan.texts import _
 from cardan.units import rpm

@@ -27,12 +27,7 @@ from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _, plural
 from cardan.version import VERSION
 
-from .block import (
-    Listing,
-    Page,
-    Points,
-    Words,
-)
+from .block import Listing, Page, Points, Words
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -12,8 +12,8 @@ from cardan.drive.duty import Duty
 from cardan.files import write_bytes
 
 from .content import content
-from .html import text
-from .renderer import renderer_for
+from .render.html import text
+from .render.renderer import renderer_for
 
 
 def report(
@@ -37,8 +37,8 @@ def report(
     duty : Duty or None
         What it does; None takes the drive's own duty.
     path : path
-        Where the report goes; its ending chooses the form, see `cardan.report.renderer.RENDERERS`. Written whole or
-        not at all.
+        Where the report goes; its ending chooses the form, see `cardan.report.render.renderer.RENDERERS`. Written
+        whole or not at all.
     source_text : str, optional
         Text of the drive file, shown in full at the end.
     interactive : bool

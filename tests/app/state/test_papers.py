@@ -18,7 +18,7 @@ from cardan.app.state.workspace import Workspace
 from cardan.figures import Figure
 from cardan.io import example_text
 from cardan.report.block import Page, Picture, Table
-from cardan.report.exports import Exported, kinds
+from cardan.report.render.exports import Exported, kinds
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from cardan.app.state.session import Session
 from cardan.figures import Figure
 from cardan.io import dumps
 from cardan.report.block import Page
-from cardan.report.exports import Exported, kinds
+from cardan.report.render.exports import Exported, kinds
 from cardan.texts import _
 
 from . import toasts

@@ -15,8 +15,8 @@ from cardan.io import dumps
 from cardan.report.block import Page
 from cardan.report.compare import Variant, compared
 from cardan.report.content import content
-from cardan.report.exports import Exported, exported
-from cardan.report.renderer import renderer_for
+from cardan.report.render.exports import Exported, exported
+from cardan.report.render.renderer import renderer_for
 from cardan.texts import _
 
 from .question import Progress, Question, asked

@@ -9,9 +9,9 @@ from cardan.files import Enclosed
 from cardan.io.drive_file import known_to
 from cardan.report.answers import answered, subject
 from cardan.report.block import Page
-from cardan.report.exports import Exported
 from cardan.report.lights import Light, lights, with_remedies
 from cardan.report.recorded import Recorded
+from cardan.report.render.exports import Exported
 from cardan.texts import speaking
 
 from . import papers, recordings

@@ -12,8 +12,8 @@ from cardan.answers.printed import framed
 from cardan.figures import Figure, pixels
 from cardan.figures.page import laid_out
 from cardan.io.book import leads_to, put, words
+from cardan.report.block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 
-from .block import Block, Cell, Column, Listing, Picture, Points, Table, Words
 from .chart_data import ChartData
 from .charts import Drawn, charts, split
 from .letters import lines

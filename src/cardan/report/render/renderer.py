@@ -8,10 +8,10 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cardan.errors import MissingExtraError, refuse
+from cardan.report.content import Content, Excerpt
 from cardan.texts import _
 
 from . import html, typeset, workbook
-from .content import Content, Excerpt
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,12 +9,12 @@ from dataclasses import replace
 from typing import Any
 
 from cardan.io.book import MOST_LETTERS, opened, put, sheet_name, unstretched, words
+from cardan.report.block import Listing, Page, Picture, Table
+from cardan.report.content import Content, Excerpt
 from cardan.texts import _
 
-from .block import Listing, Page, Picture, Table
 from .chart_data import ChartData
 from .charts import split
-from .content import Content, Excerpt
 from .looks import CODE, Looks
 from .paper import LINE, Paper
 

@@ -9,8 +9,8 @@ import numpy as np
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule
 from cardan.report.block import Page, Picture
 from cardan.report.content import Excerpt
-from cardan.report.plain import figure_csv
-from cardan.report.workbook import excerpt
+from cardan.report.render.plain import figure_csv
+from cardan.report.render.workbook import excerpt
 
 from .test_workbook import CHART, opened, parts
 

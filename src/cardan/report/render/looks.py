@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from cardan.figures.palette import colour, mixed
-
-from .block import Tone
+from cardan.report.block import Tone
 
 PALE = 0.86
 """Share of white in the colour behind a tone."""

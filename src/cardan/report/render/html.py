@@ -11,10 +11,9 @@ from cardan.figures.render_plotly import fragment
 from cardan.figures.render_plotly import program as drawing
 from cardan.figures.render_svg import inline_svg
 from cardan.later import later
+from cardan.report.block import Listing, Picture, Points, Table, Words
+from cardan.report.content import Content, Excerpt
 from cardan.texts import _, language
-
-from .block import Listing, Picture, Points, Table, Words
-from .content import Content, Excerpt
 
 jinja2 = later("jinja2")
 

@@ -13,9 +13,9 @@ from cardan.drive.drive import Drive
 from cardan.errors import InputError, MissingExtraError
 from cardan.figures import Figure
 from cardan.io import example, example_text
-from cardan.report import html, renderer, typeset
 from cardan.report.block import Cell, Column, Listing, Page, Picture, Points, Table, Words
 from cardan.report.content import Content, content
+from cardan.report.render import html, renderer, typeset
 from cardan.report.report import report
 from cardan.texts import speaking
 

@@ -13,10 +13,9 @@ import numpy as np
 from cardan.figures.figure import Bars, Curve, Figure, Mesh, Panel, Shape
 from cardan.figures.legend import called
 from cardan.io.formats.json import plain
+from cardan.report.block import Block, Cell, Page, Picture, Table
+from cardan.report.content import Content
 from cardan.texts import _
-
-from .block import Block, Cell, Page, Picture, Table
-from .content import Content
 
 BEGINNINGS = ("=", "+", "-", "@", "\t", "\r")
 """Words that begin so would be calculated by a spreadsheet that opens the file."""

@@ -14,10 +14,9 @@ from typing import Any, Final
 from cardan.figures.figure import Figure
 from cardan.figures.render_svg import inline_svg
 from cardan.later import later
+from cardan.report.block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
+from cardan.report.content import Content, Excerpt
 from cardan.texts import _, language
-
-from .block import SIGNS, Block, Cell, Listing, Page, Points, Table, Tone, Words
-from .content import Content, Excerpt
 
 typst = later("typst")
 matplotlib = later("matplotlib")

@@ -11,10 +11,10 @@ from typing import TypeAlias
 from cardan.errors import refuse
 from cardan.figures import SUFFIXES, Figure, drawn
 from cardan.files import write_bytes
+from cardan.report.block import Page, Picture, Table
+from cardan.report.content import Content, Excerpt
 from cardan.texts import _
 
-from .block import Page, Picture, Table
-from .content import Content, Excerpt
 from .plain import block_data, content_data, csv_of, drawn_from, figure_csv, figure_data, page_data
 from .renderer import form_of
 

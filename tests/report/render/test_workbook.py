@@ -22,13 +22,13 @@ from cardan.drive.drive import Drive
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Note, Panel, Row, Rule
 from cardan.io import example, example_text
 from cardan.io.book import sheet_name
-from cardan.report import paper, renderer
 from cardan.report.block import Cell, Column, Page, Picture, Table, Words, number, words
-from cardan.report.chart_data import BESIDE, HEAD, PRINTED
-from cardan.report.charts import split
 from cardan.report.content import Content, content
-from cardan.report.paper import headed
-from cardan.report.workbook import written
+from cardan.report.render import paper, renderer
+from cardan.report.render.chart_data import BESIDE, HEAD, PRINTED
+from cardan.report.render.charts import split
+from cardan.report.render.paper import headed
+from cardan.report.render.workbook import written
 from cardan.units import deg
 
 NAMES = ["car-propshaft", "pto-hitch", "tracta-steered-axle"]

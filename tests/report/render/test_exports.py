@@ -15,10 +15,10 @@ import pytest
 from cardan.drive.drive import Drive
 from cardan.errors import InputError, MissingExtraError
 from cardan.figures.figure import Curve
-from cardan.report import renderer
 from cardan.report.block import Column, Page, Picture, Table, number, words
 from cardan.report.content import content
-from cardan.report.exports import MEDIA, export, exported, kinds
+from cardan.report.render import renderer
+from cardan.report.render.exports import MEDIA, export, exported, kinds
 from cardan.units import deg
 
 SAID = content(Drive.from_angles([20 * deg, 15 * deg], name="two / joints"))
