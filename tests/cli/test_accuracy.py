@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import io as files
-from cardan.cli.accuracy import goal_of
+from cardan.cli.motion.accuracy import goal_of
 from cardan.errors import InputError
 from cardan.questions.accuracy.allocation import allocate
 from cardan.questions.accuracy.sampling import MonteCarlo

@@ -228,7 +228,7 @@ def test_a_fault_of_ours_is_no_traceback(cardan, monkeypatch):
     def broken(*_ways, **_more):
         raise ZeroDivisionError("division by zero")
 
-    monkeypatch.setattr("cardan.cli.motion.ask", broken)
+    monkeypatch.setattr("cardan.cli.motion.motion.ask", broken)
     done = cardan("motion", TRUCK)
     assert done.code == 70
     assert "ZeroDivisionError: division by zero" in done.err
@@ -241,5 +241,5 @@ def test_too_little_memory_is_said(cardan, monkeypatch):
     def greedy(*_ways, **_more):
         raise MemoryError
 
-    monkeypatch.setattr("cardan.cli.motion.ask", greedy)
+    monkeypatch.setattr("cardan.cli.motion.motion.ask", greedy)
     refused(cardan("motion", TRUCK), "not enough memory")

@@ -28,7 +28,7 @@ def test_help_imports_nothing_heavy(arguments):
     found = modules_after(*arguments)
     assert not found & set(HEAVY)
     assert {name for name in found if name.startswith("cardan.")} <= {
-        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.lazy", "cardan.cli.options",
+        "cardan.cli", "cardan.cli.main", "cardan.cli.app", "cardan.cli.lazy", "cardan.cli.shared.options",
         "cardan.texts", "cardan.errors", "cardan.later", "cardan.version",
         "cardan.register", "cardan.answers", "cardan.answers.question",
     }  # fmt: skip
@@ -96,7 +96,7 @@ def test_ctrl_c_while_a_module_is_loaded_is_no_fault_of_cardan(cardan, monkeypat
         except KeyboardInterrupt as stopped:
             raise RuntimeError("Error calling __set_name__") from stopped
 
-    monkeypatch.setattr("cardan.cli.check.read", interrupt)
+    monkeypatch.setattr("cardan.cli.loads.check.read", interrupt)
     done = cardan("check", TRUCK)
     assert (done.code, done.err.splitlines()) == (130, ["error: interrupted; nothing was written"])
 

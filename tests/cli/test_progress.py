@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from cardan.cli import progress
+from cardan.cli.shared import progress
 
 
 class Terminal(io.StringIO):

@@ -106,7 +106,7 @@ def test_a_plan_that_is_no_file_is_refused(cardan):
 
 def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, tmp_path, monkeypatch):
     pytest.importorskip("pyarrow")
-    from cardan.cli import torsion_parts
+    from cardan.cli.torsion import torsion_parts
 
     folder = tmp_path / "kept"
     text = small.read_text("utf8") + '[[vary]]\nkey = "input.start_phase_deg"\nfrom = 0\nto = 90\ncount = 40\n'

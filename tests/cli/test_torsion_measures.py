@@ -10,7 +10,7 @@ import pytest
 from cardan import io as files
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
-from cardan.cli import torsion_absorber, torsion_optimise
+from cardan.cli.torsion import torsion_absorber, torsion_optimise
 from cardan.questions.torsion.absorber import absorber as absorbers
 from cardan.questions.torsion.calm import calm as calms
 from cardan.questions.torsion.calm.answer import reasons

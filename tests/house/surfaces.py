@@ -16,7 +16,7 @@ from cardan.answers.data import as_csv, as_json, data
 from cardan.answers.question import Question
 from cardan.answers.reader import Reader
 from cardan.app.parts.blocks import block_html
-from cardan.cli.tell import tell
+from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.report.answers import page_of, subject

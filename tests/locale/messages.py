@@ -20,7 +20,7 @@ from cardan.calc import CALCULATIONS
 from cardan.catalogue import catalogue
 from cardan.catalogue.rows import TABLES
 from cardan.catalogue.telling import SENTENCES, WORDS
-from cardan.cli.example import about
+from cardan.cli.files.example import about
 from cardan.drive.fields.keys import fields_of
 from cardan.io import example_names, example_text, mechanism_names, recording_names
 from cardan.io.reference import sections

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
-from pkgutil import iter_modules
 from typing import Annotated, Any
 
 import typer
@@ -23,12 +22,12 @@ FORMULAS = _("Formulas")
 DATA = _("Data")
 DIAGNOSIS = _("Diagnosis")
 
-HERE = frozenset(one.name for one in iter_modules([str(Path(__file__).parent)]))
-"""Files of this folder."""
+HERE = {path.stem: f"{path.parent.name}.{path.stem}" for path in Path(__file__).parent.glob("*/*.py")}
+"""File of a command -> where it is among the folders here."""
 
 COMMANDS = {
     "joint": Entry(
-        "joint",
+        "motion.joint",
         QUESTIONS,
         _("How kinds of joints turn by themselves, one or several beside each other."),
         (
@@ -44,7 +43,7 @@ COMMANDS = {
         ("cardan torsion modes truck.toml", "cardan torsion stability truck.toml --speeds 500:3000"),
     ),
     "diagnose": Entry(
-        "diagnose",
+        "diagnosis.diagnose",
         DIAGNOSIS,
         _("What is likely wrong with a drive that shakes, by a recording of it."),
         (
@@ -55,7 +54,7 @@ COMMANDS = {
         ),
     ),
     "simulate-fault": Entry(
-        "simulate_fault",
+        "diagnosis.simulate_fault",
         DIAGNOSIS,
         _("What a fault of the drive should show, and a recording of it."),
         (
@@ -65,7 +64,7 @@ COMMANDS = {
         ),
     ),
     "sweep": Entry(
-        "sweep",
+        "sweep.sweep",
         QUESTIONS,
         _("Parameter sweep over grids, lists and random samples."),
         (
@@ -76,7 +75,7 @@ COMMANDS = {
         ),
         {
             "show": Entry(
-                "sweep_show",
+                "sweep.sweep_show",
                 QUESTIONS,
                 _("Results of a sweep: the best points, pictures, exports."),
                 ("cardan sweep show results", "cardan sweep show results --plot sweep.html"),
@@ -84,38 +83,38 @@ COMMANDS = {
         },
     ),
     "report": Entry(
-        "report",
+        "files.report",
         QUESTIONS,
         _("Everything on one page: a self-contained HTML file that prints well."),
         ("cardan report truck.toml", "cardan report truck.toml -o truck.html --open"),
     ),
-    "init": Entry("init", FILES, _("Write a commented drive file to start from."), ("cardan init my.toml",)),
+    "init": Entry("files.init", FILES, _("Write a commented drive file to start from."), ("cardan init my.toml",)),
     "example": Entry(
-        "example",
+        "files.example",
         FILES,
         _("List the shipped examples, or copy one."),
         ("cardan example", "cardan example single-20deg"),
     ),
     "app": Entry(
-        "browser",
+        "files.browser",
         QUESTIONS,
         _("The drive turning in the browser, every answer beside it."),
         ("cardan app truck.toml", "cardan app truck.toml --port 8080 --no-browser"),
     ),
     "convert": Entry(
-        "convert",
+        "files.convert",
         FILES,
         _("Rewrite a drive file: points, angles or slopes; TOML or JSON."),
         ("cardan convert truck.toml truck.json", "cardan convert truck.toml angles.toml --form angles"),
     ),
     "schema": Entry(
-        "schema",
+        "files.schema",
         FILES,
         _("Print the JSON Schema of the drive file, for editors."),
         ("cardan schema > drive.schema.json",),
     ),
     "catalogue": Entry(
-        "catalogue",
+        "files.catalogue",
         DATA,
         _("Materials, types and sizes of joints, standards: each row with its source."),
         (
@@ -125,7 +124,7 @@ COMMANDS = {
         ),
     ),
     "calc": Entry(
-        "calc",
+        "files.calc",
         FORMULAS,
         _("Evaluate one formula by name."),
         ("cardan calc --list", "cardan calc single_joint_extremes alpha_deg=20"),
@@ -139,7 +138,7 @@ def _entry(question: Question, command: str, panel: str) -> Entry:
     module = re.sub(r"\W", "_", command)
     own = module in HERE
     return Entry(
-        module if own else "asked",
+        HERE[module] if own else "shared.asked",
         _(question.panel) if question.panel else panel,
         _(question.help),
         question.examples or (f"cardan {command} truck.toml",),

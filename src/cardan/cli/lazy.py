@@ -23,7 +23,8 @@ class Entry:
     Parameters
     ----------
     module : str
-        File in this folder; its function of the same name is the command. Empty for a group.
+        Folder and file below this one, ``motion.phasing``; the function named like the file is the command. Empty for
+        a group.
     panel, help : str
         Where and how the help lists it.
     examples : tuple of str
@@ -161,7 +162,7 @@ def _epilog(entry: Entry) -> str | None:
 def load(name: str, entry: Entry) -> Any:
     """Import a command and build it."""
     module = import_module(f".{entry.module}", __package__)
-    run = module.command_of(entry.question) if entry.question else getattr(module, entry.module)
+    run = module.command_of(entry.question) if entry.question else getattr(module, entry.module.rpartition(".")[2])
     single = typer.Typer(rich_markup_mode="rich", pretty_exceptions_enable=False, add_completion=False)
     single.command(name, cls=Command, help=entry.help, epilog=_epilog(entry), context_settings=HELP)(run)
     return typer.main.get_command(single)

@@ -17,7 +17,7 @@ from cardan.errors import refuse
 from cardan.later import later
 from cardan.texts import DOMAIN, FOLDER, LANGUAGES, _, language, speaking
 
-app, failure = later("cardan.cli.app"), later("cardan.cli.failure")
+app, failure = later("cardan.cli.app"), later("cardan.cli.shared.failure")
 """The parser, and what is said when something goes wrong: they load while an early ctrl-C is answered already."""
 readers = later("cardan.answers.reader")
 """In what units and signs the reader is told; the help needs none."""

@@ -1,0 +1,1 @@
+"""Commands on files, data, formulas, the report and the app."""

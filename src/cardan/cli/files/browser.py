@@ -1,0 +1,48 @@
+"""``cardan app``: the drive turning in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cardan.app.server import Start, start
+from cardan.cli.shared.failure import about
+from cardan.texts import _
+
+
+def browser(
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[FILE]", help=_("Drive file to open; examples are offered without."), show_default=False
+        ),
+    ] = None,
+    host: Annotated[
+        str,
+        typer.Option(
+            "--host", metavar="ADDRESS", help=_("Address to listen at; others than this machine need a token.")
+        ),
+    ] = "127.0.0.1",
+    port: Annotated[
+        int | None,
+        typer.Option(
+            "--port",
+            metavar="PORT",
+            min=1,
+            max=65535,
+            help=_("Port to listen at; 8321 or any free one when not given."),
+            show_default=False,
+        ),
+    ] = None,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help=_("Print the address and open nothing."), show_default=False)
+    ] = False,
+) -> int:
+    """Open the app in the browser."""
+    there = (file or Path.cwd()).resolve()
+    folder, name = (there, "") if there.is_dir() else (there.parent, there.name)
+    with about(str(file or folder)):
+        start(Start(folder=folder, file=name, host=host, port=port, show=not no_browser))
+    return 0

@@ -1,0 +1,95 @@
+"""``cardan convert``: the same drive in another form or file, or as bodies that turn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from cardan import io
+from cardan.answers.answer import Answer
+from cardan.cli.shared.options import AsJson, DriveFile
+from cardan.cli.shared.output import check_new, print_text
+from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.tell import tell
+from cardan.drive.drive import Drive
+from cardan.drive.models.forms import in_form
+from cardan.errors import refuse
+from cardan.files import write_bytes
+from cardan.io.saving import save
+from cardan.scene.gltf import render
+from cardan.scene.scene import scene
+from cardan.texts import _
+
+SUFFIXES = (".toml", ".json", ".glb")
+BODIES = ".glb"
+
+
+def convert(
+    file: DriveFile,
+    out: Annotated[
+        Path,
+        typer.Argument(
+            metavar="OUT",
+            help=_("File to write: .toml or .json, or .glb for a turning model in space; - prints TOML."),
+            show_default=False,
+        ),
+    ],
+    form: Annotated[
+        Literal["points", "angles", "slopes"] | None,
+        typer.Option(
+            "--form",
+            metavar="FORM",
+            help=_("points (joint centres), angles (bends and plane twists) or slopes; that of FILE by default."),
+            show_default=False,
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help=_("Overwrite OUT."), show_default=False)] = False,
+    json: AsJson = False,
+) -> int:
+    """Rewrite a drive file in another form or format."""
+    if out != STDIN:
+        if out.suffix.lower() not in SUFFIXES:
+            known = ", ".join(SUFFIXES)
+            raise refuse("OUT", _("{path} should end in one of {known}").format(path=out, known=known))
+        check_new(out, force=force, field="OUT")
+    drive = read(file)
+
+    if out.suffix.lower() == BODIES:
+        if form is not None:
+            raise refuse("--form", _("bodies have none of these forms; leave this out"))
+        return tell(_bodies(file, drive, out), json=json)
+    moved = drive if form is None else in_form(drive, form)
+    if out == STDIN:
+        print_text(io.dumps(moved))
+        return 0
+    save(moved, out)
+    return tell(
+        Answer(
+            name="convert",
+            title=_("Converted drive file"),
+            sentence=_("{out}: the drive of {file} written, given by {form}.").format(
+                out=out, file=file, form=moved.form
+            ),
+            tone="good",
+            facts={"file": str(file), "out": str(out), "form": moved.form},
+        ),
+        json=json,
+    )
+
+
+def _bodies(file: Path, drive: Drive, out: Path) -> Answer:
+    """Write a drive as bodies that turn, and return what is said of it."""
+    shown = scene(drive)
+    write_bytes(out, render(shown))
+    triangles = sum(len(one.indices) for one in shown.bodies)
+    return Answer(
+        name="convert",
+        title=_("Converted drive file"),
+        sentence=_("{out}: the drive of {file} as {bodies} bodies that turn.").format(
+            out=out, file=file, bodies=len(shown.bodies)
+        ),
+        tone="good",
+        facts={"file": str(file), "out": str(out), "bodies": len(shown.bodies), "triangles": triangles},
+    )

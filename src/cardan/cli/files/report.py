@@ -1,0 +1,102 @@
+"""``cardan report``: everything on one page."""
+
+from __future__ import annotations
+
+import webbrowser
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cardan.answers.answer import Answer, Remark
+from cardan.answers.quantity import Quantity, say
+from cardan.answers.reader import reader
+from cardan.cli.shared.options import AsJson, DriveFile, SpeedRpm
+from cardan.cli.shared.output import check_speed, check_target
+from cardan.cli.shared.progress import watching
+from cardan.cli.shared.source import STDIN, read_with_text
+from cardan.cli.shared.tell import tell
+from cardan.io.drive_file import known_to
+from cardan.questions.motion.answer import sentence
+from cardan.questions.motion.swing import each_shaft
+from cardan.report.render.renderer import renderer_for
+from cardan.report.report import report as write
+from cardan.texts import _
+from cardan.units import rpm
+
+
+def report(
+    file: DriveFile,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help=_("File to write: .html, .pdf or a workbook, .xlsx; FILE's name with .html by default."),
+            show_default=False,
+        ),
+    ] = None,
+    interactive: Annotated[
+        bool,
+        typer.Option(
+            "--interactive", help=_("Figures to point at, zoom and turn; some megabytes more."), show_default=False
+        ),
+    ] = False,
+    open_: Annotated[
+        bool, typer.Option("--open", help=_("Open the report when it is written."), show_default=False)
+    ] = False,
+    speed_rpm: SpeedRpm = None,
+    json: AsJson = False,
+) -> int:
+    """Put everything on one page."""
+    place = out or Path("report.html" if file == STDIN else f"{file.stem}.html")
+    renderer_for(place, interactive=interactive, field="--out")
+    check_target(place, "--out")
+    check_speed(speed_rpm)
+    drive, text = read_with_text(file)
+    if speed_rpm is not None:
+        drive = replace(drive, duty=replace(drive.duty, speed=speed_rpm * rpm))
+    who = reader()
+    with watching(_("writing the report")) as progress:
+        known = known_to(drive, "." if file == STDIN else file.parent)
+        write(
+            drive,
+            None,
+            place,
+            source_text=text,
+            interactive=interactive,
+            progress=progress,
+            known=known,
+            units=who.units,
+            decimal=who.decimal,
+        )
+
+    opened = open_ and _opened(place)
+    browsed = place.suffix.lower() in (".html", ".htm")
+    hint = _("Open {path} in a browser, or print it.") if browsed else _("Open {path}, or print it.")
+    if opened:
+        hint = _("It is open: {path}.")
+    if open_ and not opened:
+        hint = _("No program answered; open {path} yourself.")
+    size = Quantity(place.stat().st_size / 1000.0, decimals=0)
+    return tell(
+        Answer(
+            name="report",
+            title=_("Report"),
+            sentence=sentence(drive, each_shaft(drive)),
+            remarks=(
+                Remark(text=say(_("Report written: {path}, {size} kB."), path=str(place), size=size)),
+                Remark(text=hint.format(path=place), tone="next"),
+            ),
+            facts={"report": str(place)},
+        ),
+        file,
+        drive,
+        json=json,
+    )
+
+
+def _opened(path: Path) -> bool:
+    return webbrowser.open(path.resolve().as_uri())

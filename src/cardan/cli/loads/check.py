@@ -1,0 +1,73 @@
+"""``cardan check``: does the drive keep its limits, and what remedies it where it does not?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cardan.checks.checks import CHECKS
+from cardan.choices.check_answer import answer, answer_of_list, checked
+from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, Plot, SpeedRpm
+from cardan.cli.shared.progress import watching
+from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.tell import tell
+from cardan.errors import Problem, refuse
+from cardan.errors import check as refuse_all
+from cardan.io.drive_file import known_to
+from cardan.texts import _
+from cardan.units import nearest
+
+
+def check(
+    file: Annotated[
+        Path | None,
+        typer.Argument(metavar="FILE", help=_("Drive file, TOML or JSON; - reads standard input."), show_default=False),
+    ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--only", metavar="CHECK", help=_("Only this check; may be repeated."), show_default=False),
+    ] = None,
+    listed: Annotated[
+        bool, typer.Option("--list", help=_("List all checks, and do nothing else."), show_default=False)
+    ] = False,
+    catalogue: MoreRows = None,
+    sources: Annotated[
+        bool, typer.Option("--sources", help=_("Say of every verdict where it comes from."), show_default=False)
+    ] = False,
+    missing: Annotated[
+        bool, typer.Option("--missing", help=_("Say which keys the checks need that were not run."), show_default=False)
+    ] = False,
+    torque: TorqueNm = None,
+    speed_rpm: SpeedRpm = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Judge the drive by every check that its file has data for, and tell the remedies of what fails."""
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
+    if listed:
+        return tell(answer_of_list(), json=json, csv=csv)
+    if file is None:
+        raise refuse("FILE", _("missing: the drive file to judge, or --list"))
+    more = tuple(catalogue or ())
+    _check_only(only or ())
+    drive = on_duty(read(file, more), speed_rpm, torque)
+    known = known_to(drive, "." if file == STDIN else file.parent, more)
+    with keys_of(file), watching(_("searching remedies")) as progress:
+        result = checked(drive, only=only or (), known=known, progress=progress)
+    return tell(answer(drive, result, sources=sources, missing=missing), file, drive, json=json, csv=csv, plot=plot)
+
+
+def _check_only(names: Sequence[str]) -> None:
+    """Refuse a check that is none."""
+    problems = []
+    for name in names:
+        if name not in CHECKS:
+            near = nearest(name, CHECKS)
+            text = _("unknown check {name}; cardan check --list names them").format(name=repr(name))
+            problems.append(Problem("--only", text + (_("; the nearest is {near}").format(near=near) if near else "")))
+    refuse_all(problems)

@@ -1,0 +1,152 @@
+"""``cardan select``: which types and sizes of joints do a job, under which conditions, and why not the others?"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isfinite
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cardan.catalogue import Catalogue, catalogue, with_files
+from cardan.choices.selection import JointDuty
+from cardan.choices.selection_answer import answer, selected
+from cardan.choices.selection_reasons import joint_duty
+from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, SpeedRpm
+from cardan.cli.shared.source import STDIN, read
+from cardan.cli.shared.tell import tell
+from cardan.drive.drive import Drive
+from cardan.errors import InputError, Problem, check
+from cardan.io.drive_file import known_to
+from cardan.texts import _
+from cardan.units import deg, mm, rpm
+
+
+def select(
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[FILE]",
+            help=_("Drive file whose joints are to be chosen; - reads standard input. Options count before it."),
+            show_default=False,
+        ),
+    ] = None,
+    joint: Annotated[
+        int | None,
+        typer.Option(
+            "--joint",
+            metavar="NUMBER",
+            help=_("Only this joint of the file; all of them by default."),
+            show_default=False,
+        ),
+    ] = None,
+    torque: TorqueNm = None,
+    joint_angle_deg: Annotated[
+        float | None, typer.Option("--joint-angle-deg", metavar="DEG", help=_("Joint angle."), show_default=False)
+    ] = None,
+    speed_rpm: SpeedRpm = None,
+    factor: Annotated[
+        float | None,
+        typer.Option("--service-factor", metavar="FACTOR", help=_("Factor on the torque."), show_default=False),
+    ] = None,
+    outer_mm: Annotated[
+        float | None,
+        typer.Option(
+            "--outer-mm", metavar="MM", help=_("Outer diameter, for the speed of the rim."), show_default=False
+        ),
+    ] = None,
+    synchronous: Annotated[
+        bool | None,
+        typer.Option("--synchronous/--uneven", help=_("Whether the output must be uniform."), show_default=False),
+    ] = None,
+    continuous: Annotated[
+        bool | None,
+        typer.Option("--continuous/--short", help=_("Whether it runs for long at a time."), show_default=False),
+    ] = None,
+    modern: Annotated[
+        bool,
+        typer.Option(
+            "--modern", help=_("Count modern types too, whose limits are typical values."), show_default=False
+        ),
+    ] = False,
+    more: MoreRows = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+) -> int:
+    """Tell which types and sizes of joints do a job: accepted, under conditions, or rejected, and why."""
+    check_options(speed_rpm, torque, json=json, csv=csv)
+    files = tuple(more or ())
+    changes = _changes(joint_angle_deg, factor, outer_mm, synchronous, continuous)
+    drive = None if file is None else read(file, files)
+    if drive is None or file is None:
+        known = with_files(catalogue(), files) if files else catalogue()
+        need = _need(torque, speed_rpm, changes)
+    else:
+        known = known_to(drive, "." if file == STDIN else file.parent, files)
+        with keys_of(file):
+            need = _of_drive(drive, joint, torque, speed_rpm, changes, known)
+    try:
+        result = selected(need, known=known, modern=modern)
+    except InputError as error:
+        raise error.renamed(_option) from error
+    return tell(answer(drive, result), file, drive, json=json, csv=csv)
+
+
+OPTIONS = {
+    "torque": "--torque-Nm",
+    "joint_angle": "--joint-angle-deg",
+    "speed": "--speed-rpm",
+    "service_factor": "--service-factor",
+    "outer": "--outer-mm",
+    "joint": "--joint",
+}
+
+
+def _option(field: str) -> str:
+    return OPTIONS.get(field, field)
+
+
+def _changes(
+    joint_angle: float | None, factor: float | None, outer: float | None, even: bool | None, long: bool | None
+) -> dict[str, Any]:
+    """Return what the options say beside torque and speed, in SI."""
+    given = (("--joint-angle-deg", joint_angle), ("--service-factor", factor), ("--outer-mm", outer))
+    text = _("{value} is not a finite number")
+    check(Problem(name, text.format(value=one)) for name, one in given if one is not None and not isfinite(one))
+    said = {
+        "joint_angle": None if joint_angle is None else joint_angle * deg,
+        "service_factor": factor,
+        "outer": None if outer is None else outer * mm,
+        "synchronous": even,
+        "continuous": long,
+    }
+    return {name: value for name, value in said.items() if value is not None}
+
+
+def _need(torque: float | None, speed_rpm: float | None, changes: dict[str, Any]) -> JointDuty:
+    """Return a need from options alone."""
+    given = {"--torque-Nm": torque, "--joint-angle-deg": changes.get("joint_angle"), "--speed-rpm": speed_rpm}
+    check(
+        Problem(name, _("missing; give it, or a drive file"), "missing") for name, one in given.items() if one is None
+    )
+    try:
+        return JointDuty(torque=torque or 0.0, speed=(speed_rpm or 0.0) * rpm, **changes)
+    except InputError as error:
+        raise error.renamed(_option) from error
+
+
+def _of_drive(
+    drive: Drive,
+    joint: int | None,
+    torque: float | None,
+    speed_rpm: float | None,
+    changes: dict[str, Any],
+    known: Catalogue,
+) -> JointDuty:
+    """Return the need of a drive, what the options say in place of it."""
+    try:
+        return replace(joint_duty(on_duty(drive, speed_rpm, torque), joint=joint, known=known), **changes)
+    except InputError as error:
+        raise error.renamed(_option) from error

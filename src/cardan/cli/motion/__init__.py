@@ -1,0 +1,1 @@
+"""Commands on how a drive turns: its angles, phasing, errors and freedom."""

@@ -1,0 +1,86 @@
+"""``cardan motion``: how does every shaft turn?"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.output import check_common, check_speed
+from cardan.cli.shared.source import read
+from cardan.cli.shared.tell import tell
+from cardan.errors import Problem, check
+from cardan.questions.motion.answer import answer, ask
+from cardan.texts import _
+from cardan.units import deg, rpm
+
+STEP = 30.0
+"""Step of the printed table [deg]; JSON, CSV and figures have steps of one degree."""
+
+MOST_POSITIONS = 1_000_000
+"""More positions than this would not fit a table anyone reads."""
+
+
+def motion(
+    file: DriveFile,
+    angle: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--angle-deg",
+            "--angle",
+            metavar="DEG",
+            help=_("Input angle from the start position; may be repeated. Instead of a whole turn."),
+            show_default=False,
+        ),
+    ] = None,
+    step: Annotated[
+        float | None,
+        typer.Option(
+            "--angle-step-deg",
+            "--angle-step",
+            metavar="DEG",
+            help=_("Step of the input angle over one turn: 30 in the table, 1 otherwise."),
+            show_default=False,
+        ),
+    ] = None,
+    table: Annotated[
+        bool, typer.Option("--table", help=_("Print a table over the input angle, too."), show_default=False)
+    ] = False,
+    speed_rpm: SpeedRpm = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell how every shaft turns: angle, speed ratio, acceleration."""
+    check_common(json=json, csv=csv, plot=plot)
+    check_positions(angle, step)
+    check_speed(speed_rpm)
+    drive = read(file)
+    speed = drive.duty.speed if speed_rpm is None else speed_rpm * rpm
+    listed = positions(angle, step or STEP) if table or angle or step is not None else None
+    result = ask(drive, positions(angle, step or 1.0), speed=speed, listed=listed)
+    return tell(answer(drive, result), file, drive, json=json, csv=csv, plot=plot)
+
+
+def check_positions(angle: list[float] | None, step: float | None) -> None:
+    """Refuse positions that are not numbers, that contradict each other, or that are too many."""
+    problems = []
+    if angle and step is not None:
+        problems.append(Problem("--angle-step-deg", _("choose --angle-deg or --angle-step-deg, not both")))
+    problems += [
+        Problem("--angle-deg", _("{value} is not a finite number").format(value=value))
+        for value in angle or ()
+        if not math.isfinite(value)
+    ]
+    if step is not None and not 360.0 / MOST_POSITIONS <= step <= 360.0:
+        text = _("{value} is not allowed; allowed is {low:g} to 360")
+        problems.append(Problem("--angle-step-deg", text.format(value=step, low=360.0 / MOST_POSITIONS)))
+    check(problems)
+
+
+def positions(angle: list[float] | None, step: float) -> Any:
+    """Return the input angles asked for [rad]: those given, or one turn with both its ends."""
+    return deg * (np.asarray(angle) if angle else step * np.arange(int(360.0 / step + 1e-9) + 1))

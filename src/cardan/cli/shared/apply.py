@@ -1,0 +1,81 @@
+"""Writes the yoke angles of a setting into a drive file, its comments kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from cardan.cli.files.convert import SUFFIXES
+from cardan.cli.shared.changed import write_changed
+from cardan.cli.shared.output import check_new, check_target
+from cardan.cli.shared.source import STDIN
+from cardan.drive.drive import Drive
+from cardan.errors import refuse
+from cardan.questions.phases.answer import every_setting
+from cardan.questions.phases.phases import Phasing
+from cardan.questions.phases.setting import YokeSetting, values_of
+from cardan.texts import _
+
+
+def written(
+    found: Phasing,
+    drive: Drive,
+    text: str,
+    *,
+    label: str | None,
+    out: Path,
+    also: Mapping[str, Any],
+) -> tuple[YokeSetting, dict[str, Any]]:
+    """Write a setting into a file and return it with what changed there, by paths with units.
+
+    Parameters
+    ----------
+    found : Phasing
+        What the yokes can do.
+    drive : Drive
+        The drive as it stands in the file.
+    text : str
+        The file.
+    label : str or None
+        Which setting to write; the first suggested one by default.
+    out : path
+        Where to write it, TOML or JSON.
+    also : mapping of str to value
+        What else changes in the file, by paths with units.
+    """
+    best = (*found.pose_settings, *found.settings, found.as_built)[0]
+    chosen = best if label is None else named(every_setting(found), label)
+    values = dict(also) | values_of(chosen, drive)
+    write_changed(drive, text, values, out)
+    return chosen, values
+
+
+def check_copy(out: Path, file: Path, *, force: bool) -> None:
+    """Refuse to write over another file unless told to, and what is neither TOML nor JSON, before any work is done."""
+    if file != STDIN and out.exists() and file.exists() and out.samefile(file):
+        check_target(out, "--out")
+        return
+    if out.suffix.lower() not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise refuse("--out", _("{path} should end in one of {known}").format(path=out, known=known))
+    check_new(out, force=force, field="--out")
+
+
+def named(settings: Sequence[YokeSetting], label: str) -> YokeSetting:
+    """Return the setting of a name, or of a word or more of one; the best comes first.
+
+    A letter names a setting and is no part of a name: whoever asks for a setting E does not mean "16-tooth splines".
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    wanted = label.casefold()
+    exact = [one for one in settings if one.label.casefold() == wanted]
+    near = exact or [one for one in settings if len(wanted) > 2 and wanted in one.label.casefold()]
+    if not near:
+        labels = "; ".join(one.label for one in settings)
+        raise refuse("--apply", _("there is no setting {label}; there are {labels}").format(label=label, labels=labels))
+    return near[0]

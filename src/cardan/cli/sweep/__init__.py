@@ -1,0 +1,1 @@
+"""Commands on many drives at once."""

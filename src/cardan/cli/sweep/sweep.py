@@ -1,0 +1,161 @@
+"""``cardan sweep``: a parameter sweep over the fields of a drive."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cardan.batch.answer import answer
+from cardan.batch.engine.cluster import Cluster
+from cardan.batch.engine.engines import Engine, InProcess, Processes
+from cardan.batch.engine.running import run
+from cardan.batch.table.swept import read_sweep
+from cardan.cli.shared.failure import about
+from cardan.cli.shared.options import AsCsv, AsJson, MoreRows, Plot
+from cardan.cli.shared.output import check_common
+from cardan.cli.shared.tell import tell
+from cardan.cli.torsion.torsion_parts import ended, keeping
+from cardan.errors import Problem, check, refuse
+from cardan.io.plan_file import Plan, read_plan
+from cardan.texts import _
+
+from .sweep_design import designed
+
+HELD = 200_000
+"""A table of at most so many points is held without a folder."""
+
+
+def sweep(
+    plan: Annotated[
+        Path,
+        typer.Argument(metavar="PLAN", help=_("Plan file, TOML or JSON."), show_default=False),
+    ],
+    into: Annotated[
+        Path | None,
+        typer.Option(
+            "--into",
+            metavar="FOLDER",
+            help=_("Folder for the table, as Parquet; a sweep begun there goes on."),
+            show_default=False,
+        ),
+    ] = None,
+    engine: Annotated[
+        str | None,
+        typer.Option(
+            "--engine",
+            metavar="in-process|processes|cluster",
+            help=_("Where to work, instead of where the plan says."),
+            show_default=False,
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            "--workers", metavar="N", min=1, help=_("How many processes or workers of a cluster."), show_default=False
+        ),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help=_("Address of the scheduler of a dask cluster; without it a cluster is started here."),
+            show_default=False,
+        ),
+    ] = None,
+    device: Annotated[
+        str | None,
+        typer.Option(
+            "--device",
+            metavar="cpu|gpu",
+            help=_("What computes questions about motion, instead of what the plan says."),
+            show_default=False,
+        ),
+    ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option("--resume", help=_("Go on with the sweep of FOLDER, and begin none."), show_default=False),
+    ] = False,
+    design: Annotated[
+        str | None,
+        typer.Option(
+            "--design",
+            metavar="search|sensitivity|boundary",
+            help=_("Run the plan's search, sensitivity or boundary instead of the full grid."),
+            show_default=False,
+        ),
+    ] = None,
+    catalogue: MoreRows = None,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Ask questions of a drive at every point of a plan."""
+    check_common(json=json, csv=csv, plot=plot)
+    _check(into, resume, engine, scheduler, device)
+
+    with about(str(plan)):
+        read = read_plan(plan, catalogues=catalogue or ())
+        chosen = _design(read, design, plot)
+    if chosen:
+        return designed(read, plan, chosen, json=json, csv=csv, plot=plot)
+    if csv and read.rows == "none":
+        raise refuse("--csv", _("the plan keeps no rows"))
+    with about(str(plan)):
+        work = read.work(device=device)  # type: ignore[arg-type]
+        keeps = read.rows == "kept" and (into is not None or csv or work.size <= HELD)
+    where = _engine(read, engine, workers, scheduler)
+    with keeping(_("answering points"), count=work.size) as progress:
+        found = run(
+            work,
+            engine=where,
+            into=into,
+            rows="kept" if keeps else "none",
+            chunk=read.chunk,
+            progress=progress,
+        )
+    title = read.title or read.drive.name or _("the drive")
+    return ended(tell(answer(work, found, plan, keeps=keeps), name=title, json=json, csv=csv), progress)
+
+
+def _check(into: Path | None, resume: bool, engine: str | None, scheduler: str | None, device: str | None) -> None:
+    """Refuse options that are none or contradict each other."""
+    known = ("in-process", "processes", "cluster")
+    text = _("{value} is none of {choices}")
+    problems = []
+    if engine is not None and engine not in known:
+        problems.append(Problem("--engine", text.format(value=repr(engine), choices=", ".join(known))))
+    if device is not None and device not in ("cpu", "gpu"):
+        problems.append(Problem("--device", text.format(value=repr(device), choices="cpu, gpu")))
+    if scheduler is not None and engine not in (None, "cluster"):
+        problems.append(Problem("--scheduler", _("only a cluster has a scheduler")))
+    if resume and into is None:
+        problems.append(Problem("--resume", _("missing; --into names the folder of the sweep")))
+    check(problems)
+    if resume and into is not None:
+        read_sweep(into)
+
+
+def _design(read: Plan, design: str | None, plot: Path | None) -> str:
+    """Return the design that is to choose the points: the one asked for, or the only one where nothing else varies."""
+    if design is not None and design not in read.parts:
+        given = ", ".join(read.parts) or _("none")
+        raise refuse("--design", _("the plan has no [{name}]; it has: {given}").format(name=design, given=given))
+    chosen = design or (next(iter(read.parts)) if len(read.parts) == 1 and not read.axes else "")
+    if plot is not None and not chosen:
+        raise refuse("--plot", _("a table is drawn by cardan sweep show FOLDER --plot; here designs are"))
+    return chosen
+
+
+def _engine(read: Plan, engine: str | None, workers: int | None, scheduler: str | None) -> Engine:
+    """Return where to work: as the options say, else as the plan says."""
+    address = scheduler or read.scheduler
+    kind = engine or ("cluster" if scheduler else read.engine)
+    count = workers or read.workers
+    if kind == "cluster":
+        return Cluster(scheduler=address or None, workers=count)
+    if kind == "processes":
+        return Processes(workers=count)
+    return InProcess()

@@ -1,0 +1,37 @@
+"""``cardan sweep PLAN --design``: designs that choose their points themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cardan.batch.search.answer import answer
+from cardan.cli.shared.failure import about
+from cardan.cli.shared.tell import tell
+from cardan.cli.torsion.torsion_parts import ended, keeping
+from cardan.io.plan_designs import design_of
+from cardan.io.plan_file import Plan
+from cardan.texts import _
+
+
+def designed(read: Plan, file: Path, name: str, *, json: bool, csv: bool, plot: Path | None) -> int:
+    """Run a design of a plan and tell what it found.
+
+    Parameters
+    ----------
+    read : Plan
+        The plan.
+    file : Path
+        Its file.
+    name : str
+        Table of the design.
+    json, csv : bool
+        ``--json`` and ``--csv``.
+    plot : Path or None
+        ``--plot``.
+    """
+    with about(str(file)):
+        design = design_of(read, name)
+    with keeping(_("choosing points")) as progress, about(str(file)):
+        found = design.run(progress)
+    title = read.title or read.drive.name or file.stem
+    return ended(tell(answer(found), name=title, json=json, csv=csv, plot=plot), progress)

@@ -1,0 +1,106 @@
+"""``cardan torsion optimise``: with which values of the drive is its torsional vibration least?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
+from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
+from cardan.cli.shared.source import read_with_text
+from cardan.cli.shared.tell import tell
+from cardan.errors import Problem, check
+from cardan.io.edit import edit
+from cardan.maths.curves.evolution import Evolution
+from cardan.questions.torsion.calm.answer import answer
+from cardan.questions.torsion.calm.calm import Grid, calm
+from cardan.texts import _
+
+from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
+from .torsion_parts import ended, keeping
+
+ROUNDS = 40
+"""Generations of a search."""
+
+OPTIONS = {"free": "--free", "speeds": "--speeds", "elements": "--element", "method.points": "--grid"}
+"""What the question calls by another name than the command."""
+
+
+def torsion_optimise(
+    file: DriveFile,
+    free: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--free",
+            metavar="PATH=LOW:HIGH[:STEP]",
+            help=_("Key of the file that may change, as shafts[1].yoke_angle_deg; may be repeated. Yokes by default."),
+            show_default=False,
+        ),
+    ] = None,
+    speeds: SpeedBand = None,
+    element: Element = None,
+    grid: Annotated[
+        int | None,
+        typer.Option(
+            "--grid",
+            metavar="N",
+            help=_("Try every combination of N values of each key instead of evolution."),
+            show_default=False,
+        ),
+    ] = None,
+    rounds: Annotated[
+        int, typer.Option("--rounds", metavar="N", min=1, help=_("Generations of the search at most."))
+    ] = ROUNDS,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", min=0, help=_("Random seed."))] = 0,
+    speed_rpm: SpeedRpm = None,
+    torque: TorqueNm = None,
+    out: Out = None,
+    force: Force = False,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell the yokes, stiffnesses, inertias or joint positions with the least alternating torque over the speeds."""
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
+    check_out(out, file, force=force)
+    band, ranges = band_of(speeds), ranges_of(free or [])
+    drive, text = read_with_text(file)
+    drive = on_duty(drive, speed_rpm, torque)
+    method = Evolution(rounds=rounds, seed=seed) if grid is None else Grid(points=grid)
+    with asked_of(file, OPTIONS), keeping(_("searching designs")) as progress:
+        found = calm(drive, free=ranges, speeds=band, elements=elements_of(element), method=method, progress=progress)
+    if out is not None:
+        changed = {one.path: found.values[one.path] for one in found.free if found.values[one.path] != one.built}
+        written(file, text, out, lambda: edit(text, changed, folder=file.parent) if changed else text, found.drive)
+    given: dict[str, object] = {"--speeds": speeds, "--grid": grid, "--rounds": None if rounds == ROUNDS else rounds}
+    given |= {"--seed": seed or None, "--speed-rpm": speed_rpm, "--torque-Nm": torque}
+    options = repeated(given, {"--free": free, "--element": element})
+    said = stepped(answer(drive, found), ("torsion", "optimise"), options, out)
+    return ended(tell(said, file, drive, json=json, csv=csv, plot=plot), progress)
+
+
+def ranges_of(texts: Sequence[str]) -> dict[str, tuple[float, ...]] | None:
+    """Return path -> range of PATH=LOW:HIGH[:STEP], None where nothing is given.
+
+    Examples
+    --------
+    >>> ranges_of(["shafts[1].yoke_angle_deg=-90:90:22.5"])
+    {'shafts[1].yoke_angle_deg': (-90.0, 90.0, 22.5)}
+    """
+    found: dict[str, tuple[float, ...]] = {}
+    problems = []
+    for text in texts:
+        path, _equals, rest = text.partition("=")
+        try:
+            values = tuple(float(one) for one in rest.split(":"))
+        except ValueError:
+            values = ()
+        if len(values) not in (2, 3):
+            problems.append(Problem("--free", _("not PATH=LOW:HIGH[:STEP]: {text}").format(text=text)))
+        elif path in found:
+            problems.append(Problem("--free", _("{path} is given twice").format(path=path)))
+        found[path] = values
+    check(problems)
+    return found or None

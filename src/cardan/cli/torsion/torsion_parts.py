@@ -1,0 +1,133 @@
+"""What the commands of ``cardan torsion`` share: options, names of elements, how to stop long work and keep it."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Annotated, Any, TypeAlias
+
+import numpy as np
+import typer
+
+from cardan.cli.shared.progress import watching
+from cardan.errors import refuse
+from cardan.questions.torsion.stability.torsion_stability import PACE
+from cardan.texts import _
+
+Speeds: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        "--speeds",
+        metavar="LOW:HIGH[:COUNT]",
+        help=_("Input speeds in rpm, from the lowest to the highest, instead of one."),
+        show_default=False,
+    ),
+]
+Pieces: TypeAlias = Annotated[
+    int,
+    typer.Option(
+        "--pieces",
+        metavar="N",
+        min=1,
+        max=1000,
+        help=_("Stretches into which the body of a shaft is divided between two stations."),
+    ),
+]
+
+COUNT = 121
+"""Values of a list where no number is given."""
+
+MOST = 1_000_000
+"""Values of a list at most."""
+
+
+def values(text: str, option: str, *, count: int = COUNT, low: float | None = None) -> Any:
+    """Return the values of LOW:HIGH[:COUNT].
+
+    Parameters
+    ----------
+    text : str
+        What the user wrote.
+    option : str
+        As what.
+    count : int
+        How many, where the text does not say.
+    low : float, optional
+        The values are above this.
+
+    Raises
+    ------
+    InputError
+        The text is no such range, or holds too many values.
+
+    Examples
+    --------
+    >>> values("100:200:3", "--speeds").tolist()
+    [100.0, 150.0, 200.0]
+    """
+    parts = text.split(":")
+    try:
+        first, last = (float(part) for part in parts[:2])
+        many = int(parts[2]) if len(parts) > 2 else count
+    except ValueError:
+        first = last = float("nan")
+        many = 0
+    if len(parts) > 3 or not (np.isfinite(first) and np.isfinite(last)):
+        raise refuse(option, _("{text} is not a range; write LOW:HIGH or LOW:HIGH:COUNT").format(text=text))
+    if not first < last or many < 2:
+        raise refuse(option, _("{text} is empty; the second value is above the first, two at least").format(text=text))
+    if low is not None and first <= low:
+        raise refuse(option, _("{first:g} is not allowed; allowed is more than {low:g}").format(first=first, low=low))
+    if many > MOST:
+        said = _("{count:,} values would take about {hours:,.0f} h; at most {most:,} are done")
+        said = said.format(count=many, hours=many * PACE / 3600.0, most=MOST)
+        raise refuse(option, said.replace(",", "\u202f"))
+    return np.linspace(first, last, many)
+
+
+@contextmanager
+def keeping(what: str, *, count: int = 0) -> Iterator[Callable[[float], object]]:
+    """Give the function that long work tells its share done; ctrl-C makes it answer "stop", so that its part is kept.
+
+    A second ctrl-C ends the command at once. The function has an attribute ``stopped``.
+
+    Parameters
+    ----------
+    what : str
+        What is being done, beside the bar.
+    count : int
+        Points of the whole work, where points a second and the time left are to be told.
+    """
+
+    class Telling:
+        stopped = False
+
+        def __call__(self, share: float) -> object:
+            tell(share)
+            return "stop" if self.stopped else None
+
+    telling = Telling()
+
+    def interrupt(_number: int, _frame: object) -> None:
+        if telling.stopped:
+            raise KeyboardInterrupt
+        telling.stopped = True
+
+    with watching(what, count=count) as tell:
+        try:
+            before = signal.signal(signal.SIGINT, interrupt)
+        except ValueError:  # not in the main thread: nobody interrupts there
+            yield telling
+            return
+        try:
+            yield telling
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+def ended(code: int, telling: Any) -> int:
+    """Return the exit code of a command; one that was stopped ends with 130 and what it has said."""
+    if telling.stopped:
+        raise SystemExit(130)
+    return code

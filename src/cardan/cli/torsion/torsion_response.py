@@ -1,0 +1,33 @@
+"""``cardan torsion response``: how do the shafts vibrate in torsion, at a speed or over many?"""
+
+from __future__ import annotations
+
+from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
+from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.source import read
+from cardan.cli.shared.tell import tell
+from cardan.questions.torsion.steady.answer import answer
+from cardan.questions.torsion.steady.torsion_response import torsion_response as question
+from cardan.texts import _
+from cardan.units import rpm
+
+from .torsion_parts import Pieces, Speeds, ended, keeping, values
+
+
+def torsion_response(
+    file: DriveFile,
+    speed_rpm: SpeedRpm = None,
+    speeds: Speeds = None,
+    torque: TorqueNm = None,
+    pieces: Pieces = 1,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell how the shafts vibrate in torsion while the drive runs steadily."""
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
+    asked = None if speeds is None else values(speeds, "--speeds", low=0.0)
+    drive = on_duty(read(file), speed_rpm, torque)
+    with keys_of(file), keeping(_("finding steady motions")) as progress:
+        found = question(drive, speed=None if asked is None else asked * rpm, pieces=pieces, progress=progress)
+    return ended(tell(answer(drive, found), file, drive, json=json, csv=csv, plot=plot), progress)

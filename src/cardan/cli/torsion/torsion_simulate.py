@@ -1,0 +1,65 @@
+"""``cardan torsion simulate``: how do torques and speeds run in time?"""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Annotated
+
+import typer
+
+from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
+from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.source import read
+from cardan.cli.shared.tell import tell
+from cardan.errors import refuse
+from cardan.questions.torsion.transient.answer import answer
+from cardan.questions.torsion.transient.torsion_transient import Start
+from cardan.questions.torsion.transient.torsion_transient import transient as question
+from cardan.texts import _
+
+from .torsion_band import asked_of
+from .torsion_parts import Pieces, ended, keeping
+
+MOST_SAMPLES = 1_000_000
+"""More samples than this are refused."""
+
+
+def torsion_simulate(
+    file: DriveFile,
+    span: Annotated[
+        float | None,
+        typer.Option(
+            "--span-s",
+            "--span",
+            metavar="S",
+            help=_("How long; behind the run-up or to the end of the history, else some turns."),
+            show_default=False,
+        ),
+    ] = None,
+    samples: Annotated[
+        int, typer.Option("--samples", metavar="N", min=2, max=MOST_SAMPLES, help=_("Samples of the curves."))
+    ] = 2001,
+    settled: Annotated[
+        bool,
+        typer.Option(
+            "--settled",
+            help=_("Start from the steady motion, not from uniform rotation with untwisted shafts."),
+            show_default=False,
+        ),
+    ] = False,
+    speed_rpm: SpeedRpm = None,
+    torque: TorqueNm = None,
+    pieces: Pieces = 1,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell how torques and speeds run in time."""
+    check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
+    if span is not None and not (isfinite(span) and span > 0.0):
+        raise refuse("--span-s", _("{value} is not allowed; allowed is a finite time above 0").format(value=span))
+    drive = on_duty(read(file), speed_rpm, torque)
+    start: Start = "settled" if settled else "even"
+    with asked_of(file, {"span": "--span-s"}), keeping(_("following the motion")) as progress:
+        found = question(drive, span=span, times=samples, start=start, pieces=pieces, progress=progress)
+    return ended(tell(answer(drive, found), file, drive, json=json, csv=csv, plot=plot), progress)

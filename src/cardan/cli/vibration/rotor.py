@@ -1,0 +1,92 @@
+"""``cardan rotor``: how does a shaft whirl with its unbalance and a crack: steadily, running up, beside a joint?"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from cardan.cli.shared.asked import check_options, keys_of
+from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot
+from cardan.cli.shared.progress import watching
+from cardan.cli.shared.source import read
+from cardan.cli.shared.tell import tell
+from cardan.cli.torsion.torsion_parts import Speeds, values
+from cardan.errors import InputError, Problem
+from cardan.questions.bending.rotor_answer import answer, answer_of_joined, answer_of_run, ask
+from cardan.questions.bending.rotor_response import joined_rotors, rotor_run
+from cardan.texts import _
+from cardan.units import rpm
+
+NAMES = {"shaft": "--shaft", "joint": "--joint", "damping_ratio": "--damping", "speed": "--speeds"}
+"""What is asked for -> the option that says it."""
+
+
+def rotor(
+    file: DriveFile,
+    shaft: Annotated[
+        int | None,
+        typer.Option(
+            "--shaft",
+            metavar="N",
+            help=_("Number of the shaft; the cracked one otherwise, else the one with most unbalance."),
+            show_default=False,
+        ),
+    ] = None,
+    damping: Annotated[
+        float, typer.Option("--damping", metavar="ζ", help=_("Damping ratio of the bending of the shaft."))
+    ] = 0.02,
+    speeds: Speeds = None,
+    run_up: Annotated[
+        bool,
+        typer.Option(
+            "--run-up", help=_("In time, while the speed changes as the run_up of the duty."), show_default=False
+        ),
+    ] = False,
+    joint: Annotated[
+        int | None,
+        typer.Option(
+            "--joint", metavar="N", help=_("In time, both shafts beside this joint, at one speed."), show_default=False
+        ),
+    ] = None,
+    speed_rpm: Annotated[
+        float | None,
+        typer.Option(
+            "--speed-rpm",
+            metavar="RPM",
+            help=_("With --joint: the speed, instead of the one in the file."),
+            show_default=False,
+        ),
+    ] = None,
+    turns: Annotated[float, typer.Option("--turns", metavar="N", help=_("With --joint: how long, in turns."))] = 40.0,
+    json: AsJson = False,
+    csv: AsCsv = False,
+    plot: Plot = None,
+) -> int:
+    """Tell how a shaft whirls with its unbalance and a crack: orders over the speed, orbits, where it is unstable."""
+    check_options(speed_rpm, json=json, csv=csv, plot=plot)
+    problems = []
+    if run_up and joint is not None:
+        problems.append(Problem("--joint", _("choose --run-up or --joint, not both")))
+    if joint is None and speed_rpm is not None:
+        problems.append(Problem("--speed-rpm", _("belongs to --joint; --speeds says a range")))
+    if not 1.0 <= turns <= 10_000.0:
+        problems.append(Problem("--turns", _("{value} is not allowed; allowed is 1 to 10000").format(value=turns)))
+    if problems:
+        raise InputError(problems)
+    at = None if speeds is None else values(speeds, "--speeds", low=0.0) * rpm
+    drive = read(file)
+    with keys_of(file), watching(_("following the shaft")) as progress:
+        try:
+            if joint is not None:
+                speed = None if speed_rpm is None else speed_rpm * rpm
+                pair = joined_rotors(drive, joint, speed=speed, turns=turns, damping_ratio=damping, progress=progress)
+                said = answer_of_joined(drive, *pair)
+            elif run_up:
+                run = rotor_run(drive, shaft=shaft, damping_ratio=damping, progress=progress)
+                said = answer_of_run(drive, *run)
+            else:
+                said = answer(drive, ask(drive, shaft=shaft, speed=at, damping_ratio=damping, progress=progress))
+        except InputError as error:
+            raise error.renamed(lambda field: NAMES.get(field, field)) from error
+    return tell(said, file, drive, json=json, csv=csv, plot=plot)
