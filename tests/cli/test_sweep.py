@@ -56,7 +56,7 @@ def test_json_holds_the_table_and_what_it_comes_from(cardan, small):
 def test_rows_that_are_not_kept_are_refused_before_any_work(cardan, small, monkeypatch):
     plan = small.with_name("none.toml")
     plan.write_text('rows = "none"\n' + small.read_text(encoding="utf-8"), encoding="utf-8")
-    monkeypatch.setattr("cardan.batch.engine.running.run", None)
+    monkeypatch.setattr("cardan.cli.sweep.sweep.run", None)
     assert "--csv: the plan keeps no rows" in cardan("sweep", plan, "--csv").err
 
 
@@ -106,12 +106,12 @@ def test_a_plan_that_is_no_file_is_refused(cardan):
 
 def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, tmp_path, monkeypatch):
     pytest.importorskip("pyarrow")
-    from cardan.cli.torsion import torsion_parts
+    from cardan.cli.sweep import sweep
 
     folder = tmp_path / "kept"
     text = small.read_text("utf8") + '[[vary]]\nkey = "input.start_phase_deg"\nfrom = 0\nto = 90\ncount = 40\n'
     small.write_text(text + "[engine]\nchunk_rows = 10\n", "utf8")
-    real = torsion_parts.keeping
+    real = sweep.keeping
 
     class Stopping:
         stopped = False
@@ -128,12 +128,12 @@ def test_interrupted_it_keeps_what_is_done_and_says_how_to_go_on(cardan, small, 
         yield Stopping()
 
     monkeypatch.setattr("cardan.batch.engine.running.OFTEN", 0.0)
-    monkeypatch.setattr(torsion_parts, "keeping", stopped)
+    monkeypatch.setattr(sweep, "keeping", stopped)
     done = cardan("sweep", small, "--into", folder)
     assert done.code == 130
     assert "Missing: rows" in done.out
     assert "--into kept --resume" in " ".join(done.out.split())  # as it is written from here
-    monkeypatch.setattr(torsion_parts, "keeping", real)
+    monkeypatch.setattr(sweep, "keeping", real)
     whole = cardan("sweep", small, "--into", folder, "--resume", "--json").content
     assert (whole["status"], whole["missing"]) == ("done", [])
     assert json.loads(json.dumps(whole["reductions"]["points"]))["answered"] == 80

@@ -10,7 +10,7 @@ import pytest
 
 from cardan import io as files
 from cardan import stability, torsion_modes, torsion_response, transient
-from cardan.cli.torsion.torsion_parts import keeping
+from cardan.cli.shared.progress import keeping
 from cardan.questions.torsion.transient import torsion_transient
 from cardan.units import rpm
 from tests.cli.test_forces import plain, widest

@@ -133,7 +133,7 @@ def test_a_cluster_that_is_gone_or_other_is_told(outside, tmp_path, monkeypatch)
     outside.work()
     wait_for_worker(outside)
     with monkeypatch.context() as patch:
-        patch.setattr(cluster, "__version__", "0.0.9")
+        patch.setattr(cluster, "VERSION", "0.0.9")
         with pytest.raises(InputError) as refused:
             run(WORK, engine=Cluster(scheduler=outside.address))
         assert str(refused.value).startswith("scheduler: worker tcp://127.0.0.1:")

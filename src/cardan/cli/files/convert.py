@@ -10,7 +10,7 @@ import typer
 from cardan import io
 from cardan.answers.answer import Answer
 from cardan.cli.shared.options import AsJson, DriveFile
-from cardan.cli.shared.output import check_new, print_text
+from cardan.cli.shared.output import SUFFIXES, check_new, print_text
 from cardan.cli.shared.source import STDIN, read
 from cardan.cli.shared.tell import tell
 from cardan.drive.drive import Drive
@@ -22,7 +22,6 @@ from cardan.scene.gltf import render
 from cardan.scene.scene import scene
 from cardan.texts import _
 
-SUFFIXES = (".toml", ".json", ".glb")
 BODIES = ".glb"
 
 

@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from cardan.cli.files.convert import SUFFIXES
 from cardan.cli.shared.changed import write_changed
-from cardan.cli.shared.output import check_new, check_target
+from cardan.cli.shared.output import SUFFIXES, check_new, check_target
 from cardan.cli.shared.source import STDIN
 from cardan.drive.drive import Drive
 from cardan.errors import refuse

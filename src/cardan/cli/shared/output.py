@@ -14,6 +14,7 @@ from cardan.files import write_text as write
 from cardan.texts import _
 from cardan.units import rpm
 
+SUFFIXES = (".toml", ".json", ".glb")
 FIGURE_SUFFIXES = (".svg", ".png", ".pdf", ".html")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -111,3 +112,50 @@ def pace(done: float, left: float, seconds: float, count: int) -> str:
     clock = f"{rest // 3600}:{rest // 60 % 60:02d}:{rest % 60:02d}" if rest >= 3600 else f"{rest // 60}:{rest % 60:02d}"
     shown = thousands(rate) if rate >= 10.0 else f"{rate:.2g}"
     return _("{rate} points/s, {time} left").format(rate=shown, time=clock)
+
+
+@contextmanager
+def keeping(what: str, *, count: int = 0) -> Iterator[Callable[[float], object]]:
+    """Give the function that long work tells its share done; ctrl-C makes it answer "stop", so that its part is kept.
+
+    A second ctrl-C ends the command at once. The function has an attribute ``stopped``.
+
+    Parameters
+    ----------
+    what : str
+        What is being done, beside the bar.
+    count : int
+        Points of the whole work, where points a second and the time left are to be told.
+    """
+
+    class Telling:
+        stopped = False
+
+        def __call__(self, share: float) -> object:
+            tell(share)
+            return "stop" if self.stopped else None
+
+    telling = Telling()
+
+    def interrupt(_number: int, _frame: object) -> None:
+        if telling.stopped:
+            raise KeyboardInterrupt
+        telling.stopped = True
+
+    with watching(what, count=count) as tell:
+        try:
+            before = signal.signal(signal.SIGINT, interrupt)
+        except ValueError:  # not in the main thread: nobody interrupts there
+            yield telling
+            return
+        try:
+            yield telling
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+def ended(code: int, telling: Any) -> int:
+    """Return the exit code of a command; one that was stopped ends with 130 and what it has said."""
+    if telling.stopped:
+        raise SystemExit(130)
+    return code

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from cardan.batch.search.answer import answer
 from cardan.cli.shared.failure import about
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.tell import tell
-from cardan.cli.torsion.torsion_parts import ended, keeping
 from cardan.io.plan_designs import design_of
 from cardan.io.plan_file import Plan
 from cardan.texts import _

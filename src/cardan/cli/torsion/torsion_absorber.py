@@ -9,6 +9,7 @@ import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
 from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.io.stations import put_station, station_text
@@ -17,7 +18,6 @@ from cardan.texts import _
 from cardan.units import mm
 
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
-from .torsion_parts import ended, keeping
 
 OPTIONS = {
     "kind": "--kind",

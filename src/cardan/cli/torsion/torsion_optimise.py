@@ -9,6 +9,7 @@ import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
 from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Force, Plot, SpeedRpm
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import read_with_text
 from cardan.cli.shared.tell import tell
 from cardan.errors import Problem, check
@@ -19,7 +20,6 @@ from cardan.questions.torsion.calm.calm import Grid, calm
 from cardan.texts import _
 
 from .torsion_band import Element, Out, SpeedBand, asked_of, band_of, check_out, elements_of, repeated, stepped, written
-from .torsion_parts import ended, keeping
 
 ROUNDS = 40
 """Generations of a search."""

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 import typer
 
-from cardan.cli.shared.progress import watching
 from cardan.errors import refuse
 from cardan.questions.torsion.stability.torsion_stability import PACE
 from cardan.texts import _
@@ -84,50 +80,3 @@ def values(text: str, option: str, *, count: int = COUNT, low: float | None = No
         said = said.format(count=many, hours=many * PACE / 3600.0, most=MOST)
         raise refuse(option, said.replace(",", "\u202f"))
     return np.linspace(first, last, many)
-
-
-@contextmanager
-def keeping(what: str, *, count: int = 0) -> Iterator[Callable[[float], object]]:
-    """Give the function that long work tells its share done; ctrl-C makes it answer "stop", so that its part is kept.
-
-    A second ctrl-C ends the command at once. The function has an attribute ``stopped``.
-
-    Parameters
-    ----------
-    what : str
-        What is being done, beside the bar.
-    count : int
-        Points of the whole work, where points a second and the time left are to be told.
-    """
-
-    class Telling:
-        stopped = False
-
-        def __call__(self, share: float) -> object:
-            tell(share)
-            return "stop" if self.stopped else None
-
-    telling = Telling()
-
-    def interrupt(_number: int, _frame: object) -> None:
-        if telling.stopped:
-            raise KeyboardInterrupt
-        telling.stopped = True
-
-    with watching(what, count=count) as tell:
-        try:
-            before = signal.signal(signal.SIGINT, interrupt)
-        except ValueError:  # not in the main thread: nobody interrupts there
-            yield telling
-            return
-        try:
-            yield telling
-        finally:
-            signal.signal(signal.SIGINT, before)
-
-
-def ended(code: int, telling: Any) -> int:
-    """Return the exit code of a command; one that was stopped ends with 130 and what it has said."""
-    if telling.stopped:
-        raise SystemExit(130)
-    return code

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cardan.cli.shared.asked import TorqueNm, check_options, keys_of, on_duty
 from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import read
 from cardan.cli.shared.tell import tell
 from cardan.questions.torsion.steady.answer import answer
@@ -11,7 +12,7 @@ from cardan.questions.torsion.steady.torsion_response import torsion_response as
 from cardan.texts import _
 from cardan.units import rpm
 
-from .torsion_parts import Pieces, Speeds, ended, keeping, values
+from .torsion_parts import Pieces, Speeds, values
 
 
 def torsion_response(

@@ -9,6 +9,7 @@ import typer
 
 from cardan.cli.shared.asked import TorqueNm, check_options, on_duty
 from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
@@ -18,7 +19,7 @@ from cardan.questions.torsion.transient.torsion_transient import transient as qu
 from cardan.texts import _
 
 from .torsion_band import asked_of
-from .torsion_parts import Pieces, ended, keeping
+from .torsion_parts import Pieces
 
 MOST_SAMPLES = 1_000_000
 """More samples than this are refused."""

@@ -8,6 +8,7 @@ import typer
 
 from cardan.cli.shared.asked import check_options, keys_of, on_duty
 from cardan.cli.shared.options import AsCsv, AsJson, DriveFile, Plot, SpeedRpm
+from cardan.cli.shared.progress import ended, keeping
 from cardan.cli.shared.source import read
 from cardan.cli.shared.tell import tell
 from cardan.errors import refuse
@@ -15,7 +16,7 @@ from cardan.questions.torsion.stability.answer import answer
 from cardan.questions.torsion.stability.torsion_stability import stability as question
 from cardan.texts import _
 
-from .torsion_parts import Pieces, Speeds, ended, keeping, values
+from .torsion_parts import Pieces, Speeds, values
 
 ALONE, ACROSS, UP = 201, 61, 31
 """Values along the axis of a map where no number is given: of the only one, of the speed beside another, of others."""
