@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cardan import Drive, InputError, motion
-from cardan.drive.drive import Duty
+from cardan.drive.duty import Duty
 from cardan.questions.motion.motion import initial_phases
 from cardan.sweeps import Drives, stack
 from cardan.units import deg

@@ -168,7 +168,7 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
 
     Examples
     --------
-    >>> from cardan.drive.drive import Duty
+    >>> from cardan.drive.duty import Duty
     >>> from cardan.drive.joints import Hooke
     >>> from cardan.drive.cross import Cross
     >>> from cardan.units import deg, mm, rpm
@@ -249,7 +249,7 @@ def loss_map(
 
     Examples
     --------
-    >>> from cardan.drive.drive import Duty
+    >>> from cardan.drive.duty import Duty
     >>> from cardan.drive.joints import Hooke
     >>> from cardan.drive.cross import Cross
     >>> from cardan.units import deg, mm

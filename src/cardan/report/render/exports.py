@@ -99,7 +99,7 @@ def exported(thing: Thing, kind: str, *, title: str = "") -> Exported:
 
     Examples
     --------
-    >>> from .block import Column, number
+    >>> from cardan.report.block import Column, number
     >>> table = Table(title="Strokes", columns=[Column(heading="stroke", unit="mm")], rows=[[number("1.23", 1.2345)]])
     >>> made = exported(table, "csv", title="hitch")
     >>> made.name, made.content.decode("utf-8-sig").split()

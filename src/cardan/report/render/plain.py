@@ -103,7 +103,7 @@ def csv_of(tables: Sequence[Table]) -> str:
 
     Examples
     --------
-    >>> from .block import Column, number, words
+    >>> from cardan.report.block import Column, number, words
     >>> columns = (Column(heading="what", left=True), Column(heading="stroke", unit="mm"))
     >>> print(csv_of([Table(title="Splines", columns=columns, rows=[[words("=1+1"), number("1.23", 1.2345)]])]))
     Splines
