@@ -7,11 +7,12 @@ import json
 import pytest
 
 from cardan import motion
+from cardan.answers.reader import USUAL
 from cardan.cli.main import main
 from cardan.drive.drive import Drive
 from cardan.drive.joints import JOINTS, Hooke
 from cardan.io import dumps, loads
-from cardan.questions.motion.kinds import kind_name, too_steep
+from cardan.questions.motion.kinds import kind_name, steep
 from cardan.report.report import page
 from cardan.units import deg
 
@@ -148,7 +149,7 @@ def test_keys_of_another_kind_are_named() -> None:
 
 
 def test_steep_joints_are_judged_by_their_kind() -> None:
-    assert not too_steep(JOINTS["rzeppa"](), 1, 46 * deg)
-    assert "Rzeppa" in too_steep(JOINTS["rzeppa"](), 1, 48 * deg)
-    assert "cross joint" in too_steep(Hooke(), 1, 46 * deg)
+    assert steep(JOINTS["rzeppa"](), 1, 46 * deg) is None
+    assert "Rzeppa" in steep(JOINTS["rzeppa"](), 1, 48 * deg).told(USUAL)
+    assert "cross joint" in steep(Hooke(), 1, 46 * deg).told(USUAL)
     assert "joints[0].kind" not in page(Drive(joints=(JOINTS["constant_velocity"](joint_angle=0.3),)))

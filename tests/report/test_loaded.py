@@ -8,13 +8,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
 from cardan.drive.accuracy import Error
 from cardan.drive.cross import Cross
 from cardan.drive.drive import Drive
 from cardan.drive.movement import Hitch
-from cardan.figures.wording import percent, significant
+from cardan.figures.wording import percent
 from cardan.io import example, example_names
 from cardan.maths.kernel import frames
 from cardan.questions.accuracy.tolerance import Linear, WorstCase, tolerance

@@ -94,6 +94,12 @@ class Column:
     wrap: bool = False
     depth: Depth = "brief"
 
+    @property
+    def listed(self) -> Sequence[Any]:
+        """Its values as Python holds them."""
+        found: Sequence[Any] = self.values.tolist() if isinstance(self.values, np.ndarray) else self.values
+        return found
+
     def name(self, reader: Reader) -> str:
         """Return the key with its unit."""
         return self.quantity(0.0).key(self.key, reader)

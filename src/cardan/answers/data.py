@@ -83,7 +83,7 @@ def _value(value: Any, reader: Reader) -> Any:
 def _numbers(column: Column, reader: Reader) -> list[Any]:
     """Return the values of a column in the reader's unit."""
     factor = reader.unit(column.dimension, column.unit)[1] if column.dimension else 1.0
-    return [_number(bare(one), factor, reader) for one in _plain(column.values)]
+    return [_number(bare(one), factor, reader) for one in column.listed]
 
 
 def _number(value: Any, factor: float, reader: Reader) -> Any:
@@ -94,10 +94,6 @@ def _number(value: Any, factor: float, reader: Reader) -> Any:
     if isinstance(value, list | tuple):
         return [_number(one, factor, reader) for one in value]
     return words_of(value, reader)
-
-
-def _plain(values: Any) -> Any:
-    return values.tolist() if isinstance(values, np.ndarray) else values
 
 
 def as_csv(table: Table | Iterable[Table], reader: Reader) -> Iterator[str]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -112,7 +111,7 @@ def printed(table: answer.Table, reader: Reader, depth: Depth = "full") -> Table
     ('kN', ['1,234', '–'])
     """
     columns = [one for one in table.columns if one.depth in SHOWN[depth]]
-    cells = [[cell(value, column, reader) for value in _plain(column.values)] for column in columns]
+    cells = [[cell(value, column, reader) for value in column.listed] for column in columns]
     rows = [list(row) for row in zip(*cells, strict=True)]
     if table.tones:
         rows = [[replace(row[0], tone=tone), *row[1:]] for row, tone in zip(rows, table.tones, strict=True)]
@@ -177,7 +176,3 @@ def framed(form: str, before: str, after: str = "") -> str:
     ('"≤ "0.0', '"("0.0")"', '')
     """
     return "".join((f'"{before}"' if before else "", form, f'"{after}"' if after else "")) if form else ""
-
-
-def _plain(values: Any) -> Any:
-    return values.tolist() if isinstance(values, np.ndarray) else values

@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.maths.arrays import Array
 
 from .figure import Axis
-from .wording import significant
 
 
 def steps(low: float, high: float, count: int = 5) -> tuple[float, ...]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cardan.answers.numbers import fixed, half_turn
 from cardan.drive.bodies.solids import Solids, solids
 from cardan.drive.drive import Drive
 from cardan.maths.arrays import Array
@@ -22,7 +23,6 @@ from .axes import steps, written
 from .figure import Axis, Curve, Figure, Mesh, Note, Panel, Row, Series, View
 from .palette import shaft as role_of
 from .projection import onto
-from .wording import fixed, half_turn
 
 SIDE = View(right=(1.0, 0.0, 0.0), up=(0.0, 0.0, 1.0))
 PLAN = View(right=(1.0, 0.0, 0.0), up=(0.0, 1.0, 0.0))

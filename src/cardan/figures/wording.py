@@ -3,51 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-from cardan.answers.checks import closely as closely
-from cardan.answers.checks import leftover as leftover
-from cardan.answers.numbers import THIN as THIN
-from cardan.answers.numbers import fixed as fixed
-from cardan.answers.numbers import half_turn as half_turn
-from cardan.answers.numbers import raised
-from cardan.answers.numbers import significant as significant
-from cardan.texts import _
-
-
-def angular(value: float, digits: int = 4) -> str:
-    """Return an angle before its sign °, which does not touch a power of ten: 10⁻⁷° would be read as one of ⁻⁷⁰.
-
-    Examples
-    --------
-    >>> f"{angular(12.5)}° {angular(4.31e-7, 2)}°"
-    '12.50° 4.3·10⁻⁷\u202f°'
-    """
-    text = significant(value, digits)
-    return text + THIN if "·" in text else text
-
-
-def given(value: float) -> str:
-    """Return a number as it was given: four significant digits at most, none that is nought at the end.
-
-    Examples
-    --------
-    >>> given(6.0), given(1500.0), given(7.9271), given(0.250)
-    ('6', '1\u202f500', '7.927', '0.25')
-    """
-    text = significant(value)
-    return text.rstrip("0").rstrip(".") if "." in text and "·" not in text else text
-
-
-def used(share: float) -> str:
-    """Return how much of a limit is used, where a limit of nothing is used without end.
-
-    Examples
-    --------
-    >>> used(0.784), used(float("inf"))
-    ('0.78', '∞')
-    """
-    return "∞" if share == math.inf else fixed(share)
+from cardan.answers.numbers import raised, significant
 
 
 def percent(share: float, digits: int = 3) -> str:
@@ -61,18 +19,6 @@ def percent(share: float, digits: int = 3) -> str:
     if abs(share) < 1e-13:
         return "0 %"
     return f"{significant(100.0 * share, digits)} %"
-
-
-def together(words: Iterable[str]) -> str:
-    """Return what is alike named in one breath.
-
-    Examples
-    --------
-    >>> together(["2"]), together(["2", "3"]), together(["1", "2", "4"])
-    ('2', '2 and 3', '1, 2 and 4')
-    """
-    *before, last = words
-    return _(" and ").join((", ".join(before), last)) if before else last
 
 
 def powers_of_ten(values: Sequence[float]) -> tuple[str, ...]:

@@ -121,11 +121,6 @@ class Pair:
         second = None if self.axis2 is None else frames.unit(np.asarray(self.axis2, dtype=float))
         return freedoms(self.kind, np.asarray(self.point, dtype=float), self.along, second, self.pitch or 0.0)
 
-    @property
-    def is_off(self) -> bool:
-        """Whether it is built with a misfit."""
-        return any(self.misfit) or any(self.misfit_turn)
-
 
 def freedoms(kind: Kind, point: Array, axis: Array, second: Array | None = None, pitch: float = 0.0) -> Array:
     """Return the freedoms of a pair as twists about the origin, array (f, 6).

@@ -72,10 +72,17 @@ def page_of(question: Question, on: Subject, progress: Progress | None, choices:
     missing = question.lacking(on.drive)
     if missing:
         return Page(name=question.name, title=title, answer=told(missing), blocks=())
+    return found_page(question, on, progress, choices) or Page(
+        name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=()
+    )
+
+
+def found_page(
+    question: Question, on: Subject, progress: Progress | None = None, choices: Choices | None = None
+) -> Page | None:
+    """Return the page of a question about a drive that has what it needs; None where nothing can be told."""
     try:
-        result = question.ask(on.drive, known=on.known, progress=progress, **choices)
+        result = question.ask(on.drive, known=on.known, progress=progress, **(choices or {}))
     except InputError as error:
-        return refused(question.name, title, error)
-    if result is None:
-        return Page(name=question.name, title=title, answer=question.home.otherwise(on.drive), blocks=())
-    return page(question.answer(on.drive, result), reader())
+        return refused(question.name, _(question.title), error)
+    return None if result is None else page(question.answer(on.drive, result), reader())

@@ -12,16 +12,13 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from cardan.answers import answer
-from cardan.answers.answer import Depth, Tone
+from cardan.answers.answer import Depth, Listing, Tone
 from cardan.answers.printed import SIGNS, Cell, Column, Table, printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import reader
 from cardan.figures import Figure
 from cardan.figures.for_reader import for_reader
-from cardan.figures.palette import colour, shaft
-from cardan.figures.wording import significant
 from cardan.texts import _
-from cardan.units import spoken
 
 Text: TypeAlias = Any
 """A `cardan.answers.quantity.Text` where a page is made, a str on the page."""
@@ -63,14 +60,6 @@ class Points:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "items", [shown(one) for one in self.items])
-
-
-@dataclass(frozen=True, kw_only=True)
-class Listing:
-    """Text as it stands in a file."""
-
-    title: str
-    text: str
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -132,34 +121,8 @@ def number(text: str, value: float | None = None, tone: Tone = "plain") -> Cell:
     return Cell(text=text, tone=tone, full=repr(float(value)), amount=float(value), form="General")
 
 
-def key(name: str, value: float, unit: str, verdict: Cell | None = None, text: str = "") -> list[Cell]:
-    """Return a row of the table of key figures, of a figure without a limit.
-
-    Parameters
-    ----------
-    name : str
-        What it is.
-    value : float
-        In its unit.
-    unit : str
-        That unit.
-    verdict : Cell, optional
-        How good that is.
-    text : str
-        The number as it is to be written.
-    """
-    shown = text or ("0" if abs(value) < 1e-5 else significant(value))
-    return [words(name), number(shown, value), words(spoken(unit)), words("–"), words("–"), verdict or words("")]
-
-
-def of_shaft(k: int, name: str = "", *, end: str = "") -> Cell:
-    """Return the cell that heads the row of a shaft, with its colour."""
-    text = " ".join(part for part in (str(k), end, name) if part)
-    return Cell(text=text, chip=colour(shaft(k)))
-
-
 def verdict_columns() -> tuple[Column, ...]:
-    """Return the columns of a table of figures with their limits; the rows of `key` fit them."""
+    """Return the columns of a table of figures with their limits."""
     return (
         Column(heading=_("what"), left=True),
         Column(heading=_("value")),

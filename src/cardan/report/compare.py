@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -175,12 +175,12 @@ def _keys(one: Variant, progress: Callable[[float], object]) -> list[KeyFigure]:
     return key_figures([*told, tuple(verdict_figures(one.drive, one.verdicts))])
 
 
-def _figures(variants: Sequence[Variant], found: Sequence[Sequence[Any]]) -> Table:
+def _figures(variants: Sequence[Variant], found: Sequence[Sequence[KeyFigure]]) -> Table:
     """Return the key figures side by side, the best of each named."""
     grouped: dict[tuple[str, int], dict[int, KeyFigure]] = {}
     for k, keys in enumerate(found):
         count: Counter[str] = Counter()
-        for key in (one for one in keys if isinstance(one, KeyFigure)):
+        for key in keys:
             grouped.setdefault((key.name, count[key.name]), {})[k] = key
             count[key.name] += 1
     lines = [_kept(variants)] if any(one.verdicts for one in variants) else []

@@ -15,7 +15,7 @@ from cardan.drive.joints.common.inside import Inside
 from cardan.figures.drive import space_figure, views_figure, yoke_figure
 from cardan.figures.palette import colour, shaft
 from cardan.maths.arrays import Array
-from cardan.questions.motion.kinds import inside, kind_name, too_steep
+from cardan.questions.motion.kinds import inside, kind_name, steep
 from cardan.texts import _, plural
 from cardan.units import deg
 
@@ -70,7 +70,7 @@ def _joints(on: Subject) -> Table:
     centre, joint_angle, joints = np.asarray(on.place.points[1:-1]), on.joint_angle, on.drive.joints
     twist: list[float | None] = [None, *np.asarray(on.place.plane_twist, dtype=float).tolist()]
     angles = [
-        Cell(value=float(angle), tone="failed" if too_steep(joint, k, float(angle)) else "plain")
+        Cell(value=float(angle), tone="failed" if steep(joint, k, float(angle)) else "plain")
         for k, (joint, angle) in enumerate(zip(joints, joint_angle, strict=True), start=1)
     ]
     start = [half_turn(float(phase) / deg) * deg for phase in on.phase]

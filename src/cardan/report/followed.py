@@ -21,13 +21,14 @@ from cardan.drive.models.geometry import Geometry, geometry
 from cardan.maths.arrays import Array
 from cardan.questions.motion.equivalence import SPECK
 from cardan.questions.motion.joint_by_joint import followed as by_laws
-from cardan.questions.motion.kinds import kind_name, too_steep
+from cardan.questions.motion.kinds import kind_name
 from cardan.questions.motion.motion import Motion, motion
 from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _, plural
 from cardan.version import VERSION
 
 from .block import Listing, Page, Points, Words
+from .summary import steep_joints
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -76,21 +77,16 @@ def judgement_by_laws(on: Followed, pages: Sequence[Page]) -> Words:
     if share < SPECK:
         text = _("{name} is uniform, but for {share} that nobody notices.")
     alarms = [alarm.tone for page in pages for alarm in page.alarms]
-    steep = any(
-        too_steep(joint, 1, float(joint_angle))
-        for joint, joint_angle in zip(on.drive.joints, on.joint_angle, strict=True)
-    )
     tone: Tone = "good" if share < SPECK and "warning" not in alarms else "warning"
-    return Words(text=say(text, **said), tone="failed" if steep or "failed" in alarms else tone)
+    if "failed" in alarms or any(steep_joints(on.drive, on.joint_angle)):
+        tone = "failed"
+    return Words(text=say(text, **said), tone=tone)
 
 
 def warnings_by_laws(on: Followed, pages: Sequence[Page]) -> Iterator[Words]:
     """Yield what the reader must not overlook."""
     yield from (alarm for page in pages for alarm in page.alarms)
-    for k, (joint, joint_angle) in enumerate(zip(on.drive.joints, on.joint_angle, strict=True), start=1):
-        text = too_steep(joint, k, float(joint_angle))
-        if text:
-            yield Words(text=text, tone="failed")
+    yield from steep_joints(on.drive, on.joint_angle)
 
 
 def changes_by_laws(on: Followed) -> Words:

@@ -10,7 +10,7 @@ from cardan.answers.quantity import Quantity, say, told
 from cardan.answers.reader import Reader, reader
 from cardan.texts import _
 
-from .block import Block, Listing, Page, Picture, Points, Table, Words, verdict_columns
+from .block import Block, Page, Picture, Points, Table, Words, verdict_columns
 
 MOST = 1000.0
 """A limit that is exceeded more often is told as exceeded beyond that."""
@@ -56,7 +56,7 @@ def _blocks(answer: Answer, reader: Reader, depth: Depth) -> Iterator[Block]:
     minded = [told(one.text, reader) for one in remarks if one.tone == "warning"]
     if minded:
         yield Points(title=_("To mind"), items=list(dict.fromkeys(minded)))
-    yield from (Listing(title=one.title, text=one.text) for one in answer.listings if one.depth in shown)
+    yield from (one for one in answer.listings if one.depth in shown)
 
 
 def key_figures(told: Iterable[Sequence[KeyFigure]]) -> list[KeyFigure]:

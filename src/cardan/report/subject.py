@@ -175,11 +175,6 @@ class Subject:
         return is_rounding(self.drive, share, self.closing.length)
 
     @property
-    def alone_even(self) -> bool:
-        """Whether every joint turns evenly by itself, straight or of constant velocity."""
-        return float(np.sum(self.closing.length)) < SYNCHRONOUS
-
-    @property
     def curable(self) -> bool:
         """Whether another setting of the yokes makes it synchronous, but for rounding."""
         if self.even or self.rounded:

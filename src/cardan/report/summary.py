@@ -10,15 +10,17 @@ from cardan.answers import answer
 from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.drive.drive import Drive
+from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
-from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
-from cardan.questions.motion.kinds import too_steep
+from cardan.questions.motion.kinds import steep
 from cardan.questions.phases.answer import CALM, UTMOST, excess
 from cardan.questions.phases.setting import YokeSetting
 from cardan.texts import _, plural
 from cardan.units import deg
 
 from .block import Page, Table, Tone, Words, shown, table
+from .page import capital
 from .subject import Subject
 
 ILL = 80.0
@@ -70,10 +72,6 @@ def _limits(pages: Sequence[Page]) -> Page | None:
 def uniformity(on: Subject) -> Words:
     """Return a sentence on how uniformly the drive turns."""
     share = Quantity(float(on.whole.speed_fluctuation), "share", 3)
-    steep = any(
-        too_steep(joint, 1, float(joint_angle))
-        for joint, joint_angle in zip(on.drive.joints, on.joint_angle, strict=True)
-    )
     posed, pose = _in_poses(on)
     text, tone = _as_specified(on, posed)
     parts: list[Text] = [
@@ -97,7 +95,9 @@ def uniformity(on: Subject) -> Words:
     if on.moving is not None and any(one.flags for one in on.moving.splines):
         parts.append(_("A spline does not follow the movement."))
         tone = "failed"
-    return Words(text=Joined(parts, between=" "), tone="failed" if steep else tone)
+    return Words(
+        text=Joined(parts, between=" "), tone="failed" if any(steep_joints(on.drive, on.joint_angle)) else tone
+    )
 
 
 def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
@@ -163,7 +163,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
     yield from (alarm for page in pages if page is not limits for alarm in page.alarms)
     if limits is not None:
         yield uniformity(on)
-    yield from steep_joints(on)
+    yield from steep_joints(on.drive, on.joint_angle)
     fluctuating = not on.rounding(min(float(on.whole.speed_fluctuation), on.phasing.speed_fluctuation_min))
     if on.joints > 1 and fluctuating and not on.phasing.feasible and on.phasing.limiting_joint is not None:
         why: Text = _("Joints tied by fixed yokes act as one whose joint angle is too large for the others.")
@@ -184,20 +184,15 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         yield Words(text=_("A self-check failed; see the last part."), tone="failed")
 
 
-def steep_joints(on: Subject) -> Iterator[Words]:
+def steep_joints(drive: Drive, joint_angles: Array) -> Iterator[Words]:
     """Yield joints whose angle no joint of their kind works at."""
-    for k, (joint, joint_angle) in enumerate(zip(on.drive.joints, on.joint_angle, strict=True), start=1):
-        angle = Quantity(float(joint_angle), "angle", decimals=1)
-        if not joint.single_cross:
-            text = too_steep(joint, k, float(joint_angle))
-            yield from [Words(text=text, tone="failed")] if text else []
-        elif joint_angle > ILL * deg:
-            text = _("Joint {k} has a joint angle of {angle}: the motion is so steep that rounding costs digits.")
-            yield Words(text=say(text, k=k, angle=angle), tone="failed")
-        elif joint_angle > WARN_JOINT_ANGLE * deg:
-            text = _("Joint {k} has a joint angle of {angle}; no real cross joint works above {limit}.")
-            limit = Quantity(WARN_JOINT_ANGLE * deg, "angle", trim=True)
-            yield Words(text=say(text, k=k, angle=angle, limit=limit), tone="failed")
+    for k, (joint, joint_angle) in enumerate(zip(drive.joints, joint_angles, strict=True), start=1):
+        found = steep(joint, k, float(joint_angle))
+        if joint.single_cross and joint_angle > ILL * deg:
+            text = _("joint {number} has a joint angle of {angle}: the motion is so steep that rounding costs digits.")
+            found = say(text, number=k, angle=Quantity(float(joint_angle), "angle", decimals=1))
+        if found is not None:
+            yield Words(text=capital(shown(found)), tone="failed")
 
 
 def changes(on: Subject) -> Table | Words:

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Quantity
 from cardan.answers.reader import reader
 from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
 from cardan.drive.shapes.support import floor_frame
 from cardan.figures import palette
-from cardan.figures.wording import half_turn
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.texts import _

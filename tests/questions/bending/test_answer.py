@@ -14,9 +14,8 @@ from cardan.questions.bending.answer import answer, answer_of_map, ask, lacking
 from cardan.questions.bending.bending import bending_speeds
 from cardan.questions.bending.speed_map import critical_speed_map
 from cardan.register import QUESTIONS
-from cardan.report.answers import subject
+from cardan.report.answers import found_page, subject
 from cardan.report.block import Picture, Table
-from cardan.report.loaded import _asked as page_of
 from cardan.report.page import page, row
 from cardan.texts import speaking
 from cardan.units import rpm
@@ -96,7 +95,7 @@ def test_a_map_has_its_own_table_and_figure():
 
 def test_a_file_that_describes_half_of_it_is_told_what_lacks():
     support = replace(VAN.supports[0], radial=False, axial=True, stiffness=None)
-    shown = page_of(QUESTIONS["bending"], subject(replace(VAN, supports=(support,))))
+    shown = found_page(QUESTIONS["bending"], subject(replace(VAN, supports=(support,))))
     assert "can pivot freely" in shown.blocks[0].text
     assert shown.alarms[0].tone == "warning"
 

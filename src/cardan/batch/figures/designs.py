@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.batch.search.boundary import Boundary
 from cardan.batch.search.optimise import Optimum
 from cardan.batch.search.pareto import ParetoSet
@@ -14,7 +15,6 @@ from cardan.batch.table.views import Ranks
 from cardan.batch.work import Column
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Bars, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.texts import _, plural
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.batch.work import Column
 from cardan.figures.axes import axis
 from cardan.figures.figure import Axis, Bars, Cells, Curve, Figure, Panel, Row, Rule, Series
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.texts import _, plural

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.batch.work import Column
 from cardan.figures.axes import axis, written
 from cardan.figures.figure import Axis
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.ties import NOTHING, tidied
 from cardan.texts import _

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.book.mathieu_reduction import MathieuReduction
 from cardan.figures.axes import axis, steps, written
 from cardan.figures.figure import Axis, Curve, Figure, Note, Panel, Row, Series, Shape
-from cardan.figures.wording import significant
 from cardan.maths.arrays import Array
 from cardan.maths.periodic.mathieu import LARGEST_Q, boundaries, damped_zone, exponents
 from cardan.texts import _

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.figures.axes import axis, written
 from cardan.figures.figure import Axis, Curve, Figure, Panel, Row, Rule
-from cardan.figures.wording import significant
 from cardan.formulas.absorber_tuning import Variants
 from cardan.formulas.absorbers import AbsorberResponse
 from cardan.maths.arrays import Array

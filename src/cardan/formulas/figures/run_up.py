@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cardan.answers.numbers import significant
 from cardan.figures.axes import axis
 from cardan.figures.figure import Curve, Figure, Panel, Row, Rule
-from cardan.figures.wording import significant
 from cardan.formulas.joint_run_up import JointRunUp
 from cardan.formulas.run_up import RunUp
 from cardan.texts import _

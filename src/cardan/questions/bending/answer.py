@@ -91,7 +91,7 @@ def answer_of_map(drive: Drive, result: CriticalSpeeds, varied: CriticalSpeedMap
         remarks=tuple(_remarks(drive, result)),
         keys=whole.keys,
         figures=lambda: (*bending_figures(result), *speed_map_figures(varied)),
-        facts={**whole.facts, "modes": _mode_facts(result)},
+        facts=whole.facts,
         full=lambda: _map(varied, slice(None), name="map"),
         code=whole.code,
     )

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from cardan.answers.answer import Remark
 from cardan.answers.quantity import Quantity, Say, say
-from cardan.answers.reader import USUAL
 from cardan.drive.drive import Drive
 from cardan.drive.joints import Joint
 from cardan.drive.joints.common.inside import Inside
@@ -38,6 +37,13 @@ def steep(joint: Joint, number: int, joint_angle: float) -> Say | None:
         Its number.
     joint_angle : float [rad]
         Its joint angle.
+
+    Examples
+    --------
+    >>> from cardan.answers.reader import USUAL
+    >>> from cardan.drive.joints import Hooke, Tripod
+    >>> steep(Hooke(), 1, 0.5), steep(Tripod(), 2, 0.5).told(USUAL)
+    (None, 'joint 2 has a joint angle of 28.6°; above 26° no real joint of its kind, tripod, works.')
     """
     if joint_angle <= joint.steepest * (1.0 + 1e-12):
         return None
@@ -51,20 +57,6 @@ def steep(joint: Joint, number: int, joint_angle: float) -> Say | None:
         limit=Quantity(joint.steepest, "angle", 6, trim=True),
         kind=kind_name(joint),
     )
-
-
-def too_steep(joint: Joint, number: int, joint_angle: float) -> str:
-    """Return the same in words, in the usual units; "" where there is nothing to say.
-
-    Examples
-    --------
-    >>> from cardan.drive.joints import Hooke, Tripod
-    >>> too_steep(Hooke(), 1, 0.5), too_steep(Tripod(), 2, 0.5)
-    ('', 'Joint 2 has a joint angle of 28.6°; above 26° no real joint of its kind, tripod, works.')
-    """
-    found = steep(joint, number, joint_angle)
-    said = "" if found is None else found.told(USUAL)
-    return said[:1].upper() + said[1:]
 
 
 def steep_joints(drive: Drive) -> Iterator[Remark]:

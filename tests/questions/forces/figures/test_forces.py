@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from cardan import figures
+from cardan.answers.numbers import significant
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL, Reader
 from cardan.drive.drive import Drive
@@ -18,7 +19,6 @@ from cardan.figures.projection import onto
 from cardan.figures.render_plotly import described
 from cardan.figures.render_svg import inline_svg
 from cardan.figures.turning import support_dashes
-from cardan.figures.wording import significant
 from cardan.io import example
 from cardan.maths.kernel import frames
 from cardan.questions.forces.figures.arrows import loads_figures, worst
