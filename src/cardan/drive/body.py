@@ -100,7 +100,7 @@ def pieces(shaft: Shaft, length: float | None) -> tuple[Piece, ...]:
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.shaft import Segment, Shaft
     >>> stub, tube = Segment(length=0.2, outer=0.05), Segment(length=0.8, outer=0.07, inner=0.066)
     >>> [(one.start, one.outer) for one in pieces(Shaft(number=2, segments=(stub, tube)), 1.0)]
     [(0.0, 0.05), (0.2, 0.07)]
@@ -181,7 +181,7 @@ def weight(shaft: Shaft, length: float | None) -> Weight:
 
     Examples
     --------
-    >>> from cardan.drive.shaft import Shaft
+    >>> from cardan.drive.shaft import Lump, Shaft
     >>> bar = Shaft(number=2, mass=2.0, masses=(Lump(position=0.0, mass=1.0), Lump(position=1.0, mass=3.0)))
     >>> weight(bar, 1.0)
     Weight(mass=6.0, inertia=0.0, across=0.8333333, centre=0.6666667)

@@ -35,6 +35,7 @@ class Reduce:
 
     Examples
     --------
+    >>> from cardan.batch.table.reductions import reduce_of
     >>> reduce_of("p95 speed_fluctuation by duty.speed_rpm").label
     'p95 speed_fluctuation by duty.speed_rpm'
     """
