@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from cardan import Drive, check, motion, strength
 from cardan.checks.design import design
@@ -13,12 +14,23 @@ from cardan.drive.cross import Cross
 from cardan.drive.described import Input
 from cardan.drive.duty import Block, Duty, Limits
 from cardan.drive.joint_parts import Needles, Rating
-from cardan.drive.joints import ConstantVelocity, DoubleCardan, ElasticHalfCardan, Hooke, PinCoupling, Rzeppa, Tripod
+from cardan.drive.joints import (
+    ConstantVelocity,
+    DoubleCardan,
+    ElasticHalfCardan,
+    Hooke,
+    PinCoupling,
+    Rzeppa,
+    Tracta,
+    Tripod,
+    Weiss,
+)
 from cardan.drive.models.chain import given_chain, turning, turning_chain
 from cardan.drive.models.laws import alike
 from cardan.drive.shaft import Shaft
 from cardan.errors import InputError
 from cardan.questions.forces.turn_loads import across, turn_loads
+from cardan.units import deg, rpm
 
 DRIVE = Drive(
     joints=(
@@ -144,9 +156,58 @@ def test_laws_of_their_own_are_judged_by_what_they_do_over_a_turn():
     course = motion(PINS, np.linspace(0.0, 2.0 * np.pi, 3601))
     assert found["speed_fluctuation"].value == pytest.approx(np.ptp(course.ratio), rel=1e-5)
     assert found["output_error"].value == pytest.approx(0.5 * np.ptp(course.angle_error[-1]), rel=1e-5)
-    assert "pin_coupling" in found["acceleration"].unfit
     many = check(PINS, only=["speed_fluctuation"], vary={"joints[0].joint_angle_deg": [5.0, 10.0]})
     assert many[0].unfit
+
+
+def test_accelerations_of_any_law_are_those_of_the_motion_and_of_its_inverse():
+    """The second derivative of the angles by φ_1, and by the angle of the output, along a spline of period one turn."""
+    drive = replace(PINS, joints=(PINS.joints[1], Hooke(joint_angle=0.2), PINS.joints[1]), shafts=())
+    torsional, driving, coasting = (one.value for one in check(drive, only=["acceleration"]))
+    angle = np.linspace(0.0, 2.0 * np.pi, 3601)
+    turned = motion(drive, angle).shaft_angle
+
+    def most(of, by):
+        ahead = (of - of[0]) - (by - by[0])
+        ahead[-1] = ahead[0]
+        return np.abs(CubicSpline(by, ahead, bc_type="periodic")(by, 2)).max()
+
+    square = drive.duty.speed**2
+    assert torsional / square == pytest.approx(most(turned[3], angle), rel=1e-4)
+    assert driving / square == pytest.approx(max(most(turned[k], angle) for k in (1, 2)), rel=1e-4)
+    assert coasting / square == pytest.approx(max(most(turned[k], turned[3]) for k in (1, 2)), rel=1e-4)
+
+
+def test_a_weiss_joint_of_unequal_grooves_is_judged_by_its_acceleration():
+    grooves = Weiss(joint_angle=30 * deg, driving_offset=0.03, driven_offset=0.0331, groove_radius=0.05)
+    drive = Drive(joints=(grooves,), duty=Duty(speed=1500 * rpm))
+    (found,) = check(drive, only=["acceleration"])
+    turn = motion(drive, np.linspace(0.0, 2.0 * np.pi, 7201))
+    assert found.value == pytest.approx(np.abs(turn.shaft_slope[-1]).max() * drive.duty.speed**2, rel=1e-5)
+    assert found.value > found.limit
+
+
+@pytest.mark.parametrize(("kind", "most"), [(Weiss, 40.0), (Tracta, 50.0)])
+def test_a_joint_without_a_type_is_judged_by_its_kind(kind, most):
+    """The book's chapter 1: Weiss joints to 40°, Tracta joints to 50°."""
+    for joint_angle, state in ((most - 10.0, "passed"), (most + 20.0, "failed")):
+        (found,) = check(Drive(joints=(kind(joint_angle=joint_angle * deg),)), only=["joint_angle"])
+        assert (found.limit, found.state, found.advice) == (pytest.approx(most * deg), state, False)
+    wanted = Drive(joints=(kind(joint_angle=(most + 5.0) * deg),), limits=Limits(joint_angle=70 * deg))
+    assert check(wanted, only=["joint_angle"])[0].state == "failed"
+    rated = Drive(joints=(kind(joint_angle=(most + 5.0) * deg, rating=Rating(max_joint_angle=70 * deg)),))
+    assert check(rated, only=["joint_angle"])[0].state == "passed"
+
+
+def test_what_a_kind_usually_reaches_is_advice():
+    (found,) = check(Drive(joints=(Hooke(joint_angle=60 * deg),)), only=["joint_angle"])
+    assert (found.limit, found.state, found.advice) == (pytest.approx(45 * deg), "failed", True)
+    (own,) = check(
+        Drive(joints=(Hooke(joint_angle=50 * deg),), limits=Limits(joint_angle=48 * deg)), only=["joint_angle"]
+    )
+    assert (own.limit, own.state, own.advice) == (48 * deg, "failed", False)
+    (none,) = check(Drive(joints=(DoubleCardan(joint_angle=50 * deg, centring_ratio=0.5),)), only=["joint_angle"])
+    assert none.missing
 
 
 def test_the_nearest_map_has_the_second_order_of_the_law():

@@ -133,8 +133,8 @@ def test_joints_that_differ_in_number_alone_are_lacking_in_one_row():
     page = judged(asked(example("six-joints"), None, None)).page
     assert page is not None
     rows = next(one.rows for one in page.blocks if isinstance(one, Table) and one.title.startswith("Checks not run"))
-    assert [row[1].text for row in rows if "rating.max_joint_angle" in row[0].text] == [
-        "joint angle of joint 1 (and 2, 3, 4, 5, 6)"
+    assert [row[1].text for row in rows if "rating.max_torque" in row[0].text] == [
+        "largest torque of joint 1 (and 2, 3, 4, 5, 6)"
     ]
     assert len(rows) < 25
 

@@ -11,7 +11,7 @@ from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design
-from .verdict import Sense, Verdict
+from .verdict import UNSURE, Sense, Verdict
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,8 +35,8 @@ class Check:
     dimension, unit, sense, advice, power
         As of `Verdict`.
     crosses : str
-        "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others; "map"
-        where it judges joints with tan φ' = κ tan φ; "law" where it needs that for many drives at once.
+        "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others; "law"
+        where many drives at once must have joints with tan φ' = κ tan φ.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Check:
     sense: Sense = "at_most"
     advice: bool = False
     power: float = 0.0
-    crosses: Literal["", "each", "all", "map", "law"] = ""
+    crosses: Literal["", "each", "all", "law"] = ""
 
     def verdicts(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""
@@ -58,10 +58,10 @@ class Check:
         if not self.crosses or not mixed(joints):
             yield from self._judged(design)
             return
-        if self.crosses in ("map", "law"):
+        if self.crosses == "law":
             own = unmapped(joints)
             for one in self._judged(design):
-                stuck = own and (self.crosses == "map" or bool(design.varied))
+                stuck = own and bool(design.varied)
                 yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
             return
         others = [i for i, joint in enumerate(joints) if not joint.single_cross]
@@ -93,7 +93,7 @@ class Check:
             dimension=one.dimension or self.dimension,
             unit=one.unit or self.unit,
             sense=one.sense if one.sense != "at_most" else self.sense,
-            advice=one.advice or self.advice,
+            advice=one.advice or self.advice or one.confidence in UNSURE,
             power=self.power,
         )
 

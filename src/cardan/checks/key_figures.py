@@ -27,7 +27,7 @@ def key_figures(drive: Drive, verdicts: Sequence[Verdict]) -> Iterator[KeyFigure
         On it; those that were not run decide nothing.
     """
     run = [one for one in verdicts if one.run]
-    yield _joint_angle(drive, {one.subject: one for one in run if one.check == "joint_angle"})
+    yield _joint_angle(drive, {one.subject: one for one in run if one.check == "joint_angle" and not one.advice})
     for one in run if drive.poses else ():
         if one.check == "spline_overlap":
             yield spline_key(
@@ -59,10 +59,11 @@ def _joint_angle(drive: Drive, allowed: dict[str, Verdict]) -> KeyFigure:
     use, joint, angle, limit, place, moves = max(found, key=lambda one: (round(one[0], 9), -one[1]))
     title = _("largest joint angle while moving") if moves else _("largest joint angle")
     at, value = Joined([say(_("joint {number}"), number=joint), place]), Quantity(angle, "angle")
-    if f"joints[{joint - 1}]" not in allowed and use < AMBER:
+    judged = f"joints[{joint - 1}]" in allowed
+    if not judged and use < AMBER:
         return KeyFigure(name="joint_angle", title=title, place=at, value=value)
-    tone: Tone = "failed" if use > 1.0 else "warning" if use >= AMBER else "good"
-    verdict = {"failed": _("too much"), "warning": _("near the limit"), "good": _("passed")}[tone]
+    tone: Tone = "good" if use < AMBER else "failed" if use > 1.0 and judged else "warning"
+    verdict = _("passed") if use < AMBER else _("near the limit") if use <= 1.0 else _("too much")
     bound = Quantity(limit, "angle", 6, trim=True)
     return KeyFigure(name="joint_angle", title=title, place=at, value=value, limit=bound, verdict=verdict, tone=tone)
 

@@ -44,6 +44,11 @@ def at_top_speed(design: Design) -> Text:
     return say(_("at {speed}"), speed=turning(float(top)))
 
 
+def as_drawn(design: Design) -> str:
+    """Return that a drive that moves is judged as drawn, where its joints turn by laws of their own; else nothing."""
+    return _("as drawn, not while the drive moves") if design.swing is not None and design.drive.movements else ""
+
+
 def bendable(design: Design, allowed: Array) -> tuple[Array, str]:
     """Return the joint angle that a rule allows, no more than joints of such kinds can reach, and a word on it.
 

@@ -21,6 +21,9 @@ ROUNDING = 1e-9
 BELOW = 1.0 - 2.0 * ROUNDING
 """Share of what a value must not even reach that it may be at most."""
 
+UNSURE = frozenset(("recalled", "not_confirmed", "beyond", "made_up"))
+"""How sure a row of the catalogue may be of its figures without being confirmed by a source that can be looked up."""
+
 State: TypeAlias = Literal["passed", "close", "failed", "not_run"]
 
 
@@ -47,6 +50,8 @@ class Verdict:
         Unit that people read it in.
     source : Text
         Where limit and formula come from.
+    confidence : str
+        How sure the limit is, as of `catalogue.rows.Row`; empty where it is the user's own or follows from formulas.
     design_variables : tuple of str
         Paths of the drive file whose change moves the value.
     missing : tuple of str
@@ -74,6 +79,7 @@ class Verdict:
     dimension: str = ""
     unit: str = ""
     source: Text = ""
+    confidence: str = ""
     design_variables: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
     unfit: str = ""

@@ -10,12 +10,13 @@ from cardan.catalogue.rows import AngleNorm
 from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.told import at_top_speed, joined
+from cardan.checks.told import as_drawn, at_top_speed, joined
 from cardan.checks.verdict import Verdict
 from cardan.drive.models.chain import Chain
 from cardan.maths.arrays import Array, namespace
 from cardan.maths.kernel import mobius
 from cardan.questions.motion.equivalence import after_each_joint, largest_acceleration
+from cardan.questions.motion.swing import Swing
 from cardan.texts import _, mark
 
 
@@ -27,7 +28,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if design.joints > 1:
         said.append((_("inertia excitation, drive"), "", norm.inertia_drive))
         said.append((_("inertia excitation, coast"), "", norm.inertia_coast))
-    drawn_swings = None if speed is None else swings(design.chain)
+    drawn_swings = None if speed is None else _of_laws(design.swing) if design.swing else swings(design.chain)
     moved = None if speed is None else design.while_moving(swings)
     for k, (title, subject, limit) in enumerate(said):
         if speed is None or drawn_swings is None:
@@ -43,8 +44,14 @@ def _judge(design: Design) -> Iterator[Verdict]:
             source=norm.source,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             design_variables=(*yokes, *design.joint_angle_design_variables, *design.speed_design_variables),
-            note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else ""),
+            note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else as_drawn(design)),
         )
+
+
+def _of_laws(seen: Swing) -> Array:
+    """Return the same as `swings` of a drive whose joints turn by laws of their own, seen over a turn."""
+    inside = seen.max_acceleration[:-1], seen.coast_acceleration
+    return np.asarray([seen.max_acceleration[-1], *(float(np.max(one)) for one in inside if one.size)])
 
 
 def swings(chain: Chain) -> Array:
@@ -71,5 +78,5 @@ CHECK = Check(
     judge=_judge,
     dimension="angular_acceleration",
     unit="rad_s2",
-    crosses="map",
+    crosses="law",
 )

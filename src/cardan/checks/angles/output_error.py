@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.told import as_drawn
 from cardan.checks.verdict import Verdict
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
@@ -25,6 +26,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit=own,
         source=_("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
+        note=as_drawn(design),
     )
 
 

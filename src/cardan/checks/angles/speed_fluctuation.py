@@ -9,6 +9,7 @@ import numpy as np
 from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.told import as_drawn
 from cardan.checks.verdict import Verdict
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
@@ -33,7 +34,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         limit=EVEN if own is None else own,
         source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
-        note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else "",
+        note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else as_drawn(design),
     )
 
 

@@ -35,6 +35,8 @@ class Swing:
         Largest \\|ε\\|/ω_1² at uniform input.
     amplitude : array (n, orders) [rad]
         Amplitudes of the angle error once, twice … a turn.
+    coast_acceleration : array (n-1)
+        Largest \\|ε\\|/ω² of shafts 2 … n at uniform output, whose speed is ω.
     """
 
     speed_fluctuation: Array
@@ -43,6 +45,7 @@ class Swing:
     max_angle_error: Array
     max_acceleration: Array
     amplitude: Array
+    coast_acceleration: Array
 
     @property
     def shaft_speed_fluctuation(self) -> Array:
@@ -92,6 +95,8 @@ def swing(drive: Drive) -> Swing:
     found = motion(drive, angle)
     ratio, slope, angle_error = (part[1:] for part in (found.shaft_ratio, found.shaft_slope, found.angle_error))
     high, low = peak(ratio), -peak(-ratio)
+    inside, output = (part[:-1] for part in (ratio, slope)), (part[-1] for part in (ratio, slope))
+    coast = backward(*inside, *output)
     wave = np.abs(np.fft.rfft(angle_error)) * (2.0 / PLACES)
     return Swing(
         speed_fluctuation=high - low,
@@ -100,7 +105,33 @@ def swing(drive: Drive) -> Swing:
         max_angle_error=0.5 * (peak(angle_error) + peak(-angle_error)),
         max_acceleration=np.maximum(peak(slope), peak(-slope)),
         amplitude=wave[:, 1 : PLACES // 8],
+        coast_acceleration=np.maximum(peak(coast), peak(-coast)) if coast.size else np.zeros(0),
     )
+
+
+def backward(ratio: Array, slope: Array, output_ratio: Array, output_slope: Array) -> Array:
+    """Return the accelerations over ω² of shafts where the output turns uniformly at ω, arrays (..., p).
+
+    Parameters
+    ----------
+    ratio, slope : arrays (..., p) [1, 1/rad]
+        Speed ratio of the shafts at uniform input and its derivative by the input angle φ_1.
+    output_ratio, output_slope : arrays (p) [1, 1/rad]
+        Those of the output.
+
+    Notes
+    -----
+    With u = dφ/dφ_1 of a shaft and v that of the output, d²φ/dφ_out² = (u' v - u v')/v³.
+
+    Examples
+    --------
+    A shaft that turns as the output does is not accelerated:
+
+    >>> backward(np.asarray([1.2]), np.asarray([0.3]), np.asarray([1.2]), np.asarray([0.3]))
+    array([0.])
+    """
+    found: Array = (slope * output_ratio - ratio * output_slope) / output_ratio**3
+    return found
 
 
 def each_shaft(drive: Drive) -> Evenness:
