@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from cardan.book.gap_closure import gap_closure
 from cardan.calc.calculation import Calculation, Given, Values, given, gives, rows
 from cardan.calc.motion.kinematics import ACCELERATION, ANGLE, START, between, points
 from cardan.drive.models.train import Hold, Train, spline_grip, train_of_points
 from cardan.errors import Problem
 from cardan.questions.forces.forces import kinetostatics
+from cardan.questions.forces.gap_closure import gap_closure
 from cardan.texts import _, mark
 
 SHAFT = given("shaft", mark("number of the shaft"), kind="whole")

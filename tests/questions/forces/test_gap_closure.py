@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cardan.book.gap_closure import gap_closure
 from cardan.book.single_joint import joint_extremes
 from cardan.drive.models.geometry import points_from_angles
 from cardan.drive.models.train import train_of_points
 from cardan.questions.forces.forces import kinetostatics
+from cardan.questions.forces.gap_closure import gap_closure
 from tests.builders.trains import one, trains
 
 DENSE = np.arange(72000) * (np.pi / 36000)

@@ -10,7 +10,8 @@ import numpy as np
 from cardan.drive.models.train import Train, place_of
 from cardan.maths.arrays import Array
 from cardan.maths.curves.peaks import peaks
-from cardan.questions.forces.kinetostatics import couples, standing
+
+from .kinetostatics import couples, standing
 
 COARSE = 361
 """Positions of a turn from which the least couples are sharpened."""
