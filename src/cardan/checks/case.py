@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -122,10 +122,23 @@ class Case:
 
 def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
     """Return the loads that a torque of 1 makes, of many drives block by block."""
+    outer = chain.joint_angle.shape[:-1]
+    if math.prod(outer) <= BLOCK:
+        return turn_loads(chain, 1.0, torque_at=torque_at)
+    parts = [vars(turn_loads(part, 1.0, torque_at=torque_at, look=MANY)) for _rows, part in blocks(chain)]
+    whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    return TurnLoads(**{name: values.reshape(*outer, values.shape[-1]) for name, values in whole.items()})
+
+
+def blocks(chain: Chain) -> Iterator[tuple[slice, Chain]]:
+    """Yield the drives of a chain in blocks that fit the cache: their rows, and their chain.
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+    """
     outer, joints = chain.joint_angle.shape[:-1], chain.joints
     count = math.prod(outer)
-    if count <= BLOCK:
-        return turn_loads(chain, 1.0, torque_at=torque_at)
     flat = {
         "joint_angle": np.broadcast_to(chain.joint_angle, (*outer, joints)).reshape(count, joints),
         "plane_twist": np.broadcast_to(chain.plane_twist, (*outer, joints - 1)).reshape(count, joints - 1),
@@ -135,14 +148,10 @@ def _unit_loads(chain: Chain, torque_at: str) -> TurnLoads:
     laws = chain.laws
     tables = {} if laws is None else {k: v for k, v in vars(laws).items() if k != "own"}
     tables = {name: np.broadcast_to(value, (*outer, joints)).reshape(count, joints) for name, value in tables.items()}
-    parts = []
     for start in range(0, count, BLOCK):
         rows = slice(start, start + BLOCK)
         own = None if laws is None else replace(laws, **{name: values[rows] for name, values in tables.items()})
-        part = replace(chain, laws=own, **{name: values[rows] for name, values in flat.items()})
-        parts.append(vars(turn_loads(part, 1.0, torque_at=torque_at, look=MANY)))
-    whole = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    return TurnLoads(**{name: values.reshape(*outer, values.shape[-1]) for name, values in whole.items()})
+        yield rows, replace(chain, laws=own, **{name: values[rows] for name, values in flat.items()})
 
 
 def largest(values: Sequence[Array | float]) -> Array:

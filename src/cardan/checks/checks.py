@@ -27,7 +27,7 @@ from .check import Check
 from .design import Design, design
 from .moving import posed, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, runout, spline_overlap
-from .speeds import balance, critical_speed, half_critical, max_speed, rim_speed
+from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed
 from .strength import (
     bearing_life,
     contact_pressure,
@@ -72,6 +72,7 @@ CHECKS: dict[str, Check] = {
         spline_overlap,
         critical_speed,
         half_critical,
+        gap_closure,
         balance,
         design_torque,
         part_accuracy,

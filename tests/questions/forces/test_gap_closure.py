@@ -7,11 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cardan.answers.reader import USUAL
 from cardan.book.single_joint import joint_extremes
+from cardan.checks import check
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.joints import Hooke
+from cardan.drive.models.chain import given_chain
 from cardan.drive.models.geometry import points_from_angles
 from cardan.drive.models.train import train_of_points
-from cardan.questions.forces.forces import kinetostatics
-from cardan.questions.forces.gap_closure import gap_closure
+from cardan.drive.shaft import Shaft
+from cardan.questions.forces.answer import answer, ask
+from cardan.questions.forces.forces import forces, kinetostatics
+from cardan.questions.forces.gap_closure import gap_closure, least_load
+from cardan.units import deg
 from tests.builders.trains import one, trains
 
 DENSE = np.arange(72000) * (np.pi / 36000)
@@ -62,3 +71,79 @@ def test_a_load_the_other_way_mirrors_the_drive() -> None:
         assert found.closed is closed
         assert (float(np.max(found.open_share)) == 0.0) == closed
         assert np.all(found.least_couple < 0.0)
+
+
+def tube_drive(torque: float, *, end: str = "output", harmonics: tuple[Harmonic, ...] = ()) -> Drive:
+    shafts = (
+        Shaft(number=2, length=0.8, inertia=0.04, yoke_angle=0.3),
+        Shaft(number=3, length=0.6, inertia=0.02),
+        Shaft(number=4, inertia=0.03),
+    )
+    return Drive(
+        joints=(
+            Hooke(joint_angle=28 * deg),
+            Hooke(joint_angle=20 * deg, plane_twist=0.4),
+            Hooke(joint_angle=15 * deg, plane_twist=-0.7),
+        ),
+        shafts=shafts,
+        duty=Duty(torque=torque, speed=180.0, torque_at=end, harmonics=harmonics),
+    )
+
+
+@pytest.mark.parametrize("end", ["output", "input"])
+@pytest.mark.parametrize("harmonics", [(), (Harmonic(order=3.0, torque=40.0, phase=0.5),)])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_least_load_brings_the_least_couple_of_the_vector_model_to_zero(end, harmonics, sense) -> None:
+    drive = tube_drive(sense, end=end, harmonics=harmonics)
+    chain = given_chain(drive)
+    inertia = np.asarray([0.04, 0.02, 0.03])
+    each = least_load(chain, inertia, 180.0, torque_at=end, harmonics=harmonics, backwards=sense < 0.0)
+    for k, load in enumerate(each):
+        whole = np.linspace(0.0, 2.0 * np.pi, 7201)
+        couple = sense * forces(drive, replace(drive.duty, torque=sense * load), whole).joint_torque[k]
+        if abs(load) > 1.0:
+            assert abs(couple.min()) < 1e-5 * abs(load)
+        assert couple.min() > -1e-5 * max(1.0, abs(load))
+
+
+def test_many_drives_are_judged_as_one_by_one() -> None:
+    chain = given_chain(tube_drive(1.0))
+    joint_angles = np.asarray([[0.1, 0.2, 0.3], [0.5, 0.4, 0.3]])
+    many = least_load(
+        replace(chain, joint_angle=joint_angles), np.asarray([0.04, 0.02, 0.03]), np.asarray([100.0, 180.0])
+    )
+    for k, speed in enumerate((100.0, 180.0)):
+        one = least_load(replace(chain, joint_angle=joint_angles[k]), np.asarray([0.04, 0.02, 0.03]), speed)
+        assert many[k] == pytest.approx(one, rel=1e-5)
+
+
+def test_a_drive_whose_joint_reverses_is_told() -> None:
+    """300 N·m where about 1 000 N·m are needed: as the vector model has it, sampled densely."""
+    shafts = (Shaft(number=2, length=0.8, inertia=0.1136), Shaft(number=3, inertia=1e-6))
+    drive = Drive(
+        joints=(Hooke(joint_angle=30 * deg), Hooke(joint_angle=30 * deg, plane_twist=0.0)),
+        shafts=shafts,
+        duty=Duty(torque=300.0, speed=169.4),
+    )
+    dense = forces(drive, angle=DENSE).joint_torque
+    needed = 1000.0
+    most = forces(drive, replace(drive.duty, torque=needed), DENSE).joint_torque
+    assert abs(most.min()) < 0.02 * needed
+    (found,) = check(drive, only=["gap_closure"])
+    assert found.state == "failed"
+    assert found.limit == pytest.approx(needed, rel=0.02)
+    told = answer(drive, ask(drive))
+    (said,) = (one.text.told(USUAL) for one in told.remarks if one.tone == "warning" and "gaps" in str(one.text))
+    share = float(np.mean(dense[0] < 0.0))
+    assert 0.3 < share < 0.45
+    assert f"over {100 * share:.1f}" in said
+    assert told.facts["gap_closure"]["open_share"][0].value == pytest.approx(share, abs=1e-4)
+    assert told.facts["gap_closure"]["load_needed"].value == pytest.approx(float(found.limit), rel=1e-6)
+    enough = replace(drive, duty=replace(drive.duty, torque=1.1 * float(found.limit)))
+    assert check(enough, only=["gap_closure"])[0].state == "close"
+    assert not any("gaps" in str(one.text) for one in answer(enough, ask(enough)).remarks if one.tone == "warning")
+
+
+def test_the_check_asks_for_the_inertia_of_shafts_between_joints() -> None:
+    drive = Drive(joints=(Hooke(joint_angle=0.3), Hooke(joint_angle=0.3)), duty=Duty(torque=300.0, speed=100.0))
+    assert check(drive, only=["gap_closure"])[0].missing == ("shafts[1].inertia",)

@@ -27,6 +27,7 @@ from .figures.forces import forces_figures
 from .figures.moving_forces import moving_forces_figures
 from .force_tables import joint_table, rubs, shaft_table, support_table, trace
 from .forces import Forces, forces
+from .gap_closure import Gaps, gaps
 from .moving_forces import MovingForces, moving_forces
 from .reactions import Held
 from .solving_order import reaction_groups
@@ -198,6 +199,7 @@ def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
     if len(groups) > 1:
         order = _(", then ").join(_(" and ").join(map(str, group)) for group in groups)
         yield Remark(text=say(_("By hand the reactions follow from shaft {order}."), order=order))
+    yield from _closing(drive, found)
     yield from _thrust(found)
     yield from _without(drive, found)
     yield from _moving(drive, result)
@@ -207,6 +209,30 @@ def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
 
 def _parts(problem: Problem) -> dict[str, str]:
     return {"field": spelled(problem.field), "message": problem.message}
+
+
+def _closing(drive: Drive, found: Forces) -> Iterator[Remark]:
+    """Yield whether the load keeps the gaps of the joints closed, where inertia counts."""
+    one = gaps(drive, found)
+    if one is None or not one.load_needed > ROUNDING * abs(drive.duty.torque or 0.0):
+        return
+    where = _("at the input") if drive.duty.torque_at == "input" else _("at the output")
+    most = Quantity(one.load_needed, "torque")
+    opened = [k for k, share in enumerate(one.open_share) if share > 0.0]
+    if not opened:
+        text = _("The load keeps the gaps of all joints closed; {most} {where} is the least that does.")
+        yield Remark(text=say(text, most=most, where=where), depth="full")
+        return
+    text = plural(
+        "Warning: the gaps of joint {which} open: inertia reverses its torque over {share} of the turn. Only {most} "
+        "{where} would keep all of them closed.",
+        "Warning: the gaps of joints {which} open: inertia reverses their torque over up to {share} of the turn. Only "
+        "{most} {where} would keep all of them closed.",
+        len(opened),
+    )
+    which = together([joint.name for joint in drive.joints], opened)
+    share = Quantity(float(max(one.open_share)), "share", 3)
+    yield Remark(text=say(text, which=which, share=share, most=most, where=where), tone="warning")
 
 
 def _thrust(found: Forces) -> Iterator[Remark]:
@@ -349,7 +375,18 @@ def _facts(drive: Drive, found: Forces) -> dict[str, Any]:
         "torque_orders": Quantity([tidy(row).tolist() for row in orders], "torque"),
         **({} if found.reaction is not None else {"supports": []}),
         **balance_facts(found),
+        "gap_closure": _gap_facts(gaps(drive, found)),
         "assumed": found.assumed,
+    }
+
+
+def _gap_facts(found: Gaps | None) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    return {
+        "closed": not np.any(found.open_share > 0.0),
+        "load_needed": Quantity(found.load_needed, "torque"),
+        "open_share": [Quantity(float(one), "share") for one in found.open_share],
     }
 
 

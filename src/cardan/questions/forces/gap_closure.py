@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.drive.models.train import Train, place_of
-from cardan.maths.arrays import Array
-from cardan.maths.curves.peaks import peaks
+from cardan.drive.drive import Drive
+from cardan.drive.duty import Harmonic
+from cardan.drive.models.chain import Chain
+from cardan.drive.models.train import Train, place_of, train
+from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.curves.peaks import peak, peaks
+from cardan.questions.motion.motion import motion
 
+from .drive_forces import Forces
 from .kinetostatics import couples, standing
 
 COARSE = 361
 """Positions of a turn from which the least couples are sharpened."""
+
+MANY, FEW = 360, 72
+"""Positions of a period at which one drive and each of many are looked at; between them the extremes are found."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -128,3 +137,133 @@ def _share(function: Callable[[Array], Array], angles: Array, k: int) -> float:
     middle = 0.5 * (edges[:-1] + edges[1:])
     above = function(middle)[k] > 0.0
     return float(np.sum(np.diff(edges)[above]) / (2.0 * np.pi))
+
+
+def open_share(torque: Array, load: float) -> Array:
+    """Return the share of the turn in which each joint is pressed against the load, array (n,).
+
+    Parameters
+    ----------
+    torque : array (n, p) [N·m]
+        Torque of every joint at evenly spaced places of a whole turn, its end beside its beginning or not.
+    load : float [N·m]
+        Its sign tells which way the load presses.
+
+    Notes
+    -----
+    Straight between the places.
+
+    Examples
+    --------
+    >>> places = np.arange(360) * (2.0 * np.pi / 360)
+    >>> open_share(np.stack((1.0 + 0.0 * places, 0.5 + np.cos(places))), 100.0).round(3)
+    array([0.   , 0.333])
+    """
+    press = torque if load >= 0.0 else -torque
+    one, other = press, np.roll(press, -1, axis=-1)
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    span = np.where(high > low, high - low, 1.0)
+    share = np.where(high <= 0.0, low < 0.0, np.clip(-low, 0.0, None) / span)
+    found: Array = np.mean(share, axis=-1)
+    return found
+
+
+def least_load(
+    chain: Chain,
+    inertia: Array,
+    speed: ArrayLike,
+    *,
+    torque_at: str = "output",
+    harmonics: Sequence[Harmonic] = (),
+    scale: ArrayLike = 1.0,
+    backwards: bool = False,
+) -> Array:
+    """Return the least torque at one end that keeps each joint pressed one way over the turn, array (..., n) [N·m].
+
+    Parameters
+    ----------
+    chain : Chain (..., n)
+        One drive or many.
+    inertia : array (..., n) [kg m²]
+        J of shafts 2 … n+1.
+    speed : float or array (...) [rad/s]
+        ω_1, uniform.
+    torque_at : str
+        ``output`` or ``input``: where the torque is given and constant but for its harmonics.
+    harmonics : sequence of Harmonic
+        Its swinging parts, which stay while the mean grows.
+    scale : float or array (...)
+        By which they count.
+    backwards : bool
+        Whether the torque presses the joints the other way.
+
+    Notes
+    -----
+    By power, P_j = J_j ε_j ω_j over ω_1: behind joint i the torque is (M r_{n+1} + Σ_{j>i} P_j)/r_{i+1} for a torque M
+    at the output and (M - Σ_{j≤i} P_j)/r_{i+1} for one at the input, r the speed ratios; both must keep the sign of M.
+    Of a single joint that is M_2 > J_2 ε_max, Kozhevnikov & Perfil'ev (1978), eq. 121, 122.
+
+    Examples
+    --------
+    >>> from cardan.drive.models.chain import given_chain
+    >>> least_load(given_chain(Drive.from_angles([0.4])), np.asarray([0.05]), 150.0).round(3)
+    array([186.471])
+    """
+    outer = np.broadcast_shapes(chain.joint_angle.shape[:-1], np.shape(speed), inertia.shape[:-1])
+    places = FEW if math.prod(outer) > 1 else MANY
+    period = 2.0 * np.pi if harmonics else np.pi
+    angle = np.arange(places) * (period / places)
+    turned = motion(chain, angle)
+    ratio, slope = turned.shaft_ratio[..., 1:, :], turned.shaft_slope[..., 1:, :]
+    power = inertia[..., None] * (np.asarray(speed) ** 2)[..., None, None] * ratio * slope
+    if torque_at == "output":
+        heavy = np.flip(np.cumsum(np.flip(power, axis=-2), axis=-2), axis=-2) / ratio[..., -1:, :]
+        at = turned.output_angle
+    else:
+        before = np.zeros_like(power[..., :1, :])
+        heavy = -np.concatenate((before, np.cumsum(power[..., :-1, :], axis=-2)), axis=-2)
+        at = angle
+    wave = sum((one.torque * np.cos(one.order * at + one.phase) for one in harmonics), np.zeros_like(at))
+    found = heavy + (np.asarray(scale)[..., None] * wave)[..., None, :]
+    return peak(found if backwards else -found)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Gaps:
+    """Whether the load of a duty keeps the gaps of a drive closed.
+
+    Attributes
+    ----------
+    open_share : array (n,)
+        Share of the turn in which each joint is pressed against the load.
+    load_needed : float [N·m]
+        Least mean torque, where the torque is given, that keeps all joints closed.
+    """
+
+    open_share: Array
+    load_needed: float
+
+
+def gaps(drive: Drive, found: Forces) -> Gaps | None:
+    """Return whether the load of a drive keeps its gaps closed; None where no speed or no inertia counts.
+
+    Parameters
+    ----------
+    drive : Drive
+    found : Forces
+        Of the drive over a whole turn.
+    """
+    whole, torque = train(drive, kinds=True), drive.duty.torque
+    if not drive.duty.speed or not torque or whole.inertia is None:
+        return None
+    needed = least_load(
+        whole.chain,
+        whole.inertia[1:],
+        drive.duty.speed,
+        torque_at=drive.duty.torque_at,
+        harmonics=drive.duty.harmonics,
+        backwards=torque < 0.0,
+    )
+    turned = found.angle[-1] - found.angle[0] > 2.0 * np.pi - 1e-9
+    press = found.joint_torque[:, :-1] if turned else found.joint_torque
+    return Gaps(open_share=open_share(press, torque), load_needed=max(0.0, float(np.max(needed))))
