@@ -11,7 +11,7 @@ from cardan.answers.reader import USUAL
 from cardan.book.single_joint import joint_extremes
 from cardan.checks import check
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.duty import Block, Duty, Harmonic
 from cardan.drive.joints import Hooke
 from cardan.drive.models.chain import given_chain
 from cardan.drive.models.geometry import points_from_angles
@@ -147,3 +147,16 @@ def test_a_drive_whose_joint_reverses_is_told() -> None:
 def test_the_check_asks_for_the_inertia_of_shafts_between_joints() -> None:
     drive = Drive(joints=(Hooke(joint_angle=0.3), Hooke(joint_angle=0.3)), duty=Duty(torque=300.0, speed=100.0))
     assert check(drive, only=["gap_closure"])[0].missing == ("shafts[1].inertia",)
+
+
+def test_the_check_judges_many_drives_and_parts_of_a_duty_as_one_by_one() -> None:
+    base = tube_drive(300.0)
+    blocks = (Block(torque=300.0, speed=100.0, share=0.5), Block(torque=200.0, speed=180.0, share=0.5))
+    drive = replace(base, duty=Duty(blocks=blocks))
+    joint_angles = [5.0, 25.0, 35.0]
+    (many,) = check(drive, only=["gap_closure"], vary={"joints[0].joint_angle_deg": joint_angles})
+    for k, joint_angle in enumerate(joint_angles):
+        joints = (replace(drive.joints[0], joint_angle=joint_angle * deg), *drive.joints[1:])
+        (one,) = check(replace(drive, joints=joints), only=["gap_closure"])
+        assert (many.value[k], many.limit[k]) == (one.value, pytest.approx(one.limit, rel=1e-5))
+        assert one.value == 200.0

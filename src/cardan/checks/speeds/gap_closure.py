@@ -32,7 +32,6 @@ def _judge(design: Design) -> Iterator[Verdict]:
             yield Verdict(missing=tuple(lacking))
         return
     inertia = np.stack(np.broadcast_arrays(*(np.asarray(0.0 if one is None else one) for one in each)), axis=-1)
-    torque = np.stack(np.broadcast_arrays(*(np.asarray(case.torque, dtype=float) for case in running)))
     needs = [_needed(design, case, inertia) for case in running]
     moved = (
         design.while_moving(lambda chain: _needed(design, running[0], inertia, chain)) if not design.varied else None
@@ -40,8 +39,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
     still = [np.max(one, axis=-1) for one in needs]
     if moved is not None:
         needs[0] = np.maximum(needs[0], moved)
-    needed = np.stack(np.broadcast_arrays(*(np.max(one, axis=-1) for one in needs)))
-    torque, needed = np.broadcast_arrays(torque, np.maximum(needed, 0.0))
+    torques = [np.asarray(case.torque, dtype=float) for case in running]
+    rows = np.broadcast_arrays(*torques, *(np.maximum(np.max(one, axis=-1), 0.0) for one in needs))
+    torque, needed = np.stack(rows[: len(running)]), np.stack(rows[len(running) :])
     with np.errstate(divide="ignore", invalid="ignore"):
         used = np.where(torque > 0.0, needed / torque, 0.0)
     worst = np.argmax(used, axis=0)[None]
