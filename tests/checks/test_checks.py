@@ -86,6 +86,12 @@ def whole() -> Drive:
     )
 
 
+def vehicle(name):
+    """Return an example whose duty has the limits of vehicles."""
+    drive = example(name)
+    return replace(drive, duty=replace(drive.duty, application="automotive"))
+
+
 def test_every_file_of_a_check_is_listed():
     folder = Path(check.__code__.co_filename).parent
     files = {path.stem for path in folder.rglob("*.py") if "\nCHECK = " in path.read_text("utf-8")}
@@ -103,7 +109,7 @@ def test_every_verdict_has_what_a_reader_needs():
         if v.run:
             assert v.source
             assert math.isfinite(v.utilisation)
-            assert v.state in ("passed", "close", "failed")
+            assert v.state in ("passed", "unconfirmed", "close", "failed")
 
 
 @pytest.mark.slow
@@ -198,7 +204,7 @@ def test_two_equal_joints_have_the_small_angle_values_of_the_norm():
     assert output.value == pytest.approx(0.0, abs=1e-9)
     assert in_drive.value == pytest.approx(small, rel=2e-3)  # fourth order in the angle
     assert in_coast.value == pytest.approx(in_drive.value, rel=1e-12)
-    assert (in_drive.limit, in_coast.limit) == (1000.0, 500.0)
+    assert (in_drive.limit, in_coast.limit) == (1000.0, 1000.0)
 
 
 def test_a_joint_alone_bends_its_tube_as_the_book_has_it():
@@ -368,7 +374,7 @@ def test_splines_of_a_pose_are_reckoned_from_the_drawn_length():
 
 
 def test_advice_on_bends_is_judged_while_the_drive_moves():
-    drive = example("pto-hitch")
+    drive = vehicle("pto-hitch")
     joint_angles = articulation(drive).joint_angle
     assert np.max(geometry(drive).joint_angle) == 0.0
     found = check(drive, only=["angle_rule", "joint_angle_at_speed", "angle_table"])
@@ -385,7 +391,7 @@ def test_advice_on_bends_is_judged_while_the_drive_moves():
 def test_the_table_of_angles_judges_a_moving_drive_alike_alone_and_among_others():
     """One joint keeps 10°, the other swings by 5° about less or more: whether the larger bend is the drawn one or not,
     √(largest² - largest difference² + a/ω²) is the limit, in a batch as alone."""
-    drive, path = with_values(example("pto-hitch"), {"duty.speed_rpm": 1000.0}), "output.point_mm[2]"
+    drive, path = with_values(vehicle("pto-hitch"), {"duty.speed_rpm": 1000.0}), "output.point_mm[2]"
     swing = Body(moves=("output",), pivot=(1.0, 0.0, 0.0), pitch=5 * deg, frequency=1.0)
     start = (-0.4, 0.0, 0.4 * math.tan(10 * deg))
     drive = replace(drive, input=replace(drive.input, point=start), movements=(swing,))
@@ -401,7 +407,7 @@ def test_the_table_of_angles_judges_a_moving_drive_alike_alone_and_among_others(
 
 
 def test_the_table_of_angles_has_a_limit_where_a_joint_comes_to_bend_90_degrees():
-    drive = with_values(example("pto-hitch"), {"joints[1].centre_mm[1]": -300.0})
+    drive = with_values(vehicle("pto-hitch"), {"joints[1].centre_mm[1]": -300.0})
     with np.errstate(all="raise"):
         found = check(drive, only=["angle_table"])[0]
     assert (found.value, found.state) == (math.inf, "failed")
@@ -417,7 +423,7 @@ def test_a_value_at_its_limit_but_for_rounding_keeps_it():
 
 @pytest.mark.parametrize("name", ["truck-rear-axle", "pto-hitch"])
 def test_many_drives_that_move_and_have_poses_are_judged_as_one_by_one(name):
-    drive = example(name)
+    drive = vehicle(name)
     drive = replace(
         drive, limits=replace(drive.limits, joint_angle=10 * deg, speed_fluctuation=0.01, output_error=0.1 * deg)
     )
@@ -532,7 +538,7 @@ def test_a_shipped_drive_that_fails_says_so_in_its_file(name):
 
 
 def test_inside_shafts_swing_hardest_where_the_movement_bends_most():
-    drive = example("pto-hitch")
+    drive = vehicle("pto-hitch")
     output, in_drive, _coast = check(drive, only=["acceleration"])
     joint_angle = articulation(drive).envelope["joint_angle"][1][0]
     assert in_drive.value == pytest.approx(drive.duty.speed**2 * largest_acceleration(joint_angle), rel=1e-12)

@@ -33,7 +33,9 @@ def test_every_limit_that_must_be_kept_has_a_bar_in_the_colour_of_its_verdict():
 
 def test_signs_tell_without_colour():
     _figure, drawn = bars("car-propshaft")
-    assert all(text.startswith("●") for text in drawn.texts)
+    assert {text[0] for text in drawn.texts} == {"●", "○"}
+    roles = dict(zip((text[0] for text in drawn.texts), drawn.roles, strict=True))
+    assert roles == {"●": "good", "○": "muted"}
 
 
 def test_a_limit_of_nothing_is_used_without_end():

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from cardan.drive.cross import Cross
 from cardan.drive.joint_parts import Needles, Rating, Yoke
 from cardan.errors import Problem, check
-from cardan.texts import _
+from cardan.texts import _, mark
 from cardan.units import plain, quantity
 
 
@@ -16,6 +17,29 @@ def _below(value: float | None, least: float | None, field: str, message: str) -
     """Yield that a field is less than what it must at least be, where both are known."""
     if value is not None and least is not None and value < least:
         yield Problem(field, message, "inconsistent")
+
+
+UNSURE: Mapping[str, str] = MappingProxyType(
+    {
+        "made_up": mark("made up for examples"),
+        "not_confirmed": mark("not confirmed"),
+        "recalled": mark("recalled, not looked up"),
+        "beyond": mark("usual values of the trade"),
+    }
+)
+"""Confidence of rows whose figures no source confirms that can be looked up, the least sure first, in words."""
+
+
+def sureness(confidence: str) -> int:
+    """Return the place of a confidence in their order, the least sure first.
+
+    Examples
+    --------
+    >>> sorted(("recalled", "confirmed", "made_up"), key=sureness)
+    ['made_up', 'recalled', 'confirmed']
+    """
+    order = list(UNSURE)
+    return order.index(confidence) if confidence in order else len(order)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -109,6 +133,7 @@ class AngleNorm(Row):
     inertia_coast: float = quantity(
         "angular_acceleration", doc="of an intermediate shaft, the output uniform", above=0.0
     )
+    application: str = plain("", doc="application it is made for; only on request where none stands here")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

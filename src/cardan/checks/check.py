@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from cardan.catalogue.provenance import unconfirmed
+from cardan.catalogue.rows import UNSURE, sureness
 from cardan.drive.joints import Joint
 from cardan.drive.models.laws import mixed, unmapped
 from cardan.texts import _
 
 from .design import Design
-from .verdict import UNSURE, Sense, Verdict
+from .verdict import Sense, Verdict
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +39,8 @@ class Check:
     crosses : str
         "each" where it judges Hooke joints only, one by one; "all" where it judges drives that have no others; "law"
         where many drives at once must have joints with tan φ' = κ tan φ.
+    application : str
+        Of drives that it is made for, as of `Duty`; empty where it judges all.
     """
 
     name: str
@@ -51,37 +55,43 @@ class Check:
     advice: bool = False
     power: float = 0.0
     crosses: Literal["", "each", "all", "law"] = ""
+    application: str = ""
 
     def verdicts(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""
-        joints = design.drive.joints
+        joints, own = design.drive.joints, design.duty.application
+        if self.application not in ("", own):
+            why = _("made for the application {one}, not for {other}").format(one=self.application, other=own)
+            yield from (_unfit(one, why) for one in self._judged(design))
+            return
         if not self.crosses or not mixed(joints):
             yield from self._judged(design)
             return
         if self.crosses == "law":
-            own = unmapped(joints)
+            lawless = unmapped(joints)
             for one in self._judged(design):
-                stuck = own and bool(design.varied)
-                yield replace(_unfit(one, joints[own[0]].kind), unfit=_ruled(joints[own[0]])) if stuck else one
+                stuck = lawless and bool(design.varied)
+                yield _unfit(one, _ruled(joints[lawless[0]])) if stuck else one
             return
         others = [i for i, joint in enumerate(joints) if not joint.single_cross]
         for one in self._judged(design):
             whole = self.crosses == "all" or any(path.endswith(".kind") for path in one.missing)
             concerned = others if whole else [one.number - 1] if one.subject.startswith("joints[") else []
             kinds = [joints[i].kind for i in concerned if i in others]
-            yield _unfit(one, kinds[0]) if kinds else one
+            yield _unfit(one, _crossless(kinds[0])) if kinds else one
 
     def _judged(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts, each with what all of them share."""
         if self.judge is not None:
-            yield from map(self._whole, self.judge(design))
+            yield from (self._founded(self._whole(one), design) for one in self.judge(design))
         for path, judge, count in (
             ("joints", self.joint, design.joints),
             ("shafts", self.shaft, design.joints + 1),
         ):
             for k in range(count) if judge is not None else ():
                 assert judge is not None
-                yield from (self._whole(replace(one, subject=f"{path}[{k}]")) for one in judge(design, k))
+                named = (replace(one, subject=f"{path}[{k}]") for one in judge(design, k))
+                yield from (self._founded(self._whole(one), design) for one in named)
 
     def _whole(self, one: Verdict) -> Verdict:
         kind = one.title or _(self.title)
@@ -97,12 +107,24 @@ class Check:
             power=self.power,
         )
 
+    def _founded(self, one: Verdict, design: Design) -> Verdict:
+        """Return a verdict with the rows of the catalogue that it rests on and that nothing confirms."""
+        if not one.run:
+            return one
+        rows = design.filled_by(*one.design_variables, *one.rests)
+        own = [_(UNSURE[one.confidence])] if one.confidence in UNSURE else []
+        least = min((one.confidence, *(row.confidence for row in rows if row.confidence in UNSURE)), key=sureness)
+        return replace(one, confidence=least, provenance=(*own, *unconfirmed(rows)))
+
 
 def _ruled(joint: Joint) -> str:
     text = _("judges joints with tan φ' = κ tan φ, not one of kind {kind} with these sizes")
     return text.format(kind=joint.kind)
 
 
-def _unfit(one: Verdict, kind: str) -> Verdict:
-    why = _("judges Hooke joints, not a joint of kind {kind}").format(kind=kind)
+def _crossless(kind: str) -> str:
+    return _("judges Hooke joints, not a joint of kind {kind}").format(kind=kind)
+
+
+def _unfit(one: Verdict, why: str) -> Verdict:
     return replace(one, value=float("nan"), limit=float("nan"), missing=(), design_variables=(), note="", unfit=why)

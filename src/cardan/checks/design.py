@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from cardan.catalogue import Catalogue, catalogue, completed
+from cardan.catalogue.provenance import rows_behind
+from cardan.catalogue.rows import Row
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -92,6 +94,13 @@ class Design:
     def design_variables(self, *paths: str) -> tuple[str, ...]:
         """Return those of the paths at which something stands that can be changed."""
         return tuple(dict.fromkeys(path for path in paths if not self.missing(path)))
+
+    def filled_by(self, *paths: str) -> tuple[Row, ...]:
+        """Return the rows of the catalogue, sizes of joints and grades of materials, whose figures stand at paths.
+
+        A figure that the drive file gives anew, or that is varied, is the user's own.
+        """
+        return rows_behind(self.drive, self.known, *(path for path in paths if path not in self.varied))
 
     @property
     def joints(self) -> int:

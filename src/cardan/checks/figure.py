@@ -20,9 +20,9 @@ BARS = 40
 WIDEST = 10.0
 """Utilisation at which bars are cut; an arrow at the end of what uses more says so."""
 
-ROLES = {"passed": "good", "close": "warning", "failed": "failed"}
+ROLES = {"passed": "good", "unconfirmed": "muted", "close": "warning", "failed": "failed"}
 
-SIGNS = {"passed": "●", "close": "▲", "failed": "✖"}
+SIGNS = {"passed": "●", "unconfirmed": "○", "close": "▲", "failed": "✖"}
 
 
 def check_figures(verdicts: Sequence[Verdict], *, name: str = "") -> tuple[Figure, ...]:
@@ -70,7 +70,7 @@ def _figure(run: Sequence[Verdict], name: str) -> Figure:
         sentence=_("The {count} with the highest utilisation are shown.").format(count=BARS) if len(run) > BARS else "",
         source=_(
             "Utilisation: value over limit, or limit over value where it must be at least that; green keeps its limit, "
-            "amber comes near, red fails"
+            "grey keeps one that nothing confirms, amber comes near, red fails"
         ),
         rows=(Row(panels=(panel,), height=0.25 * len(shown) + 0.3),),
     )

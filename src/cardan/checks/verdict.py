@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from cardan.answers.quantity import Text
+from cardan.catalogue.rows import UNSURE
 from cardan.maths.arrays import Array
 
 Sense: TypeAlias = Literal["at_most", "at_least", "within", "outside"]
@@ -21,10 +22,7 @@ ROUNDING = 1e-9
 BELOW = 1.0 - 2.0 * ROUNDING
 """Share of what a value must not even reach that it may be at most."""
 
-UNSURE = frozenset(("recalled", "not_confirmed", "beyond", "made_up"))
-"""How sure a row of the catalogue may be of its figures without being confirmed by a source that can be looked up."""
-
-State: TypeAlias = Literal["passed", "close", "failed", "not_run"]
+State: TypeAlias = Literal["passed", "unconfirmed", "close", "failed", "not_run"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,6 +50,11 @@ class Verdict:
         Where limit and formula come from.
     confidence : str
         How sure the limit is, as of `catalogue.rows.Row`; empty where it is the user's own or follows from formulas.
+        The check itself fills in the least sure row of the catalogue that the verdict rests on.
+    provenance : tuple of str
+        In words, what of the limit nothing confirms: how sure it is, and rows of the catalogue it rests on.
+    rests : tuple of str
+        Paths beside the design variables on which the limit rests.
     design_variables : tuple of str
         Paths of the drive file whose change moves the value.
     missing : tuple of str
@@ -80,6 +83,8 @@ class Verdict:
     unit: str = ""
     source: Text = ""
     confidence: str = ""
+    provenance: tuple[str, ...] = ()
+    rests: tuple[str, ...] = ()
     design_variables: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
     unfit: str = ""
@@ -128,12 +133,24 @@ class Verdict:
         return float(found) if found.ndim == 0 else found
 
     @property
+    def sure(self) -> bool:
+        """Whether all it rests on is confirmed, follows from formulas or is the user's own."""
+        return self.confidence not in UNSURE
+
+    @property
     def state(self) -> State:
-        """State of a single verdict."""
+        """State of a single verdict; one that is met by what nothing confirms is not passed."""
         if not self.run:
             return "not_run"
         used = float(np.max(self.utilisation))
-        return "failed" if not used <= 1.0 else "close" if used >= AMBER else "passed"
+        if used < AMBER:
+            return "passed" if self.sure else "unconfirmed"
+        return "close" if used <= 1.0 else "failed"
+
+    @property
+    def met(self) -> bool:
+        """Whether the limit of a single verdict is kept, and not nearly used up."""
+        return self.state in ("passed", "unconfirmed")
 
 
 def utilisation(value: Array | float, limit: Array | float | tuple[float, float], sense: Sense) -> Array | float:

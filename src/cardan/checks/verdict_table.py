@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cardan.answers.answer import Cell, Column, KeyFigure, Table, Tone
+from cardan.answers.answer import Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, Unit, say
 from cardan.drive.fields.keys import key_of
-from cardan.texts import _
+from cardan.texts import _, plural
 from cardan.units import factor
 
 from .alike import alike, deciding_limits, title_of
 from .verdict import State, Verdict
 
-TONES: dict[State, Tone] = {"passed": "good", "close": "warning", "failed": "failed", "not_run": "plain"}
+TONES: dict[State, Tone] = {
+    "passed": "good",
+    "unconfirmed": "warning",
+    "close": "warning",
+    "failed": "failed",
+    "not_run": "plain",
+}
 
 CONDITIONS = frozenset(("acceleration", "speed_fluctuation", "joint_angle", "spline_overlap"))
 """Checks whose note says at which speed, in which pose or when the value is reached: it belongs to what is judged."""
@@ -36,7 +42,14 @@ def word_of(one: Verdict) -> str:
     """Return a verdict in a word."""
     if one.advice and one.state == "failed":
         return _("beyond")
-    return {"passed": _("passed"), "close": _("close"), "failed": _("failed"), "not_run": _("not run")}[one.state]
+    unsure = not one.sure and not one.advice
+    return {
+        "passed": _("passed"),
+        "unconfirmed": _("met, unconfirmed limit") if one.advice else _("met, unconfirmed rating"),
+        "close": _("close, unconfirmed rating") if unsure else _("close"),
+        "failed": _("failed, unconfirmed rating") if unsure else _("failed"),
+        "not_run": _("not run"),
+    }[one.state]
 
 
 def amount(one: Verdict, value: Any, *, given: bool = False) -> Quantity:
@@ -71,10 +84,10 @@ def said_of(group: Sequence[Verdict], *, sources: bool = False) -> Text:
     """Return what a group of verdicts is about, with its note where that matters, or with all that stands behind it."""
     one = group[0]
     if sources:
-        return Joined([title_of(group), one.note, one.source], between="; ")
+        return Joined([title_of(group), one.note, one.source, *one.provenance], between="; ")
     if one.check in CONDITIONS:
         return Joined([title_of(group), one.note])
-    return Joined([title_of(group), one.note if one.state != "passed" else ""], between="; ")
+    return Joined([title_of(group), "" if one.met else one.note], between="; ")
 
 
 def verdict_table(
@@ -127,12 +140,26 @@ def verdict_table(
             Column(
                 key="",
                 heading=_("by"),
-                values=[Joined([one.source, _unsaid(one)], between="; ") for one in first],
+                values=[Joined([one.source, *one.provenance, _unsaid(one)], between="; ") for one in first],
                 left=True,
                 depth="data" if sources else "full",
             ),
         ),
     )
+
+
+def unconfirmed_remark(verdicts: Sequence[Verdict]) -> Iterator[Remark]:
+    """Yield on which rows of the catalogue verdicts rest that nothing confirms."""
+    loose = [one for one in verdicts if not one.sure and not one.advice]
+    if loose:
+        text = plural(
+            "One verdict is met or failed by an unconfirmed rating: {rows}. Give the maker's or the standard's own.",
+            "{count} verdicts are met or failed by unconfirmed ratings: {rows}. Give the maker's or the standard's "
+            "own.",
+            len(loose),
+        )
+        rows = dict.fromkeys(part for one in loose for part in one.provenance)
+        yield Remark(text=say(text, count=len(loose), rows=", ".join(rows)), tone="warning")
 
 
 def verdict_key(group: Sequence[Verdict]) -> KeyFigure:
@@ -192,7 +219,11 @@ def verdict_records(
     columns = [Column(key=key, values=values, depth="data") for key, values in told.items()]
     if torque is not None:
         columns.append(replace(_limit_torque(verdicts, torque), key="limit_torque", depth="data"))
-    last: dict[str, Any] = {"source": [one.source for one in verdicts]}
+    last: dict[str, Any] = {
+        "source": [one.source for one in verdicts],
+        "confidence": [one.confidence for one in verdicts],
+        "provenance": ["; ".join(one.provenance) if flat else list(one.provenance) for one in verdicts],
+    }
     last |= (
         {"missing": [" ".join(one) for one in keys]}
         if flat
@@ -236,7 +267,7 @@ def missing_table(verdicts: Sequence[Verdict], depth: Any = "full") -> Table:
 
 def _unsaid(one: Verdict) -> Text:
     """Return the note of a verdict where it does not stand with what is judged."""
-    return one.note if one.state == "passed" and one.check not in CONDITIONS else ""
+    return one.note if one.met and one.check not in CONDITIONS else ""
 
 
 def _limit_torque(verdicts: Sequence[Verdict], torque: float) -> Column:

@@ -17,7 +17,14 @@ from cardan.checks.checks import CHECKS, check
 from cardan.checks.figure import check_figures
 from cardan.checks.key_figures import key_figures
 from cardan.checks.verdict import Verdict
-from cardan.checks.verdict_table import missing_table, share, verdict_key, verdict_records, verdict_table
+from cardan.checks.verdict_table import (
+    missing_table,
+    share,
+    unconfirmed_remark,
+    verdict_key,
+    verdict_records,
+    verdict_table,
+)
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.drive.fields.paths import bare_path
@@ -62,6 +69,16 @@ class Checked:
         return sorted((one for one in self.verdicts if one.run and one.advice), key=_worst)
 
     @property
+    def unconfirmed(self) -> list[Verdict]:
+        """Verdicts that the drive must keep and that rest on what nothing confirms."""
+        return [one for one in self.binding if not one.sure]
+
+    @property
+    def beyond(self) -> list[Verdict]:
+        """Rules of thumb that the drive does not keep, the worst first."""
+        return [one for one in self.advice if one.state == "failed"]
+
+    @property
     def failed(self) -> list[Verdict]:
         """Verdicts that the drive must keep and does not."""
         return [one for one in self.binding if one.state == "failed"]
@@ -100,9 +117,9 @@ def checked(
 
 
 def ask(drive: Drive, *, known: Catalogue | None = None) -> Checked | None:
-    """Return the verdicts on a drive and their remedies; None where no limit that must be kept could be judged."""
+    """Return the verdicts on a drive and their remedies; None where nothing could be judged that matters."""
     found = checked(drive, known=known)
-    return found if found.binding else None
+    return found if found.binding or found.beyond else None
 
 
 def otherwise(drive: Drive) -> str:
@@ -125,18 +142,25 @@ def answer(drive: Drive, result: Checked, *, sources: bool = False, missing: boo
     missing : bool
         Say in brief, too, which keys the checks need that were not run.
     """
-    close = any(one.state == "close" for one in result.binding)
+    close = any(one.state in ("close", "unconfirmed") for one in result.binding)
     return Answer(
         name="check",
         title=_("Checks"),
         sentence=sentence(result.verdicts),
-        tone="failed" if result.failed else "warning" if close else "good" if result.binding else "plain",
+        tone="failed"
+        if result.failed
+        else "warning"
+        if close or (result.beyond and not result.binding)
+        else "good"
+        if result.binding
+        else "plain",
         figures=lambda: check_figures(result.verdicts, name=drive.name),
         tables=tuple(_tables(drive, result, sources=sources, missing=missing)),
         remarks=tuple(_remarks(result, sources=sources, missing=missing)),
         keys=tuple(key_figures(drive, result.verdicts)),
         facts={
             "passed": not result.failed,
+            "unconfirmed": len(result.unconfirmed),
             "remedies": [asdict(one) for one in result.remedies],
             "most_helpful": [asdict(one) for one in most_helpful(result.remedies)],
         },
@@ -156,6 +180,10 @@ def sentence(verdicts: Sequence[Verdict]) -> Say | str:
     result = Checked(verdicts=tuple(verdicts))
     binding, failed = result.binding, result.failed
     if not binding:
+        if result.beyond:
+            text = _("no limit that must be kept could be judged; beyond a rule of thumb: {title}, at {used} of it.")
+            worst = result.beyond[0]
+            return say(text, title=worst.title, used=share(float(worst.utilisation)))
         if result.advice:
             return _("no limit that must be kept could be judged, only rules of thumb.")
         return _("nothing could be judged: the drive file gives neither limits nor what they need.")
@@ -167,11 +195,18 @@ def sentence(verdicts: Sequence[Verdict]) -> Say | str:
         if len(failed) > 1:
             text = _("{failed} of {count} checks failed; worst: {title}, at {used} of its limit.")
     else:
+        unsure = len(result.unconfirmed)
         text = _("the only check passed: {title}, at {used} of its limit.")
         if count > 1:
             text = _("all {count} checks passed; closest: {title} ({used}).")
-    used = share(float(worst.utilisation))
-    return say(text, failed=len(failed), count=count, title=worst.title, used=used)
+        if unsure:
+            text = _("all {count} checks met, {unsure} by unconfirmed ratings; closest: {title} ({used}).")
+        if unsure == count:
+            text = _("all checks met, by unconfirmed ratings; closest: {title} ({used}).")
+        if unsure == count == 1:
+            text = _("the only check met, by an unconfirmed rating: {title}, at {used} of its limit.")
+    used, loose = share(float(worst.utilisation)), len(result.unconfirmed)
+    return say(text, failed=len(failed), count=count, unsure=loose, title=worst.title, used=used)
 
 
 def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> Iterator[Table]:
@@ -179,7 +214,7 @@ def _tables(drive: Drive, result: Checked, *, sources: bool, missing: bool) -> I
         yield verdict_table(result.binding, sources=sources)
     if result.remedies:
         yield remedy_table(drive, result)
-    told = [one for one in result.advice if sources or one.state != "passed"]
+    told = [one for one in result.advice if sources or not one.met]
     if told:
         yield verdict_table(told, _("Advice: rules of thumb, they fail no drive"), sources=sources)
     lacks = [one for one in result.verdicts if one.missing]
@@ -264,8 +299,8 @@ def _effect(one: Remedy) -> Cell:
 def urgent(result: Checked) -> tuple[list[KeyFigure], int]:
     """Return the verdicts of the first page: what fails or is close, then the nearest; and how many are left out."""
     groups = alike(result.binding)
-    first = [group for group in groups if group[0].state != "passed"]
-    passed = [group for group in groups if group[0].state == "passed"]
+    first = [group for group in groups if not group[0].met]
+    passed = [group for group in groups if group[0].met]
     shown = [*first, *passed][: max(URGENT, len(first))]
     return [verdict_key(group) for group in shown], len(result.binding) - sum(map(len, shown))
 
@@ -277,7 +312,10 @@ def _remarks(result: Checked, *, sources: bool, missing: bool) -> Iterator[Remar
     for why in dict.fromkeys(one.unfit for one in result.verdicts if one.unfit):
         titles = "; ".join(map(title_of, _alike_unfit([one for one in result.verdicts if one.unfit == why])))
         yield Remark(text=_("Not run ({why}): {titles}.").format(why=why, titles=titles))
-    kept = sum(one.state == "passed" for one in result.advice)
+    if result.beyond and not result.binding:
+        yield Remark(text=sentence(result.verdicts), tone="warning", alarm=True, depth="data")
+    yield from unconfirmed_remark(result.binding)
+    kept = sum(one.met for one in result.advice)
     if kept and not sources:
         text = plural("One rule of thumb is kept.", "{count} rules of thumb are kept.", kept)
         yield Remark(text=text.format(count=kept))

@@ -10,7 +10,7 @@ from cardan.answers.answer import FILE, Answer, Cell, Column, Remark, Table, Ton
 from cardan.answers.quantity import Joined, Quantity, Text, Unit, say
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import Verdict
-from cardan.checks.verdict_table import MOST, amount, limit, share
+from cardan.checks.verdict_table import MOST, amount, limit, share, unconfirmed_remark
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.errors import refuse
@@ -213,6 +213,8 @@ def _remarks(found: Sizing) -> Iterator[Remark]:
         keys = ", ".join(dict.fromkeys(key_of(path) for path in found.skipped))
         text = _("Some checks do not count in this size; the file lacks {keys}.")
         yield Remark(text=text.format(keys=keys), tone="warning")
+    if found.governing is not None:
+        yield from unconfirmed_remark([found.governing])
     text = _("Write it into a copy of the file, and look again:")
     part = found.part + (f":{_number(found)}" if found.subject else "")
     command = ("cardan", "strength", FILE, "--size", part, "-o", "sized.toml")

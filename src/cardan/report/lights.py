@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from cardan.answers.answer import Column, Tone
 from cardan.answers.printed import Cell, cell, number
-from cardan.answers.quantity import told
+from cardan.answers.quantity import Joined, told
 from cardan.answers.reader import reader
 from cardan.checks import Verdict, check
 from cardan.checks.alike import alike
@@ -137,7 +137,7 @@ def _light(group: Sequence[Verdict]) -> Light:
         unit=who.label(key.value.dimension, key.value.unit),
         limit=cell(shown, Column(key="", values=()), who).text,
         used=float(one.utilisation),
-        source=told(one.source, who),
+        source=told(Joined([one.source, *one.provenance], between="; "), who),
         why=told(one.note, who),
         path=one.subject,
         design_variables=one.design_variables,

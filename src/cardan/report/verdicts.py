@@ -54,6 +54,6 @@ def judged(on: Subject) -> Judged:
     return Judged(
         page=page(said, reader()),
         keys=said.keys,
-        lights=Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note),
+        lights=Table(columns=verdict_columns(), rows=rows, title=_("Limits"), note=note) if rows else None,
         changes=table(remedy_table(on.drive, result, helpful=True)) if result.remedies else None,
     )

@@ -153,7 +153,7 @@ CALCULATIONS = (
     Calculation(
         name="design_torque",
         doc=mark("torque that a vehicle's shaft must carry: what the engine brings, limited by the wheels' adhesion"),
-        source=mark("power balance; web articles on drive shafts, examples 26.1 and 26.2, corrected"),
+        source=mark("power balance; examples in use, 26.1 and 26.2, corrected"),
         takes=(
             given("kind", mark("which shaft"), kind="word", choices=("propshaft", "halfshaft")),
             at_least_zero("engine_torque_Nm", mark("largest torque of the engine"), "torque", default=None),
@@ -194,7 +194,7 @@ CALCULATIONS = (
     Calculation(
         name="shaft_stress",
         doc=mark("stresses of a round shaft under torque and bending"),
-        source="Book (261)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 261",
         takes=(TORQUE, at_least_zero("bending_Nm", mark("bending moment"), "torque", default=0.0), OUTER, INNER),
         returns=(
             gives("tau_torsion_MPa", mark("shear stress of torsion"), "stress"),
@@ -208,7 +208,7 @@ CALCULATIONS = (
     Calculation(
         name="shaft_diameter",
         doc=mark("outer diameter of a shaft that carries a torque"),
-        source="Book (261)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 261",
         takes=(
             TORQUE,
             at_least_zero("bore_ratio", mark("inner over outer diameter"), default=0.0, below=1.0),
@@ -220,7 +220,7 @@ CALCULATIONS = (
     Calculation(
         name="shaft_twist",
         doc=mark("twist of a stepped shaft under torque"),
-        source="Book (262), with the torque alone",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 262, with the torque alone",
         takes=(
             given("torque_Nm", mark("torque"), "torque"),
             positive("G_GPa", mark("shear modulus"), "stress"),

@@ -99,7 +99,7 @@ CALCULATIONS = (
     Calculation(
         name="joint_angle_table",
         doc=mark("largest second angle beside a first one, the articles' table as a formula"),
-        source=mark("θ_2 = √(θ_1² + 400/ω²), which gives the table of the web articles, section 26.1, to one digit"),
+        source=mark("θ_2 = √(θ_1² + 400/ω²), which gives the table of joint angles in use, to one digit"),
         takes=(
             positive("speed_rpm", mark("input speed"), "angular_speed"),
             angle("theta1_deg", mark("angle of joint 1")),
@@ -113,7 +113,7 @@ CALCULATIONS = (
     Calculation(
         name="angle_rule_6_1p5",
         doc=mark("whether two angles keep the rule of 6° each and 1.5° difference"),
-        source=mark("web articles on drive shafts"),
+        source=mark("rule of practice, source unknown"),
         takes=(angle("theta1_deg", mark("angle of joint 1")), angle("theta2_deg", mark("angle of joint 2"))),
         returns=(gives("ok", mark("whether they do")), gives("violated", mark("angle, difference"))),
         answer=_rule,
@@ -121,7 +121,7 @@ CALCULATIONS = (
     Calculation(
         name="speed_angle_product",
         doc=mark("product of speed and bend against the limit of a joint"),
-        source=mark("Book pp. 64-65 for ball joints; Dana catalogue for its sizes"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), pp. 64–65 for ball joints; Dana catalogue for its sizes"),
         takes=(
             positive("speed_rpm", mark("speed"), "angular_speed"),
             angle("alpha_deg", mark("joint angle")),

@@ -193,7 +193,7 @@ CALCULATIONS = (
     Calculation(
         name="balance_norm_book",
         doc=mark("whether an unbalance keeps the book's norm of a vehicle"),
-        source="Book p. 247",
+        source="Kozhevnikov & Perfil'ev (1978), p. 247",
         takes=(
             given("vehicle_class", mark("vehicle"), kind="word", choices=tuple(catalogue().rows(BalanceNorm))),
             at_least_zero("unbalance_Ncm", mark("unbalance [N cm]")),
@@ -204,7 +204,7 @@ CALCULATIONS = (
     Calculation(
         name="accuracy_check",
         doc=mark("whether the measures of a yoke or a cross keep their limits"),
-        source=mark("GOST 2752-74, by the Book"),
+        source=mark("GOST 2752-74, by the Kozhevnikov & Perfil'ev (1978)"),
         takes=(given("part", mark("part"), kind="word", choices=tuple(MEASURES)), *MEASURE.values()),
         returns=(gives("ok", mark("whether they do")), gives("violated", mark("the keys that do not"))),
         answer=_accuracy,
@@ -213,7 +213,7 @@ CALCULATIONS = (
     Calculation(
         name="shaft_layout",
         doc=mark("how many shafts and centre bearings a wheelbase usually has"),
-        source=mark("web articles on drive shafts"),
+        source=mark("rule of practice, source unknown"),
         takes=(positive("wheelbase_m", mark("distance of the axles"), "length"),),
         returns=(
             gives("shaft_sections", mark("shafts in line")),
@@ -225,7 +225,10 @@ CALCULATIONS = (
     Calculation(
         name="lubrication_due",
         doc=mark("whether lubrication is due, and by which counter"),
-        source=mark("Book pp. 248-249; half the intervals in water, mud or dust is a rule of this program"),
+        source=mark(
+            "Kozhevnikov & Perfil'ev (1978), pp. 248–249; half the intervals in water, mud or dust is a "
+            "rule of this program"
+        ),
         takes=(
             given("item", mark("what is lubricated"), kind="word", choices=tuple(catalogue().rows(Lubrication))),
             at_least_zero("hours", mark("hours run since the last time"), default=None),
@@ -244,7 +247,7 @@ CALCULATIONS = (
     Calculation(
         name="material",
         doc=mark("what the catalogue says of a grade"),
-        source=mark("Book p. 230; see the source of each row"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), p. 230; see the source of each row"),
         takes=(
             given("grade", mark("grade, or its name in another standard"), kind="word"),
             given("part", mark("part it is to be used for"), kind="word", default=None),
@@ -267,7 +270,7 @@ CALCULATIONS = (
     Calculation(
         name="joint_selection",
         doc=mark("types of joints that do a job, under conditions or not, and why not"),
-        source=mark("catalogue of types; Book, chapter 1"),
+        source=mark("catalogue of types; Kozhevnikov & Perfil'ev (1978), chapter 1"),
         takes=(
             positive("torque_Nm", mark("torque"), "torque"),
             angle("angle_deg", mark("joint angle of the joint")),

@@ -21,9 +21,16 @@ from cardan.texts import _, mark
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
-    norm = design.known.row(AngleNorm, design.drive.settings.norm, field="settings.norm")
+    rows, asked = design.known.rows(AngleNorm), design.drive.settings.norm
+    usual = (row for row in rows.values() if row.application == design.duty.application)
+    norm = design.known.row(AngleNorm, asked, field="settings.norm") if asked else next(usual, None)
     speed = design.top_speed
     output = f"shafts[{design.joints}]"
+    if norm is None:
+        why = _("the catalogue has no norm for the application {name}; settings.norm can name one")
+        unfit = why.format(name=design.duty.application)
+        yield Verdict(subject=output, title=_("torsional acceleration of the output"), unfit=unfit)
+        return
     said = [(_("torsional acceleration of the output"), output, norm.torsional)]
     if design.joints > 1:
         said.append((_("inertia excitation, drive"), "", norm.inertia_drive))
@@ -42,6 +49,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             title=title,
             limit=limit,
             source=norm.source,
+            confidence=norm.confidence,
             value=np.asarray(speed) ** 2 * np.maximum(drawn, most),
             design_variables=(*yokes, *design.joint_angle_design_variables, *design.speed_design_variables),
             note=joined(at_top_speed(design), _("while the drive moves") if np.all(most > drawn) else as_drawn(design)),

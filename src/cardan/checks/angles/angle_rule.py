@@ -17,7 +17,9 @@ from cardan.texts import _, mark
 
 def _judge(design: Design) -> Iterator[Verdict]:
     rule = Verdict(
-        source=_("web articles on drive shafts: 6° and 1.5°"), design_variables=design.joint_angle_design_variables
+        source=_("rule of practice, source unknown: 6° and 1.5°"),
+        confidence="recalled",
+        design_variables=design.joint_angle_design_variables,
     )
     largest, note = at_its_most(design, lambda joint_angle: np.max(joint_angle, axis=-1, keepdims=True))
     yield replace(
@@ -37,4 +39,5 @@ CHECK = Check(
     unit="deg",
     advice=True,
     crosses="all",
+    application="automotive",
 )

@@ -45,7 +45,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     yield Verdict(
         value=high[..., 0],
         limit=most,
-        source=_("web articles on drive shafts, table of joint angles: √(θ₁² + 400/ω²)"),
+        source=_("rule of practice, source unknown: table of joint angles, √(θ₁² + 400/ω²)"),
+        confidence="recalled",
         design_variables=(*design.joint_angle_design_variables, *design.speed_design_variables),
         note=joined(at_top_speed(design), said, note),
     )
@@ -66,4 +67,5 @@ CHECK = Check(
     unit="deg",
     advice=True,
     crosses="all",
+    application="automotive",
 )

@@ -8,12 +8,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.catalogue import Catalogue
-from cardan.catalogue.rows import JointType
+from cardan.catalogue.rows import UNSURE, JointType
 from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.moving import largest_joint_angle
-from cardan.checks.verdict import UNSURE, Verdict
+from cardan.checks.verdict import Verdict
 from cardan.drive.joints import Joint
 from cardan.texts import _, mark
 
@@ -21,7 +21,8 @@ from cardan.texts import _, mark
 def _judge(design: Design, i: int) -> Iterator[Verdict]:
     joint = design.drive.joints[i]
     row = design.known.rows(JointType).get(joint.type)
-    own, rated = design.value("limits.joint_angle"), design.value(f"joints[{i}].rating.max_joint_angle")
+    path = f"joints[{i}].rating.max_joint_angle"
+    own, rated = design.value("limits.joint_angle"), design.value(path)
     typed = row.max_joint_angle if row else None
     kind = of_kind(joint, design.known) if rated is None and typed is None else None
     given = [
@@ -32,7 +33,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     ]
     found = [one for one in given if one[0] is not None]
     if not found:
-        yield Verdict(missing=(f"joints[{i}].rating.max_joint_angle",))
+        yield Verdict(missing=(path,))
         return
     # What the user wants of all joints makes none of them able to do it.
     bound = kind is not None and kind[2] not in UNSURE
@@ -46,6 +47,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         source=source,
         confidence=confidence,
         design_variables=design.joint_angles_of(i),
+        rests=(path,) if limit is rated else (),
         note=note,
     )
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.catalogue.rows import MaxJointAngle
+from cardan.catalogue.rows import MaxJointAngle, sureness
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.moving import at_its_most
@@ -34,6 +34,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         value=largest[..., 0],
         limit=limit,
         source=rows[0].source,
+        confidence=min((row.confidence for row in rows), key=sureness),
         design_variables=(*design.joint_angle_design_variables, *design.speed_design_variables),
         note=joined(said, note),
     )
@@ -48,4 +49,5 @@ CHECK = Check(
     unit="deg",
     advice=True,
     crosses="all",
+    application="automotive",
 )

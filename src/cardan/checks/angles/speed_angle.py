@@ -27,6 +27,8 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=largest([np.asarray(case.speed) * case.joint_angle[..., i] for case in running]),
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
+        confidence="" if rated is not None or row is None else row.confidence,
+        rests=() if rated is None else (path,),
         design_variables=(*design.joint_angles_of(i), *design.speed_design_variables),
         note="" if design.duty.continuous else _("counts in continuous running; this drive runs for short times"),
         advice=not design.duty.continuous,

@@ -32,7 +32,9 @@ def _judge(design: Design) -> Iterator[Verdict]:
         subject=output,
         value=drawn if moved is None else largest([drawn, moved[..., 0]]),
         limit=EVEN if own is None else own,
-        source=_("Elbe, for drives that are to turn evenly") if own is None else _("limits of the drive file"),
+        source=_("Elbe Group: Technical annex 3, fluctuation rate (elbe-group.de)")
+        if own is None
+        else _("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
         note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else as_drawn(design),
     )

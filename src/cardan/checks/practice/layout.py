@@ -26,7 +26,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
         title=title,
         value=design.value("duty.vehicle.wheelbase"),
         limit=limits.get(shafts, math.inf),
-        source=_("web articles on drive shafts: one shaft below 3.4 m, two up to 4.8 m, three above"),
+        source=_("rule of practice, source unknown: one shaft below 3.4 m, two up to 4.8 m, three above"),
+        confidence="recalled",
     )
 
 

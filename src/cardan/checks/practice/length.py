@@ -23,7 +23,8 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
     yield Verdict(
         value=length,
         limit=LONGEST,
-        source=_("web articles on drive shafts: at most 1.5 m between joints"),
+        source=_("rule of practice, source unknown: at most 1.5 m between joints"),
+        confidence="recalled",
         design_variables=design.design_variables(f"shafts[{k}].length") if design.drive.form != "points" else (),
         note=_("a composite tube may be longer") if design.drive.shafts[k].layup is not None else "",
     )
@@ -37,4 +38,5 @@ CHECK = Check(
     dimension="length",
     unit="mm",
     advice=True,
+    application="automotive",
 )

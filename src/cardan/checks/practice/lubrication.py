@@ -34,6 +34,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
             dimension, unit = COUNTERS[name]
             yield Verdict(
                 source=row.source,
+                confidence=row.confidence,
                 title=words[name].format(item=_words(item)),
                 dimension=dimension,
                 unit=unit,

@@ -30,7 +30,14 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value, row = design.value(path), rows.get(one.name)
         if value is not None and row is not None:
             title = _(NAMES[one.name])
-            yield Verdict(title=title, value=value, limit=row.limit, source=row.source, design_variables=(path,))
+            yield Verdict(
+                title=title,
+                value=value,
+                limit=row.limit,
+                source=row.source,
+                confidence=row.confidence,
+                design_variables=(path,),
+            )
 
 
 CHECK = Check(

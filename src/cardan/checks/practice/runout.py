@@ -20,7 +20,10 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
         yield Verdict(
             value=design.value(f"shafts[{k}].runout"),
             limit=HEAVY if heavy else STRAIGHT,
-            source=_("Book p. 247, trucks of 5 t and more") if heavy else _("web articles on drive shafts: 0.25 mm"),
+            source=_("Kozhevnikov & Perfil'ev (1978), p. 247, trucks of 5 t and more")
+            if heavy
+            else _("rule of practice, source unknown: 0.25 mm"),
+            confidence="book" if heavy else "recalled",
             design_variables=(f"shafts[{k}].runout",),
         )
 
@@ -33,4 +36,5 @@ CHECK = Check(
     dimension="length",
     unit="mm",
     advice=True,
+    application="automotive",
 )

@@ -41,6 +41,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             value=amount,
             limit=allowed_unbalance(mass, top, row.speed).whole,
             source=_("ISO 21940-11, grade {grade}: {row}").format(grade=grade, row=row.source),
+            confidence=row.confidence,
             design_variables=(*design_variables, *design.speed_design_variables),
             note=_("below 500 rpm makers do not balance") if slow else "",
             advice=slow,
@@ -52,6 +53,7 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
             value=amount,
             limit=limit.max_unbalance,
             source=f"{limit.source}, {limit.note}",
+            confidence=limit.confidence,
             design_variables=design_variables,
         )
 

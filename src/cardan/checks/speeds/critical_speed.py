@@ -27,20 +27,21 @@ def _judge(design: Design) -> Iterator[Verdict]:
             continue
         top = np.maximum(np.asarray(design.top_speed, dtype=float), 1e-9)
         own = design.value("limits.critical_speed")
-        source = _("web articles on drive shafts: 60 % above the highest speed")
+        source = _("rule of practice, source unknown: 60 % above the highest speed")
         yield Verdict(
             subject=subject,
             value=one.wear * one.speed / top,
             limit=ARTICLE if own is None else own,
             sense="at_least",
             source=source if own is None else _("limits of the drive file"),
+            confidence="recalled" if own is None else "",
             design_variables=(*one.design_variables, *design.speed_design_variables),
             note=_note(one),
         )
         application = design.duty.application
         makers = {
-            "automotive": _("IMS catalogue, automotive drives: 70 %"),
-            "industrial": _("IMS catalogue, industrial drives: 65 %"),
+            "automotive": _("IMS Ltd: Critical speeds, ims-ltd.co.uk/technical-data, vehicles: 70 %"),
+            "industrial": _("IMS Ltd: Critical speeds, ims-ltd.co.uk/technical-data, industry: 65 %"),
         }
         yield Verdict(
             subject=subject,

@@ -23,7 +23,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         between = design.duty.speed_range
         subject, source = (
             f"shafts[{k}]",
-            _("a maker's rule: 8 % to either side; couples of the joints come twice a turn"),
+            _("Cardan India: Speed limit, cardanindia.com/speedlimit.html: 8 % to either side"),
         )
         if lacking or not (running or between):
             yield Verdict(subject=subject, missing=(*lacking, *(() if running or between else ("duty.speed",))))

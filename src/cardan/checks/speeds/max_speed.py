@@ -17,7 +17,11 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         yield Verdict(missing=(*design.missing(path), *design.unmoved))
         return
     yield Verdict(
-        value=speed, limit=limit, source=_("rating of the joint"), design_variables=design.speed_design_variables
+        value=speed,
+        limit=limit,
+        source=_("rating of the joint"),
+        design_variables=design.speed_design_variables,
+        rests=(path,),
     )
 
 

@@ -27,6 +27,8 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=0.5 * np.asarray(design.top_speed) * design.value(outer),
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
+        confidence="" if rated is not None or row is None else row.confidence,
+        rests=() if rated is None else (f"joints[{i}].rating.rim_speed",),
         design_variables=(*design.speed_design_variables, outer),
     )
 

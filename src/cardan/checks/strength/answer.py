@@ -13,7 +13,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import Catalogue
 from cardan.checks.verdict import AMBER, Verdict
-from cardan.checks.verdict_table import missing_table, share, verdict_records, verdict_table
+from cardan.checks.verdict_table import missing_table, share, unconfirmed_remark, verdict_records, verdict_table
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import key_of
 from cardan.texts import _, mark, plural
@@ -70,7 +70,7 @@ def otherwise(drive: Drive) -> str:
 
 def answer(drive: Drive, result: Strength) -> Answer:
     """Return what there is to say of the strength of a drive."""
-    close = any(float(one.utilisation) >= AMBER for one in result.binding)
+    close = any(float(one.utilisation) >= AMBER or not one.sure for one in result.binding)
     enough = result.enough
     tone: Tone = "plain" if enough is None else "failed" if not enough else "warning" if close else "good"
     return Answer(
@@ -195,6 +195,7 @@ def _joints(drive: Drive, result: Strength) -> Table:
 
 def _remarks(result: Strength) -> Iterator[Remark]:
     yield from _failed(result)
+    yield from unconfirmed_remark(result.binding)
     out = result.left_out
     if out is not None:
         yield from _left_out(result, out)
@@ -314,7 +315,8 @@ def _keys(result: Strength) -> Iterator[KeyFigure]:
     if first is None or not math.isfinite(result.rated_torque):
         return
     used = result.torque / result.rated_torque
-    tone: Tone = "failed" if used > 1.0 else "warning" if used >= AMBER else "good"
+    tone: Tone = "failed" if used > 1.0 else "warning" if used >= AMBER or not first.sure else "good"
+    near = _("near the limit") if used >= AMBER else _("met, unconfirmed rating")
     yield KeyFigure(
         name="rated_torque",
         title=_("torque rating of the whole drive"),
@@ -322,7 +324,7 @@ def _keys(result: Strength) -> Iterator[KeyFigure]:
         value=_torque(result.rated_torque),
         limit=_torque(result.torque),
         better="more",
-        verdict={"failed": _("too weak"), "warning": _("near the limit"), "good": _("passed")}[tone],
+        verdict={"failed": _("too weak"), "warning": near, "good": _("passed")}[tone],
         tone=tone,
     )
 

@@ -49,7 +49,9 @@ def uses_figure(found: Strength) -> Figure:
     found : Strength
     """
     order = sorted(found.judged, key=lambda one: -float(one.utilisation))[:SHOWN]
-    source: list[Text] = [_("largest loads over the turn; Book (261)–(266), Goodman, ISO 76, ISO 281, Hertz")]
+    source: list[Text] = [
+        _("largest loads over the turn; Kozhevnikov & Perfil'ev (1978), eq. 261–266, Goodman, ISO 76, ISO 281, Hertz")
+    ]
     if len(order) < len(found.judged):
         text = _("the {shown} most utilised of {all} checks")
         source.append(say(text, shown=len(order), all=len(found.judged)))

@@ -25,6 +25,8 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         value=value * design.shock,
         limit=limit,
         source=_("rating of the joint") if rated is not None or row is None else row.source,
+        confidence="" if rated is not None or row is None else row.confidence,
+        rests=() if rated is None else (path,),
         design_variables=(
             *(() if rated is None else (path,)),
             *design.joint_angles_of(i),

@@ -48,7 +48,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     yield Verdict(
         value=found.mises,
         limit=design.allowed(strength),
-        source=_("Book (264), (265) with the grease bore; yield strength over safety"),
+        source=_("Kozhevnikov & Perfil'ev (1978), eq. 264, 265 with the grease bore; yield strength over safety"),
         design_variables=(
             f"{cross}.journal",
             f"{cross}.span",

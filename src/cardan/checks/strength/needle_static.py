@@ -58,7 +58,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         title=_("load of the needles of joint {number}, the book's rule"),
         value=turning[worst].couple[..., i] * design.shock / design.value(span),
         limit=np.minimum(allowed[worst], capacity),
-        source=_("Book (266), one oscillation a turn"),
+        source=_("Kozhevnikov & Perfil'ev (1978), eq. 266, one oscillation a turn"),
         design_variables=(span, *sizes, *design.torque_design_variables, *design.speed_design_variables),
         note=_("an old rule on the safe side; the life decides"),
         advice=True,

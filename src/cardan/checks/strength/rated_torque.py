@@ -17,7 +17,7 @@ from cardan.texts import _, mark
 SOURCES = {
     "Tc": mark("rating by T_c: 5000 h at 3° and 100 rpm; L = 1.5·10⁶/(nα)·(T_c/M)^(10/3)"),
     "CR": mark("rating by C·R: L = 1.5·10⁷/(nα)·(C·R/M)^(10/3)"),
-    "book": mark("Book (267): 5000 h at 3° and 33.3 rpm"),
+    "book": mark("Kozhevnikov & Perfil'ev (1978), eq. 267: 5000 h at 3° and 33.3 rpm"),
 }
 
 

@@ -38,7 +38,7 @@ def _of_section(design: Design, k: int, section: Section) -> Verdict:
             title=title,
             value=moment * design.shock / resisting,
             limit=own,
-            source=_("Book (261), largest shear stress; limits of the drive file"),
+            source=_("Kozhevnikov & Perfil'ev (1978), eq. 261, largest shear stress; limits of the drive file"),
             design_variables=(*section.design_variables, *design.torque_design_variables),
             note=note,
         )

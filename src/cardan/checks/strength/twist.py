@@ -51,7 +51,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     yield Verdict(
         value=value,
         limit=RATED_TWIST if own is None else own,
-        source=_("Book (262): 9°") if own is None else _("limits of the drive file"),
+        source=_("Kozhevnikov & Perfil'ev (1978), eq. 262: 9°") if own is None else _("limits of the drive file"),
         design_variables=(*design_variables, *design.torque_design_variables),
         note=note,
     )

@@ -47,7 +47,7 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     yield Verdict(
         value=found.mises,
         limit=design.allowed(strength),
-        source=_("Book (263) with Saint-Venant's torsion; yield strength over safety"),
+        source=_("Kozhevnikov & Perfil'ev (1978), eq. 263 with Saint-Venant's torsion; yield strength over safety"),
         design_variables=(*sizes, f"joints[{i}].cross.span", strength, *design.torque_design_variables),
         note=note,
     )

@@ -12,6 +12,8 @@ from cardan.answers.answer import FILE, Answer, Column, KeyFigure, Remark, Table
 from cardan.answers.quantity import Quantity, Say, Text, listed, numbered, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.catalogue import catalogue, filled
+from cardan.catalogue.provenance import rows_behind, unconfirmed
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.texts import _, mark
@@ -23,6 +25,9 @@ from .life_cautions import LEAST
 from .lives import METHODS, Life
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking"]
+
+RATED = ("needles.capacity", "needles.count", "cross.span", "rating.torque")
+"""Fields of a joint that its life rests on."""
 
 PARTLY = ("duty.blocks", "duty.torque_history")
 """Duties in parts, that stand for one torque and one speed."""
@@ -57,6 +62,9 @@ def lacking(drive: Drive) -> Lacking:
 def answer(drive: Drive, result: Life) -> Answer:
     """Return what there is to say of the life of the joints of a drive."""
     tone: Tone = "plain" if result.enough is None else "good" if result.enough else "failed"
+    loose = _unconfirmed(drive)
+    if loose and tone == "good":
+        tone = "warning"
     return Answer(
         name="life",
         title=_("Life"),
@@ -64,12 +72,19 @@ def answer(drive: Drive, result: Life) -> Answer:
         tone=tone,
         figures=lambda: life_figures(result),
         tables=(_joints(drive, result), *_duty_cycle(result)),
-        remarks=tuple(_remarks(result)),
-        keys=tuple(_keys(result)),
-        facts=_facts(result),
+        remarks=tuple(_remarks(result, loose)),
+        keys=tuple(_keys(result, loose)),
+        facts={**_facts(result), "provenance": loose},
         full=lambda: _everything(result),
         code=1 if result.enough is False else 0,
     )
+
+
+def _unconfirmed(drive: Drive) -> tuple[str, ...]:
+    """Return in words the sizes that the lives rest on and that nothing confirms."""
+    whole = filled(drive)
+    paths = (f"joints[{i}].{name}" for i in range(len(whole.joints)) for name in RATED)
+    return unconfirmed(rows_behind(whole, catalogue(), *paths))
 
 
 def _hours(seconds: float) -> Quantity:
@@ -198,7 +213,7 @@ def _everything(result: Life) -> Table:
     )
 
 
-def _remarks(result: Life) -> Iterator[Remark]:
+def _remarks(result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
     if result.enough is False:
         i = result.governing - 1
         need = float(result.needed_capacity[i])
@@ -208,6 +223,9 @@ def _remarks(result: Life) -> Iterator[Remark]:
         values = {"need": Quantity(need, "force"), "now": Quantity(float(result.bearings.capacity[i]), "force")}
         share = Quantity(result.torque_margin, "share")
         yield Remark(text=say(text, share=share, **values), tone="failed", alarm=True)
+    if loose:
+        text = _("The lives rest on ratings that nothing confirms: {rows}.")
+        yield Remark(text=say(text, rows=", ".join(loose)), tone="warning")
     if result.history is not None and result.cycles is not None:
         levels = result.history
         text = _(
@@ -252,7 +270,7 @@ def _cautions(result: Life) -> Iterator[Remark]:
             yield Remark(text=say(_("Warning: {what}."), what=message), tone="warning", code=code)
 
 
-def _keys(result: Life) -> Iterator[KeyFigure]:
+def _keys(result: Life, loose: tuple[str, ...]) -> Iterator[KeyFigure]:
     if not math.isfinite(result.drive):
         return
     title, place = _("life of the joint that fails first"), say(_("joint {number}"), number=result.governing)
@@ -260,7 +278,8 @@ def _keys(result: Life) -> Iterator[KeyFigure]:
         yield KeyFigure(name="life", title=title, place=place, value=_hours(result.drive), better="more")
         return
     used = result.demanded / result.drive
-    tone: Tone = "failed" if used > 1.0 else "warning" if used >= CLOSE else "good"
+    tone: Tone = "failed" if used > 1.0 else "warning" if used >= CLOSE or loose else "good"
+    near = _("near the limit") if used >= CLOSE else _("met, unconfirmed rating")
     yield KeyFigure(
         name="life",
         title=title,
@@ -269,7 +288,7 @@ def _keys(result: Life) -> Iterator[KeyFigure]:
         limit=_hours(result.demanded),
         better="more",
         tone=tone,
-        verdict={"failed": _("too short"), "warning": _("near the limit"), "good": _("passed")}[tone],
+        verdict={"failed": _("too short"), "warning": near, "good": _("passed")}[tone],
     )
 
 

@@ -1,0 +1,87 @@
+"""Where the figures of a drive come from that it does not give itself: rows of the catalogue, and how sure they are."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.texts import _
+
+from .catalogue import Catalogue
+from .rows import UNSURE, JointSize, Row
+
+_STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
+_PART = re.compile(r"joints\[(\d+)\]\.\w+\.")
+
+
+def rows_behind(drive: Drive, known: Catalogue, *paths: str) -> tuple[Row, ...]:
+    """Return the rows of the catalogue, sizes of joints and grades of materials, whose figures stand at paths.
+
+    Parameters
+    ----------
+    drive : Drive
+        Filled in from the catalogue; a figure that differs from that of its size or its grade is its own.
+    known : Catalogue
+    paths : str
+        Without units, as ``joints[0].cross.span`` or ``shafts[1].material.yield_strength``.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from cardan.catalogue import catalogue, completed
+    >>> from cardan.drive.joint_parts import Rating
+    >>> from cardan.drive.joints import Hooke
+    >>> drive = completed(Drive(joints=(Hooke(joint_angle=0.1, size="example-75", rating=Rating(max_speed=400.0)),)))
+    >>> [row.id for row in rows_behind(drive, catalogue(), "joints[0].rating.torque", "joints[0].rating.max_speed")]
+    ['example-75']
+    >>> rows_behind(drive, catalogue(), "joints[0].rating.max_speed")
+    ()
+    """
+    found: dict[str, Row] = {}
+    for path in paths:
+        row = _row(drive, known, path)
+        if row is not None:
+            found[row.id] = row
+    return tuple(found.values())
+
+
+def unconfirmed(rows: tuple[Row, ...]) -> tuple[str, ...]:
+    """Return in words the rows that nothing confirms.
+
+    Examples
+    --------
+    >>> from cardan.catalogue import catalogue
+    >>> unconfirmed((catalogue().rows(JointSize)["example-75"],))
+    ('example-75 (made up for examples)',)
+    """
+    text = _("{row} ({sure})")
+    return tuple(text.format(row=row.id, sure=_(UNSURE[row.confidence])) for row in rows if row.confidence in UNSURE)
+
+
+def _row(drive: Drive, known: Catalogue, path: str) -> Row | None:
+    """Return the row whose figure stands at a path; None where the drive gives it itself, or nothing stands there."""
+    holder, _dot, name = path.rpartition(".")
+    if holder.endswith(".material"):
+        material = _at(drive, holder)
+        try:
+            grade = known.grade(material.grade) if material is not None and material.grade else None
+        except InputError:
+            return None
+        return grade if grade is not None and getattr(grade, name, None) == getattr(material, name) else None
+    match = _PART.match(path)
+    size = known.rows(JointSize).get(drive.joints[int(match[1])].size) if match else None
+    if size is None:
+        return None
+    usual = _at(size, path.partition(".")[2])
+    return size if usual is not None and usual == _at(drive, path) else None
+
+
+def _at(thing: Any, path: str) -> Any:
+    """Return what stands at a path in a thing; None where nothing stands."""
+    for name, places in _STEP.findall(path):
+        thing = getattr(thing, name, None)
+        for k in re.findall(r"\d+", places):
+            thing = thing[int(k)] if thing is not None and int(k) < len(thing) else None
+    return thing
