@@ -64,13 +64,21 @@ def answer(drive: Drive, result: BookComparison) -> Answer:
     exact = float(result.speed_fluctuation)
     rows = (
         (_("exact"), _("matrix product"), exact),
-        (_("series, first order"), _("Book (80), exact phase angles"), float(result.speed_fluctuation_80)),
+        (
+            _("series, first order"),
+            _("Kozhevnikov & Perfil'ev (1978), eq. 80, exact phase angles"),
+            float(result.speed_fluctuation_80),
+        ),
         (
             _("series, mean phases"),
             _("first order, start position left out"),
             float(result.speed_fluctuation_mean_phases),
         ),
-        (_("series without Θ"), _("as calculated in Book (90)"), float(result.speed_fluctuation_without_theta)),
+        (
+            _("series without Θ"),
+            _("as calculated in Kozhevnikov & Perfil'ev (1978), eq. 90"),
+            float(result.speed_fluctuation_without_theta),
+        ),
     )
     shares = [share for _name, _source, share in rows]
     joint_angle = 0.0 if exact < SYNCHRONOUS else float(result.joint_angle)

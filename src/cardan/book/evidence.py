@@ -96,13 +96,13 @@ def evidence(drive: Drive) -> tuple[SelfCheck, ...]:
         ),
         SelfCheck(
             name=_("speed ratio of every shaft"),
-            way=_("joint by joint, Book (33)"),
+            way=_("joint by joint, Kozhevnikov & Perfil'ev (1978), eq. 33"),
             residual=_largest(found.shaft_ratio[1:] - chained),
             allowed=allowed,
         ),
         SelfCheck(
             name=_("angle of the output"),
-            way=_("Blokh's closed form, Book (35)–(37), freed of its poles"),
+            way=_("Blokh's closed form, Kozhevnikov & Perfil'ev (1978), eq. 35–37, freed of its poles"),
             residual=_largest(found.angle_error[-1] - closed.angle_error),
             allowed=allowed,
         ),

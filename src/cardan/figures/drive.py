@@ -70,7 +70,7 @@ def views_figure(drive: Drive, seen: Solids) -> Figure:
             "Yokes stand at the start position, each in the colour of its shaft; places and directions are exact, "
             "sizes are not."
         ),
-        source=_("Geometry: plain vectors through the joint centres, Book (87)–(89)"),
+        source=_("Geometry: plain vectors through the joint centres, Kozhevnikov & Perfil'ev (1978), eq. 87–89"),
         rows=tuple(
             Row(panels=(_view(drive, seen, meshes, sheet, inch, title),), height=max(0.85, sheet.height(inch)))
             for sheet, title in zip(sheets, titles, strict=True)

@@ -110,7 +110,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
         _("joint 1"),
         Cell(value="τ = tan²(α/2)", formula="tau = tan^2 alpha/2"),
         say("tan²({half}) = {tau}", half=_angle(half, 3), tau=Quantity(float(np.tan(half)) ** 2)),
-        _("Book (18), as a map of the circle"),
+        _("Kozhevnikov & Perfil'ev (1978), eq. 18, as a map of the circle"),
     )
     if on.joints > 1:
         turn = np.asarray(on.train.turn_before)[1]
@@ -119,7 +119,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
             _("between joints 1 and 2"),
             Cell(value="μ = 90° − γ − β", formula="mu = 90° - gamma - beta"),
             say("90° − ({gamma}) − ({beta}) = {turn}", gamma=gamma, beta=beta, turn=_as_line(float(turn))),
-            _("Book (31), (38)"),
+            _("Kozhevnikov & Perfil'ev (1978), eq. 31, 38"),
         )
     yield (
         _("whole drive"),
@@ -134,7 +134,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
         _("speed fluctuation"),
         Cell(value="δ = 4|a||b|", formula="delta = 4 abs(a) abs(b)"),
         say("4 · {a} · {b} = {delta}", **pair, delta=Quantity(4.0 * a * b)),
-        _("Book (79), exact"),
+        _("Kozhevnikov & Perfil'ev (1978), eq. 79, exact"),
     )
     yield (
         _("equivalent joint"),
@@ -146,7 +146,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
         _("angle error"),
         Cell(value="arcsin τ, τ = |b|/|a|", formula="arcsin tau, quad tau = abs(b)/abs(a)"),
         say("arcsin {tau} = {error}", tau=Quantity(b / a), error=Quantity(float(np.arcsin(b / a)), "angle")),
-        _("extreme of Book (19)"),
+        _("extreme of Kozhevnikov & Perfil'ev (1978), eq. 19"),
     )
     closing = on.closing
     if on.joints > 1:
@@ -165,7 +165,7 @@ def _lines(on: Subject) -> Iterator[tuple[str, Cell, Text, str]]:
                 sign=sign,
                 others=Quantity(float(closing.others), decimals=5),
             ),
-            _("in place of Book (77), (86)"),
+            _("in place of Kozhevnikov & Perfil'ev (1978), eq. 77, 86"),
         )
 
 

@@ -73,7 +73,8 @@ def book_figure(found: BookComparison) -> Figure:
             second=worst[1],
         ),
         source=_(
-            "Book (59)–(62), (69) first order; (63)–(68) second order, restored; exact: product of Möbius matrices"
+            "Kozhevnikov & Perfil'ev (1978), eq. 59–62, 69 first order; (63)–(68) second order, restored; "
+            "exact: product of Möbius matrices"
         ),
         rows=(Row(panels=(replace(upper, x=lower.x) if agree else upper,), height=1.5),)
         + (() if agree else (Row(panels=(lower,), height=1.1),)),

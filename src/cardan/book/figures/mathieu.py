@@ -85,7 +85,10 @@ def reduction_figure(found: MathieuReduction) -> Figure:
             low=significant(low / rpm, digits),
             high=significant(high / rpm, digits),
         ),
-        source=_("Book (196) with q put right, Figs. 77, 78; boundaries a_r(q), b_r(q) exact, without damping"),
+        source=_(
+            "Kozhevnikov & Perfil'ev (1978), eq. 196 with q put right, Figs. 77, 78; boundaries a_r(q), "
+            "b_r(q) exact, without damping"
+        ),
         rows=(Row(panels=(close,), height=2.6),),
     )
 
@@ -128,7 +131,10 @@ def chart_figure(
         name="mathieu-chart",
         title=_("Stability of Mathieu's equation"),
         sentence=text,
-        source=_("Book Figs. 77, 78, drawn anew from the exact boundaries; eigenvalues of Hill's matrices"),
+        source=_(
+            "Kozhevnikov & Perfil'ev (1978), Figs. 77, 78, drawn anew from the exact boundaries; "
+            "eigenvalues of Hill's matrices"
+        ),
         rows=(Row(panels=(panel,), height=3.2),),
     )
 

@@ -143,7 +143,7 @@ CALCULATIONS = (
     Calculation(
         name="assembly_forces",
         doc=mark("force in a joint whose slides are blocked, from its errors of length"),
-        source="Book p. 190, (171)",
+        source="Kozhevnikov & Perfil'ev (1978), p. 190, (171)",
         takes=(
             given("alpha_deg", mark("joint angle of the joint"), "angle", low=0.0, below=RIGHT),
             given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle"),
@@ -176,7 +176,7 @@ CALCULATIONS = (
     Calculation(
         name="indeterminate_reactions",
         doc=mark("reactions of bearings that give way, under torque and in housings that are off"),
-        source=mark("least complementary energy; Book p. 190 for the idea"),
+        source=mark("least complementary energy; Kozhevnikov & Perfil'ev (1978), p. 190 for the idea"),
         takes=(
             points(),
             START,

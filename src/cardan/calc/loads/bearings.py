@@ -80,7 +80,7 @@ CALCULATIONS = (
     Calculation(
         name="cross_loads",
         doc=mark("load of the journals and secondary couples of a joint over the turn, and their largest values"),
-        source="Book (100), (114); balance of the cross",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 100, 114; balance of the cross",
         takes=(
             at_least_zero("torque_Nm", mark("torque, constant on one shaft"), "torque"),
             SIDE,
@@ -101,7 +101,7 @@ CALCULATIONS = (
     Calculation(
         name="needle_static_book",
         doc=mark("load that the book allows on a needle bearing; ISO 76 limits it at low speeds"),
-        source="Book (266)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 266",
         takes=(
             NEEDLES,
             NEEDLE_LENGTH,

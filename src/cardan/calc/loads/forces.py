@@ -204,7 +204,7 @@ CALCULATIONS = (
         doc=mark(
             "torques, secondary couples, joint forces and bearing reactions of any drive, with inertia and weight"
         ),
-        source="Book pp. 129-150",
+        source="Kozhevnikov & Perfil'ev (1978), pp. 129–150",
         takes=(
             points(),
             START,
@@ -265,7 +265,7 @@ CALCULATIONS = (
     Calculation(
         name="gap_closure",
         doc=mark("whether the load keeps the clearances of all joints closed against inertia over a turn"),
-        source="Book (121), (122) for any drive",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 121, 122 for any drive",
         takes=(
             points(),
             START,

@@ -126,7 +126,7 @@ def _gyro_check(values: Values, key: Callable[[str], str]) -> Iterator[Problem]:
 SPLINE_THRUST = Calculation(
     name="spline_axial_force",
     doc=mark("friction thrust of the spline of the driven shaft and its parts in the joint"),
-    source="Book (123), (124), corrected",
+    source="Kozhevnikov & Perfil'ev (1978), eq. 123, 124, corrected",
     takes=(
         given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
         given("phi1_deg", mark("angle of the driving yoke from the plane of the joint"), "angle", axes=(0, 1)),
@@ -150,7 +150,7 @@ CALCULATIONS = (
     Calculation(
         name="joint_reactions",
         doc=mark("torques, journal loads and bearing loads of a single joint at constant torque of the driven shaft"),
-        source="Book (100)-(112), corrected",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 100–112, corrected",
         takes=(
             given("variant", mark("how the cross is held"), kind="word", choices=("sliding_cross", "located_cross")),
             given("alpha_deg", mark("joint angle"), "angle", low=0.0, below=RIGHT),
@@ -181,7 +181,7 @@ CALCULATIONS = (
     Calculation(
         name="double_joint_reactions",
         doc=mark("secondary couples of a double joint and the pair of forces that balances those of the middle shaft"),
-        source="Book (113)-(120), corrected",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 113–120, corrected",
         takes=(
             given("alpha12_deg", mark("joint angle of joint 1"), "angle", low=0.0, below=RIGHT),
             given("alpha23_deg", mark("joint angle of joint 2"), "angle", low=0.0, below=RIGHT),
@@ -210,7 +210,7 @@ CALCULATIONS = (
     Calculation(
         name="moving_axis_gyro",
         doc=mark("gyroscopic couple and couple of transverse inertia of the middle shaft of a swinging double joint"),
-        source="Book (125), completed",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 125, completed",
         takes=(
             given("description", mark("words on the case; not used"), kind="word", default=None),
             given("phi1_rad", mark("angle of the driving yoke from the plane of the joints"), "angle"),

@@ -193,7 +193,7 @@ CALCULATIONS = (
     Calculation(
         name="f_h",
         doc=mark("factor of life of the book's rating"),
-        source=mark("Book, table 6"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), table 6"),
         takes=(positive("life_h", mark("life"), "time"), METHOD),
         returns=(gives("f_h", mark("factor")), WARNINGS),
         answer=_life_factor,
@@ -202,7 +202,7 @@ CALCULATIONS = (
     Calculation(
         name="f_na",
         doc=mark("factor of speed times bend of the book's rating"),
-        source=mark("Book, table 7"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), table 7"),
         takes=(positive("n_alpha_rpm_deg", mark("speed times bend"), "speed_angle"), METHOD),
         returns=(gives("f_na", mark("factor")), WARNINGS),
         answer=_speed_factor,
@@ -211,7 +211,7 @@ CALCULATIONS = (
     Calculation(
         name="joint_rating",
         doc=mark("torque that a joint may carry for a life, by the book"),
-        source=mark("Book (267), restored"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 267, restored"),
         takes=(CAPACITY, ARM, SPEED, JOINT_ANGLE, positive("life_h", mark("life"), "time"), SHOCK),
         returns=(
             gives("M_nominal_Nm", mark("nominal torque: 5000 h at 33.3 rpm and 3°"), "torque"),
@@ -223,7 +223,7 @@ CALCULATIONS = (
     Calculation(
         name="joint_life",
         doc=mark("life of a joint, by the book"),
-        source=mark("Book (267), restored, solved for the life"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 267, restored, solved for the life"),
         takes=(CAPACITY, ARM, SPEED, JOINT_ANGLE, TORQUE, SHOCK),
         returns=(gives("life_h", mark("life"), "time"), WARNINGS),
         answer=_joint_life,
@@ -259,7 +259,7 @@ CALCULATIONS = (
     Calculation(
         name="duty_cycle_life",
         doc=mark("life of a joint in a duty cycle, by the book"),
-        source=mark("Book (268), (269), restored"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 268, 269, restored"),
         takes=(
             CAPACITY,
             ARM,

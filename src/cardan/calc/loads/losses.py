@@ -132,7 +132,7 @@ CALCULATIONS = (
         doc=mark(
             "friction work of a turn and efficiency of one Hooke joint: exact, first order, and by the small angle"
         ),
-        source="Book (127)-(137), restored",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 127–137, restored",
         takes=(
             given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             _coefficient("mu_pin_reduced", mark("reduced coefficient of friction of the journals")),
@@ -159,7 +159,7 @@ CALCULATIONS = (
     Calculation(
         name="efficiency_chain",
         doc=mark("efficiency of a chain of joints with friction in their journals, exact and as a product of joints"),
-        source="Book (139); exact by couples of the crosses",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 139; exact by couples of the crosses",
         takes=(
             joint_angles(default=None),
             twists(),
@@ -184,7 +184,7 @@ CALCULATIONS = (
     Calculation(
         name="efficiency_spline_branches_factors",
         doc=mark("efficiency of a sliding spline, of parallel branches, and reduced coefficients of plain journals"),
-        source="Book (138), (140), restored",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 138, 140, restored",
         takes=(
             _coefficient("mu_spline", mark("coefficient of friction of the spline"), default=None),
             given("stroke_m", mark("mean way of one displacement, one way"), "length", low=0.0, default=None),

@@ -95,7 +95,9 @@ CALCULATIONS = (
     Calculation(
         name="spline",
         doc=mark("stresses of a straight-sided spline"),
-        source=mark("Book p. 228, pressure and shear of the teeth, torsion at the smallest diameter"),
+        source=mark(
+            "Kozhevnikov & Perfil'ev (1978), p. 228, pressure and shear of the teeth, torsion at the smallest diameter"
+        ),
         takes=(
             positive("D_mm", mark("outer diameter"), "length"),
             positive("d_mm", mark("root diameter"), "length"),
@@ -119,7 +121,7 @@ CALCULATIONS = (
     Calculation(
         name="yoke",
         doc=mark("stresses of the arm of a yoke"),
-        source=mark("Book (263); Saint-Venant's torsion"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 263; Saint-Venant's torsion"),
         takes=(
             FORCE,
             at_least_zero("bending_arm_mm", mark("arm of the force for bending"), "length"),
@@ -142,7 +144,7 @@ CALCULATIONS = (
     Calculation(
         name="journal",
         doc=mark("stresses at the root of a journal of the cross"),
-        source="Book (264), (265), with the grease bore",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 264, 265, with the grease bore",
         takes=(
             FORCE,
             positive("length_mm", mark("length of the journal"), "length"),
@@ -187,7 +189,7 @@ CALCULATIONS = (
             Calculation(
                 name="spline_axial_force",
                 doc=mark("friction thrust of a spline"),
-                source="Book (123)",
+                source="Kozhevnikov & Perfil'ev (1978), eq. 123",
                 takes=thrust_keys,
                 returns=(gives("axial_force_N", mark("friction thrust"), "force"),),
                 answer=_thrust,

@@ -214,7 +214,7 @@ CALCULATIONS = (
     Calculation(
         name="rccc",
         doc=mark("both positions of a closed loop of one revolute and three cylindrical pairs, and its range"),
-        source="Book (141)-(156)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 141–156",
         takes=(
             given("alpha_deg", mark("angles between neighbouring axes"), "angle", axes=(1,), width=4),
             given("a_m", mark("lengths between neighbouring axes"), "length", axes=(1,), width=4),
@@ -233,7 +233,7 @@ CALCULATIONS = (
     Calculation(
         name="influence_coefficients",
         doc=mark("by how much angles and slides of a joint follow the errors of its loop"),
-        source="Book (171), (180)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180",
         takes=(
             JOINT_ANGLE,
             INPUT,
@@ -251,7 +251,7 @@ CALCULATIONS = (
     Calculation(
         name="tolerance_stack",
         doc=mark("what the tolerances of one joint add up to, at worst and as root of the sum of squares"),
-        source="Book (171), (180), pp. 186-190",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180, pp. 186-190",
         takes=(
             JOINT_ANGLE,
             INPUT,
@@ -281,7 +281,7 @@ CALCULATIONS = (
     Calculation(
         name="tolerance_montecarlo",
         doc=mark("what errors drawn at random within the tolerances of one joint do, by the exact loop"),
-        source="Book pp. 186-190; random samples",
+        source="Kozhevnikov & Perfil'ev (1978), pp. 186–190; random samples",
         takes=(
             JOINT_ANGLE,
             INPUT,
@@ -312,7 +312,7 @@ CALCULATIONS = (
     Calculation(
         name="chain_with_errors",
         doc=mark("what errors of every joint do to the output of a chain, exactly and to first order"),
-        source="Book (171), (180), chained",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 171, 180, chained",
         takes=(
             joint_angles(axes=(1,)),
             given(

@@ -119,7 +119,7 @@ CALCULATIONS = (
     Calculation(
         name="blokh",
         doc=mark("output motion by Blokh's closed form, freed of its poles"),
-        source="Book (35)-(37)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 35–37",
         takes=(*_CHAIN, ANGLE),
         returns=_MOTION,
         answer=_blokh,
@@ -128,7 +128,7 @@ CALCULATIONS = (
     Calculation(
         name="book_series",
         doc=mark("output motion by the book's series of first or second order"),
-        source="Book (47)-(74)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 47–74",
         takes=(
             *_CHAIN,
             ANGLE,
@@ -165,7 +165,7 @@ CALCULATIONS = (
     Calculation(
         name="book_comparison",
         doc=mark("what the book's approximations say of a chain, beside the exact answer"),
-        source="Book (59)-(80)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 59–80",
         takes=_CHAIN,
         returns=(
             gives("delta", mark("speed fluctuation, exact")),
@@ -183,7 +183,7 @@ CALCULATIONS = (
     Calculation(
         name="double_joint",
         doc=mark("double joint in one of the four arrangements of Fig. 62"),
-        source="Book (26)-(30), Fig. 62",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 26–30, Fig. 62",
         takes=(
             given("alpha12_deg", mark("joint angle of joint 1"), "angle", low=0.0, below=RIGHT),
             given("alpha23_deg", mark("joint angle of joint 2"), "angle", low=0.0, below=RIGHT),

@@ -152,7 +152,7 @@ CALCULATIONS = (
     Calculation(
         name="rzeppa_lever",
         doc=mark("how far the pilot lever of a Rzeppa joint holds its cage off the bisecting plane"),
-        source="Book (13), (14)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 13, 14",
         takes=(LEVER_JOINT_ANGLE, DIVISION, LENGTH),
         returns=(
             gives("alpha2_rad", mark("angle of the cage's normal to the axis of the sliding ball end"), "angle"),
@@ -165,7 +165,7 @@ CALCULATIONS = (
     Calculation(
         name="rzeppa_lever_ratio",
         doc=mark("length of the pilot lever that halves one joint angle exactly"),
-        source="Book (15), (16)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 15, 16",
         takes=(LEVER_JOINT_ANGLE, DIVISION),
         returns=(
             gives("c_over_a", mark("distance of the fixed ball end over the part of the lever beside the other")),
@@ -175,7 +175,7 @@ CALCULATIONS = (
     Calculation(
         name="rzeppa_lever_optimum",
         doc=mark("length of the pilot lever that errs least over a range of joint angles"),
-        source=mark("minimax of the exact error of Book (13)"),
+        source=mark("minimax of the exact error of Kozhevnikov & Perfil'ev (1978), eq. 13"),
         takes=(
             DIVISION,
             _joint_angle("alpha_max_deg", mark("largest joint angle")),
@@ -216,7 +216,10 @@ CALCULATIONS = (
     Calculation(
         name="offset_groove_plane",
         doc=mark("plane of balls in offset grooves, and how uneven unequal offsets make the output"),
-        source=mark("ball as far from one groove centre as from the other, exact; corrects Book p. 69"),
+        source=mark(
+            "ball as far from one groove centre as from the other, exact; corrects Kozhevnikov & Perfil'ev "
+            "(1978), p. 69"
+        ),
         takes=(
             JOINT_ANGLE,
             positive("c1_m", mark("distance of the groove centre of shaft 1 from the centre of the joint"), "length"),

@@ -188,7 +188,7 @@ CALCULATIONS = (
     Calculation(
         name="double_cardan_centring",
         doc=mark("joint angles of a double cardan joint centred by a ball on one shaft, and how uneven it is"),
-        source="triangle of the centres, exact; Book (8)-(12)",
+        source="triangle of the centres, exact; Kozhevnikov & Perfil'ev (1978), eq. 8–12",
         takes=(
             JOINT_ANGLE,
             given(
@@ -246,7 +246,7 @@ CALCULATIONS = (
     Calculation(
         name="pin_coupling",
         doc=mark("where the straight pins of a pin coupling touch, and how uneven it runs"),
-        source="line and cone, exact; completes Book (3)-(7)",
+        source="line and cone, exact; completes Kozhevnikov & Perfil'ev (1978), eq. 3–7",
         takes=(
             JOINT_ANGLE,
             positive("a_m", mark("distance from the crossing of the axes at which pin 1 starts"), "length"),
@@ -335,7 +335,7 @@ CALCULATIONS = (
     Calculation(
         name="offset_cross",
         doc=mark("turn and wobble of the output shaft of a joint whose cross axes do not meet"),
-        source="loop of the joint, exact; Book Fig. 6",
+        source="loop of the joint, exact; Kozhevnikov & Perfil'ev (1978), Fig. 6",
         takes=(
             _joint_angle("alpha_deg", mark("angle between shaft 1 and the line from pin 1 to the support")),
             at_least_zero("cross_offset_m", mark("distance of the axes of the cross"), "length"),

@@ -141,7 +141,7 @@ CALCULATIONS = (
     Calculation(
         name="multi_drive",
         doc=mark("differentials of several driven axles, and how axles wind one another up without them"),
-        source="Book pp. 84-85",
+        source="Kozhevnikov & Perfil'ev (1978), pp. 84–85",
         takes=(
             given("axles", mark("number of driven axles"), kind="whole", low=1, high=100),
             positive("wheel_radius_max_m", mark("largest rolling radius"), "length"),

@@ -196,7 +196,7 @@ CALCULATIONS = (
     Calculation(
         name="single_joint",
         doc=mark("angle, speed and acceleration of the shaft driven by one Hooke joint, and the turns of its cross"),
-        source="Book (17)-(25), (103)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 17–25, 103",
         takes=(
             given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             START,
@@ -217,7 +217,7 @@ CALCULATIONS = (
     Calculation(
         name="single_joint_extremes",
         doc=mark("largest and smallest ratio, lead and acceleration of one Hooke joint"),
-        source="Book Table 4, recomputed",
+        source="Kozhevnikov & Perfil'ev (1978), Table 4, recomputed",
         takes=(given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),),
         returns=(
             gives("ratio_max", mark("largest speed ratio")),
@@ -233,7 +233,7 @@ CALCULATIONS = (
     Calculation(
         name="fourier_single",
         doc=mark("Fourier amplitudes of the angle error of one Hooke joint, exact and by the book's series"),
-        source="Book (39)-(46)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 39–46",
         takes=(
             given("alpha_deg", mark("joint angle of the joint"), "angle", axes=(0, 1), low=0.0, below=RIGHT),
             given("kmax", mark("how many amplitudes"), kind="whole", low=1, high=10_000, default=5),
@@ -250,7 +250,7 @@ CALCULATIONS = (
     Calculation(
         name="geometry_from_points",
         doc=mark("joint angles, plane twists and lengths from joint centres, and the motion of the output"),
-        source="Book (87)-(89)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 87–89",
         takes=(
             points(),
             YOKES,
@@ -279,7 +279,7 @@ CALCULATIONS = (
     Calculation(
         name="chain",
         doc=mark("angle, speed and acceleration of every shaft of a chain of joints"),
-        source="Book (31)-(33), (38)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 31–33, 38",
         takes=(joint_angles(), twists(), YOKES, START, ANGLE, SPEED, ACCELERATION),
         returns=(
             gives("phi_deg", mark("angle of each shaft from the start, continuous"), "angle"),
@@ -296,7 +296,7 @@ CALCULATIONS = (
     Calculation(
         name="equivalent_joint",
         doc=mark("the single joint that moves like the whole chain, and the speed fluctuation after each joint"),
-        source="Book (78)-(80); exact by Möbius pairs",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 78–80; exact by Möbius pairs",
         takes=(joint_angles(default=None), twists(), points(default=None), YOKES, START),
         returns=(
             gives("delta", mark("irregularity")),

@@ -194,7 +194,7 @@ CALCULATIONS = (
     Calculation(
         name="moving_centres",
         doc=mark("exact spin of every shaft, and lengths, while the joint centres oscillate along lines"),
-        source=mark("rigid crosses; contains Book (97)-(99)"),
+        source=mark("rigid crosses; contains Kozhevnikov & Perfil'ev (1978), eq. 97–99"),
         takes=(
             *_POINTS,
             given("gamma_deg", mark("yoke angle of shafts 2 to n"), "angle", axes=(1,), default=None),
@@ -243,7 +243,7 @@ CALCULATIONS = (
     Calculation(
         name="motion_hitch",
         doc=mark("double joint over a hitch pin that both end shafts point at"),
-        source="Book Figs 56, 57",
+        source="Kozhevnikov & Perfil'ev (1978), Figs 56, 57",
         takes=(
             given("l1_m", mark("distance of joint 1 before the pin"), "length", low=0.0),
             given("l2_m", mark("distance of joint 2 behind the pin"), "length", low=0.0),

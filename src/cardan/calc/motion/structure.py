@@ -18,7 +18,7 @@ from cardan.questions.mobility.mobility import mobility
 from cardan.questions.mobility.release import release
 from cardan.texts import _, mark
 
-SOURCE = "structure of mechanisms by screws; Book p. 11-16, 74-77; tmm (1.1)-(1.5)"
+SOURCE = "structure of mechanisms by screws; Kozhevnikov & Perfil'ev (1978), pp. 11–16, 74-77; tmm (1.1)-(1.5)"
 
 
 def _word(key: str, doc: str, **options: Any) -> Given:
@@ -209,7 +209,7 @@ CALCULATIONS = (
     Calculation(
         name="pair_class",
         doc=mark("freedoms and constraints of a kind of kinematic pair"),
-        source="Book p. 11, Table 1; tmm Table 1",
+        source="Kozhevnikov & Perfil'ev (1978), p. 11, Table 1; tmm Table 1",
         takes=(
             TYPE,
             _way("axis", mark("its axis, looked at if given"), default=None),
@@ -218,14 +218,14 @@ CALCULATIONS = (
         returns=(
             gives("freedoms", mark("relative freedoms f")),
             gives("constraints", mark("constraints s = 6 - f")),
-            gives("genus", mark("genus of the pair, as the Book counts it: f")),
+            gives("genus", mark("genus of the pair, as the Kozhevnikov & Perfil'ev (1978) counts it: f")),
         ),
         answer=_class,
     ),
     Calculation(
         name="mobility_formula",
         doc=mark("mobility by counting, and the redundant constraints that a wanted mobility implies"),
-        source="Book (1); tmm (1.3)-(1.5), Somov and Malyshev",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 1; tmm (1.3)-(1.5), Somov and Malyshev",
         takes=(
             given("moving_links", mark("moving links"), kind="whole", low=1.0),
             _count("p1", mark("pairs with 1 freedom"), default=0),
@@ -326,7 +326,7 @@ CALCULATIONS = (
     Calculation(
         name="structural_partition",
         doc=mark("what counting alone tells of a graph of links: where it is held too much, and its groups"),
-        source="Book p. 12-14, 76-77; minimum over sets of links",
+        source="Kozhevnikov & Perfil'ev (1978), pp. 12–14, 76-77; minimum over sets of links",
         takes=(
             FRAME,
             _word("input_link", mark("link that is driven")),
@@ -350,7 +350,7 @@ CALCULATIONS = (
     Calculation(
         name="zero_groups",
         doc=mark("all zero groups that are simple chains of so many links"),
-        source="Book Table 2, restored by enumeration",
+        source="Kozhevnikov & Perfil'ev (1978), Table 2, restored by enumeration",
         takes=(given("links", mark("links of the group"), kind="whole", low=1.0, high=100.0),),
         returns=(
             gives("count", mark("how many there are")),
@@ -361,7 +361,7 @@ CALCULATIONS = (
     Calculation(
         name="minus_groups",
         doc=mark("all simple chains that impose so many constraints"),
-        source="Book Table 3, restored by enumeration",
+        source="Kozhevnikov & Perfil'ev (1978), Table 3, restored by enumeration",
         takes=(given("constraints", mark("constraints imposed"), kind="whole", low=1.0, high=float(MOST)),),
         returns=(
             gives("count_by_links", mark("how many there are by number of links")),
@@ -372,7 +372,7 @@ CALCULATIONS = (
     Calculation(
         name="classify_group",
         doc=mark("what a chain of pairs is: zero, minus or plus group"),
-        source="Book (2)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 2",
         takes=(given("pair_constraints", mark("constraints of each pair along the chain"), kind="whole", axes=(1,)),),
         returns=(
             gives("links", mark("links")),

@@ -96,7 +96,7 @@ CALCULATIONS = (
     Calculation(
         name="synthesis_continuous",
         doc=mark("yoke angles that make a chain synchronous or as even as can be, and what they can reach"),
-        source="hyperbolic polygon; Book (77)-(86) is its first order",
+        source="hyperbolic polygon; Kozhevnikov & Perfil'ev (1978), eq. 77–86 is its first order",
         takes=(
             joint_angles(axes=(1,), default=None),
             twists(axes=(1,)),

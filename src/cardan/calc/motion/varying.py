@@ -84,7 +84,7 @@ CALCULATIONS = (
     Calculation(
         name="varying_angle_single",
         doc=mark("one joint whose joint angle oscillates harmonically, the plane of the shafts at rest"),
-        source="Book (96)-(98), completed",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 96–98, completed",
         takes=(
             given("alpha_mean_deg", mark("mean joint angle"), "angle"),
             given("alpha_amp_deg", mark("amplitude of the joint angle"), "angle"),
@@ -109,7 +109,7 @@ CALCULATIONS = (
     Calculation(
         name="varying_angle_double",
         doc=mark("planar double joint whose joint angles oscillate, one as a sine, the other as a cosine"),
-        source="Book (99)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 99",
         takes=(
             given("alpha12_mean_deg", mark("mean joint angle of joint 1"), "angle"),
             given("alpha12_sin_amp_deg", mark("amplitude of the joint angle of joint 1"), "angle"),
@@ -130,7 +130,7 @@ CALCULATIONS = (
     Calculation(
         name="varying_angle_random",
         doc=mark("mean and standard deviation of the driven speed of a joint with a random joint angle"),
-        source=mark("expectations of Book (97) over the normal law"),
+        source=mark("expectations of Kozhevnikov & Perfil'ev (1978), eq. 97 over the normal law"),
         takes=(
             given("alpha_mean_deg", mark("mean joint angle"), "angle", low=0.0, below=RIGHT),
             given("alpha_std_deg", mark("standard deviation of the joint angle"), "angle", low=0.0),

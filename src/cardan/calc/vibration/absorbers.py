@@ -75,7 +75,7 @@ CALCULATIONS = (
     Calculation(
         name="absorber_response",
         doc=mark("amplification of one mode with a tuned absorber, with or without damping, over the frequency"),
-        source="Book (248), (249)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 248, 249",
         takes=(
             RATIO,
             given("frequency_ratio_absorber", mark("frequency of the absorber over the system's, f"), above=0.0),
@@ -92,7 +92,7 @@ CALCULATIONS = (
     Calculation(
         name="viscous_damper_response",
         doc=mark("amplification of one mode with a viscous damper, an inertia without spring, over the frequency"),
-        source="Book (252)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 252",
         takes=(RATIO, XI, _definition(SYSTEM), BETA),
         returns=(gives("amplification", mark("amplitude over static angle; None at a resonance without damping")),),
         answer=_viscous,
@@ -100,7 +100,7 @@ CALCULATIONS = (
     Calculation(
         name="absorber_optimum",
         doc=mark("best tuning and damping of an absorber by fixed points and exactly, and of a viscous damper"),
-        source=mark("Book (250), (251); exact H∞ optimum (Nishihara, Asami)"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 250, 251; exact H∞ optimum (Nishihara, Asami)"),
         takes=(given(RATIO.key, RATIO.meaning.doc, axes=(0, 1), above=0.0),),
         returns=(
             gives("den_hartog", mark("setting by fixed points, with the true peak")),

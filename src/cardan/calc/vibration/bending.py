@@ -176,7 +176,7 @@ CALCULATIONS = (
     Calculation(
         name="critical_speed_closed_form",
         doc=mark("critical speeds of a uniform shaft in bending, without shear and rotary inertia"),
-        source="Book (253)-(256)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 253–256",
         takes=(_ends("end_condition", "pinned-pinned"), LENGTH, OUTER, INNER, YOUNGS, DENSITY, mode_count(3)),
         returns=(
             gives("lambda_", mark("roots of the frequency equation")),
@@ -191,7 +191,7 @@ CALCULATIONS = (
         doc=mark(
             "critical speed of a shaft between joints by the book's formula, its constant, and the 60 percent rule"
         ),
-        source="Book (257)-(260)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 257–260",
         takes=(
             length("length_m", LENGTH.meaning.doc, above=0.0, default=None),
             length("outer_diameter_m", OUTER.meaning.doc, above=0.0, default=None),
@@ -237,7 +237,7 @@ CALCULATIONS = (
         doc=mark(
             "first critical speed of a uniform shaft: exactly, by the book's sizes alone, or from a similar shaft"
         ),
-        source="Book (256)-(260)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 256–260",
         takes=(
             given("method", mark("way"), kind="word", choices=("exact", "book", "scale"), default="exact"),
             *(replace(one, default=None) if one.required else one for one in MILLIMETRES),

@@ -98,7 +98,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
         doc=mark(
             "torque in the last shaft by the book's formula for sizing: mean, second order, orders of drive and load"
         ),
-        source="Book (246)",
+        source="Kozhevnikov & Perfil'ev (1978), eq. 246",
         takes=(
             given("c_Nm_per_rad", mark("stiffness of all springs in a row"), "turning_stiffness", above=0.0),
             given("s_n1", mark("amplitude of the joints' second order [rad]"), low=0.0),
@@ -121,7 +121,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
     Calculation(
         name="validity_check",
         doc=mark("whether the parametric term may be neglected: the book's rule, and what that costs when solved"),
-        source=mark("Book (206), (207), (237); harmonic balance"),
+        source=mark("Kozhevnikov & Perfil'ev (1978), eq. 206, 207, 237; harmonic balance"),
         takes=(
             STIFFNESS,
             WAVE,
@@ -131,7 +131,10 @@ CALCULATIONS: tuple[Calculation, ...] = (
             gives("stable", mark("whether steady running is stable")),
             gives("beta", mark("characteristic exponent, where it is")),
             gives("distance_to_resonance", mark("distance of each order from the nearest ±β + 2r")),
-            gives("book_237_satisfied", mark("whether Book (237) is met, orders 0, 1 and 2 included")),
+            gives(
+                "book_237_satisfied",
+                mark("whether Kozhevnikov & Perfil'ev (1978), eq. 237 is met, orders 0, 1 and 2 included"),
+            ),
             gives("solved_amplitude", mark("amplitude of each order under a unit forcing of it, solved")),
             gives("simplified_amplitude", mark("the same, the parametric term neglected")),
             gives("largest_side_band", mark("largest amplitude at another order, solved")),
@@ -148,7 +151,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
     Calculation(
         name="worked_example_truck",
         doc=mark("the book's worked example, the power unit of a truck, computed anew"),
-        source="Book pp. 210-216",
+        source="Kozhevnikov & Perfil'ev (1978), pp. 210–216",
         takes=(
             given("speed_rpm", mark("speed"), "angular_speed", above=0.0, default=TRUCK["speed"]),
             given("a", mark("parameter a"), above=0.0, high=LARGEST_A, default=TRUCK["a"]),

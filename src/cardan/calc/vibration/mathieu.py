@@ -192,7 +192,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
     UpToOrder(
         name="mathieu_stability",
         doc=mark("exponent, growth and boundaries of y'' + 2n y' + (a - 2q cos 2z) y = 0"),
-        source=mark("Hill's determinant; Book (197), (208), (221), (225) beside it"),
+        source=mark("Hill's determinant; Kozhevnikov & Perfil'ev (1978), eq. 197, 208, 221, 225 beside it"),
         takes=(
             given(
                 "a",
@@ -225,14 +225,21 @@ CALCULATIONS: tuple[Calculation, ...] = (
             gives("beta", mark("characteristic exponent, where the undamped equation is stable")),
             gives("growth_rate_per_rad", mark("rate of growth per radian of shaft angle")),
             gives("stable", mark("whether nothing grows")),
-            gives("half_trace_book208", mark("cos πβ by Book (208), for small q")),
-            gives("beta_book225", mark("characteristic exponent by Book (225), for 0 < a < 1 and small q")),
+            gives("half_trace_book208", mark("cos πβ by Kozhevnikov & Perfil'ev (1978), eq. 208, for small q")),
+            gives(
+                "beta_book225",
+                mark("characteristic exponent by Kozhevnikov & Perfil'ev (1978), eq. 225, for 0 < a < 1 and small q"),
+            ),
             gives("a_0_to_N", mark("boundaries a_0 … a_N of the undamped equation")),
             gives("b_1_to_N", mark("boundaries b_1 … b_N of the undamped equation")),
             gives("a_lower", mark("lower edge of the zone; undefined where damping leaves nothing of it")),
             gives("a_upper", mark("upper edge of the zone")),
-            gives("a_lower_book221", mark("lower edge of the principal zone by Book (221)")),
-            gives("a_upper_book221", mark("upper edge of the principal zone by Book (221)")),
+            gives(
+                "a_lower_book221", mark("lower edge of the principal zone by Kozhevnikov & Perfil'ev (1978), eq. 221")
+            ),
+            gives(
+                "a_upper_book221", mark("upper edge of the principal zone by Kozhevnikov & Perfil'ev (1978), eq. 221")
+            ),
         ),
         answer=_stability,
         check=_asked,
@@ -240,7 +247,10 @@ CALCULATIONS: tuple[Calculation, ...] = (
     Calculation(
         name="mathieu_reduction",
         doc=mark("parameters of Mathieu's equation of a drive with massless joints between two inertias"),
-        source=mark("Book (187)-(196), the parametric term put right; exact: shooting and variational equations"),
+        source=mark(
+            "Kozhevnikov & Perfil'ev (1978), eq. 187–196, the parametric term put right; exact: shooting "
+            "and variational equations"
+        ),
         takes=(
             given(
                 "alpha_deg", mark("joint angles of the joints"), "angle", axes=(1,), low=0.0, below=RIGHT, entries=True
@@ -265,10 +275,10 @@ CALCULATIONS: tuple[Calculation, ...] = (
             ),
         ),
         returns=(
-            gives("A", mark("forcing by sin 2φ, Book (195) [rad]")),
-            gives("B", mark("forcing by cos 2φ, Book (195) [rad]")),
-            gives("D", mark("change of the compliance by cos 2φ, Book (195) [rad/(N·m)]")),
-            gives("F", mark("change of the compliance by sin 2φ, Book (195) [rad/(N·m)]")),
+            gives("A", mark("forcing by sin 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad]")),
+            gives("B", mark("forcing by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad]")),
+            gives("D", mark("change of the compliance by cos 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]")),
+            gives("F", mark("change of the compliance by sin 2φ, Kozhevnikov & Perfil'ev (1978), eq. 195 [rad/(N·m)]")),
             gives("s_n1", mark("amplitude √(A² + B²) [rad]")),
             gives("delta1_rad", mark("its phase δ_1"), "angle"),
             gives("c_Nm_per_rad", mark("stiffness of all springs in a row"), "turning_stiffness"),
@@ -281,7 +291,9 @@ CALCULATIONS: tuple[Calculation, ...] = (
                 mark("speeds between which steady running is unstable without damping"),
                 "angular_speed",
             ),
-            gives("q_book", mark("parametric term by Book (196), half of what it should be")),
+            gives(
+                "q_book", mark("parametric term by Kozhevnikov & Perfil'ev (1978), eq. 196, half of what it should be")
+            ),
             gives("q_corrected", mark("parametric term")),
             gives("delta0_rad", mark("its phase δ_0"), "angle"),
             gives("half_trace_exact", mark("half the trace of the elastic multipliers over half a turn, exact drive")),
@@ -296,7 +308,7 @@ CALCULATIONS: tuple[Calculation, ...] = (
         doc=mark(
             "steady solution of y'' + 2n y' + (a - 2q cos 2z) y = Σ Q sin(νz + δ): mean and amplitude of each order"
         ),
-        source=mark("harmonic balance; Book (200)-(204), (223), (236), (243)"),
+        source=mark("harmonic balance; Kozhevnikov & Perfil'ev (1978), eq. 200–204, 223, 236, 243"),
         takes=(
             STIFFNESS,
             WAVE,

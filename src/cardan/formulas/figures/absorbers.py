@@ -81,7 +81,9 @@ def variants_figure(found: Variants) -> Figure:
             best=significant(best, 3),
             loose=significant(float(found.peak[found.kinds.index("viscous")]), 3),
         ),
-        source=_("Book (249)–(252); smallest peak by Nishihara and Asami; exact for one mode"),
+        source=_(
+            "Kozhevnikov & Perfil'ev (1978), eq. 249–252; smallest peak by Nishihara and Asami; exact for one mode"
+        ),
         rows=(Row(panels=(panel,), height=2.6),),
     )
 
@@ -121,7 +123,7 @@ def before_after_figure(found: AbsorberResponse) -> Figure:
         else _("With the absorber the amplitude stays below {most} times the static angle here.").format(
             most=significant(most, 3)
         ),
-        source=_("Book (249), (252); exact for one mode"),
+        source=_("Kozhevnikov & Perfil'ev (1978), eq. 249, 252; exact for one mode"),
         rows=(Row(panels=(upper,), height=2.2), Row(panels=(lower,), height=1.3)),
     )
 

@@ -130,7 +130,8 @@ def band_figure(found: ToleranceBand, *, shifts: bool = True) -> Figure:
         title=_("What the tolerances leave open at the output"),
         sentence="",
         source=_(
-            "Loops of four axes chained, Book (171), (180); influence of every error exactly about the ideal joint"
+            "Loops of four axes chained, Kozhevnikov & Perfil'ev (1978), eq. 171, 180; influence of every "
+            "error exactly about the ideal joint"
         ),
         rows=tuple(rows),
     )
@@ -280,7 +281,10 @@ def error_figure(found: TransmissionError, *, shifts: bool = True) -> Figure:
         name="errors",
         title=_("What the known errors do to the output"),
         sentence="",
-        source=_("Every joint a closed loop of four axes, exactly; first order Book (171), (180), chained"),
+        source=_(
+            "Every joint a closed loop of four axes, exactly; first order Kozhevnikov & Perfil'ev (1978), "
+            "eq. 171, 180, chained"
+        ),
         rows=tuple(rows),
     )
 

@@ -193,7 +193,10 @@ def _shafts(drive: Drive, result: CriticalSpeeds) -> Table:
             Column(key="", heading=_("as a plain tube"), values=alone, dimension="angular_speed"),
             Column(key="", heading=_("in the line, real"), values=own, dimension="angular_speed"),
         ),
-        note=_("The formula of the plain tube, Book (257), ignores yokes, forged ends, shear, spin and soft bearings."),
+        note=_(
+            "The formula of the plain tube, Kozhevnikov & Perfil'ev (1978), eq. 257, ignores yokes, forged "
+            "ends, shear, spin and soft bearings."
+        ),
     )
 
 

@@ -36,7 +36,11 @@ LOSSES = (0.45, 0.1)
 ARM = 0.2
 """Arm on which a swinging torque is taken up by a housing [m]."""
 
-BOOK, COUPLES, SPLINES = mark("Book (253)-(260)"), mark("Book (66)-(74)"), mark("Book p. 228")
+BOOK, COUPLES, SPLINES = (
+    mark("Kozhevnikov & Perfil'ev (1978), eq. 253–260"),
+    mark("Kozhevnikov & Perfil'ev (1978), eq. 66–74"),
+    mark("Kozhevnikov & Perfil'ev (1978), p. 228"),
+)
 SECONDARY = f"{COUPLES}; {mark('secondary couple T tan α')}"
 GRADES = "ISO 21940-11"
 PAPER = f"{mark('paper on cracked shafts with a joint')}; {mark('first order in the losses of stiffness')}"

@@ -69,7 +69,10 @@ def load_figure(found: Life) -> Figure:
         name="life",
         title=_("How long the joints last"),
         sentence=_sentence(found),
-        source=_("ISO 281 with the exact integral over the turn; Book (267), (269); makers' formulas"),
+        source=_(
+            "ISO 281 with the exact integral over the turn; Kozhevnikov & Perfil'ev (1978), eq. 267, 269; "
+            "makers' formulas"
+        ),
         rows=(Row(panels=(over,), height=2.0), Row(panels=(_methods(found),), height=1.3)),
     )
 
@@ -164,7 +167,7 @@ def parts_figure(found: Life) -> Figure:
             damage=Quantity(float(damage[most]) / 100.0, "share", 3),
             number=found.governing,
         ),
-        source=_("rule of Palmgren and Miner, Book (268)"),
+        source=_("rule of Palmgren and Miner, Kozhevnikov & Perfil'ev (1978), eq. 268"),
         rows=(Row(panels=(panel,), height=0.5 * len(shown) + 0.3),),
     )
 
@@ -203,7 +206,10 @@ def history_figure(found: Life) -> Figure:
             high=Quantity(levels.high, "torque", 3),
             same=Quantity(levels.equivalent, "torque"),
         ),
-        source=_("time at level, mean of the 10/3rd power; rule of Palmgren and Miner, Book (268)"),
+        source=_(
+            "time at level, mean of the 10/3rd power; rule of Palmgren and Miner, Kozhevnikov & Perfil'ev "
+            "(1978), eq. 268"
+        ),
         rows=(
             Row(panels=(panel(time, _("Share of the time"), "muted", named=False),), height=1.2),
             Row(

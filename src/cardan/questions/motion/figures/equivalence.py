@@ -58,7 +58,10 @@ def speed_fluctuation_figure(found: EquivalentJoint) -> Figure:
         sentence=_("The output is uniform; what the shafts between do cancels out.")
         if even
         else say(_("The output speed varies by {share} of its mean, peak to peak."), share=texts[-1]),
-        source=_("δ = i_max − i_min = 4|a||b| of the product of the first joints' matrices, Book (79); exact"),
+        source=_(
+            "δ = i_max − i_min = 4|a||b| of the product of the first joints' matrices, Kozhevnikov & "
+            "Perfil'ev (1978), eq. 79; exact"
+        ),
         rows=(Row(panels=(Panel(series=(bars,), x=across, y=_from_zero(upright)),), height=1.5),),
         legend=False,
     )

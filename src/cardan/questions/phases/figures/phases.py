@@ -196,7 +196,10 @@ def settings_figure(found: Phasing) -> Figure:
             low=Quantity(found.speed_fluctuation_min, "share", 3),
             high=Quantity(found.speed_fluctuation_max, "share", 3),
         ),
-        source=_("bounds: δ = 2 sinh L, L from max(0, 2L_max − ΣL) to ΣL, L = −ln cos α; exact, in place of Book (86)"),
+        source=_(
+            "bounds: δ = 2 sinh L, L from max(0, 2L_max − ΣL) to ΣL, L = −ln cos α; exact, in place of "
+            "Kozhevnikov & Perfil'ev (1978), eq. 86"
+        ),
         rows=(
             Row(
                 panels=(

@@ -82,7 +82,10 @@ def campbell_figure(found: TorsionModes) -> Figure:
         name="campbell",
         title=_("Campbell diagram of the torsional modes"),
         sentence=_campbell_sentence(found),
-        source=_("natural frequencies with straight joints; zones to first order, Book (221) with the corrected q"),
+        source=_(
+            "natural frequencies with straight joints; zones to first order, Kozhevnikov & Perfil'ev "
+            "(1978), eq. 221 with the corrected q"
+        ),
         rows=(Row(panels=(panel,), height=3.0),),
         legend=True,
     )
