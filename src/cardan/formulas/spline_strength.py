@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from cardan.maths.arrays import Array, ArrayLike, floats
 
 
@@ -48,7 +50,7 @@ def spline_stress(
     ----------
     torque : array (...) [N·m]
     outer, root, tooth_width, length, chamfer : array (...) [m]
-        D, d, b, l and c; the flanks keep some height, (D - d)/2 > 2c.
+        D, d, b, l and c; where the flanks keep no height, (D - d)/2 ≤ 2c, the pressure is infinite.
     teeth : array (...)
         z.
     load_share : array (...)
@@ -68,12 +70,14 @@ def spline_stress(
         torque, outer, root, teeth, tooth_width, length, chamfer, load_share
     )
     middle = 0.5 * (outer + root)
-    height = 0.5 * (outer - root) - 2.0 * chamfer
+    height = np.maximum(0.5 * (outer - root) - 2.0 * chamfer, 0.0)
     force = 2.0 * torque / (middle * teeth * share)
+    with np.errstate(divide="ignore"):
+        pressure = force / (height * length)
     return SplineStress(
         mean_diameter=middle,
         height=height,
-        pressure=force / (height * length),
+        pressure=pressure,
         tooth_shear=force / (width * length),
         core_shear=16.0 * torque / (math.pi * root**3),
     )

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from cardan.answers.quantity import Quantity
 from cardan.answers.reader import reader
 from cardan.checks.verdict import AMBER, Verdict
+from cardan.checks.verdict_table import share as used_share
 from cardan.drive.bodies.build import Solid
 from cardan.figures import palette
 from cardan.texts import _
@@ -49,7 +49,6 @@ def used(verdicts: Sequence[Verdict]) -> Callable[[Solid], Use | None]:
         share = float(np.max(one.utilisation))
         if math.isnan(share):
             continue
-        share = min(share, 1e6)
         parts = PARTS.get(one.check)
         if parts is None:
             parts = ("tube",) if one.subject.startswith("shafts") else ("",)
@@ -57,7 +56,7 @@ def used(verdicts: Sequence[Verdict]) -> Callable[[Solid], Use | None]:
             key = one.subject.partition(".")[0], part
             if key not in worst or share > worst[key][0]:
                 text = _("{share} of the limit of {check}")
-                worst[key] = share, text.format(share=Quantity(share, "share", 3).told(reader()), check=one.title)
+                worst[key] = share, text.format(share=used_share(share).told(reader()), check=one.title)
 
     def of(solid: Solid) -> Use | None:
         path = solid.path.partition(".")[0]

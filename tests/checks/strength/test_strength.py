@@ -274,3 +274,31 @@ def test_what_is_missing_is_named():
     assert {"shafts[1].outer", "joints[0].cross.span", "joints[1].rating.max_torque"} <= set(found.missing)
     with pytest.raises(InputError, match=r"duty\.torque: missing"):
         strength(Drive.from_angles([0.1]))
+
+
+def test_a_part_of_the_duty_that_never_runs_raises_no_couple():
+    """Parts of 350 N·m and of 1 200 N·m that takes no time: masses and friction add nothing to either."""
+    drive = Drive(
+        joints=(Hooke(joint_angle=10 * deg), Hooke(joint_angle=10 * deg)),
+        duty=Duty(
+            blocks=(Block(torque=350.0, speed=100.0, share=1.0), Block(torque=1200.0, speed=100.0, share=0.0)),
+            life=3.6e6,
+        ),
+    )
+    assert strength(drive).dynamic_factor == pytest.approx(1.0, abs=1e-6)
+
+
+def test_chamfers_that_leave_no_flank_are_refused_and_fail_among_many():
+    shaft = Shaft(
+        number=2,
+        length=0.8,
+        outer=0.06,
+        wall=0.003,
+        spline=Spline(outer=0.042, root=0.036, tooth_width=0.007, teeth=8, length=0.08, chamfer=0.0004),
+    )
+    joints = (Hooke(joint_angle=0.1), Hooke(joint_angle=0.1))
+    drive = Drive(joints=joints, shafts=(shaft,), duty=Duty(torque=100.0), limits=Limits(spline_pressure=60e6))
+    (found,) = check(drive, only=["spline_pressure"], vary={"shafts[1].spline.chamfer_mm": [0.4, 1.5, 2.0]})
+    assert found.passed.tolist() == [True, False, False]
+    with pytest.raises(InputError, match="flank"):
+        replace(drive, shafts=(replace(shaft, spline=replace(shaft.spline, chamfer=0.0015)),))

@@ -92,7 +92,8 @@ def test_a_map_shows_a_curve_for_every_speed_by_rising_torque():
 
 def test_a_map_tells_where_it_is_best_unless_that_is_everywhere():
     heavy = map_figure(loss_map(TRUCK, [1800 * rpm], [10.0, 1600.0]))
-    assert told(heavy.sentence, USUAL) == "The efficiency is highest at 1\u202f800 rpm and 1\u202f600 N·m: 99.77 %."
+    said = "The efficiency is highest at 1\u202f800 rpm and 1\u202f600 N·m, at the end of what is shown: 99.77 %."
+    assert told(heavy.sentence, USUAL) == said
     joint = Hooke(joint_angle=0.3, friction=0.02, cross=TRUCK.joints[0].cross)
     single = loss_map(Drive(joints=(joint,)), [10.0, 20.0], [5.0, 50.0])
     assert map_figure(single).sentence == ""

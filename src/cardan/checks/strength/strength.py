@@ -41,7 +41,7 @@ from . import (
 from .joint_strength import JointStrength, joint_strength
 from .omitted import LeftOut
 from .section import sections
-from .shaft_strength import ShaftStrength, lasting, shaft_strength
+from .shaft_strength import ShaftStrength, shaft_strength
 
 STRENGTH = tuple(
     module.CHECK
@@ -278,10 +278,11 @@ def _dynamic(subject: Design) -> float:
     """Return by which factor masses and friction raise the largest couple of a cross; 1 where it cannot be told."""
     try:
         parts, asked, _history, _cycles = duty_parts(subject.duty)
-        real = bearing_loads(subject.drive, train(subject.drive), asked, parts).couple
+        whole = train(subject.drive)
+        light = replace(whole, inertia=None, cross_inertia=None, drag=None, resisting_torque=None)
+        real, plain = (bearing_loads(subject.drive, one, asked, parts).couple for one in (whole, light))
     except InputError:
         return 1.0
-    plain = np.max([case.couple for case in lasting(subject) or subject.loaded[:1]], axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        grown = np.max(real, axis=0) / plain
+        grown = np.max(real, axis=0) / np.max(plain, axis=0)
     return float(max(1.0, np.max(grown[np.isfinite(grown)], initial=1.0)))

@@ -249,8 +249,11 @@ def _best(found: LossMap) -> Say | str:
     if not known.size or float(np.ptp(known)) <= ALIKE:
         return ""
     s, t = np.unravel_index(int(foremost(np.ravel(share))), share.shape)
+    text = _("Of the points asked the efficiency is highest at {speed} and {torque}: {share}.")
+    if found.torque[t] in (np.min(found.torque), np.max(found.torque)):
+        text = _("The efficiency is highest at {speed} and {torque}, at the end of what is shown: {share}.")
     return say(
-        _("The efficiency is highest at {speed} and {torque}: {share}."),
+        text,
         speed=Quantity(float(found.speed[s]), "angular_speed", 3),
         torque=Quantity(float(found.torque[t]), "torque", 3),
         share=Quantity(float(share[s, t]), "share"),

@@ -21,7 +21,7 @@ from cardan.questions.torsion.stability import torsion_stability
 from cardan.questions.torsion.stability.torsion_stability import stability
 from cardan.questions.torsion.steady.run_stability import Verdict, floquet
 from cardan.questions.torsion.steady.steady import periodic_response
-from cardan.questions.torsion.steady.torsion_response import torsion_response
+from cardan.questions.torsion.steady.torsion_response import peak_refined, torsion_response
 from cardan.units import deg, rpm
 
 LINE = replace(
@@ -217,3 +217,19 @@ def test_a_map_that_is_stopped_keeps_what_is_done(monkeypatch: pytest.MonkeyPatc
     assert found.cancelled
     assert np.all(found.verdict[:16] != Verdict.UNKNOWN)
     assert np.all(found.verdict[16:] == Verdict.UNKNOWN)
+
+
+def test_a_peak_between_the_speeds_is_found():
+    """The peak as sixty speeds about it have it; at an end of the speeds nothing is added."""
+    coarse = torsion_response(LINE, speed=np.linspace(20.0, 180.0, 9))
+    found = peak_refined(LINE, coarse)
+    most = np.max(np.nan_to_num(found.swing), axis=-1)
+    k = int(np.argmax(most))
+    assert 0 < k < len(most) - 1
+    assert np.all(np.diff(found.speed) > 0.0)
+    assert set(coarse.speed) < set(found.speed)
+    assert most[k] > 1.02 * np.nanmax(coarse.swing)
+    dense = torsion_response(LINE, speed=np.linspace(found.speed[k - 2], found.speed[k + 2], 60))
+    assert most[k] == pytest.approx(np.nanmax(dense.swing), rel=2e-3)
+    rising = torsion_response(LINE, speed=[20.0, 30.0])
+    assert peak_refined(LINE, rising) is rising

@@ -25,7 +25,7 @@ from cardan.texts import _, mark, plural
 
 from .figure import response_figures
 from .run_stability import Verdict, verdict_words
-from .torsion_response import TorsionResponse, level, torsion_response
+from .torsion_response import TorsionResponse, level, peak_refined, torsion_response
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "worst"]
 
@@ -69,7 +69,7 @@ def ask(drive: Drive, *, progress: Callable[[float], object] | None = None) -> T
     between = drive.duty.speed_range
     assert between is not None
     low, high = max(between[0], SLOWEST * between[1]), between[1]
-    return torsion_response(drive, speed=np.linspace(low, high, SWEEP), progress=progress)
+    return peak_refined(drive, torsion_response(drive, speed=np.linspace(low, high, SWEEP), progress=progress))
 
 
 def answer(drive: Drive, result: TorsionResponse) -> Answer:
@@ -133,7 +133,8 @@ def _swept(found: TorsionResponse) -> tuple[Tone, Text]:
     if swing[k, e] < 0.0:
         return "failed", _("no steady motion was found.")
     first = say(
-        _("the alternating torque is largest at {speed}, ±{amplitude} in {element}"),
+        _("of {count} speeds the alternating torque is largest at {speed}, ±{amplitude} in {element}"),
+        count=len(found.speed),
         speed=_speed(found.speed[k]),
         amplitude=_torque(float(swing[k, e])),
         element=found.train.elements[int(e)],

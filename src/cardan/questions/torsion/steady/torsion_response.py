@@ -31,6 +31,10 @@ Progress: TypeAlias = Callable[[float], object]
 ROUNDING = 1e-8
 """Share of a swing below which the mean about which it goes is left over by rounding."""
 
+ROUNDS, CLOSER, FLAT = 8, 3, 1e-3
+"""How often further speeds are put about the largest alternating torque, how many on either side, and the share by
+which its neighbours may lie lower where none are needed."""
+
 SHARE = 0.35
 """Share of the work that finds motions; the rest judges them."""
 
@@ -175,6 +179,40 @@ def torsion_response(
         apart=tuple(_apart(model, loose, speeds)),
         assumed=train.assumed,
     )
+
+
+def peak_refined(drive: Drive, found: TorsionResponse, *, progress: Progress | None = None) -> TorsionResponse:
+    """Return steady motions over many speeds with further ones about that of the largest alternating torque.
+
+    Parameters
+    ----------
+    drive : Drive
+    found : TorsionResponse (s,)
+        Over rising speeds.
+    progress : function, optional
+        As of `torsion_response`.
+
+    Notes
+    -----
+    The highest of some speeds is not the top of the curve: the speeds beside it lie ever closer until its neighbours
+    are as high to a thousandth. Where it is at an end of the speeds, nothing is added.
+    """
+    speed, swing = found.speed, _most(found)
+    for _round in range(ROUNDS):
+        k = int(np.argmax(swing))
+        if k in (0, speed.size - 1) or swing[k] - min(swing[k - 1], swing[k + 1]) <= FLAT * swing[k]:
+            break
+        near = np.concatenate([np.linspace(speed[k], speed[far], CLOSER + 2)[1:-1] for far in (k - 1, k + 1)])
+        order = np.argsort(np.concatenate((speed, near)))
+        swing = np.concatenate((swing, _most(torsion_response(drive, speed=near))))[order]
+        speed = np.concatenate((speed, near))[order]
+    return found if speed is found.speed else torsion_response(drive, speed=speed, progress=progress)
+
+
+def _most(found: TorsionResponse) -> Array:
+    """Return the largest alternating torque at each speed, array (s,) [N·m]; -1 where there is no motion."""
+    most: Array = np.max(np.nan_to_num(found.swing, nan=-1.0), axis=-1)
+    return most
 
 
 def _speeds(duty: Duty, speed: ArrayLike | None) -> ArrayLike:
