@@ -11,6 +11,7 @@ from cardan.answers.answer import Cell, Column
 from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
+from cardan.drive.fields.plausibility import doubts
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
 from cardan.questions.motion.kinds import steep
@@ -160,6 +161,7 @@ def warnings(on: Subject, pages: Sequence[Page] = ()) -> Iterator[Words]:
         Parts of the report that may have such of their own.
     """
     limits = _limits(pages)
+    yield from (Words(text=one.text, tone="warning") for one in doubts(on.drive))
     yield from (alarm for page in pages if page is not limits for alarm in page.alarms)
     if limits is not None:
         yield uniformity(on)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from shlex import join
 from textwrap import fill, wrap
@@ -19,6 +20,7 @@ from cardan.answers.printed import SHOWN, Column, Table, printed
 from cardan.answers.quantity import told
 from cardan.answers.reader import Reader, reader
 from cardan.drive.drive import Drive
+from cardan.drive.fields.plausibility import doubts
 from cardan.figures import save
 from cardan.mechanism.mechanism import Mechanism
 from cardan.texts import _
@@ -101,6 +103,9 @@ def tell(
         ``--plot``; drawn first, so that nothing is printed when it cannot be.
     """
     who = reader()
+    if isinstance(drive, Drive):
+        odd = tuple(Remark(text=one.text, tone="warning", code="implausible") for one in doubts(drive))
+        answer = replace(answer, remarks=(*odd, *answer.remarks))
     figures = answer.figures() if plot is not None else ()
     if plot is not None and figures:
         save(figures, plot)
