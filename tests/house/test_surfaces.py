@@ -45,7 +45,9 @@ USUAL_KEY = re.compile(
 OF_FILE = re.compile(r"[.\[]|^joint_angle_deg$")
 """A key of JSON that is a key of the drive file: an axis of a map, what was varied."""
 
-QUOTED = re.compile(r"Book \(|rating by|Hertz; 4000 MPa stands behind ISO 76|web articles on|A yoke 1° off|δ\(γ ± 1°\)")
+QUOTED = re.compile(
+    r"Kozhevnikov &|rating by|Hertz; 4000 MPa stands behind ISO 76|rule of practice|A yoke 1° off|δ\(γ ± 1°\)"
+)
 """How words begin that say by what rule a limit or a rating is, in the units of that rule, or what a degree does."""
 
 POINT = re.compile(r"(?<![\w.])\d+\.\d+(?![\w.])")

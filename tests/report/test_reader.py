@@ -26,7 +26,7 @@ LONG = {
     "pto-hitch": ("articulation",),
 }
 
-QUOTED = re.compile(r"Book \(|rating by|web articles|Hertz; 4000 MPa stands behind ISO 76")
+QUOTED = re.compile(r"Kozhevnikov &|rating by|rule of practice|Hertz; 4000 MPa stands behind ISO 76")
 """How words begin that say by what rule a limit or a rating is, in the units of that rule."""
 
 SI = {label(unit): factor for units in DIMENSIONS.values() for unit, factor in units.items() if label(unit)}

@@ -204,7 +204,7 @@ CALCULATIONS = (
     Calculation(
         name="accuracy_check",
         doc=mark("whether the measures of a yoke or a cross keep their limits"),
-        source=mark("GOST 2752-74, by the Kozhevnikov & Perfil'ev (1978)"),
+        source=mark("GOST 2752-74, by Kozhevnikov & Perfil'ev (1978)"),
         takes=(given("part", mark("part"), kind="word", choices=tuple(MEASURES)), *MEASURE.values()),
         returns=(gives("ok", mark("whether they do")), gives("violated", mark("the keys that do not"))),
         answer=_accuracy,

@@ -218,7 +218,7 @@ CALCULATIONS = (
         returns=(
             gives("freedoms", mark("relative freedoms f")),
             gives("constraints", mark("constraints s = 6 - f")),
-            gives("genus", mark("genus of the pair, as the Kozhevnikov & Perfil'ev (1978) counts it: f")),
+            gives("genus", mark("genus of the pair, as Kozhevnikov & Perfil'ev (1978) count it: f")),
         ),
         answer=_class,
     ),

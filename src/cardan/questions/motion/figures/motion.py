@@ -66,8 +66,7 @@ def motion_figure(found: Motion) -> Figure:
         if found.followed
         else _(
             "i = 1/|b̄w + ā|², w = e^(2iφ₁), from the product of the joints' Möbius matrices; exact, equal "
-            "to Kozhevnikov & Perfil'ev (1978) "
-            "(32), (33), (38)"
+            "to Kozhevnikov & Perfil'ev (1978), eq. 32, 33, 38"
         ),
         rows=tuple(Row(panels=(panel,), height=1.5) for panel in panels[: 1 if even else None]),
     )
