@@ -27,8 +27,8 @@ def test_a_joint_too_small_stands_first_with_its_cure():
     words = "".join(parsed(text).words)
     first = words.index("life of the bearings of joint 3")
     assert 'class="judgement failed"' in text
-    assert first < words.index("joints[2].size") < words.index("The drive as understood")
-    assert re.search(r"2 of \d+ checks failed", words)
+    assert first < words.index("joints[2].centre_mm[2]") < words.index("The drive as understood")
+    assert re.search(r"3 of \d+ checks failed", words)
 
 
 def test_lights_show_what_fails_and_is_close_before_the_rest():

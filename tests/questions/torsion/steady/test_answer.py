@@ -33,14 +33,14 @@ def test_orders_are_asked_over_the_operating_range(monkeypatch: pytest.MonkeyPat
     assert home.lacking(replace(drive, duty=replace(drive.duty, speed_range=None))) == (("duty.speed_range",),)
     within = replace(drive, duty=replace(drive.duty, speed_range=(0.0, 150.0)))
     found = home.ask(within)
-    assert found.speed.tolist() == pytest.approx(np.linspace(7.5, 150.0, 5).tolist())
+    assert set(np.linspace(7.5, 150.0, 5)) < set(found.speed), "and more about the peak"
     said = home.answer(within, found)
     assert said.name == "orders"
     assert [one.name for one in said.figures()] == ["torsion-sweep", "torsion-waterfall"]
     assert said.full is not None
     first, *rows = "".join(as_csv(said.full(), USUAL)).splitlines()
     assert first.startswith("speed_rpm,status,verdict,growth_rate_per_s,element_1_mean_Nm,element_1_min_Nm")
-    assert len(rows) == 5
+    assert len(rows) == len(found.speed)
 
 
 def test_one_speed_has_its_orders_beside_each_other() -> None:
