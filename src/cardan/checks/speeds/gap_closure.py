@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.answers.quantity import Text, say
+from cardan.answers.quantity import Text, numbered, say
 from cardan.checks.case import Case, blocks
 from cardan.checks.check import Check
 from cardan.checks.design import Design
@@ -48,7 +48,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     note: Text = ""
     if not design.varied:
         k = int(worst[0])
-        joint = say(_("joint {number} needs most"), number=int(foremost(needs[k])) + 1)
+        first = int(foremost(needs[k]))
+        joint = say(_("joint {number} needs most"), number=numbered(first + 1, design.drive.joints[first].name))
         moving = _("while the drive moves") if np.max(needs[k]) > np.max(still[k]) * (1.0 + 1e-9) else ""
         named = _("decided by {case}").format(case=running[k].name) if running[k].name else ""
         light = _("the output shaft counts as without inertia") if each[-1] is None else ""

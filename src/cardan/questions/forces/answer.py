@@ -11,7 +11,7 @@ import numpy as np
 
 from cardan.answers.answer import FILE, Answer, KeyFigure, Remark, Table
 from cardan.answers.checks import closely
-from cardan.answers.quantity import Quantity, Say, listed, say
+from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
@@ -256,6 +256,7 @@ def balanced(found: Forces) -> Remark:
 
 def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
     """Yield what was left out because the file does not say."""
+    names = [joint.name for joint in drive.joints]
     crossed = [i for i, joint in enumerate(drive.joints, 1) if "cross" not in joint.foreign]
     bare = [i for i in crossed if not np.all(np.isfinite(found.journals.size[i - 1]))]
     if bare:
@@ -264,7 +265,7 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
             "Joints {numbers} give no cross.span_mm: the loads of their journals are not known.",
             len(bare),
         )
-        yield Remark(text=say(text, numbers=listed(bare)))
+        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in bare])))
     elif found.joint_force is None:
         yield Remark(
             text=_("Journals carry the couples alone here; supports would tell the forces between the shafts.")
@@ -278,7 +279,7 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
             "Warning: friction of joints {numbers} does not count: cross.span_mm or cross.journal_mm is not given.",
             len(loose),
         )
-        yield Remark(text=say(text, numbers=listed(loose)), tone="warning")
+        yield Remark(text=say(text, numbers=together(names, [i - 1 for i in loose])), tone="warning")
     light = [int(path.partition("[")[2].partition("]")[0]) + 1 for path in found.assumed if path.endswith(".inertia")]
     if "duty.speed" in found.assumed:
         yield Remark(text=_("Without a speed inertia does not count; --speed-rpm counts it."))
@@ -288,7 +289,8 @@ def _without(drive: Drive, found: Forces) -> Iterator[Remark]:
             "Shafts {numbers} count as without inertia: neither inertia_kg_m2 nor outer_mm is given.",
             len(light),
         )
-        yield Remark(text=say(text, numbers=listed(light)))
+        shafts = [shaft.name for shaft in drive.shafts]
+        yield Remark(text=say(text, numbers=together(shafts, [k - 1 for k in light])))
     others = [path for path in found.assumed if path != "duty.speed" and not path.endswith(".inertia")]
     if others:
         text = _("Not given, so assumed: {paths}.")
