@@ -172,7 +172,7 @@ def test_locked_joints_are_refused_by_name(cardan, drive_file):
 def test_friction_without_a_journal_is_told_not_to_count(cardan, drive_file):
     text = TRUCK.read_text().replace(", journal_mm = 24", "", 1)
     done = cardan("forces", drive_file(text))
-    assert "Warning: friction of joint 1 does not count: cross.span_mm or cross.journal_mm" in plain(done.out)
+    assert "Warning: friction of joint 1 (gearbox) does not count: cross.span_mm or cross.journal_mm" in plain(done.out)
     assert "does not count" not in cardan("forces", TRUCK).out
     rows = cardan("forces", drive_file(text), "--json").content["joints"]
     assert rows[0]["power_loss_mean_W"] is None
