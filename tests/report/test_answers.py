@@ -143,7 +143,7 @@ def test_every_cure_cures_when_it_is_written_into_the_file(name):
 
 
 def test_lights_tell_what_check_tells():
-    drive = example("truck-supports")
+    drive = example("truck-rear-axle")
     shown = lights(subject(drive))
     failed = {one.title for one in check(drive) if one.run and not one.advice and one.state == "failed"}
     assert sum(one.tone == "failed" for one in shown) <= len(failed)
