@@ -38,6 +38,14 @@ CATALOGUE = {"automotive": 0.70, "industrial": 0.65}
 HALF_BAND = 0.08
 """Half the width of the band about half the critical speed to keep out of, over its middle."""
 
+SEPARATION = 0.2
+"""Share of a critical speed to either side of it in which no speed is held: beyond it the mode amplifies an unbalance,
+r²/|1 - r²|, 3.3 times at most whatever its damping."""
+
+LOSS = {"shaft": 0.01, "support": 0.1}
+"""Loss factor η = 2ζ that a mode counts with where nothing says more: bending of steel shafts with their joints and
+splines; a bearing in natural rubber."""
+
 EDGE = 1e-12
 """Speeds that differ by less than this share are the same: turning units into each other rounds them."""
 

@@ -61,10 +61,11 @@ def test_the_key_figure_has_its_limit():
     ("duty", "tones"),
     [
         (Duty(), []),
-        (Duty(speed=300.0), []),
+        (Duty(speed=300.0), ["warning"]),
+        (Duty(speed=140.0), ["failed", "warning"]),
         (Duty(speed_range=(75.0, 400.0)), ["warning", "warning"]),
-        (Duty(speed_range=(400.0, 500.0)), ["failed", "warning"]),
-        (Duty(speed_range=(500.0, 900.0)), ["failed"]),
+        (Duty(speed_range=(400.0, 500.0)), ["failed", "warning", "warning"]),
+        (Duty(speed_range=(500.0, 900.0)), ["failed", "warning"]),
     ],
 )
 def test_alarms(duty, tones):

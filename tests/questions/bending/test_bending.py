@@ -197,12 +197,12 @@ def test_each_mode_wears_as_the_shaft_that_bends():
     [
         (Duty(), Running.UNKNOWN, False, False),
         (Duty(speed=-200.0), Running.CLEAR, False, False),
-        (Duty(speed=290.0), Running.CLEAR, False, True),
+        (Duty(speed=290.0), Running.NEAR, False, True),
         (Duty(speed_range=(100.0, 365.0)), Running.CLEAR, False, True),
-        (Duty(speed_range=(400.0, 430.0)), Running.CLOSE, False, False),
-        (Duty(speed_range=(330.0, 385.0), application="industrial"), Running.CLOSE, False, False),
+        (Duty(speed_range=(400.0, 430.0)), Running.CLOSE, False, True),
+        (Duty(speed_range=(330.0, 385.0), application="industrial"), Running.CLOSE, False, True),
         (Duty(speed_range=(100.0, 600.0)), Running.BEYOND, True, True),
-        (Duty(speed=700.0), Running.BEYOND, False, False),
+        (Duty(speed=700.0), Running.BEYOND, True, True),
     ],
 )
 def test_speeds_of_running(duty, status, crossed, half):

@@ -11,10 +11,10 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.told import turning
 from cardan.checks.verdict import Verdict
-from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, SEPARATION
 from cardan.texts import _, mark
 
-from .whirl import Whirl, whirls
+from .whirl import Whirl, bounces, clearances, whirls
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -57,6 +57,18 @@ def _judge(design: Design) -> Iterator[Verdict]:
             ),
             note=_computed(one),
         )
+    yield from _bounced(design)
+
+
+def _bounced(design: Design) -> Iterator[Verdict]:
+    """Yield how far the speeds keep off those at which a support gives way."""
+    for one in bounces(design):
+        texts = (
+            _("clearance from the critical speed, bounce mode on support {number}"),
+            _("passing the critical speed, bounce mode on support {number}"),
+        )
+        source = _("separation of 20 %: beyond it a mode amplifies an unbalance at most 3.3 times")
+        yield from clearances(design, one, 1.0, SEPARATION, texts, source)
 
 
 def _note(one: Whirl) -> Text:

@@ -9,11 +9,10 @@ import numpy as np
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
-from cardan.formulas.critical_speed import HALF_BAND
-from cardan.maths.arrays import Array
+from cardan.formulas.critical_speed import HALF_BAND, SEPARATION
 from cardan.texts import _, mark
 
-from .whirl import whirls
+from .whirl import bounces, clearances, hurry, nearest, whirls
 
 
 def _judge(design: Design) -> Iterator[Verdict]:
@@ -35,7 +34,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
         if running:
             yield Verdict(
                 subject=subject,
-                value=_nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
+                value=nearest([np.asarray(case, dtype=float) for case in running], np.sqrt(low * high)),
                 limit=(low, high),
                 source=source,
                 design_variables=(
@@ -43,26 +42,27 @@ def _judge(design: Design) -> Iterator[Verdict]:
                     *(path for path in design.speed_design_variables if "range" not in path),
                 ),
             )
-        if between is not None:
-            nearest = np.clip(middle, design.value("duty.speed_range[0]"), design.value("duty.speed_range[1]"))
+        top = np.asarray(design.top_speed if between is None else design.value("duty.speed_range[1]"))
+        if between is not None or np.any(top > low):
+            value = np.minimum(middle, top)
+            single = np.ndim(value) == 0
             yield Verdict(
                 subject=subject,
                 title=_("clearance of the speed range from half critical speed, shaft {number}"),
-                value=nearest,
+                value=value,
                 limit=(low, high),
                 source=source,
                 design_variables=design_variables,
-                note=_("pass through it quickly") if np.all((nearest > low) & (nearest < high)) else "",
+                note=hurry(float(2.0 * middle), "shaft", HALF_BAND) if single and low < value < high else "",
                 advice=True,
             )
-
-
-def _nearest(speeds: list[Array], middle: Array) -> Array:
-    """Return of some speeds the one whose ratio to the middle is nearest to 1."""
-    rows = np.stack(np.broadcast_arrays(*speeds, middle)[:-1])
-    off = np.abs(np.log(np.maximum(rows, 1e-9) / middle))
-    found: Array = np.take_along_axis(rows, np.argmin(off, axis=0)[None], axis=0)[0]
-    return found
+    for bounce in bounces(design):
+        texts = (
+            _("clearance from half critical speed, bounce mode on support {number}"),
+            _("passing half critical speed, bounce mode on support {number}"),
+        )
+        source = _("separation of 20 % from a resonance; couples of the joints come twice a turn")
+        yield from clearances(design, bounce, 0.5, SEPARATION, texts, source)
 
 
 CHECK = Check(

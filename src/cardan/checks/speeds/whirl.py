@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
 
+from cardan.answers.quantity import Quantity, Text, say
 from cardan.checks.design import Design
 from cardan.checks.strength.section import Section, modulus, sections
+from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
+from cardan.drive.duty import Duty
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import place, with_values
 from cardan.errors import InputError
+from cardan.formulas.critical_speed import LOSS
 from cardan.maths.arrays import Array
-from cardan.questions.bending.bending import SPLINED, bending_speeds
+from cardan.questions.bending.bending import SPLINED, bending_speeds, passing
+from cardan.texts import _
 
 MOVES = r"(shafts|joints|supports)\[|input\.|output\."
 """Paths that may change the speeds of the line."""
@@ -27,12 +34,12 @@ STEP = 0.02
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Whirl:
-    """How fast a shaft may turn until it whirls.
+    """How fast a shaft may turn until it whirls, or until it bounces on a support.
 
     Attributes
     ----------
     shaft : int
-        Counted from 0.
+        Counted from 0: the shaft that whirls, or the one that bends most where a support gives way.
     speed : array (...) or None [rad/s]
         Critical speed as computed; None where something is missing, or the shaft cannot be rated alone.
     wear : float or array (...)
@@ -41,6 +48,8 @@ class Whirl:
         Whether it is that of the whole line, with supports, masses and stretches.
     missing, design_variables : tuple of str
         Paths that lack, and those that move it.
+    support : int or None
+        Counted from 0, where a support gives way.
     """
 
     shaft: int
@@ -49,6 +58,12 @@ class Whirl:
     exact: bool = False
     missing: tuple[str, ...] = ()
     design_variables: tuple[str, ...] = ()
+    support: int | None = None
+
+    @property
+    def actual(self) -> Array:
+        """Critical speed of the real shaft, array (...) [rad/s]."""
+        return np.asarray(self.wear * np.asarray(self.speed))
 
 
 def whirls(design: Design) -> list[Whirl]:
@@ -64,7 +79,7 @@ def whirls(design: Design) -> list[Whirl]:
     -----
     The line as a whole: `cardan.questions.bending.bending`. A tube alone: Book (257), ω = (π/L)² √(E(D² + d²)/(16ρ)).
     """
-    line = _line(design.drive)
+    line = {k: speed for (kind, k, nth), (speed, _shaft) in _lowest(design).items() if kind == "shaft" and not nth}
     plain = Design(drive=design.drive, duty=design.duty, known=design.known)
     found = []
     for k in range(1, design.joints):
@@ -76,42 +91,70 @@ def whirls(design: Design) -> list[Whirl]:
         elif k not in line and line:
             continue
         found.append(alone)
-    return [*found, *(_end(design, plain, k, line[k]) for k in (0, design.joints) if k in line)]
+    return [*found, *(_in_line(design, ("shaft", k, 0)) for k in (0, design.joints) if k in line)]
+
+
+def bounces(design: Design) -> list[Whirl]:
+    """Return the critical speeds at which supports give way, lowest first; see `whirls`."""
+    return [_in_line(design, part) for part in _lowest(design) if part[0] == "support"]
+
+
+Part: TypeAlias = tuple[str, int, int]
+"""What moves in a mode: shaft or support, which one from 0, and how many modes of the same lie below."""
+
+
+def _lowest(design: Design) -> dict[Part, tuple[float, int]]:
+    """Return the critical speeds of the line as far as speeds of running come near to them."""
+    return _line(design.drive, _top(design))
+
+
+def _top(design: Design) -> float:
+    return 0.0 if design.top_speed is None else float(np.max(design.top_speed))
 
 
 @lru_cache(maxsize=64)
-def _line(drive: Drive) -> dict[int, float]:
-    """Return the lowest critical speed of each shaft in the whole line, by index; none where the file lacks some."""
+def _line(drive: Drive, top: float) -> dict[Part, tuple[float, int]]:
+    """Return the critical speeds of the whole line with the shaft that bends most; none where the file lacks some."""
     try:
-        found = bending_speeds(drive, modes=len(drive.joints))
+        found = bending_speeds(drive, Duty(speed=top or None), modes=len(drive.joints))
     except InputError:
         return {}
-    speeds: dict[int, float] = {}
-    for part, speed in zip(found.part, found.speed, strict=True):
-        if part.kind == "shaft":
-            speeds.setdefault(part.number - 1, float(speed))
-    return speeds
+    modes: dict[Part, tuple[float, int]] = {}
+    for part, speed, share in zip(found.part, found.speed, found.shaft_share, strict=True):
+        nth = sum(key[:2] == (part.kind, part.number - 1) for key in modes)
+        modes[part.kind, part.number - 1, nth] = float(speed), int(np.argmax(share))
+    return modes
 
 
-def _end(design: Design, plain: Design, k: int, speed: float) -> Whirl:
-    """Return the critical speed of an end shaft on its supports: that of the line.
+def _in_line(design: Design, part: Part) -> Whirl:
+    """Return a critical speed of the line: of an end shaft on its supports, or of a support that gives way.
 
     Where sizes vary it goes with a power of each, found from the line itself: bearings and joints bend too.
     """
-    longest = _longest(list(sections(design, k)))
-    varied = np.asarray(speed)
+    speed, bent = _lowest(design)[part]
+    kind, k, _nth = part
+    longest = _longest(list(sections(design, bent)))
+    plain, varied = Design(drive=design.drive, duty=design.duty, known=design.known), np.asarray(speed)
     for path, values in design.varied.items():
         now = plain.value(path)
         if re.match(MOVES, path) and isinstance(now, float):
-            power = _power(design.drive, path, k)
+            power = _power(design.drive, path, part, _top(design))
             varied = varied * (np.maximum(values / now, 1e-9) ** power if now > 0.0 else np.exp(power * (values - now)))
-    design_variables = design.design_variables(*longest.design_variables, f"shafts[{k}].wear_factor")
-    return Whirl(shaft=k, speed=varied, wear=_wear(design, k), exact=True, design_variables=design_variables)
+    bounce = kind == "support"
+    own = [f"supports[{k}].stiffness", f"supports[{k}].tilt_stiffness"] if bounce else longest.design_variables
+    return Whirl(
+        shaft=bent if bounce else k,
+        speed=varied,
+        wear=_wear(design, bent if bounce else k),
+        exact=True,
+        design_variables=design.design_variables(*own, *(() if bounce else (f"shafts[{k}].wear_factor",))),
+        support=k if bounce else None,
+    )
 
 
 @lru_cache(maxsize=256)
-def _power(drive: Drive, path: str, k: int) -> float:
-    """Return d ln ω/d ln value of the speed of a shaft in the line by a positive value, else d ln ω/d value."""
+def _power(drive: Drive, path: str, part: Part, top: float) -> float:
+    """Return d ln ω/d ln value of a critical speed of the line by a positive value, else d ln ω/d value."""
     key = spelled(path)
     unit = place(drive, key).factor
     now = float(Design(drive=drive, duty=drive.duty).value(path))
@@ -119,15 +162,73 @@ def _power(drive: Drive, path: str, k: int) -> float:
     found = []
     for value in (now - step, now, now + step):
         try:
-            speed = _line(with_values(drive, {key: value / unit})).get(k)
+            speed = _line(with_values(drive, {key: value / unit}), top).get(part)
         except InputError:
             continue  # beyond the range of the field, on this side
         if speed is not None:
-            found.append((math.log(value) if now > 0.0 else value, math.log(speed)))
+            found.append((math.log(value) if now > 0.0 else value, math.log(speed[0])))
     if len(found) < 2:
         return 0.0
     (first, low), (last, high) = found[0], found[-1]
     return (high - low) / (last - first)
+
+
+def nearest(speeds: list[Array], middle: Array) -> Array:
+    """Return of some speeds the one whose ratio to the middle is nearest to 1, array (...) [rad/s]."""
+    rows = np.stack(np.broadcast_arrays(*speeds, middle)[:-1])
+    off = np.abs(np.log(np.maximum(rows, 1e-9) / middle))
+    found: Array = np.take_along_axis(rows, np.argmin(off, axis=0)[None], axis=0)[0]
+    return found
+
+
+def clearances(
+    design: Design, one: Whirl, share: float, width: float, texts: tuple[str, str], source: Text
+) -> Iterator[Verdict]:
+    """Yield how far the speeds held keep off a share of a critical speed, and whether running up passes it.
+
+    Parameters
+    ----------
+    design : Design
+    one : Whirl
+        A support that gives way.
+    share : float
+        1, or one half where the joints excite twice a turn.
+    width : float
+        Half the width of the band to keep out of, over its middle.
+    texts : (str, str)
+        What is judged: speeds held, and passing.
+    source : Text
+        Where the band comes from.
+    """
+    subject = f"supports[{one.support}]"
+    if design.top_speed is None:
+        yield Verdict(subject=subject, title=texts[0], missing=design.unmoved)
+        return
+    middle = share * one.actual
+    low, high = middle * (1.0 - width), middle * (1.0 + width)
+    running = [np.asarray(case.speed, dtype=float) for case in design.cases if case.speed is not None]
+    common = Verdict(
+        subject=subject, limit=(low, high), sense="outside", dimension="angular_speed", unit="rpm", source=source
+    )
+    if running:
+        design_variables = (
+            *one.design_variables,
+            *(path for path in design.speed_design_variables if "range" not in path),
+        )
+        yield replace(
+            common, title=texts[0], value=nearest(running, np.sqrt(low * high)), design_variables=design_variables
+        )
+    value = np.minimum(middle, design.top_speed)
+    passed = np.ndim(value) == 0 and bool(value > low)
+    note = hurry(float(one.actual), "support", width) if passed else ""
+    yield replace(common, title=texts[1], value=value, design_variables=one.design_variables, note=note, advice=True)
+
+
+def hurry(critical: float, kind: str, width: float) -> Text:
+    """Return how fast to pass a critical speed [rad/s], or half of it."""
+    half, full = (Quantity(time, "time", 2) for time in passing(critical, kind, width))
+    text = _("pass it quickly: in {half} half of the resonance builds up, in {full} all of it (η = {loss})")
+    return say(text, half=half, full=full, loss=Quantity(LOSS[kind], digits=2, trim=True))
 
 
 def _longest(found: list[Section]) -> Section:

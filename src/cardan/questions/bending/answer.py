@@ -14,7 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, LOSS
 from cardan.texts import _, mark, plural
 
 from .bending import CriticalSpeeds, Part, Running
@@ -22,7 +22,12 @@ from .bending import bending_speeds as ask
 from .figures.bending import bending_figures, mode_name, speed_map_figures
 from .speed_map import CriticalSpeedMap
 
-__all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
+__all__ = ["def _swept(drive: Drive) -> Sequence[float]:
+    found = ask(drive, modes=MODES)
+    return (*first(found.actual), found.clearance)
+
+
+COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
 
 MESH = 2e-3
 """Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""
@@ -54,7 +59,7 @@ def lacking(drive: Drive) -> Lacking:
 
 def answer(drive: Drive, result: CriticalSpeeds) -> Answer:
     """Return what there is to say of the critical speeds of a drive."""
-    close = result.status in (Running.CLOSE, Running.BEYOND)
+    close = result.status in (Running.CLOSE, Running.BEYOND, Running.NEAR)
     minded = bool(result.half_crossed.any()) or bool(result.crossed.any())
     clear: Tone = "plain" if result.status == Running.UNKNOWN else "good"
     return Answer(
@@ -112,6 +117,14 @@ def _sentence(drive: Drive, result: CriticalSpeeds) -> Text:
     if margin is None:
         text = _("the first critical speed is {speed}, {part}.")
         return say(text, speed=_speed(result.actual[0]), part=first)
+    if result.status == Running.NEAR:
+        k, speed, half = _nearest(result)
+        text = _("{held} is held at {ratio} of the critical speed {speed}, {part}: too near.")
+        if half:
+            text = _("{held} is held at {ratio} of half the critical speed {speed}, {part}: too near.")
+        critical = float(result.actual[k])
+        ratio = Quantity(speed / critical * (2.0 if half else 1.0), digits=3)
+        return say(text, held=_speed(speed), ratio=ratio, speed=_speed(critical), part=_named(drive, result.part[k]))
     text = {
         Running.CLEAR: _("{part} at {speed}, {ratio} times the highest speed in use: far enough."),
         Running.CLOSE: _("{part} at {speed}, only {ratio} times the highest speed in use."),
@@ -121,13 +134,26 @@ def _sentence(drive: Drive, result: CriticalSpeeds) -> Text:
     return say(text, part=part, speed=_speed(margin.actual), ratio=Quantity(margin.ratio, digits=3))
 
 
+def _nearest(result: CriticalSpeeds) -> tuple[int, float, bool]:
+    """Return of modes too near to a held speed the nearest, that speed, and whether half the critical one meets it."""
+    found = [
+        (abs(math.log(speed / middle)), k, speed, half)
+        for half, near, middles in (
+            (False, result.near, result.actual),
+            (True, result.half_near, 0.5 * result.actual),
+        )
+        for k, middle in enumerate(middles)
+        if near[k]
+        for speed in result.steady
+    ]
+    _off, k, speed, half = min(found)
+    return k, speed, half
+
+
 def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
     actual = [Cell(value=float(speed), tone=_tone(result, k)) for k, speed in enumerate(result.actual)]
     over = [None if result.used is None else float(speed) / result.used[1] for speed in result.actual]
-    band = [
-        say("{low:bare} … {high}", low=_speed(low), high=_speed(high)) if result.part[k].kind == "shaft" else None
-        for k, (low, high) in enumerate(result.half_band)
-    ]
+    band = [say("{low:bare} … {high}", low=_speed(low), high=_speed(high)) for low, high in result.half_band]
     return Table(
         title=_("Critical speeds, the lowest first"),
         columns=(
@@ -138,7 +164,7 @@ def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
             Column(key="actual", heading=_("real"), values=actual, dimension="angular_speed"),
             Column(key="ratio", heading=_("margin n_crit/n"), values=over, digits=3),
             Column(key="half", heading=_("half-critical"), values=0.5 * result.actual, dimension="angular_speed"),
-            Column(key="half_band", heading=_("half-critical band, ± 8 %"), values=band, left=True, depth="full"),
+            Column(key="half_band", heading=_("half-critical band"), values=band, left=True, depth="full"),
             Column(
                 key="at_rest",
                 heading=_("not rotating"),
@@ -160,6 +186,8 @@ def _modes(drive: Drive, result: CriticalSpeeds) -> Table:
 
 
 def _tone(result: CriticalSpeeds, k: int) -> Tone:
+    if result.near[k] or result.half_near[k]:
+        return "failed"
     if result.crossed[k]:
         return "warning" if result.part[k].kind == "support" else "failed"
     if k == result.deciding and result.margin is not None:
@@ -238,6 +266,8 @@ def _everything(result: CriticalSpeeds) -> Table:
             Column(key="half_band_high", values=result.half_band[:, 1], dimension="angular_speed"),
             Column(key="crossed", values=[bool(one) for one in result.crossed]),
             Column(key="half_crossed", values=[bool(one) for one in result.half_crossed]),
+            Column(key="near", values=[bool(one) for one in result.near]),
+            Column(key="half_near", values=[bool(one) for one in result.half_near]),
             Column(key="moves", values=[part.kind for part in parts]),
             Column(key="number", values=[part.number for part in parts]),
             Column(key="half_waves", values=[part.waves for part in parts]),
@@ -248,6 +278,7 @@ def _everything(result: CriticalSpeeds) -> Table:
 
 def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     yield from _judged(drive, result)
+    yield from _held(drive, result)
     yield from _passed(drive, result)
     if result.held:
         text = plural(
@@ -306,26 +337,73 @@ def _judged(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
         yield Remark(text=say(text, number=number, length=Quantity(length, "length", 3), share=thicker))
 
 
+def _held(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
+    """Yield modes that a held speed excites, and the band to keep out of."""
+    for k, part in enumerate(result.part):
+        for near, (low, high), text in (
+            (
+                result.near[k],
+                result.band[k],
+                _("Failed: hold no speed from {low:bare} to {high}, 20 % to either side of {speed}, {part}."),
+            ),
+            (
+                result.half_near[k],
+                result.half_band[k],
+                _(
+                    "Failed: hold no speed from {low:bare} to {high}, about half of {speed}, {part}: there the joints, "
+                    "whose excitation is of 2nd order, excite it."
+                ),
+            ),
+        ):
+            if near:
+                speeds = {"low": _speed(low), "high": _speed(high), "speed": _speed(result.actual[k])}
+                yield Remark(text=say(text, **speeds, part=_named(drive, part)), tone="failed", alarm=True)
+
+
 def _passed(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
-    """Yield critical speeds that the drive passes, and halves of them that it runs in."""
+    """Yield critical speeds, and bands about half of them, that the drive passes, and how fast it should."""
     for k, part in enumerate(result.part):
-        if result.crossed[k]:
-            text = _("Warning: the drive passes {speed}, {part}.")
-            if part.kind == "support":
-                text = _("Warning: the drive passes {speed}, {part}; its rubber has to damp that.")
-            said = say(text, speed=_speed(result.actual[k]), part=_named(drive, part))
-            yield Remark(text=said, tone="warning", alarm=part.kind == "support")
-    for k, part in enumerate(result.part):
-        if result.half_crossed[k] and part.kind == "shaft":
-            low, high = (_speed(speed) for speed in result.half_band[k])
+        if result.crossed[k] and part.kind == "support":
+            text = _(
+                "Warning: the drive passes {speed}, {part}, and half of it. Pass each quickly: in {half_time} half of "
+                "the resonance builds up, in {full_time} all of it (loss factor of rubber, {loss})."
+            )
+        elif result.crossed[k]:
+            text = _(
+                "Warning: the drive passes {speed}, {part}. Pass it quickly: in {half_time} half of the resonance "
+                "builds up, in {full_time} all of it (loss factor of steel shafts, {loss})."
+            )
+        elif result.half_crossed[k]:
             text = _(
                 "Warning: from {low:bare} to {high} the joints, whose excitation is of 2nd order, excite half the "
-                "critical speed: {part}. Pass this band quickly, or reduce the joint angles."
+                "critical speed: {part}. Pass this band quickly ({half_time} lets half of the resonance build up, "
+                "{full_time} all of it), or reduce the joint angles."
             )
-            yield Remark(text=say(text, low=low, high=high, part=_named(drive, part)), tone="warning", alarm=True)
+        else:
+            continue
+        half, full = (Quantity(time, "time", 2) for time in result.passing(k, half=not result.crossed[k]))
+        low, high = (_speed(speed) for speed in result.half_band[k])
+        loss = Quantity(LOSS[part.kind], digits=2, trim=True)
+        speed, mode = _speed(result.actual[k]), _named(drive, part)
+        said = say(text, speed=speed, part=mode, low=low, high=high, half_time=half, full_time=full, loss=loss)
+        yield Remark(text=said, tone="warning", alarm=part.kind == "support" or not result.crossed[k])
 
 
 def _keys(drive: Drive, result: CriticalSpeeds) -> Iterator[KeyFigure]:
+    if np.any(result.near | result.half_near):
+        k, speed, half = _nearest(result)
+        low, high = (result.half_band if half else result.band)[k]
+        yield KeyFigure(
+            name="speed_held",
+            title=_("speed held near half a critical speed") if half else _("speed held near a critical speed"),
+            place=_named(drive, result.part[k]),
+            value=_speed(speed),
+            limit=_speed(low),
+            beyond=_speed(high),
+            tone="failed",
+            verdict=_("too near"),
+            used=min(speed / low, high / speed),
+        )
     if result.bowing is None:
         return
     margin, place = result.margin, _named(drive, result.bowing)
@@ -357,6 +435,11 @@ def _mode_facts(result: CriticalSpeeds) -> list[dict[str, Any]]:
             "half_band": Quantity(result.half_band[k], "angular_speed"),
             "crossed": bool(result.crossed[k]),
             "half_crossed": bool(result.half_crossed[k]),
+            "near": bool(result.near[k]),
+            "half_near": bool(result.half_near[k]),
+            "passing_half": Quantity(result.passing(k)[0], "time"),
+            "passing_full": Quantity(result.passing(k)[1], "time"),
+            "loss_factor": LOSS[part.kind],
             "moves": part.kind,
             "number": part.number,
             "half_waves": part.waves,
@@ -372,6 +455,7 @@ def _facts(drive: Drive, result: CriticalSpeeds) -> dict[str, Any]:
     margin = result.margin
     return {
         "status": result.status.name.lower(),
+        "speeds_held": Quantity(list(result.steady), "angular_speed"),
         "speed_range": None if result.used is None else Quantity(list(result.used), "angular_speed"),
         "modes": _mode_facts(result),
         "place": Quantity(result.place, "length"),
@@ -408,8 +492,14 @@ COLUMNS = (
     SweepQuestion(
         name="critical_speed",
         doc=mark("bending critical speeds of the real shafts, lowest first"),
-        told=each("critical_speed", "angular_speed", "rpm", mark("bending critical speed")),
-        of_one=lambda drive: first(ask(drive, modes=MODES).actual),
+        told=lambda drive: (
+            *each("critical_speed", "angular_speed", "rpm", mark("bending critical speed"))(drive),
+            OutputColumn(
+                name="critical_clearance",
+                text=mark("distance of the speeds held from the nearest critical speed or half of one, over it"),
+            ),
+        ),
+        of_one=_swept,
     ),
 )
 """What a sweep may ask of bending."""

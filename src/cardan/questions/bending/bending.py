@@ -13,7 +13,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.errors import refuse
-from cardan.formulas.critical_speed import HALF_BAND, Margin, speed_margin, uniform_speed
+from cardan.formulas.critical_speed import HALF_BAND, LOSS, SEPARATION, Margin, speed_margin, uniform_speed
+from cardan.formulas.run_up import passing_time
 from cardan.maths.arrays import Array
 from cardan.maths.linear.modes import Modes, strain, synchronous
 from cardan.maths.linear.rotor_beams import Line, divided
@@ -49,6 +50,8 @@ class Running(IntEnum):
     """It reaches the critical speed."""
     UNKNOWN = 3
     """The drive says no speed."""
+    NEAR = 4
+    """It holds a speed too near to one that excites a mode, of a shaft or of a support."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -92,10 +95,16 @@ class CriticalSpeeds:
         Share that each support takes up.
     used : (float, float) or None [rad/s]
         Lowest and highest speed of running; None where the drive says none.
+    steady : tuple of float [rad/s]
+        Speeds that it holds: of the duty and of the parts of its duty cycle, in rising order.
     crossed : array of bool (m,)
-        Whether the real critical speed lies between these.
+        Whether the drive passes the real critical speed on its way to the highest speed.
     half_crossed : array of bool (m,)
-        Whether the drive runs within 8 percent of half of it, where the secondary couples excite the mode.
+        Whether it comes into the band about half of it, where the secondary couples excite the mode.
+    near : array of bool (m,)
+        Whether it holds a speed within 20 percent of the real critical speed.
+    half_near : array of bool (m,)
+        Whether it holds a speed in the band about half of it.
     deciding : int or None
         Mode that the rules are about: the lowest in which a shaft bows, counted from 0; it may lie beyond those asked
         for. None where none was found.
@@ -136,8 +145,11 @@ class CriticalSpeeds:
     shaft_share: Array
     support_share: Array
     used: tuple[float, float] | None
+    steady: tuple[float, ...]
     crossed: Array
     half_crossed: Array
+    near: Array
+    half_near: Array
     deciding: int | None
     bowing: Part | None
     margin: Margin | None
@@ -160,12 +172,30 @@ class CriticalSpeeds:
             return Running.UNKNOWN
         if "supercritical" in self.margin.violated:
             return Running.BEYOND
+        if np.any(self.near | self.half_near):
+            return Running.NEAR
         return Running.CLOSE if self.margin.violated else Running.CLEAR
+
+    @property
+    def band(self) -> Array:
+        """Speeds about each real critical speed to keep out of, array (m, 2) [rad/s]."""
+        return _bands(self.actual, np.full(len(self.actual), SEPARATION))
 
     @property
     def half_band(self) -> Array:
         """Speeds about half of each real critical speed to keep out of, array (m, 2) [rad/s]."""
-        return 0.5 * self.actual[:, None] * np.asarray([1.0 - HALF_BAND, 1.0 + HALF_BAND])
+        return _bands(0.5 * self.actual, half_widths(self.part))
+
+    @property
+    def clearance(self) -> float:
+        """Distance of the speeds held from the nearest critical speed or half of one, over it; nan without a speed."""
+        middle = np.concatenate((self.actual, 0.5 * self.actual))[:, None]
+        return float(np.min(np.abs(np.asarray(self.steady) / middle - 1.0), initial=np.inf)) if self.steady else np.nan
+
+    def passing(self, mode: int, *, half: bool = False) -> tuple[float, float]:
+        """Return how long passing a mode, or the band about half of it, may take for half and all to build up [s]."""
+        width = float(half_widths(self.part)[mode]) if half else SEPARATION
+        return passing(float(self.actual[mode]), self.part[mode].kind, width)
 
 
 def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) -> CriticalSpeeds:
@@ -178,7 +208,7 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     duty : Duty, optional
         Speeds of running; those of the drive by default.
     modes : int
-        How many critical speeds.
+        How many critical speeds; more where speeds of running come near to more of them.
 
     Returns
     -------
@@ -194,8 +224,9 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     Timoshenko's beams with rotary inertia and gyroscopic action, hinged at the joints, in forward whirl as fast as
     they spin (dynamics of rotors; Book (253)-(260) is the uniform shaft between two joints). Speeds are those of exact
     transfer matrices, shapes those of finite elements, and each checks the other. Shafts are taken along their own
-    axes, as if the joints were straight. The rules are about the lowest mode in which a shaft bows: in the modes below
-    it a soft support gives way, which rubber damps.
+    axes, as if the joints were straight. The rules of book and makers are about the lowest mode in which a shaft bows;
+    in the modes below it a soft support gives way. No speed is held within 20 percent of any mode, or in the band about
+    half of it: 8 percent to either side where a shaft bows, a maker's rule, 20 where a support gives way.
 
     Examples
     --------
@@ -208,6 +239,12 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     if not 1 <= modes <= MOST:
         raise refuse("modes", _("{value} is not allowed; allowed is 1 to {most}").format(value=modes, most=MOST))
     whole = whirl_line(drive)
+    factors = wear_factors(drive)
+    chosen = drive.duty if duty is None else duty
+    used, steady = used_speeds(chosen), held_speeds(chosen)
+    if used is not None:
+        reach = 2.0 * used[1] / ((1.0 - SEPARATION) * float(np.min(factors)))
+        modes = min(max(modes, modes_below(whole.line, reach)), MOST)
     cuts = elements(whole, modes)
     fine = divided(whole.line, cuts)
     found = synchronous(fine, modes + MORE)
@@ -215,13 +252,13 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
     bowing = next((k for k, one in enumerate(part) if one.kind == "shaft"), None)
     wanted = modes if bowing is None else max(modes, bowing + 1)
     speed = speeds(whole.line, wanted, near=found.speed[:wanted])
-    wear = wear_factors(drive)[np.argmax(shaft_share, axis=-1)][:wanted]
-    chosen = drive.duty if duty is None else duty
+    wear = factors[np.argmax(shaft_share, axis=-1)][:wanted]
     first = slice(0, modes)
     at_rest = synchronous(fine, modes, spinning=False).speed
     actual = wear * speed
-    used = used_speeds(chosen)
-    low, high = used or (np.nan, np.nan)
+    top = np.nan if used is None else used[1]
+    band = _bands(actual[first], np.full(modes, SEPARATION))
+    half_band = _bands(0.5 * actual[first], half_widths(part[first]))
     return CriticalSpeeds(
         speed=speed[first],
         actual=actual[first],
@@ -231,8 +268,11 @@ def bending_speeds(drive: Drive, duty: Duty | None = None, *, modes: int = 3) ->
         shaft_share=shaft_share[first],
         support_share=support_share[first],
         used=used,
-        crossed=(actual[first] >= low) & (actual[first] <= high),
-        half_crossed=(0.5 * (1.0 + HALF_BAND) * actual[first] >= low) & (0.5 * (1 - HALF_BAND) * actual[first] <= high),
+        steady=steady,
+        crossed=actual[first] <= top,
+        half_crossed=half_band[:, 0] <= top,
+        near=_inside(steady, band),
+        half_near=_inside(steady, half_band),
         deciding=bowing,
         bowing=None if bowing is None else part[bowing],
         margin=None
@@ -332,11 +372,39 @@ def _assumed(drive: Drive) -> tuple[str, ...]:
     return tuple(f"shafts[{shaft.number - 1}].wear_factor" for shaft in splined if shaft.has_body)
 
 
+def held_speeds(duty: Duty) -> tuple[float, ...]:
+    """Return the speeds that a duty holds: its own and those of its parts, in rising order [rad/s]."""
+    return tuple(sorted({abs(speed) for speed in (duty.speed, *(part.speed for part in duty.blocks)) if speed}))
+
+
 def used_speeds(duty: Duty) -> tuple[float, float] | None:
     """Return the lowest and highest speed of running [rad/s], None where the duty says none."""
-    if duty.speed_range is not None:
-        return duty.speed_range
-    return (abs(duty.speed), abs(duty.speed)) if duty.speed else None
+    speeds = (*(duty.speed_range or ()), *held_speeds(duty))
+    return (min(speeds), max(speeds)) if speeds else None
+
+
+def passing(critical: float, kind: str, width: float = SEPARATION) -> tuple[float, float]:
+    """Return how long passing a band about a critical speed may take for half and all of its resonance to build up [s].
+
+    The damping is that of `LOSS`. About half its speed, excited twice a turn, a mode behaves alike.
+    """
+    half, full = (passing_time(critical, 0.5 * LOSS[kind], 2.0 * width, reached) for reached in ("half", "full"))
+    return half, full
+
+
+def half_widths(parts: tuple[Part, ...]) -> Array:
+    """Return half the width of the band about half the critical speed of each mode, over its middle, array (m,)."""
+    return np.asarray([SEPARATION if part.kind == "support" else HALF_BAND for part in parts])
+
+
+def _bands(middle: Array, width: Array) -> Array:
+    return middle[:, None] * (1.0 + width[:, None] * np.asarray([-1.0, 1.0]))
+
+
+def _inside(speeds: tuple[float, ...], band: Array) -> Array:
+    """Return whether one of some speeds lies in each band, array of bool (m,)."""
+    held = np.asarray(speeds)
+    return np.any((held > band[:, :1]) & (held < band[:, 1:]), axis=-1)
 
 
 def _missed(whole: WhirlLine, speed: Array) -> int:

@@ -85,7 +85,7 @@ def speeds_figure(found: CriticalSpeeds) -> Figure:
     for k, (place, band) in enumerate(zip(at, np.asarray(found.half_band[:count]) / rpm, strict=True)):
         across = place + 0.33 * np.asarray([-1.0, -1.0, 1.0, 1.0])
         role = "warning" if found.half_crossed[k] else "cross"
-        label = _("half-critical band, ± 8 %") if k == 0 else ""
+        label = _("half-critical band") if k == 0 else ""
         series.append(Shape(x=band[[0, 1, 1, 0]], y=across, role=role, opacity=0.75, label=label))
     top = 1.12 * max(float(np.max(actual)), *included)
     ticks = steps(0.0, top, 8)
@@ -129,6 +129,8 @@ def _in_use(used: tuple[float, float], *, upright: bool) -> Series:
 
 def _tone(found: CriticalSpeeds, k: int) -> str:
     """Return the role of the bar of a mode: red where the drive runs at it, amber where a rule is broken."""
+    if found.near[k] or found.half_near[k]:
+        return "failed"
     if found.crossed[k]:
         return "warning" if found.part[k].kind == "support" else "failed"
     if k == found.deciding and found.status == Running.BEYOND:

@@ -1,0 +1,156 @@
+"""A drive at the speed at which its centre bearing bounces: told on every surface, by elements written apart."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from cardan import Drive
+from cardan.answers.quantity import told
+from cardan.answers.reader import USUAL
+from cardan.batch.answering.drive_questions import DRIVE
+from cardan.checks.checks import check
+from cardan.drive.cross import Cross
+from cardan.drive.duty import Block, Duty
+from cardan.drive.material import Material
+from cardan.drive.shaft import Shaft
+from cardan.drive.support import Support
+from cardan.formulas.critical_speed import LOSS
+from cardan.formulas.run_up import passing_time, run_up
+from cardan.questions.bending.answer import answer
+from cardan.questions.bending.bending import Running, bending_speeds
+
+E, RHO = 2.1e11, 7850.0
+LENGTHS, OUTER, INNER, STIFFNESS, BEARING, CROSS = (1.1, 1.3), 0.07, 0.066, 1e5, 1.0, 2.0
+
+
+def drive(**duty):
+    tube = {"outer": OUTER, "inner": INNER, "material": Material(youngs=E, density=RHO)}
+    line = Drive.from_points([(-0.3, 0, 0), (0, 0, 0), (LENGTHS[0], 0, 0), (sum(LENGTHS), 0, 0), (2.7, 0, 0)])
+    joints = (line.joints[0], replace(line.joints[1], cross=Cross(mass=CROSS)), line.joints[2])
+    return replace(
+        line,
+        joints=joints,
+        shafts=(Shaft(number=2, **tube), Shaft(number=3, **tube)),
+        supports=(Support(shaft=2, position=BEARING, stiffness=STIFFNESS, name="centre bearing"),),
+        duty=Duty(**duty),
+    )
+
+
+def by_elements(cells=24):
+    """Return the natural frequencies of the line of Euler and Bernoulli, two tubes hinged to each other [rad/s]."""
+    bending, mass = E * np.pi / 64 * (OUTER**4 - INNER**4), RHO * np.pi / 4 * (OUTER**2 - INNER**2)
+    places = np.unique(np.concatenate([np.linspace(0, LENGTHS[0], cells + 1), [BEARING]]))
+    tubes = [np.diff(places), np.full(cells, LENGTHS[1] / cells)]
+    # Degrees of freedom: deflection and slope of every node of both tubes, the deflection of the joint in common.
+    first = 2 * (len(tubes[0]) + 1)
+    size = first + 2 * cells + 1
+    stiff, inert = np.zeros((size, size)), np.zeros((size, size))
+    for shaft, tube in enumerate(tubes):
+        for k, h in enumerate(tube):
+            at = 2 * k + np.arange(4) if shaft == 0 else first - 1 + 2 * k + np.arange(4)
+            if shaft == 1:
+                at = np.where(at == first - 1, first - 2, at)
+                at[1] = first + 2 * k
+            own = np.array(
+                [[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
+                 [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]]
+            )  # fmt: skip
+            heavy = np.array(
+                [[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
+                 [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]]
+            )  # fmt: skip
+            stiff[np.ix_(at, at)] += bending / h**3 * own
+            inert[np.ix_(at, at)] += mass * h / 420 * heavy
+    bearing = 2 * int(np.argmin(np.abs(places - BEARING)))
+    stiff[bearing, bearing] += STIFFNESS
+    inert[first - 2, first - 2] += CROSS
+    free = [k for k in range(size) if k not in (0, size - 2)]
+    return np.sqrt(eigh(stiff[np.ix_(free, free)], inert[np.ix_(free, free)], eigvals_only=True))
+
+
+BOUNCE = float(by_elements()[0])
+
+
+def named(verdicts, title):
+    (found,) = [one for one in verdicts if one.title.startswith(title)]
+    return found
+
+
+def test_the_bounce_is_that_of_elements_written_apart():
+    found = bending_speeds(drive())
+    # Shear and rotary inertia, which those lack, take a hundredth at most of the first three.
+    np.testing.assert_allclose(found.speed, by_elements()[:3], rtol=1e-2)
+    assert found.speed[0] == pytest.approx(BOUNCE, rel=2e-3)
+    assert found.part[0].kind == "support"
+
+
+@pytest.mark.parametrize(
+    ("share", "near", "half"),
+    [(0.997, True, False), (0.79, False, False), (0.81, True, False), (1.19, True, False), (1.21, False, False),
+     (0.5, False, True), (0.39, False, False), (0.41, False, True), (0.59, False, True), (0.61, False, False)],
+)  # fmt: skip
+def test_a_speed_held_at_a_bounce_or_half_of_it_fails_everywhere(share, near, half):
+    made = drive(speed=share * BOUNCE)
+    found = bending_speeds(made)
+    assert (found.near.tolist(), found.half_near.tolist()) == ([near, False, False], [half, False, False])
+    assert (found.status == Running.NEAR) == (near or half)
+    said = answer(made, found)
+    assert said.code == int(near or half)
+    assert ("too near" in told(said.sentence, USUAL)) == (near or half)
+    assert any(key.tone == "failed" for key in said.keys) == (near or half)
+    verdicts = check(made)
+    assert (named(verdicts, "clearance from the critical speed, bounce").state == "failed") == near
+    assert (named(verdicts, "clearance from half critical speed, bounce").state == "failed") == half
+    (question,) = [one for one in DRIVE if one.name == "critical_speed"]
+    assert (question.of_one(made)[-1] < 0.2) == (near or half)
+
+
+def test_every_part_of_a_duty_cycle_is_a_speed_held():
+    parts = tuple(Block(torque=10.0, speed=speed, share=0.5) for speed in (0.7 * BOUNCE, 1.1 * BOUNCE))
+    made = drive(blocks=parts)
+    assert bending_speeds(made).near.tolist() == [True, False, False]
+    assert named(check(made), "clearance from the critical speed, bounce").value == pytest.approx(1.1 * BOUNCE)
+
+
+def test_a_bounce_below_the_speeds_is_passed_with_a_word_on_how_fast():
+    made = drive(speed=2.0 * BOUNCE)
+    found = bending_speeds(made)
+    assert found.crossed.tolist() == [True, False, False]
+    (passed,) = [one for one in answer(made, found).remarks if one.tone == "warning"]
+    half, full = found.passing(0)
+    assert f"in {half:.2g} s half of the resonance builds up, in {full:.2g} s all" in told(passed.text, USUAL)
+    verdict = named(check(made), "passing the critical speed, bounce")
+    assert verdict.advice
+    assert verdict.state == "failed"
+    assert f"{half:.2g} s" in told(verdict.note, USUAL)
+
+
+def test_verdicts_on_a_bounce_vary_as_the_line_does():
+    made = drive(speed=1.5 * BOUNCE)
+    stiffness = np.asarray([0.97, 1.0, 1.03]) * STIFFNESS
+    many = named(check(made, vary={"supports[0].stiffness_N_per_mm": stiffness / 1e3}), "clearance from the critical")
+    for k, value in enumerate(stiffness):
+        one = replace(made, supports=(replace(made.supports[0], stiffness=float(value)),))
+        alone = named(check(one), "clearance from the critical")
+        assert many.limit[1][k] == pytest.approx(alone.limit[1], rel=3e-3)
+
+
+@pytest.mark.parametrize(("reached", "share"), [("half", 0.5), ("full", 0.95)])
+@pytest.mark.parametrize("zeta", [0.05, 0.005])
+def test_passing_in_the_time_told_builds_up_that_share(reached, share, zeta):
+    """A run-up of an oscillator in complex error functions, from so far below that it begins at rest."""
+    omega = 100.0
+    rate = 0.4 * omega / passing_time(omega, zeta, 0.4, reached)
+    found = run_up(omega, zeta, rate, 3.0 * omega / rate)
+    # The amplitude of the formula is that of slow change; a fast run-up differs by its quick parts.
+    assert found.peak / found.steady_peak == pytest.approx(share, rel=0.06 if zeta == 0.05 else 0.01)
+
+
+def test_an_undamped_run_up_is_lewis_s():
+    peak = run_up(100.0, 1e-6, 10.0, 20.0).peak
+    assert peak == pytest.approx(1.466 * 100.0 / np.sqrt(10.0), rel=0.01)
+    assert 0.0 < LOSS["shaft"] < LOSS["support"] < 0.2
