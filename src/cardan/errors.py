@@ -7,7 +7,7 @@ below the command line prints or exits.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 CODES = (
@@ -37,11 +37,14 @@ class Problem:
         What was given and what is allowed, in one sentence.
     code : str
         One of `CODES`, for programs; empty where none of them fits.
+    paste : str
+        Tables that would mend it, as they stand in a drive file; empty where there are none.
     """
 
     field: str
     message: str
     code: str = ""
+    paste: str = ""
 
     def __str__(self) -> str:
         return f"{self.field}: {self.message}" if self.field else self.message
@@ -83,7 +86,7 @@ class InputError(CardanError):
 
     def renamed(self, name: Any) -> InputError:
         """Return the same problems with their fields passed through ``name``."""
-        return type(self)([Problem(name(p.field), p.message, p.code) for p in self.problems], where=self.where)
+        return type(self)([replace(p, field=name(p.field)) for p in self.problems], where=self.where)
 
 
 def _rebuilt(kind: type[InputError], problems: Iterable[Problem], where: Any) -> InputError:

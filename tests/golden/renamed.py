@@ -76,7 +76,7 @@ PATHS: tuple[tuple[str, str, str], ...] = (
 FIELDS: tuple[tuple[str, str], ...] = ()
 """Pattern in a refused field -> what stands there now."""
 
-ANSWERED: tuple[str, ...] = ()
+ANSWERED: tuple[str, ...] = (r"(forces|assembly) examples/truck-duty-cycle",)
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 
 AMONG: tuple[tuple[str, str], ...] = (("simulate-fault", r"orders\.size"),)

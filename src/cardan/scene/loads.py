@@ -13,6 +13,7 @@ from cardan.drive.bodies.assembly import extent
 from cardan.drive.bodies.build import Build
 from cardan.drive.drive import Drive
 from cardan.drive.models.geometry import geometry
+from cardan.drive.models.machine_held import machine_held
 from cardan.errors import InputError
 from cardan.figures import palette
 from cardan.figures.turning import shaft_name
@@ -57,7 +58,7 @@ def loads(drive: Drive, build: Build, size: float) -> Loads:
     if found.reaction is None:
         missing["forces"] = _("supports: missing; forces of bearings and joints need [[supports]] that hold the shafts")
     else:
-        for number, one in enumerate(drive.supports):
+        for number, one in enumerate(machine_held(drive).supports):
             foot = build.centre(max(one.shaft - 2, 0)) + one.position * build.axis(one.shaft)
             name = one.name or _("support {number}").format(number=number + 1)
             pushes.append((name, foot, np.asarray(found.reaction)[number], "accent"))

@@ -39,7 +39,7 @@ def test_what_is_left_out_is_named_with_its_key():
 @pytest.mark.parametrize(
     ("supports", "say"),
     [
-        ([(1, -0.1, False)], "leave the drive"),
+        ([(1, -0.1, False), (2, 0.1, False)], "leave the drive"),
         ([(1, -0.1, True), (1, -0.3, True), (2, 0.1, True), (2, 0.4, False)], "more than balance"),
     ],
 )

@@ -123,7 +123,9 @@ def keys_of(file: Path) -> Iterator[None]:
         try:
             yield
         except InputError as error:
-            raise InputError(Problem(key_of(one.field), _hinted(one), one.code) for one in error.problems) from error
+            raise InputError(
+                replace(one, field=key_of(one.field), message=_hinted(one)) for one in error.problems
+            ) from error
 
 
 def _hinted(problem: Problem) -> str:

@@ -12,6 +12,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from typing import Any
 from unicodedata import category
 
@@ -44,7 +45,7 @@ def about(name: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        problems = (Problem("" if p.field == name else p.field, p.message, p.code) for p in error.problems)
+        problems = (replace(p, field="" if p.field == name else p.field) for p in error.problems)
         raise RefusedError(name, tuple(problems)) from error
     except OSError as error:
         raise RefusedError(name, (Problem("", reason(error)),)) from error
@@ -121,12 +122,13 @@ def _say(subject: str, problems: Sequence[Problem], code: int, arguments: Sequen
 
 
 def _json(head: str, subject: str, problems: Sequence[Problem], code: int) -> str:
-    listed = [
-        {"field": problem.field, "message": problem.message, **({"code": problem.code} if problem.code else {})}
-        for problem in problems
-    ]
+    listed = [{"field": problem.field, "message": problem.message, **_told(problem)} for problem in problems]
     error = {"message": head, "file": subject, "problems": listed, "exit_code": code}
     return json.dumps({"error": error}, ensure_ascii=False)
+
+
+def _told(problem: Problem) -> dict[str, str]:
+    return {key: text for key, text in (("code", problem.code), ("paste", problem.paste)) if text}
 
 
 def _headline(subject: str, problems: Sequence[Problem]) -> str:
@@ -145,6 +147,8 @@ def _text(head: str, problems: Sequence[Problem]) -> str:
         lines += [f"  {_visible(str(problem))}" for problem in problems[:SHOWN]]
         if len(problems) > SHOWN:
             lines.append(_("  … and {count} more; --json lists all").format(count=len(problems) - SHOWN))
+    for tables in dict.fromkeys(problem.paste for problem in problems if problem.paste):
+        lines += ["", _("These tables in the file would hold it; put the bearings where they are:"), "", tables]
     return "\n".join(lines)
 
 

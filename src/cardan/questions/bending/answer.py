@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Cell, Column, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, numbered, say
 from cardan.answers.question import Lacking, absent
-from cardan.answers.sweepable import MODES, SweepQuestion, each, first
+from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, LOSS
@@ -22,12 +22,7 @@ from .bending import bending_speeds as ask
 from .figures.bending import bending_figures, mode_name, speed_map_figures
 from .speed_map import CriticalSpeedMap
 
-__all__ = ["def _swept(drive: Drive) -> Sequence[float]:
-    found = ask(drive, modes=MODES)
-    return (*first(found.actual), found.clearance)
-
-
-COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
+__all__ = ["COLUMNS", "answer", "answer_of_map", "ask", "lacking"]
 
 MESH = 2e-3
 """Share by which finite elements, a few dozen of them, may differ from the exact transfer matrices."""
@@ -488,12 +483,17 @@ def _facts(drive: Drive, result: CriticalSpeeds) -> dict[str, Any]:
     }
 
 
+def _swept(drive: Drive) -> Sequence[float]:
+    found = ask(drive, modes=MODES)
+    return (*first(found.actual), found.clearance)
+
+
 COLUMNS = (
     SweepQuestion(
         name="critical_speed",
         doc=mark("bending critical speeds of the real shafts, lowest first"),
-        told=lambda drive: (
-            *each("critical_speed", "angular_speed", "rpm", mark("bending critical speed"))(drive),
+        told=(
+            *each("critical_speed", "angular_speed", "rpm", mark("bending critical speed")),
             OutputColumn(
                 name="critical_clearance",
                 text=mark("distance of the speeds held from the nearest critical speed or half of one, over it"),

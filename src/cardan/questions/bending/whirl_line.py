@@ -11,6 +11,7 @@ from cardan.drive.body import body_length, pieces
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
+from cardan.drive.models.machine_held import tables_proposed
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
 from cardan.errors import Problem, check
@@ -309,4 +310,5 @@ def _check_held(drive: Drive, found: WhirlLine) -> None:
     if len(loose) > 1:
         text = _("shafts {which} can pivot freely: hold one of them by a support, as a centre bearing does")
     message = text.format(which=_(" and ").join(str(number) for number in loose))
-    check([Problem("supports", message if drive.supports else _("missing; {why}").format(why=message))])
+    with tables_proposed(drive):
+        check([Problem("supports", message if drive.supports else _("missing; {why}").format(why=message))])

@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from cardan.answers.answer import FILE, Answer, KeyFigure, Remark, Table
+from cardan.answers.answer import FILE, Answer, KeyFigure, Listing, Remark, Table
 from cardan.answers.checks import closely
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.models.machine_held import machine_held, machines_of, proposed, tables_of
 from cardan.errors import InputError, Problem
 from cardan.figures.figure import Figure
 from cardan.maths.curves.over_turn import harmonics
@@ -31,7 +32,19 @@ from .gap_closure import Gaps, gaps
 from .moving_forces import MovingForces, moving_forces
 from .reactions import Held
 from .solving_order import reaction_groups
-from .told import ROUNDING, constant, largest_left, senses, size, span, support_names, tidy, together, turn
+from .told import (
+    ROUNDING,
+    constant,
+    held_by_machines,
+    largest_left,
+    senses,
+    size,
+    span,
+    support_names,
+    tidy,
+    together,
+    turn,
+)
 
 __all__ = ["COLUMNS", "Carried", "answer", "ask", "lacking"]
 
@@ -108,15 +121,17 @@ def answer(drive: Drive, result: Carried, curves: Forces | None = None) -> Answe
     """
     found = result.forces
     shown = found if curves is None else curves
+    machines, own, drive = machines_of(drive), drive, machine_held(drive) if found.reaction is not None else drive
     return Answer(
         name="forces",
         title=_("Forces"),
         sentence=_sentence(drive, found),
         figures=lambda: _figures(drive, result),
         tables=(*_tables(drive, found), *_back(shown)),
-        remarks=tuple(_remarks(drive, result)),
+        remarks=tuple(_remarks(drive, result, machines)),
+        listings=() if found.reaction is not None else tuple(_listings(own)),
         keys=tuple(_keys(drive, result)),
-        facts=_facts(drive, found),
+        facts={**_facts(drive, found), "held_by_machines": list(machines) if found.reaction is not None else []},
         full=lambda: trace(shown),
     )
 
@@ -182,12 +197,21 @@ def _back(shown: Forces) -> Iterator[Table]:
         yield trace(shown.reverse, "forces_sliding_back")
 
 
-def _remarks(drive: Drive, result: Carried) -> Iterator[Remark]:
+def _listings(drive: Drive) -> Iterator[Listing]:
+    """Yield the supports that are missing, as tables for the file."""
+    tables = tables_of(proposed(drive))
+    if tables:
+        title = _("Supports that would hold the drive; put them where they are")
+        yield Listing(title=title, text=tables, depth="brief")
+
+
+def _remarks(drive: Drive, result: Carried, machines: tuple[int, ...]) -> Iterator[Remark]:
     found = result.forces
     for k, problem in enumerate(result.unheld):
         text = _("Warning: forces on the supports are not calculated. {field}: {message}")
         yield Remark(text=say(text, **_parts(problem)), tone="warning", alarm=k == 0)
     yield from steep_joints(drive)
+    yield from held_by_machines(machines if found.reaction is not None else ())
     surplus = int(found.status == Held.INDETERMINATE) and found.unknowns - found.equations
     if surplus:
         text = _(

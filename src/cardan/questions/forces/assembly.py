@@ -12,6 +12,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.validity import wrong_count
 from cardan.drive.models.geometry import Geometry, geometry
 from cardan.drive.models.laws import refuse_kinds
+from cardan.drive.models.machine_held import machine_held, tables_proposed
 from cardan.drive.models.train import Train, lengths_off, train
 from cardan.errors import check, refuse
 from cardan.maths.arrays import Array, ArrayLike
@@ -169,7 +170,9 @@ def assembly(
     >>> (found.reaction[:3, 0, 2]).round(3)
     array([ 333.333, -666.667,  333.333])
     """
-    question = _question(drive, errors)
+    with tables_proposed(drive):
+        question = _question(drive, errors)
+    drive = machine_held(drive)
     phi = positions(angle, np)
     answer, gap, joint_force, reaction, couple = question.forces(phi)
     highest, place = _peaks(question, phi)
@@ -264,6 +267,7 @@ def _question(drive: Drive, errors: Sequence[Error | None] | None) -> _Question:
     refuse_kinds(drive, _("forces from misalignment"), "assembly")
     if not drive.supports:
         raise refuse("supports", _("missing; assembly forces come from how the shafts are held"))
+    drive = machine_held(drive)
     given = [joint.error for joint in drive.joints] if errors is None else list(errors)
     check(wrong_count("errors", given, len(drive.joints)))
     whole = replace(train(drive), error=lengths_off(given))

@@ -13,6 +13,7 @@ from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
+from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.errors import InputError
 from cardan.figures.figure import Figure
 from cardan.maths.ties import foremost, largest
@@ -21,7 +22,7 @@ from cardan.texts import _, mark, plural
 from .assembly import AssemblyForces, Peak, assembly
 from .figures.assembly import misalignment_figures
 from .force_tables import joint_heads, support_heads
-from .told import ROUNDING, curve, from_start, size, support_names, together, vector
+from .told import ROUNDING, curve, from_start, held_by_machines, size, support_names, together, vector
 
 __all__ = ["COLUMNS", "answer", "ask", "lacking", "otherwise"]
 
@@ -83,6 +84,7 @@ def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None =
         At the positions whose curves are asked for.
     """
     shown = result if curves is None else curves
+    machines, drive = machines_of(drive), machine_held(drive)
     return Answer(
         name="assembly",
         title=_("Assembly"),
@@ -90,7 +92,7 @@ def answer(drive: Drive, result: AssemblyForces, curves: AssemblyForces | None =
         tone="warning" if result.degree else "good",
         figures=lambda: _figures(drive, result),
         tables=tuple(_tables(drive, result)),
-        remarks=tuple(_remarks(drive, result)),
+        remarks=(*held_by_machines(machines), *_remarks(drive, result)),
         keys=tuple(_keys(result)),
         facts=_facts(result),
         full=lambda: _trace(shown),

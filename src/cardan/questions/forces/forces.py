@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.geometry import geometry
 from cardan.drive.models.laws import refuse_kinds
+from cardan.drive.models.machine_held import machine_held, tables_proposed
 from cardan.drive.models.train import Train, mass_problems, place_of, train
 from cardan.drive.movement import Movement
 from cardan.errors import Problem, check, refuse
@@ -60,10 +62,11 @@ def forces(
 
     Notes
     -----
-    Rigid shafts and crosses; Coulomb friction in the journals and splines where the drive gives it. Torques go from
-    the load backwards, forces follow from one linear system for the whole drive (statics of Book p. 129-150). Supports
-    without friction: what they take is small beside the torque, see `losses`. The couple of a joint of another kind
-    works on no motion that the joint allows; one that turns by a law without a Möbius map counts by the nearest map.
+    End shafts on which no support stands are held by their machines, where the drive has any supports. Rigid shafts
+    and crosses; Coulomb friction in the journals and splines where the drive gives it. Torques go from the load
+    backwards, forces follow from one linear system for the whole drive (statics of Book p. 129-150). Supports without
+    friction: what they take is small beside the torque, see `losses`. The couple of a joint of another kind works on no
+    motion that the joint allows; one that turns by a law without a Möbius map counts by the nearest map.
 
     Examples
     --------
@@ -74,9 +77,20 @@ def forces(
     >>> found.bending_couple[1].round(6)
     array([36.397023,  0.      ])
     """
+    with tables_proposed(drive) if isinstance(drive, Drive) else nullcontext():
+        return _forces(drive, duty, angle, movement)
+
+
+def _forces(
+    drive: Drive | Train,
+    duty: Duty | None,
+    angle: ArrayLike | None,
+    movement: Movement | Sequence[Movement] | Path | None,
+) -> Forces:
     if isinstance(drive, Drive):
         used = drive.duty if duty is None else duty
         refuse_kinds(drive, _("forces"), "forces")
+        drive = machine_held(drive)
         whole = train(drive, kinds=True)
         if drive.supports:
             check(mass_problems(drive))
@@ -126,34 +140,35 @@ def kinetostatics(
 
     Parameters
     ----------
-    whole : Train (...)
-        Points, masses and supports.
-    angle : array (p,) [rad]
-        φ_1 from the start position.
-    torque : float or array (...) or (..., p) [N·m]
-        Torque at the output, positive when it resists positive turning; or at the input, where it drives. The last
-        axis is that of the positions only where the array has one axis more than the drives.
-    torque_at : str
-        ``output`` or ``input``.
-    speed, acceleration : float or array (...) [rad/s, rad/s²]
-        ω_1, ε_1; without a speed no inertia counts.
-    harmonics : sequence of (order, amplitude, phase)
-        Swinging parts of the torque [1/turn, N·m, rad], by the angle of the shaft where it is given.
-    field : str
-        What an error about the supports names.
+        whole : Train (...)
+            Points, masses and supports.
+        angle : array (p,) [rad]
+            φ_1 from the start position.
+        torque : float or array (...) or (..., p) [N·m]
+            Torque at the output, positive when it resists positive turning; or at the input, where it drives. The last
+            axis is that of the positions only where the array has one axis more than the drives.
+        torque_at : str
+            ``output`` or ``input``.
+        speed, acceleration : float or array (...) [rad/s, rad/s²]
+            ω_1, ε_1; without a speed no inertia counts.
+        harmonics : sequence of (order, amplitude, phase)
+            Swinging parts of the torque [1/turn, N·m, rad], by the angle of the shaft where it is given.
+        field : str
+            What an error about the supports names.
 
     Returns
     -------
-    Forces
-        nan where friction locks a joint of a drive.
+        Forces
+            nan where friction locks a joint of a drive.
 
     Examples
     --------
-    >>> from cardan.drive.models.train import train_of_points
-    >>> many = train_of_points(np.asarray([[[0.0, 0, 0], [1, 0, 0], [2, 0, z]] for z in (0.0, 0.5)]))
-    >>> kinetostatics(many, np.zeros(1), torque=1.0).input_torque
-    array([[1.        ],
-           [1.11803399]])
+        >>> from cardan.drive.models.machine_held import machine_held, tables_proposed
+    from cardan.drive.models.train import train_of_points
+        >>> many = train_of_points(np.asarray([[[0.0, 0, 0], [1, 0, 0], [2, 0, z]] for z in (0.0, 0.5)]))
+        >>> kinetostatics(many, np.zeros(1), torque=1.0).input_torque
+        array([[1.        ],
+               [1.11803399]])
     """
     xp = namespace(whole.points, angle)
     place = place_of(whole)

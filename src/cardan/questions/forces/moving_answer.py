@@ -10,6 +10,7 @@ import numpy as np
 from cardan.answers.answer import FILE, Answer, Column, Remark, Table
 from cardan.answers.quantity import Quantity, Say, say
 from cardan.drive.drive import Drive
+from cardan.drive.models.machine_held import machine_held, machines_of
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
 from cardan.questions.motion.equivalence import WARN_JOINT_ANGLE
@@ -21,20 +22,21 @@ from .figures.moving_forces import moving_forces_figures
 from .force_tables import joint_heads, shaft_heads, support_heads
 from .moving_forces import MovingForces
 from .reactions import Held
-from .told import along_axis, curve, size, support_names, tidy
+from .told import along_axis, curve, held_by_machines, size, support_names, tidy
 
 __all__ = ["answer"]
 
 
 def answer(drive: Drive, result: MovingForces) -> Answer:
     """Return what there is to say of what a drive carries while it moves."""
+    machines, drive = machines_of(drive), machine_held(drive)
     return Answer(
         name="forces",
         title=_("Forces while the drive moves"),
         sentence=_sentence(drive, result),
         figures=lambda: moving_forces_figures(result, support_names(drive)),
         tables=tuple(_tables(drive, result)),
-        remarks=tuple(_remarks(result)),
+        remarks=(*held_by_machines(machines), *_remarks(result)),
         facts=_facts(drive, result),
         full=lambda: _trace(drive, result),
     )

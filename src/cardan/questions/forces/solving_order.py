@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cardan.drive.drive import Drive
+from cardan.drive.models.machine_held import machine_held
 from cardan.drive.models.train import place_of, train
 from cardan.maths.arrays import Array
 from cardan.maths.linear.redundant import RANK, surplus
@@ -40,7 +41,7 @@ def reaction_groups(drive: Drive) -> tuple[tuple[int, ...], ...]:
     """
     if not drive.supports:
         return ()
-    whole = train(drive, kinds=True)
+    whole = train(machine_held(drive), kinds=True)
     place = place_of(whole)
     turn = np.arange(LOOK) * (2.0 * np.pi / LOOK)
     stand = standing(whole.chain, place.axis, place.normal, turn, speed=1.0)

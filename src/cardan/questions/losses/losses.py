@@ -9,6 +9,7 @@ import numpy as np
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
+from cardan.drive.models.machine_held import machine_held
 from cardan.drive.movement import Movement
 from cardan.errors import Problem, check
 from cardan.formulas.friction import Turning, joint_friction
@@ -178,6 +179,7 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     0.994284, 180.6 W of 31.60 kW
     """
     chosen = drive.duty if duty is None else duty
+    drive = machine_held(drive)
     parts, uncounted = counted(drive, chosen, movement)
     model = model_of(drive, chosen, parts)
     locked = tuple(int(i) + 1 for i in np.flatnonzero(model.drag * np.tan(model.chain.joint_angle) >= 1.0))
@@ -260,6 +262,7 @@ def loss_map(
     """
     speeds, torques = _axes(drive, speed, torque)
     duty = replace(drive.duty, speed=float(speeds[0]), torque=drive.duty.torque or float(torques[0]))
+    drive = machine_held(drive)
     parts, uncounted = counted(drive, duty, movement)
     model = replace(model_of(drive, duty, parts), speed=speeds[:, None], torque=torques[None, :])
     check(

@@ -1,0 +1,150 @@
+"""Which shafts of a drive its machines hold, and the supports that are missing, as tables for its file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+from cardan.drive.drive import Drive
+from cardan.drive.fields.parts import known_lengths
+from cardan.drive.support import Support
+from cardan.errors import InputError
+from cardan.texts import _
+
+NEAR = 0.9
+"""Share of its length at which a shaft is proposed to have its centre bearing: before its second joint."""
+
+REACH = 0.1
+"""Distance [m] of the proposed bearings of an end shaft from its joint and from each other."""
+
+
+def machines_of(drive: Drive) -> tuple[int, ...]:
+    """Return the numbers of the end shafts that their machines hold, as no support of the drive stands on them.
+
+    Examples
+    --------
+    >>> from cardan import example
+    >>> machines_of(example("two-piece-rubber-bearing")), machines_of(example("truck-supports"))
+    ((1, 4), ())
+    """
+    stood = {one.shaft for one in drive.supports}
+    return tuple(number for number in (1, len(drive.shafts)) if number not in stood) if stood else ()
+
+
+def machine_held(drive: Drive) -> Drive:
+    """Return a drive with supports whose end shafts without any are held by their machines, at the joint.
+
+    Parameters
+    ----------
+    drive : Drive
+        Without supports it stays as it is.
+
+    Returns
+    -------
+    Drive
+        A machine holds its shaft sideways and against tilting; lengthwise too where no other axial support holds the
+        part of the drive up to the next sliding spline.
+
+    Examples
+    --------
+    >>> from cardan import example
+    >>> [(one.shaft, one.axial) for one in machine_held(example("two-piece-rubber-bearing")).supports]
+    [(2, False), (1, True), (4, True)]
+    """
+    made = list(drive.supports)
+    for number in machines_of(drive):
+        axial = not any(one.axial and _segment(drive, one) == _segment_of(drive, number) for one in made)
+        one = Support(name=_("machine"), shaft=number, position=0.0, axial=axial, tilt=True, bore=1e-3, friction=0.0)
+        made.append(one)
+    return replace(drive, supports=tuple(made))
+
+
+def _segment_of(drive: Drive, shaft: int) -> int:
+    """Return in which part of the drive, cut at its splines, an end shaft is."""
+    return 0 if shaft == 1 else sum(one.spline is not None for one in drive.shafts)
+
+
+def _segment(drive: Drive, support: Support) -> int:
+    """Return in which part of the drive, cut at its splines, a support stands."""
+    before = sum(one.spline is not None for one in drive.shafts[: support.shaft - 1])
+    spline = drive.shafts[support.shaft - 1].spline
+    if spline is None:
+        return before
+    cut = spline.position
+    if cut is None:
+        cut = 0.5 * known_lengths(drive).get(support.shaft, 0.0)
+    return before + int(support.position > cut)
+
+
+def proposed(drive: Drive) -> tuple[Support, ...]:
+    """Return supports that would hold a drive just enough, beside those it has.
+
+    Across, n joints need n + 2 bearings: two on each end shaft, one on a shaft between, before the joint behind it; one
+    that holds the slope counts twice. Each part of the drive between sliding splines needs one axial support.
+    """
+    known, count, found = known_lengths(drive), len(drive.shafts), list[Support]()
+    across = [one.shaft for one in machine_held(drive).supports for hold in (one.radial, one.tilt) if hold]
+    need = len(drive.joints) + 2 - len(across)
+    spare = len(drive.joints) - 2 - sum(1 < shaft < count for shaft in across)
+    for number in range(2, count):
+        if spare > 0 and number not in across:
+            place = round(NEAR * known.get(number, 1.0), 3)
+            found.append(Support(name=_("centre bearing"), shaft=number, position=place))
+            spare, need = spare - 1, need - 1
+    splined = [shaft.number for shaft in drive.shafts if shaft.spline is not None]
+    for segment, number in enumerate(splined[:-1], 1):
+        if any(one.axial and _segment(drive, one) == segment for one in drive.supports):
+            continue
+        inside = [k for k, one in enumerate(found) if _segment(drive, one) == segment]
+        if inside:
+            found[inside[0]] = replace(found[inside[0]], axial=True)
+        else:
+            place = round(NEAR * known.get(number, 1.0), 3)
+            found.append(Support(shaft=number, position=place, radial=False, axial=True))
+    for number, way in ((1, -1.0), (count, 1.0)):
+        own = [one for one in drive.supports if one.shaft == number]
+        if drive.supports and not own:
+            continue
+        for k in range(max(0, min(need, 2 - across.count(number)))):
+            place = max((abs(one.position) for one in own), default=0.0) + (k + 1) * REACH
+            found.append(Support(shaft=number, position=way * round(place, 3)))
+            need -= 1
+        segment = _segment_of(drive, number)
+        if any(one.axial and _segment(drive, one) == segment for one in (*drive.supports, *found)):
+            continue
+        ends = [k for k, one in enumerate(found) if one.shaft == number]
+        if ends:
+            found[ends[0]] = replace(found[ends[0]], axial=True)
+        elif own:
+            found.append(Support(shaft=number, position=own[0].position, radial=False, axial=True))
+    return tuple(sorted(found, key=lambda one: (one.shaft, abs(one.position))))
+
+
+def tables_of(supports: Iterable[Support]) -> str:
+    """Return supports as tables to paste into a drive file.
+
+    Examples
+    --------
+    >>> print(tables_of([Support(shaft=2, position=0.62)]))
+    [[supports]]
+    shaft = 2
+    position_mm = 620
+    """
+    texts = []
+    for one in supports:
+        lines = ["[[supports]]", f'name = "{one.name}"' if one.name else "", f"shaft = {one.shaft}"]
+        lines += [f"position_mm = {1e3 * one.position:.6g}", "" if one.radial else "radial = false"]
+        texts.append("\n".join(line for line in [*lines, "axial = true" if one.axial else ""] if line))
+    return "\n\n".join(texts)
+
+
+@contextmanager
+def tables_proposed(drive: Drive) -> Iterator[None]:
+    """Give an error about the supports the tables that would hold the drive."""
+    try:
+        yield
+    except InputError as error:
+        tables = tables_of(proposed(drive))
+        named = [replace(one, paste=tables) if one.field == "supports" else one for one in error.problems]
+        raise InputError(named, where=error.where) from None
