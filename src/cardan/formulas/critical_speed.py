@@ -42,10 +42,6 @@ SEPARATION = 0.2
 """Share of a critical speed to either side of it in which no speed is held: beyond it the mode amplifies an unbalance,
 r²/|1 - r²|, 3.3 times at most whatever its damping."""
 
-LOSS = {"shaft": 0.01, "support": 0.1}
-"""Loss factor η = 2ζ that a mode counts with where nothing says more: bending of steel shafts with their joints and
-splines; a bearing in natural rubber."""
-
 EDGE = 1e-12
 """Speeds that differ by less than this share are the same: turning units into each other rounds them."""
 

@@ -18,7 +18,7 @@ from cardan.drive.duty import Block, Duty
 from cardan.drive.material import Material
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
-from cardan.formulas.critical_speed import LOSS
+from cardan.formulas.damping import LOSS
 from cardan.formulas.run_up import passing_time, run_up
 from cardan.questions.bending.answer import answer
 from cardan.questions.bending.bending import Running, bending_speeds

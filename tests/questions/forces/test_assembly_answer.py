@@ -94,6 +94,7 @@ def test_parts_that_fit_load_nothing():
 
 def test_a_stiffness_that_other_questions_ask_for_says_nothing_of_assembly():
     loose = replace(PUMP, supports=tuple(replace(one, offset=(0.0, 0.0, 0.0)) for one in PUMP.supports[:1]))
+    loose = replace(loose, supports=(*loose.supports, Support(shaft=2, position=0.1)))
     assert ask(loose) is None
     assert "do not hold the whole drive" in otherwise(loose)
     assert lacking(loose) == ()

@@ -67,7 +67,9 @@ def test_what_is_met_in_the_operating_range_is_an_alarm() -> None:
     said = answer_of_modes(low, found)
     assert [tone for tone, _text in alarms(said)] == ["failed", "warning"]
     assert modes_said(low, found)[0] == "failed"
-    assert "mode 1 is parametrically unstable in the operating range." in told(said.sentence, USUAL)
+    assert "mode 1 is parametrically unstable in the operating range, stable from a damping 2ζ of 2.6" in told(
+        said.sentence, USUAL
+    )
     assert said.tables[0].tones[0] == "failed"
 
 

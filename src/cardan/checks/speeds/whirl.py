@@ -20,7 +20,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.paths import place, with_values
 from cardan.errors import InputError
-from cardan.formulas.critical_speed import LOSS
+from cardan.formulas.damping import LOSS
 from cardan.maths.arrays import Array
 from cardan.questions.bending.bending import SPLINED, bending_speeds, passing
 from cardan.texts import _

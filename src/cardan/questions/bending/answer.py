@@ -14,7 +14,8 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
-from cardan.formulas.critical_speed import ARTICLE, CATALOGUE, LOSS
+from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
+from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
 
 from .bending import CriticalSpeeds, Part, Running

@@ -13,7 +13,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.errors import refuse
-from cardan.formulas.critical_speed import HALF_BAND, LOSS, SEPARATION, Margin, speed_margin, uniform_speed
+from cardan.formulas.critical_speed import HALF_BAND, SEPARATION, Margin, speed_margin, uniform_speed
+from cardan.formulas.damping import LOSS
 from cardan.formulas.run_up import passing_time
 from cardan.maths.arrays import Array
 from cardan.maths.linear.modes import Modes, strain, synchronous

@@ -48,11 +48,14 @@ def ask(drive: Drive) -> Torsion:
 
 def answer(drive: Drive, result: Torsion) -> Answer:
     """Return what there is to say of the torsional vibration of a drive."""
-    modes = replace(answer_of_modes(drive, result.modes), name="torsion", title=_("Torsional vibration"))
+    exact = result.running is not None and drive.duty.speed_range is None
+    stable = exact and result.running is not None and bool(result.running.floquet.stable)
+    modes = answer_of_modes(drive, result.modes, stable=stable)
+    modes = replace(modes, name="torsion", title=_("Torsional vibration"))
     if result.running is None:
         return modes
     running = answer_of_running(drive, result.running)
-    tone, said = modes_said(drive, result.modes)
+    tone, said = modes_said(drive, result.modes, stable=stable)
     return replace(
         modes,
         sentence=Joined([said, running.sentence], between="; "),

@@ -23,7 +23,7 @@ J, C = 0.5, 2000.0
 OWN = np.sqrt(C / J)
 PUSHED = replace(
     Drive.from_angles([0.0]),
-    shafts=(Shaft(number=2, stiffness=C),),
+    shafts=(Shaft(number=2, stiffness=C, damping=0.0),),
     stations=(Station(shaft=2, name="pump", end="end", inertia=J),),
     duty=Duty(speed_range=(0.3 * OWN, 0.8 * OWN), torques=(HarmonicTorque(amplitude=1.0, order=2.0, station="pump"),)),
 )

@@ -57,7 +57,7 @@ def test_a_tube_has_the_stiffness_and_half_the_inertia_at_either_end() -> None:
     assert found.model.inertia == pytest.approx([1.0, half, half, 2.0])
     assert found.model.names == ("engine", "joint 1, driven yoke", "joint 2, driving yoke", "mill")
     assert found.joints == ((0, 1), (2, 3))
-    assert set(found.assumed) >= {"shafts[0].stiffness", "shafts[1].material", "shafts[1].damping"}
+    assert set(found.assumed) >= {"shafts[0].stiffness", "shafts[1].material", "shafts[1].loss_factor"}
 
 
 def test_stretches_splines_and_parts_are_in_their_places() -> None:

@@ -39,7 +39,9 @@ def test_a_settled_start_stays_settled(free: bool) -> None:
 
 def test_a_load_step_on_a_straight_shaft_swings_to_twice_its_torque() -> None:
     straight = replace(
-        LINE, joints=(replace(LINE.joints[0], joint_angle=0.0),), shafts=(Shaft(number=1, stiffness=1000.0),)
+        LINE,
+        joints=(replace(LINE.joints[0], joint_angle=0.0),),
+        shafts=(Shaft(number=1, stiffness=1000.0, damping=0.0),),
     )
     found = transient(straight, span=0.1, method=ROUGH)
     assert found.motion.extremes.torque_high == pytest.approx([120.0], rel=1e-6)
@@ -48,7 +50,7 @@ def test_a_load_step_on_a_straight_shaft_swings_to_twice_its_torque() -> None:
 
 def test_what_swings_fast_to_the_end_goes_in_fixed_steps() -> None:
     """A thousand swings without damping: M (1 - cos ωt), with ω = 5000 rad/s."""
-    stiff = Shaft(number=1, stiffness=5000.0**2 * 0.4)
+    stiff = Shaft(number=1, stiffness=5000.0**2 * 0.4, damping=0.0)
     straight = replace(LINE, joints=(replace(LINE.joints[0], joint_angle=0.0),), shafts=(stiff,))
     found = transient(straight, span=1.2)
     assert found.motion.method == "fixed steps"

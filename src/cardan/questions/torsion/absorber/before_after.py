@@ -11,6 +11,7 @@ from cardan.answers.answer import Column, Remark
 from cardan.answers.quantity import Joined, Quantity, Say, say
 from cardan.answers.question import Lacking, absent
 from cardan.drive.drive import Drive
+from cardan.formulas.damping import LOSS, SHAFT_SOURCE
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -97,6 +98,10 @@ def cautions(found: Any) -> Iterator[Remark]:
         yield Remark(text=_("Warning: the search was stopped; this is the best so far."), tone="warning")
     elif not found.converged:
         yield Remark(text=_("Warning: the search had not converged; this is the best so far."), tone="warning")
+    if any(path.endswith(".loss_factor") for path in found.assumed):
+        text = _("Without any damping in the file shafts have η = {loss}: {source}; it sets the height of the peaks.")
+        loss = Quantity(LOSS["shaft"], digits=2, trim=True)
+        yield Remark(text=say(text, loss=loss, source=_(SHAFT_SOURCE)))
     undamped = [path.removesuffix(".damping") for path in found.assumed if path.endswith(".damping")]
     if undamped:
         text = _("Assumed: no damping in {paths}; give damping or loss_factor, which set the height of the peaks.")

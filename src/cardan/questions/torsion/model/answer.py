@@ -47,24 +47,34 @@ def lacking(drive: Drive) -> Lacking:
     return absent((some, "stations", "shafts[1].stiffness"))
 
 
-def answer(drive: Drive, result: TorsionModes) -> Answer:
-    """Return what there is to say of the torsional modes of a drive."""
-    tone, said = modes_said(drive, result)
+def answer(drive: Drive, result: TorsionModes, *, stable: bool = False) -> Answer:
+    """Return what there is to say of the torsional modes of a drive.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    result : TorsionModes
+        Its modes.
+    stable : bool
+        Whether its exact equations are known to be stable at the only speed in use: they overrule the zones.
+    """
+    tone, said = modes_said(drive, result, stable=stable)
     return Answer(
         name="torsion-modes",
         title=_("Torsional modes"),
         sentence=Joined([said, "."], between=""),
         tone=tone,
         figures=lambda: modes_figures(result),
-        tables=tuple(_tables(drive, result)),
+        tables=tuple(_tables(drive, result, stable)),
         remarks=tuple(_remarks(drive, result)),
         keys=tuple(_keys(result)),
-        facts=_facts(result),
+        facts=_facts(result, _used(drive)),
         full=lambda: _everything(result),
     )
 
 
-def modes_said(drive: Drive, found: TorsionModes) -> tuple[Tone, Text]:
+def modes_said(drive: Drive, found: TorsionModes, *, stable: bool = False) -> tuple[Tone, Text]:
     """Return what the modes come to, without the full stop, and how good that is."""
     text = _(
         "the first torsional natural frequency is {frequency}; joints excite it at {second} (order 2) and at "
@@ -76,18 +86,20 @@ def modes_said(drive: Drive, found: TorsionModes) -> tuple[Tone, Text]:
         second=_speed(found.order2_speed[0], 3),
         principal=_speed(found.parametric_speed[0], 3),
     )
-    tone, more = _judged(drive, found)
+    tone, more = _judged(drive, found, stable)
     return tone, Joined([first, more], between="; ")
 
 
-def _judged(drive: Drive, found: TorsionModes) -> tuple[Tone, Text]:
+def _judged(drive: Drive, found: TorsionModes, stable: bool) -> tuple[Tone, Text]:
     """Return what that means for the operating range, nothing where there is none."""
     used = _used(drive)
     if used is None:
         return "plain", ""
-    if growing := _unstable(found, used):
-        text = _("mode {mode} is parametrically unstable in the operating range")
-        return "failed", say(text, mode=growing[0] + 1)
+    if (growing := _unstable(found, used)) and not stable:
+        text = _(
+            "mode {mode} is parametrically unstable in the operating range, stable from a damping 2ζ of {least} on"
+        )
+        return "failed", say(text, mode=growing[0] + 1, least=_share(found.least_loss(used)[growing[0]]))
     reach = used[0] * (1.0 - NEAR), used[1] * (1.0 + NEAR)
     if near := _unstable(found, reach):
         text = _("mode {mode} is parametrically unstable from {low:bare} to {high}, near the operating range")
@@ -107,6 +119,10 @@ def _speed(value: float, digits: int = 4) -> Quantity:
     return Quantity(float(value), "angular_speed", digits)
 
 
+def _share(value: float) -> Quantity:
+    return Quantity(float(value), "share", 2)
+
+
 def _used(drive: Drive) -> tuple[float, float] | None:
     """Return lowest and highest speed in use [rad/s]."""
     if drive.duty.speed_range is not None:
@@ -119,17 +135,17 @@ def _unstable(found: TorsionModes, used: tuple[float, float]) -> list[int]:
     return [k for k, zone in enumerate(found.zone) if zone[0] <= used[1] and used[0] <= zone[1]]
 
 
-def _tables(drive: Drive, found: TorsionModes) -> Iterator[Table]:
-    yield _mode_table(drive, found)
+def _tables(drive: Drive, found: TorsionModes, stable: bool) -> Iterator[Table]:
+    yield _mode_table(drive, found, stable)
     yield _joint_table(drive, found)
     yield _shape_table(found)
     if found.crossings:
         yield _crossing_table(found)
 
 
-def _mode_table(drive: Drive, found: TorsionModes) -> Table:
+def _mode_table(drive: Drive, found: TorsionModes, stable: bool) -> Table:
     count, used = min(SHOWN, len(found.omega)), _used(drive)
-    grows = [] if used is None else _unstable(found, used)
+    grows = [] if used is None or stable else _unstable(found, used)
     low, high = ([None if one != one else one for one in column] for column in found.zone[:count].T.tolist())
     return Table(
         title=_("Natural frequencies, all joints straight"),
@@ -140,6 +156,7 @@ def _mode_table(drive: Drive, found: TorsionModes) -> Table:
             Column(key="", heading=_("parametric"), values=found.parametric_speed[:count], dimension="angular_speed"),
             Column(key="", heading=_("modulation"), values=found.modulation[:count], dimension="share", digits=3),
             Column(key="", heading="2ζ", values=2.0 * found.damping_ratio[:count], dimension="share", digits=3),
+            *_least_column(found, used, count),
             Column(key="", heading=_("unstable from"), values=low, dimension="angular_speed"),
             Column(key="", heading=_("to"), values=high, dimension="angular_speed"),
         ),
@@ -149,6 +166,14 @@ def _mode_table(drive: Drive, found: TorsionModes) -> Table:
             "exceeds the damping 2ζ (parametric resonance)."
         ),
     )
+
+
+def _least_column(found: TorsionModes, used: tuple[float, float] | None, count: int) -> Iterator[Column]:
+    """Yield the damping from which each mode is stable in the operating range, where one would be unstable without."""
+    least = None if used is None else found.least_loss(used)[:count]
+    if least is not None and np.any(least > 0.0):
+        values = [float(one) if one > 0.0 else None for one in least]
+        yield Column(key="", heading=_("stable from 2ζ"), values=values, dimension="share", digits=2)
 
 
 def _mode_columns(values: np.ndarray) -> list[Column]:
@@ -215,11 +240,25 @@ def _remarks(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
         text = _('The input is held at uniform speed, a node of every mode; input = "free" lets it vibrate.')
         yield Remark(text=text)
     yield from assumptions(found.train)
+    yield from _enough(drive, found)
     text = _("Checked: the torques of every mode balance {closely}.")
     yield Remark(text=text.format(closely=closely(found.residual)), depth="full")
     yield Remark(
         text=_("Alternating torques at a speed:"), command=("cardan", "torsion", "response", FILE), tone="next"
     )
+
+
+def _enough(drive: Drive, found: TorsionModes) -> Iterator[Remark]:
+    """Yield the least damping of modes that it alone keeps stable in the operating range."""
+    used = _used(drive)
+    if used is None:
+        return
+    grows, least = _unstable(found, used), found.least_loss(used)
+    for k in np.flatnonzero(least[:SHOWN] > 0.0).tolist():
+        if k not in grows:
+            text = _("In the operating range mode {mode} is stable from a damping 2ζ of {least} on; it has {own}.")
+            own = _share(2.0 * found.damping_ratio[k])
+            yield Remark(text=say(text, mode=k + 1, least=_share(least[k]), own=own))
 
 
 def _alarms(found: TorsionModes) -> Iterator[Remark]:
@@ -285,7 +324,7 @@ def _everything(found: TorsionModes) -> Table:
     )
 
 
-def _facts(found: TorsionModes) -> dict[str, Any]:
+def _facts(found: TorsionModes, used: tuple[float, float] | None) -> dict[str, Any]:
     train, model = found.train, found.train.model
     stations, springs = train.station_names, np.asarray(model.stiffness)
     return {
@@ -310,14 +349,15 @@ def _facts(found: TorsionModes) -> dict[str, Any]:
             }
             for e, (a, b) in enumerate(model.elements)
         ],
-        "modes": [_mode(found, k) for k in range(len(found.omega))],
+        "modes": [_mode(found, k, used) for k in range(len(found.omega))],
         "crossings": [_crossing(one) for one in found.crossings],
         "residual": found.residual,
         "assumed": train.assumed,
     }
 
 
-def _mode(found: TorsionModes, k: int) -> dict[str, Any]:
+def _mode(found: TorsionModes, k: int, used: tuple[float, float] | None) -> dict[str, Any]:
+    least = None if used is None else float(found.least_loss(used)[k])
     return {
         "number": k + 1,
         "frequency": Quantity(float(found.omega[k]), "frequency"),
@@ -328,6 +368,7 @@ def _mode(found: TorsionModes, k: int) -> dict[str, Any]:
         "modulation": float(found.modulation[k]),
         "damping_ratio": float(found.damping_ratio[k]),
         "zone": Quantity(found.zone[k], "angular_speed"),
+        "least_loss_factor": least,
         "nodes": Quantity([node.position for node in found.nodes[k]], "length"),
     }
 

@@ -144,6 +144,16 @@ class TorsionModes:
         found: Array = self.omega[:, None] * (1.0 + half[:, None] * np.asarray([-1.0, 1.0]))
         return found
 
+    def least_loss(self, used: tuple[float, float]) -> Array:
+        """Return the loss factor 2ζ from which each mode is stable at all of some input speeds, array (m,).
+
+        To first order in the modulation, as `zone`: 2ζ = √((q/a)² - 4 (Ω/ω - 1)²) at the speed nearest to ω; 0 where it
+        is stable without any damping.
+        """
+        near = np.clip(self.omega, *used)
+        found: Array = np.sqrt(np.maximum(self.modulation**2 - 4.0 * (near / self.omega - 1.0) ** 2, 0.0))
+        return found
+
     @property
     def growth_rate(self) -> Array:
         """How fast each mode grows amid its principal zone, array (m,) [1/s]; negative where it dies out."""

@@ -6,6 +6,7 @@ it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -20,6 +21,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.drive.models.geometry import geometry
 from cardan.errors import Problem, check, refuse
+from cardan.formulas.damping import LOSS
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.questions.motion.motion import initial_phases
 from cardan.texts import _
@@ -55,6 +57,8 @@ class TorsionalTrain:
         Where on their shafts the stations are that only part its body; None for all others.
     to_scale : bool
         Whether the positions follow from lengths that the drive gives; else some shafts are as long as others.
+    usual_loss : float
+        Loss factor that every shaft counts with, as the drive says no damping anywhere; 0 where it says some.
     """
 
     model: TorsionalModel
@@ -65,6 +69,7 @@ class TorsionalTrain:
     assumed: tuple[str, ...]
     cuts: tuple[float | None, ...]
     to_scale: bool = True
+    usual_loss: float = 0.0
 
     @property
     def station_names(self) -> tuple[Text, ...]:
@@ -146,7 +151,8 @@ def torsional_train(
     A body is a tube with G I_p/L between its stations and half its inertia at each end of every stretch. Joint angles
     and phase angles are those of `motion`, so that a rigid drive turns exactly as there. A pendulum counts as the
     absorber it equals at the speed: J = m (R+l)², stiffness J Ω² R/l. A damper without spring is held in place by one
-    too soft to matter, 10⁻⁵ of its drag at order 2.
+    too soft to matter, 10⁻⁵ of its drag at order 2. A drive that says no damping anywhere has the loss factor of steel
+    shafts, `cardan.formulas.damping.LOSS`; ``damping = 0`` of a shaft says that there is none.
 
     Examples
     --------
@@ -172,6 +178,7 @@ def torsional_train(
     lines = [shaft_line(drive, shaft, pieces, problems) for shaft in drive.shafts]
     lines = [lines[0], *(_softened(line, joint) for line, joint in zip(lines[1:], drive.joints, strict=True))]
     base = _joined(drive, lines, joint_angles)
+    base = _usually_damped(drive, base)
     base = _with_branches(drive, base, lines, turning, problems)
     problems += _empty_problems(base.model)
     check(problems)
@@ -185,6 +192,19 @@ def torsional_train(
         ends = [start + len(line.inertia) - 1 for line, start in _starts(lines)]
         model = replace(model, torques=machine_torques(drive, asked, named, last, ends, speed=turning, free=free))
     return replace(base, model=model)
+
+
+def _usually_damped(drive: Drive, bare: TorsionalTrain) -> TorsionalTrain:
+    """Return the model with the loss factor of steel shafts where the drive says no damping anywhere, not even none."""
+    given = [one for part in drive.shafts for one in (part.damping, part.loss_factor)]
+    behind = [part.to_next for part in drive.stations if part.to_next is not None]
+    given += [one for part in behind for one in (part.damping, part.loss_factor)]
+    model = bare.model
+    if any(one is not None for one in given) or np.any(model.damping) or np.any(model.ground_damping):
+        return bare
+    loss = np.where(np.asarray(model.stiffness) > 0.0, LOSS["shaft"], 0.0)
+    assumed = tuple(re.sub(r"\.damping$", ".loss_factor", path) for path in bare.assumed)
+    return replace(bare, model=replace(model, loss_factor=loss), assumed=assumed, usual_loss=LOSS["shaft"])
 
 
 def _softened(line: ShaftLine, joint: Joint) -> ShaftLine:

@@ -8,6 +8,7 @@ import numpy as np
 
 from cardan.answers.answer import Remark
 from cardan.answers.quantity import Joined, Quantity, Text, listed, say
+from cardan.formulas.damping import SHAFT_SOURCE
 from cardan.maths.arrays import ArrayLike
 from cardan.texts import _
 
@@ -36,6 +37,9 @@ def assumptions(train: TorsionalTrain) -> Iterator[Remark]:
     for kind, numbers in found.items():
         word = _("shaft") if len(numbers) == 1 else _("shafts")
         texts.append(kinds[kind].format(shafts=f"{word} {listed(numbers)}"))
+    if train.usual_loss:
+        text = _("Without any damping in the file shafts have η = {loss}: {source}; damping or loss_factor changes it.")
+        yield Remark(text=say(text, loss=Quantity(train.usual_loss, digits=2, trim=True), source=_(SHAFT_SOURCE)))
     if "duty.motor" in train.assumed:
         texts.append(_("driven by a constant torque that equals what resists at the start"))
     if texts:

@@ -15,6 +15,7 @@ from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.drive import Drive
 from cardan.drive.models.chain import given_chain
 from cardan.errors import refuse
+from cardan.formulas.damping import LOSS
 from cardan.questions.torsion.model.answer import lacking as lacking_modes
 from cardan.questions.torsion.model.torsional_train import torsional_train
 from cardan.questions.torsion.model.wording import assumptions, ranges
@@ -126,7 +127,8 @@ def _point(found: Stability) -> tuple[Tone, Text]:
         text = _("unstable at {speed}: vibration grows tenfold in {time} ({zone}, order {order}).")
         digits = 3 if int(found.kind) == Kind.COMBINATION else 6
         order = Quantity(float(found.order), digits=digits, trim=True)
-        return "failed", say(text, speed=speed, time=time, zone=found.zone.name(), order=order)
+        said: Text = say(text, speed=speed, time=time, zone=found.zone.name(), order=order)
+        return "failed", said
     if verdict == Verdict.NEUTRAL:
         return "warning", say(_("neutral at {speed}: vibration neither grows nor decays."), speed=speed)
     return "good", say(_("stable at {speed}: vibration decays to a tenth in {time}."), speed=speed, time=time)
@@ -200,6 +202,15 @@ def _remarks(found: Stability, axes: tuple[MapAxis, ...], *, signs: bool) -> Ite
     if not axes and int(found.verdict) == Verdict.STABLE and np.isfinite(found.zone.speed):
         text = _("The nearest zone of instability is the {zone}, at {speed}.")
         yield Remark(text=say(text, zone=found.zone.name(), speed=_speed(found.zone.speed)))
+    if not axes and found.least_loss > 0.0:
+        text = _("Stable from a loss factor of the shafts of {least} on; steel shaft lines have {usual} and more.")
+        if np.any(found.train.model.damping):
+            text = _(
+                "Stable from a loss factor of the shafts of {least} on, beside its dampers; steel shaft lines have "
+                "{usual} and more."
+            )
+        least, usual = (Quantity(one, "share", 2) for one in (found.least_loss, LOSS["shaft"]))
+        yield Remark(text=say(text, least=least, usual=usual))
     if not axes and int(found.verdict) == Verdict.UNSTABLE:
         text = _(
             "What helps: another speed, smaller joint angles, a joint nearer to the node of the mode, more damping."
@@ -257,6 +268,7 @@ def _facts(found: Stability) -> dict[str, Any]:
         "order": found.order,
         "nearest_zone": [found.zone.name(index) for index in np.ndindex(found.verdict.shape)],
         "nearest_zone_speed": Quantity(found.zone.speed, "angular_speed"),
+        "least_loss_factor": found.least_loss,
         "cancelled": found.cancelled,
         "assumed": found.train.assumed,
     }

@@ -18,7 +18,7 @@ from cardan.questions.torsion.model.torsional_batch import chosen as some_of
 from cardan.questions.torsion.model.torsional_model import TorsionalModel
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, chained
 from cardan.questions.torsion.steady.run_stability import Verdict, Zone
-from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, parted
+from cardan.questions.torsion.steady.torsion_response import Progress, loaded_model, parted, zone_order
 from cardan.texts import _
 from cardan.units import deg
 
@@ -32,6 +32,9 @@ MOST = 1_000_000
 
 JOINT_ANGLE = "joint_angle_deg"
 """Stands for the joint angle of the most bent joint, the others in proportion."""
+
+RANGE, TRIALS, ROUNDS = (1e-5, 1.0), 11, 3
+"""Loss factors among which the least is looked for, how many at a time, and how often."""
 
 PACE = 0.001
 """Seconds that a point of a map takes, about."""
@@ -69,6 +72,9 @@ class Stability:
         Whether the work was stopped; what was not done is unknown.
     units : tuple of (str, str)
         Dimension and unit of the values on every axis, empty where they have none.
+    least_loss : float
+        Loss factor of all shafts from which the drive is stable at its point, on top of its dampers; 0 where these are
+        enough; nan over a map, and where no motion was found.
     """
 
     over: tuple[tuple[str, Array], ...]
@@ -84,6 +90,7 @@ class Stability:
     here: tuple[tuple[str, float], ...] = ()
     cancelled: bool = False
     units: tuple[tuple[str, str], ...] = ()
+    least_loss: float = float("nan")
 
     @property
     def stable(self) -> Array:
@@ -168,7 +175,9 @@ def stability(
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = {name: values.reshape((*shape, *values.shape[1:])) for name, values in found.items()}
     zone = Zone(**{name.removeprefix("zone_"): found.pop(name) for name in list(found) if name.startswith("zone_")})
+    least = float("nan") if axes or int(found["verdict"]) == Verdict.UNKNOWN else _least_loss(variants)
     return Stability(
+        least_loss=least,
         over=axes,
         train=variants.train,
         zone=zone,
@@ -177,6 +186,33 @@ def stability(
         units=variants.units,
         **found,
     )
+
+
+def _least_loss(variants: _Variants) -> float:
+    """Return the loss factor of all shafts from which the drive is stable at its own point; nan where none is enough.
+
+    Its place is narrowed down between two loss factors of which the smaller is not stable, ten at a time.
+    """
+    train, speed = variants.train, variants.speeds[:1]
+    order = float(zone_order(train.model, speed)[0])
+    model = replace(train.model, loss_factor=np.zeros_like(train.model.loss_factor))
+
+    def stable(loss: Array) -> Array:
+        viscous = model.damping + loss[:, None] * model.stiffness / (order * abs(speed[0]))
+        damped, speeds = replace(model, damping=viscous), np.full(len(loss), speed[0])
+        damped = damped if model.free else replace(damped, input_speed=speeds)
+        return np.asarray(floquet_map(parted(damped)[0], speed=speeds).floquet.verdict) <= Verdict.NEUTRAL
+
+    trial = np.concatenate(([0.0], np.geomspace(*RANGE, TRIALS)))
+    for _round in range(ROUNDS):
+        kept = stable(trial)
+        if kept[0] and trial[0] == 0.0:
+            return 0.0
+        if not kept.any():
+            return float("nan")
+        first = int(np.argmax(kept))
+        trial = np.linspace(trial[first - 1], trial[first], TRIALS)
+    return float(trial[int(np.argmax(stable(trial)))])
 
 
 def _judged(model: TorsionalModel, speed: Array, progress: Progress | None) -> tuple[dict[str, Array], bool]:
@@ -280,7 +316,7 @@ class _Variants:
         for key in np.unique(keys, axis=0):
             rows = np.flatnonzero(np.all(keys == key, axis=-1))
             drive = self._variant(key)
-            _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces)
+            _train, model = loaded_model(drive, drive.duty, speed[rows], pieces=self.pieces, disturbed=True)
             if self.bending is not None:
                 largest = float(self.axes[self.bending][1][key[self.others.index(self.bending)]])
                 model = _bent(drive, model, largest * deg)

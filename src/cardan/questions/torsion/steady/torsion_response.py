@@ -17,11 +17,12 @@ from cardan.maths.periodic.harmonics import HarmonicBalance
 from cardan.maths.periodic.switching_orbit import Shooting
 from cardan.questions.torsion.model.torques import Swinging, base_period
 from cardan.questions.torsion.model.torsional_model import Torque, TorsionalModel
+from cardan.questions.torsion.model.torsional_modes import straight_modes
 from cardan.questions.torsion.model.torsional_train import TorsionalTrain, in_time, torsional_train
 from cardan.questions.torsion.model.torsional_waves import straight_waves
 from cardan.texts import _
 
-from .run_stability import Floquet, floquet
+from .run_stability import Floquet, floquet, nearest_zone
 from .steady import periodic_response
 from .steady_result import SteadyResponse
 
@@ -151,8 +152,9 @@ def torsion_response(
 
     Notes
     -----
-    Exact equations of motion with their periodic solution; structural damping counts as viscous, b = ηc/(2Ω), equal at
-    order 2. See `steady.periodic_response` and `stability.floquet`.
+    Exact equations of motion with their periodic solution. Structural damping counts as viscous, b = ηc/(2Ω), equal at
+    order 2; for the stability it is equal at the order at which disturbances vibrate, 1 in principal zones. See
+    `steady.periodic_response` and `run_stability.floquet`.
 
     Examples
     --------
@@ -169,7 +171,8 @@ def torsion_response(
     train, model = loaded_model(drive, chosen, speeds, pieces=pieces)
     model, loose = parted(model)
     steady = periodic_response(model, speed=speeds, method=method, progress=_scaled(progress, 0.0, SHARE))
-    verdict = floquet(steady)
+    slow = parted(loaded_model(drive, chosen, speeds, pieces=pieces, disturbed=True)[1])[0]
+    verdict = floquet(replace(steady.orbit, model=slow) if np.any(train.model.loss_factor) else steady)
     if progress is not None:
         progress(1.0)
     return TorsionResponse(
@@ -221,8 +224,13 @@ def _speeds(duty: Duty, speed: ArrayLike | None) -> ArrayLike:
     return float(duty.speed or 0.0) if speed is None else speed
 
 
-def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) -> tuple[TorsionalTrain, TorsionalModel]:
+def loaded_model(
+    drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1, disturbed: bool = False
+) -> tuple[TorsionalTrain, TorsionalModel]:
     """Return the model of a drive under its duty at input speeds, one or (s,), and the train of the first of them.
+
+    Structural damping counts as viscous, equal at order 2; for disturbances at that of the zone of parametric resonance
+    nearest to the speed, at which they vibrate.
 
     Raises
     ------
@@ -246,7 +254,15 @@ def loaded_model(drive: Drive, duty: Duty, speeds: Array, *, pieces: int = 1) ->
         raise refuse("shafts[0].stiffness", text)
     if not model.free:
         model = replace(model, input_speed=speeds)
-    return train, in_time(model, 2.0 * np.abs(speeds))
+    return train, in_time(model, (zone_order(train.model, speeds) if disturbed else 2.0) * np.abs(speeds))
+
+
+def zone_order(model: TorsionalModel, speeds: Array) -> Array:
+    """Return the order at which disturbances vibrate in the nearest zone of one mode or a sum of two, as the speeds."""
+    flat = np.abs(speeds.reshape(-1))
+    omega = straight_modes(replace(model, torques=())).omega
+    zone = nearest_zone(np.broadcast_to(omega, (len(flat), len(omega))), flat, np.full(len(flat), -1))
+    return np.where(np.isfinite(zone.speed), zone.multiple, 2.0).reshape(speeds.shape)
 
 
 def _timed(duty: Duty) -> Iterator[Problem]:
