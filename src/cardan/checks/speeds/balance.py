@@ -11,6 +11,7 @@ from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.strength.section import modulus, sections
 from cardan.checks.verdict import Verdict
+from cardan.drive.yokes import with_yokes
 from cardan.maths.arrays import Array
 from cardan.questions.bending.balance import SLOW, allowed_unbalance
 from cardan.texts import _, mark
@@ -60,7 +61,6 @@ def _judge(design: Design, k: int) -> Iterator[Verdict]:
 
 def _mass(design: Design, k: int) -> Array | None:
     """Return the mass of a shaft with the parts it carries [kg]; None where the drive does not say it."""
-    shaft = design.drive.shafts[k]
     given = design.value(f"shafts[{k}].mass")
     if given is None:
         body = list(sections(design, k))
@@ -70,7 +70,7 @@ def _mass(design: Design, k: int) -> Array | None:
             0.25 * np.pi * np.asarray(modulus(design, one, "density")) * (one.outer**2 - one.inner**2) * one.length
             for one in body
         )
-    mass: Array = np.asarray(given) + sum(lump.mass for lump in shaft.masses)
+    mass: Array = np.asarray(given) + sum(lump.mass for lump in with_yokes(design.drive).shafts[k].masses)
     return mass if np.all(mass > 0.0) else None
 
 

@@ -153,6 +153,9 @@ class Joint:
         choices=("new", "run_in"),
     )
     backlash: float = quantity("angle", 0.0, doc="whole angular play, as its driving shaft feels it", low=0.0)
+    mass: float | None = quantity(
+        "mass", None, doc="mass of the joint, its cross and both yokes; that of its size when not given", above=0.0
+    )
     cross: Cross | None = plain(None, doc="cross of the joint")
     needles: Needles | None = plain(None, doc="needle bearings of the cross")
     yoke: Yoke | None = plain(None, doc="yokes of the joint")

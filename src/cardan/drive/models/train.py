@@ -16,6 +16,7 @@ from cardan.drive.fields.parts import known_lengths
 from cardan.drive.joints import Joint
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
+from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -209,6 +210,7 @@ def train(drive: Drive, *, kinds: bool = False) -> Train:
     >>> train(replace(Drive.from_angles([0.1, 0.1]), shafts=(tube,))).mass.round(3)
     array([0.   , 3.354, 0.   ])
     """
+    drive = with_yokes(drive)
     place = geometry(drive)
     known = known_lengths(drive)
     if drive.supports:

@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import MODES, OutputColumn, SweepQuestion, each, first
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
+from cardan.drive.yokes import unweighed
 from cardan.formulas.critical_speed import ARTICLE, CATALOGUE
 from cardan.formulas.damping import LOSS
 from cardan.texts import _, mark, plural
@@ -284,6 +285,14 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
         )
         which = Joined([str(number) for number in result.held], last=_(" and "))
         yield Remark(text=say(text, which=which))
+    light = unweighed(drive)
+    if light:
+        text = plural(
+            "The yokes of joint {which} count as massless: give mass_kg or size of the joint, or masses of the shafts.",
+            "The yokes of joints {which} count as massless: give mass_kg or size of the joint, or masses of the shafts.",
+            len(light),
+        )
+        yield Remark(text=say(text, which=Joined([str(number) for number in light], last=_(" and "))))
     worn = [path for path in result.assumed if path.endswith("wear_factor")]
     if worn:
         text = _("With a spline the real speed counts as 0.9 of the computed one; {key} changes that (0.7 when worn).")

@@ -14,6 +14,7 @@ from cardan.drive.body import body_length, weight
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.parts import known_lengths
+from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.maths.ties import foremost_of
 from cardan.texts import _, mark

@@ -13,6 +13,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
 from cardan.drive.shaft import Shaft
+from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array
 from cardan.texts import _
@@ -189,7 +190,7 @@ def _summed(drive: Drive, found: CriticalSpeeds, shape: Array) -> tuple[float, f
     """Return ∫ μφ² and ∫ μφ over all shafts of the line."""
     lengths = known_lengths(drive)
     mass = push = 0.0
-    for one in drive.shafts:
+    for one in with_yokes(drive).shafts:
         begin, end = found.shaft_span[one.number - 1]
         if math.isnan(begin):
             continue

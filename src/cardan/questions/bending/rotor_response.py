@@ -13,6 +13,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
+from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.run_up import Progress
 from cardan.formulas.unbalance_behind_joint import UnbalanceBehindJoint, unbalance_behind_joint
@@ -298,7 +299,7 @@ def _length(drive: Drive, number: int) -> float | None:
 
 
 def _whirling(drive: Drive, one: Rotor) -> WhirlingShaft:
-    shaft = drive.shafts[one.shaft - 1]
+    shaft = with_yokes(drive).shafts[one.shaft - 1]
     inertia = weight(shaft, body_length(shaft, _length(drive, one.shaft))).inertia or 0.0
     radius = 0.5 * (shaft.outer or max((part.outer for part in shaft.segments), default=0.1))
     return WhirlingShaft(

@@ -13,6 +13,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.shaft import Shaft
+from cardan.drive.yokes import with_yokes
 from cardan.errors import refuse
 from cardan.texts import _
 
@@ -185,7 +186,7 @@ def balance(
     lengths = known_lengths(whole)
     shafts = tuple(
         _of_shaft(shaft, lengths.get(shaft.number), chosen, norm, top)
-        for k, shaft in enumerate(whole.shafts)
+        for k, shaft in enumerate(with_yokes(whole).shafts)
         if 0 < k < len(whole.joints) or shaft.unbalance
     )
     return Balance(speed=top, grade=chosen, norm=norm, shafts=shafts, needed=top >= SLOW, assumed=assumed)

@@ -14,6 +14,7 @@ from cardan.drive.joints import Joint
 from cardan.drive.models.machine_held import tables_proposed
 from cardan.drive.shaft import Shaft
 from cardan.drive.support import Support
+from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check
 from cardan.maths.arrays import Array
 from cardan.maths.linear.rotor_beams import Line, layout, line, rigid_motions, round_section
@@ -88,6 +89,7 @@ def whirl_line(drive: Drive) -> WhirlLine:
     >>> found.held, sorted(found.joint_node), found.shaft.tolist()
     ((1, 3), [1, 2, 3], [2, 2, 3])
     """
+    drive = with_yokes(drive)
     joints = len(drive.joints)
     known = known_lengths(drive)
     part = [shaft for shaft in drive.shafts if 1 < shaft.number <= joints or _stands(drive, shaft)]

@@ -20,6 +20,7 @@ from cardan.drive.duty import Duty
 from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, nearly_turning_chain
 from cardan.drive.models.geometry import geometry
+from cardan.drive.yokes import with_yokes
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.damping import LOSS
 from cardan.maths.arrays import Array, ArrayLike
@@ -169,6 +170,7 @@ def torsional_train(
     >>> found.model.stiffness.round(), found.position
     (array([39167.]), array([1., 1., 2., 2.]))
     """
+    drive = with_yokes(drive)
     asked = drive.duty if duty is None else duty
     turning = asked.speed if speed is None else speed
     if pieces < 1:

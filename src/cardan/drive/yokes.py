@@ -1,0 +1,99 @@
+"""What the joints of a drive weigh: their yokes as parts that the shafts carry."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .body import Lump, body_length
+from .drive import Drive
+from .fields.parts import known_lengths
+from .joints import Joint
+from .shaft import Shaft
+
+BESIDE = 1.5
+"""Spans of a joint within which a part that a shaft carries is taken for its yoke."""
+
+
+def yoke_mass(joint: Joint) -> float:
+    """Return the mass of one yoke of a joint [kg]: half of what the joint weighs beside its cross; 0 where not given.
+
+    Examples
+    --------
+    >>> from cardan.drive.cross import Cross
+    >>> from cardan.drive.joints import Hooke
+    >>> yoke_mass(Hooke(joint_angle=0.1, mass=3.4, cross=Cross(span=0.07, mass=0.6)))
+    1.4
+    """
+    cross = joint.cross.mass if joint.cross is not None else 0.0
+    return 0.0 if joint.mass is None else max(0.5 * (joint.mass - cross), 0.0)
+
+
+def with_yokes(drive: Drive) -> Drive:
+    """Return a drive whose shafts carry the yokes of its joints.
+
+    Parameters
+    ----------
+    drive : Drive
+        With joints that say what they weigh, by their size or their ``mass``.
+
+    Returns
+    -------
+    Drive
+        A shaft whose whole mass is given, and one that carries a part of its own beside the joint, stay as they are;
+        one whose inertia is given gets mass alone.
+
+    Notes
+    -----
+    A yoke counts as a solid cylinder as thick and as long as the span d of its joint, half of it away from the centre:
+    m d²/8 about the shaft and m (d²/16 + d²/12) across.
+
+    Examples
+    --------
+    >>> from cardan import example
+    >>> [round(lump.mass, 2) for lump in with_yokes(example("car-propshaft")).shafts[1].masses]
+    [0.82, 0.82]
+    """
+    known, last = known_lengths(drive), len(drive.shafts)
+    joints = drive.joints
+    shafts = []
+    for shaft in drive.shafts:
+        length = body_length(shaft, known.get(shaft.number))
+        here = [_yoke(shaft, joints[shaft.number - 2], 0.0, 1.0, length)] if shaft.number > 1 else []
+        if shaft.number == 1:
+            here.append(_yoke(shaft, joints[0], 0.0, -1.0, length))
+        elif shaft.number < last and length is not None:
+            here.append(_yoke(shaft, joints[shaft.number - 1], length, -1.0, length))
+        added = tuple(one for one in here if one is not None)
+        shafts.append(replace(shaft, masses=(*shaft.masses, *added)) if added else shaft)
+    return replace(drive, shafts=tuple(shafts))
+
+
+def unweighed(drive: Drive) -> tuple[int, ...]:
+    """Return the numbers of the joints whose yokes weigh nothing, by the joint or by parts of the shafts beside it."""
+    known = known_lengths(drive)
+
+    def bare(number: int) -> bool:
+        joint, (one, two) = drive.joints[number - 1], drive.shafts[number - 1 : number + 1]
+        end = 0.0 if number == 1 else known.get(number)
+        return not yoke_mass(joint) and not (_carries(one, joint, end) and _carries(two, joint, 0.0))
+
+    return tuple(number for number in range(1, len(drive.joints) + 1) if bare(number))
+
+
+def _carries(shaft: Shaft, joint: Joint, place: float | None) -> bool:
+    """Tell whether the mass of a shaft says its yoke at a joint: as a whole, or by a part beside the joint."""
+    reach = BESIDE * (joint.span or 0.1)
+    return shaft.mass is not None or any(
+        place is not None and abs(one.position - place) <= reach for one in shaft.masses
+    )
+
+
+def _yoke(shaft: Shaft, joint: Joint, place: float, way: float, length: float | None) -> Lump | None:
+    """Return the yoke of a joint on a shaft, None where the shaft says what it weighs there, or nothing does."""
+    mass, span = yoke_mass(joint), joint.span or 0.0
+    if not mass or _carries(shaft, joint, place):
+        return None
+    inset = min(0.5 * span, 0.5 * length) if length is not None else 0.5 * span
+    turning = 0.0 if shaft.inertia is not None else mass * span**2 / 8.0
+    across = 0.0 if shaft.transverse_inertia is not None else mass * span**2 * (1.0 / 16.0 + 1.0 / 12.0)
+    return Lump(position=place + way * inset, mass=mass, polar_inertia=turning, diametral_inertia=across)
