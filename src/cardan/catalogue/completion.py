@@ -124,7 +124,7 @@ def _sized(joint: Joint, rows: Catalogue) -> Joint:
 
 def _over(given: Any, usual: Any) -> Any:
     """Return a part as given, its missing fields as usual."""
-    if given is None or usual is None or not is_dataclass(given):
+    if given is None or usual is None or isinstance(given, float):
         return usual if given is None else given
     blank = {one.name: one.default for one in fields(given)}
     missing = [name for name, default in blank.items() if getattr(given, name) == default]
@@ -141,7 +141,7 @@ def _unsized(joint: Joint, rows: Catalogue) -> Joint:
 
 def _under(given: Any, usual: Any, rows: Catalogue) -> Any:
     """Return a part without what is usual, None where nothing is left."""
-    if given is None or usual is None or given == usual or not is_dataclass(given):
+    if given is None or usual is None or given == usual or isinstance(given, float):
         return None if given == usual else given
     blank = {one.name: one.default for one in fields(given)}
     same = [name for name in blank if getattr(given, name) == getattr(usual, name)]

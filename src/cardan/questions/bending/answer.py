@@ -288,8 +288,8 @@ def _remarks(drive: Drive, result: CriticalSpeeds) -> Iterator[Remark]:
     light = unweighed(drive)
     if light:
         text = plural(
-            "The yokes of joint {which} count as massless: give mass_kg or size of the joint, or masses of the shafts.",
-            "The yokes of joints {which} count as massless: give mass_kg or size of the joint, or masses of the shafts.",
+            "The yokes of joint {which} count as massless: give mass_kg or size of the joint, or masses of shafts.",
+            "The yokes of joints {which} count as massless: give mass_kg or size of a joint, or masses of shafts.",
             len(light),
         )
         yield Remark(text=say(text, which=Joined([str(number) for number in light], last=_(" and "))))

@@ -11,6 +11,7 @@ from cardan.drive.body import body_length, weight
 from cardan.drive.drive import Drive
 from cardan.drive.fields.parts import known_lengths
 from cardan.drive.models.geometry import geometry
+from cardan.drive.yokes import with_yokes
 from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.questions.bending.bending import bending_speeds, used_speeds
@@ -140,7 +141,7 @@ def plant(drive: Drive) -> Plant:
     lengths = known_lengths(drive)
     assumed: list[str] = []
     mass, length, inertia = [], [], 0.0
-    for shaft in drive.shafts[1:-1]:
+    for shaft in with_yokes(drive).shafts[1:-1]:
         between = body_length(shaft, lengths.get(shaft.number))
         body = weight(shaft, between)
         length.append(between or LENGTH)
