@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .body import Lump, body_length
+from .body import body_length
 from .drive import Drive
 from .fields.parts import known_lengths
 from .joints import Joint
-from .shaft import Shaft
+from .shaft import Lump, Shaft
 
 BESIDE = 1.5
 """Spans of a joint within which a part that a shaft carries is taken for its yoke."""
@@ -28,13 +28,15 @@ def yoke_mass(joint: Joint) -> float:
     return 0.0 if joint.mass is None else max(0.5 * (joint.mass - cross), 0.0)
 
 
-def with_yokes(drive: Drive) -> Drive:
+def with_yokes(drive: Drive, *, at_joint: bool = False) -> Drive:
     """Return a drive whose shafts carry the yokes of its joints.
 
     Parameters
     ----------
     drive : Drive
         With joints that say what they weigh, by their size or their ``mass``.
+    at_joint : bool
+        Put them at the joints themselves, as for torsion: a yoke hardly twists.
 
     Returns
     -------
@@ -58,26 +60,28 @@ def with_yokes(drive: Drive) -> Drive:
     shafts = []
     for shaft in drive.shafts:
         length = body_length(shaft, known.get(shaft.number))
-        here = [_yoke(shaft, joints[shaft.number - 2], 0.0, 1.0, length)] if shaft.number > 1 else []
+        here = [_yoke(shaft, joints[shaft.number - 2], 0.0, 1.0, length, at_joint)] if shaft.number > 1 else []
         if shaft.number == 1:
-            here.append(_yoke(shaft, joints[0], 0.0, -1.0, length))
+            here.append(_yoke(shaft, joints[0], 0.0, -1.0, length, at_joint))
         elif shaft.number < last and length is not None:
-            here.append(_yoke(shaft, joints[shaft.number - 1], length, -1.0, length))
+            here.append(_yoke(shaft, joints[shaft.number - 1], length, -1.0, length, at_joint))
         added = tuple(one for one in here if one is not None)
         shafts.append(replace(shaft, masses=(*shaft.masses, *added)) if added else shaft)
     return replace(drive, shafts=tuple(shafts))
 
 
 def unweighed(drive: Drive) -> tuple[int, ...]:
-    """Return the numbers of the joints whose yokes weigh nothing, by the joint or by parts of the shafts beside it."""
-    known = known_lengths(drive)
-
-    def bare(number: int) -> bool:
-        joint, (one, two) = drive.joints[number - 1], drive.shafts[number - 1 : number + 1]
-        end = 0.0 if number == 1 else known.get(number)
-        return not yoke_mass(joint) and not (_carries(one, joint, end) and _carries(two, joint, 0.0))
-
-    return tuple(number for number in range(1, len(drive.joints) + 1) if bare(number))
+    """Return the numbers of the joints of which a shaft with a body carries no yoke."""
+    known, found = known_lengths(drive), set[int]()
+    for shaft in drive.shafts:
+        ends = ((shaft.number - 1, 0.0), (shaft.number, 0.0 if shaft.number == 1 else known.get(shaft.number)))
+        for number, place in ends:
+            if not shaft.has_body or not 1 <= number <= len(drive.joints):
+                continue
+            joint = drive.joints[number - 1]
+            if not yoke_mass(joint) and not _carries(shaft, joint, place):
+                found.add(number)
+    return tuple(sorted(found))
 
 
 def _carries(shaft: Shaft, joint: Joint, place: float | None) -> bool:
@@ -88,12 +92,12 @@ def _carries(shaft: Shaft, joint: Joint, place: float | None) -> bool:
     )
 
 
-def _yoke(shaft: Shaft, joint: Joint, place: float, way: float, length: float | None) -> Lump | None:
+def _yoke(shaft: Shaft, joint: Joint, place: float, way: float, length: float | None, at_joint: bool) -> Lump | None:
     """Return the yoke of a joint on a shaft, None where the shaft says what it weighs there, or nothing does."""
     mass, span = yoke_mass(joint), joint.span or 0.0
     if not mass or _carries(shaft, joint, place):
         return None
-    inset = min(0.5 * span, 0.5 * length) if length is not None else 0.5 * span
+    inset = 0.0 if at_joint else min(0.5 * span, span if length is None else 0.5 * length)
     turning = 0.0 if shaft.inertia is not None else mass * span**2 / 8.0
     across = 0.0 if shaft.transverse_inertia is not None else mass * span**2 * (1.0 / 16.0 + 1.0 / 12.0)
     return Lump(position=place + way * inset, mass=mass, polar_inertia=turning, diametral_inertia=across)

@@ -202,7 +202,7 @@ def _facts(result: Balance) -> dict[str, Any]:
 
 
 def _mass(drive: Drive) -> tuple[float]:
-    lengths, inside = known_lengths(drive), drive.shafts[1:-1]
+    lengths, inside = known_lengths(drive), with_yokes(drive).shafts[1:-1]
     found = [weight(shaft, body_length(shaft, lengths.get(shaft.number))).mass for shaft in inside]
     lack = [shaft.number - 1 for shaft, mass in zip(inside, found, strict=True) if not mass]
     if lack:

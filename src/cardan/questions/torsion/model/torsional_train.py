@@ -170,7 +170,7 @@ def torsional_train(
     >>> found.model.stiffness.round(), found.position
     (array([39167.]), array([1., 1., 2., 2.]))
     """
-    drive = with_yokes(drive)
+    drive = with_yokes(drive, at_joint=True)
     asked = drive.duty if duty is None else duty
     turning = asked.speed if speed is None else speed
     if pieces < 1:
