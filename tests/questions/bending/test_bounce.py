@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cardan.batch.answering.drive_questions import DRIVE
 from scipy.linalg import eigh
 
 from cardan import Drive
 from cardan.answers.quantity import told
 from cardan.answers.reader import USUAL
-from cardan.batch.answering.drive_questions import DRIVE
 from cardan.checks.checks import check
 from cardan.drive.cross import Cross
 from cardan.drive.duty import Block, Duty
