@@ -15,7 +15,7 @@ from cardan import Drive
 from cardan.catalogue import completed, material
 from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
-from cardan.drive.duty import Block, Duty, Limits, Vehicle
+from cardan.drive.duty import Block, Case, Duty, Limits, Vehicle
 from cardan.drive.fields.keys import WORD_OR_FLAG, Field, fields_of, in_unit, spelled
 from cardan.drive.joint_parts import Rating
 from cardan.drive.joints import Hooke
@@ -158,6 +158,7 @@ duties = things(
     run_up=st.none() | run_ups,
     **dict.fromkeys(("engine", "motor", "load"), st.none()),
     torques=st.just(()),
+    cases=st.just(()),  # they contradict parts
     blocks=st.just(())
     | st.just((Block(torque=1 / 3, speed=100.0, share=0.3), Block(torque=0.0, speed=1e-3, share=0.7))),
     torque_history=st.none(),
@@ -337,3 +338,11 @@ def test_the_nearest_decimal_is_one_rounding_away_at_most(value: float, dimensio
 )
 def test_paths_are_spelled_as_in_a_file(path: str, file: str) -> None:
     assert spelled(path) == file
+
+
+def test_load_cases() -> None:
+    first = Case(name="first gear", torque=1 / 3, speed_range=(10.0, 20.0), share=0.3, flow="coast", shock_factor=1.5)
+    cases = (first, Case(name="starts", torque=0.1, cycles=1e6))
+    drive = replace(DRIVE, duty=Duty(torque=9.0, speed=100.0, life=1e8, cases=cases))
+    for form in ("toml", "json"):
+        assert loads(dumps(drive, form=form), form=form) == drive

@@ -38,6 +38,8 @@ class Case:
         Share of the whole time.
     block : bool
         Whether it is part of a duty cycle.
+    severity : float
+        Its own factor for shocks over that of the duty.
     chain : Chain
         Kinematic half of the drives.
     unit : dict of str to TurnLoads
@@ -57,6 +59,7 @@ class Case:
     speed: Array | float | None = None
     share: Array | float = 1.0
     block: bool = False
+    severity: float = 1.0
     torque_at: str = "output"
     harmonics: tuple[Harmonic, ...] = ()
     scale: Array | float = 0.0

@@ -13,6 +13,7 @@ import numpy as np
 from cardan.catalogue import Catalogue, catalogue, completed
 from cardan.catalogue.provenance import rows_behind
 from cardan.catalogue.rows import Row
+from cardan.drive.conditions import LoadCase, load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -53,6 +54,8 @@ class Design:
         Path without unit, as ``joints[0].cross.span`` or ``duty.torque`` -> values in SI, in place of the drive's.
     drawn : Design, optional
         The drives as drawn, where this is one of its poses: engaged length and gap of a spline hold there.
+    pose : str
+        Name of that pose.
     """
 
     drive: Drive
@@ -60,6 +63,7 @@ class Design:
     known: Catalogue = field(default_factory=catalogue)
     varied: Mapping[str, Array] = field(default_factory=dict)
     drawn: Design | None = None
+    pose: str = ""
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -150,11 +154,11 @@ class Design:
         """Largest joint angle of every joint over the movements of the drive, array (..., n) [rad]."""
         return largest_joint_angles(self.points, self.drive.movements)
 
-    def while_moving(self, ask: Callable[[Chain], Array]) -> Array | None:
-        """Return the largest answers over the movements of the drive (..., k); None where nothing moves."""
+    def while_moving(self, ask: Callable[[Chain], Array], *, mean: bool = False) -> Array | None:
+        """Return the largest or mean answers over the movements of the drive (..., k); None where nothing moves."""
         if not self.drive.movements or self.swing is not None:
             return None
-        return largest_of(ask, self.given, self.points, self.drive.movements, self.drive.joints)
+        return largest_of(ask, self.given, self.points, self.drive.movements, self.drive.joints, mean=mean)
 
     @property
     def joint_angle(self) -> Array:
@@ -175,48 +179,40 @@ class Design:
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
-        """Every way the drive runs: its duty, then the blocks of its duty cycle."""
-        duty = self.duty
-        torque, speed = self.value("duty.torque"), self.value("duty.speed")
-        scale = 0.0 if torque is None else torque
-        cases, unit = [], dict[str, TurnLoads]()
-        if torque is not None or speed is not None or not duty.blocks:
-            steady = Case(
-                chain=self.chain,
-                unit=unit,
-                torque=_size(torque),
-                speed=_size(speed),
-                torque_at=duty.torque_at,
-                harmonics=duty.harmonics,
-                scale=scale,
-            )
-            cases.append(steady)
-        for k, block in enumerate(duty.blocks):
-            path = f"duty.blocks[{k}]"
-            whole = self.chain
-            joint_angle = self.value(f"{path}.joint_angle")
-            if joint_angle is not None:
-                flat = np.asarray(joint_angle, dtype=float)[..., None] + np.zeros(self.joints)
-                whole = at_joint_angle(self.given, flat, self.drive.joints)
-            cases.append(
-                Case(
-                    chain=whole,
-                    unit=unit if joint_angle is None else {},
-                    name=_("part {number} of the duty cycle").format(number=k + 1),
-                    torque=self.value(f"{path}.torque"),
-                    speed=self.value(f"{path}.speed"),
-                    share=self.value(f"{path}.share") if f"{path}.share" in self.varied else block.share,
-                    block=True,
-                    harmonics=() if torque is None else duty.harmonics,
-                    scale=scale,
-                )
-            )
-        history = duty.torque_history
-        if history is not None and history.torques:
-            most = max(abs(one) for one in history.torques)
-            name = _("the peak of the torque history")
-            cases.append(Case(chain=self.chain, unit=unit, name=name, torque=most, speed=_size(speed), share=0.0))
-        return tuple(cases)
+        """Every way the drive runs in this pose: its duty, then its load cases or the parts of its duty cycle."""
+        duty, speed = self.duty, self.value("duty.speed")
+        own = [one for one in load_cases(duty) if one.pose in ("", self.pose)]
+        torque, unit = self.value("duty.torque"), dict[str, TurnLoads]()
+        if not any(one.path == "duty" for one in own) and (torque is not None or speed is not None):
+            own.insert(0, LoadCase(speed=duty.speed))  # a speed in use, and a torque only where it is varied
+        return tuple(self._case(one, unit, 0.0 if torque is None else torque) for one in own)
+
+    def _case(self, one: LoadCase, unit: dict[str, TurnLoads], scale: Array | float) -> Case:
+        """Return a way to run of these drives."""
+        part = one.path.startswith("duty.blocks")
+        joint_angle = self.value(f"{one.path}.joint_angle") if part else None
+        chain = self.chain
+        if joint_angle is not None:
+            flat = np.asarray(joint_angle, dtype=float)[..., None] + np.zeros(self.joints)
+            chain = at_joint_angle(self.given, flat, self.drive.joints)
+        speed = self.varied.get(f"{one.path}.speed", one.speed)
+        if one.path == "duty.torque_history" or (self.value(f"{one.path}.speed") is None and one.speed_range is None):
+            speed = self.value("duty.speed")
+        timed = part or (bool(self.duty.cases) and one.share > 0.0)
+        history = one.path == "duty.torque_history"
+        return Case(
+            chain=chain,
+            unit=unit if joint_angle is None else {},
+            name=one.name,
+            torque=_size(self.varied.get(f"{one.path}.torque", one.torque)),
+            speed=_size(speed),
+            share=self.varied.get(f"{one.path}.share", one.share if timed or history else 1.0),
+            block=timed,
+            severity=one.shock_factor / self.duty.shock_factor,
+            torque_at=one.torque_at,
+            harmonics=one.harmonics,
+            scale=scale,
+        )
 
     @property
     def loaded(self) -> tuple[Case, ...]:
@@ -229,13 +225,23 @@ class Design:
         speeds = [case.speed for case in self.cases if case.speed is not None]
         if self.duty.speed_range is not None:
             speeds.append(self.value("duty.speed_range[1]"))
+        speeds += [one.speed_range[1] for one in load_cases(self.duty) if one.speed_range is not None]
         if not speeds:
             return None
         return largest(speeds)
 
-    def most(self, ask: Callable[[Case], Array]) -> tuple[Array, str]:
-        """Return the largest answer of all the ways to run under load, and a sentence on which of them it is."""
-        answers = [np.asarray(ask(case), dtype=float) for case in self.loaded]
+    def most(self, ask: Callable[[Case], Array], *, shocks: bool = True) -> tuple[Array, str]:
+        """Return the largest answer of all the ways to run under load, and a sentence on which of them it is.
+
+        Parameters
+        ----------
+        ask : function
+            What a way to run asks of a part, without shocks.
+        shocks : bool
+            Whether shocks count, so that a load case with a factor of its own is larger by as much as that is.
+        """
+        size = [one.severity if shocks else 1.0 for one in self.loaded]
+        answers = [more * np.asarray(ask(case), dtype=float) for more, case in zip(size, self.loaded, strict=True)]
         value = largest(answers)
         if value.ndim or len(answers) == 1:
             return value, ""
@@ -293,15 +299,18 @@ class Design:
     @property
     def torque_design_variables(self) -> tuple[str, ...]:
         """Paths of the torques of the duty."""
-        blocks = (f"duty.blocks[{k}].torque" for k in range(len(self.duty.blocks)))
-        return self.design_variables("duty.torque", *blocks)
+        return self.design_variables("duty.torque", *(f"{one.path}.torque" for one in self._cycle))
 
     @property
     def speed_design_variables(self) -> tuple[str, ...]:
         """Paths of the speeds of the duty."""
-        blocks = (f"duty.blocks[{k}].speed" for k in range(len(self.duty.blocks)))
         top = ("duty.speed_range[1]",) if self.duty.speed_range is not None else ()
-        return self.design_variables("duty.speed", *top, *blocks)
+        return self.design_variables("duty.speed", *top, *(f"{one.path}.speed" for one in self._cycle))
+
+    @property
+    def _cycle(self) -> list[LoadCase]:
+        """Load cases and parts of the duty cycle, as the file has them."""
+        return [one for one in load_cases(self.duty) if one.path.endswith("]")]
 
 
 def _size(value: Any) -> Any:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from cardan.drive.fields.paths import bare_path, pose_drives
+from cardan.drive.conditions import in_poses
+from cardan.drive.fields.paths import bare_path
 from cardan.maths.arrays import Array
 from cardan.texts import _
 
@@ -48,15 +49,18 @@ def at_its_most(design: Design, ask: Callable[[Array], Array]) -> tuple[Array, s
 def posed(design: Design) -> list[tuple[str, Design]]:
     """Return the name of every pose of a drive and the design in it; what the pose sets does not vary there."""
     found = []
-    for k, (pose, drive) in enumerate(zip(design.drive.poses, pose_drives(design.drive), strict=True), start=1):
+    stands = in_poses(design.drive)[1:] if design.drive.poses else ()
+    for pose, stand in zip(design.drive.poses, stands, strict=True):
         own = [bare_path(design.drive, path) for path, _value in pose.set]
         varied = {
             path: values
             for path, values in design.varied.items()
             if not any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in own)
         }
-        other = replace(design, drive=drive, duty=drive.duty, varied=varied, drawn=design)
-        found.append((pose.name or str(k), other))
+        one = stand.drive
+        found.append(
+            (stand.pose, replace(design, drive=one, duty=one.duty, varied=varied, drawn=design, pose=stand.pose))
+        )
     return found
 
 
@@ -75,8 +79,10 @@ def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence
         worst = one
         for name, verdicts in poses:
             other = next((its for its in verdicts if (its.check, its.title) == (one.check, one.title)), None)
-            if one.run and other is not None and other.run:
-                worst = _worse(worst, other, _("in the pose {name}").format(name=name))
+            if other is None or not other.run:
+                continue
+            said = _("in the pose {name}").format(name=name)
+            worst = _worse(worst, other, said) if worst.run else replace(other, note=joined(other.note, said))
         found.append(worst)
     return tuple(found)
 

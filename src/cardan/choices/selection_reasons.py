@@ -12,11 +12,12 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize
 from cardan.checks import design
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.chain import given_chain
 from cardan.errors import Problem, check
-from cardan.questions.forces.turn_loads import case_loads, load_cases
+from cardan.questions.forces.turn_loads import case_loads
 from cardan.texts import _
 
 from .selection import SLACK, Candidate, JointDuty
@@ -103,7 +104,7 @@ def joint_duty(
     whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     n = len(whole.joints)
     made = design(whole, known=rows)
-    cases = tuple(load_cases(whole.duty))
+    cases = tuple(one for one in load_cases(whole.duty) if one.torque is not None)
     problems = [] if cases else [Problem("duty.torque", _("missing; the choice depends on it"), "missing")]
     if made.top_speed is None:
         problems.append(Problem("duty.speed", _("missing; the choice depends on it"), "missing"))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import pi
 
 import numpy as np
 
@@ -17,7 +18,59 @@ from cardan.maths.arrays import Array, ArrayLike, floats
 from cardan.texts import _
 
 from .drive import Drive
+from .duty import Case, Duty, Harmonic
 from .fields.paths import pose_drives
+from .models.forms import in_form
+
+ROUNDING = 1e-9
+"""What is left of the time by less than this is none."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadCase:
+    """A way in which a drive runs under torque.
+
+    Attributes
+    ----------
+    name : str
+        What to call it; empty for the duty itself.
+    torque : float or None [N·m]
+        Mean torque, with its sign; None where the duty says none.
+    speed : float or None [rad/s]
+        Input speed with its sign; the middle of a range.
+    share : float
+        Share of the whole time; 0 for a peak, and for the duty beside its duty cycle.
+    path : str
+        Where it stands in the drive file: ``duty``, ``duty.cases[1]``.
+    speed_range : (float, float) or None [rad/s]
+        Lowest and highest input speed, where the case has its own.
+    joint_angle : float or None [rad]
+        Bend of every joint, where it is not that of the drive.
+    torque_at : str
+        ``output`` or ``input``.
+    harmonics : tuple of Harmonic
+        Swinging parts of the torque.
+    scale : float [N·m]
+        Mean torque that the harmonics belong to; zero when they do not grow with it.
+    shock_factor : float
+        Factor for shocks.
+    pose, movement : str
+        Names of the pose and of the movement to which it is bound; empty where it is not.
+    """
+
+    name: str = ""
+    torque: float | None = None
+    speed: float | None = None
+    share: float = 1.0
+    path: str = "duty"
+    speed_range: tuple[float, float] | None = None
+    joint_angle: float | None = None
+    torque_at: str = "output"
+    harmonics: tuple[Harmonic, ...] = ()
+    scale: float = 0.0
+    shock_factor: float = 1.0
+    pose: str = ""
+    movement: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,20 +80,20 @@ class Condition:
     Attributes
     ----------
     drive : Drive
-        Its geometry there, with speed and torque of the condition as its duty; without poses and parts of a duty cycle.
+        Its geometry there, with the load case as its duty; without poses, load cases and parts of a duty cycle.
     pose : str
         Name of the pose; empty as drawn.
-    part : int
-        Number of the part of the duty cycle, from 1; 0 where there is none.
+    case : str
+        Name of the load case; empty for the only one.
     share : float or None
-        Share of the whole time; None where the file does not say.
+        Share of the whole time, 0 for a peak; None where the file does not say.
     moving : bool
         Whether the drive moves while it runs so, and each instant is a geometry of its own.
     """
 
     drive: Drive
     pose: str = ""
-    part: int = 0
+    case: str = ""
     share: float | None = 1.0
     moving: bool = False
 
@@ -58,12 +111,90 @@ class Condition:
     def name(self) -> str:
         """What to call it, in the language spoken; empty for the drive as drawn at its only torque."""
         pose = _("pose {name}").format(name=self.pose) if self.pose else ""
-        part = _("part {number} of the duty cycle").format(number=self.part) if self.part else ""
-        return ", ".join(word for word in (pose, part) if word)
+        return ", ".join(word for word in (pose, self.case) if word)
+
+
+def load_cases(duty: Duty) -> tuple[LoadCase, ...]:
+    """Return every way a duty has a drive run: steadily, its load cases or parts of its duty cycle, its measured peak.
+
+    Parameters
+    ----------
+    duty : Duty
+
+    Examples
+    --------
+    >>> from cardan.drive.duty import Block
+    >>> parts = (Block(torque=900.0, speed=100.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
+    >>> [(one.name, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, blocks=parts))]
+    [('', 0.0), ('part 1 of the duty cycle', 0.2), ('part 2 of the duty cycle', 0.8)]
+    >>> start = Case(name="start", torque=900.0)
+    >>> [(one.name, one.torque, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, cases=(start,)))]
+    [('', 500.0, 1.0), ('start', 900.0, 0.0)]
+    """
+    history = duty.torque_history
+    measured = history is not None and bool(history.torques)
+    found = [_of_case(duty, case, f"duty.cases[{k}]") for k, case in enumerate(duty.cases)]
+    rest = max(0.0, 1.0 - sum(one.share for one in found))
+    shocks, scale = duty.shock_factor, duty.torque or 0.0
+    if duty.torque is not None or not (duty.blocks or found or measured):
+        steady = LoadCase(
+            torque=duty.torque,
+            speed=duty.speed,
+            share=0.0 if duty.blocks or measured else rest,
+            speed_range=duty.speed_range,
+            torque_at=duty.torque_at,
+            harmonics=duty.harmonics,
+            scale=scale,
+            shock_factor=shocks,
+        )
+        found.insert(0, steady)
+    for k, block in enumerate(duty.blocks):
+        part = LoadCase(
+            name=_("part {number} of the duty cycle").format(number=k + 1),
+            torque=block.torque,
+            speed=block.speed,
+            share=block.share,
+            path=f"duty.blocks[{k}]",
+            joint_angle=block.joint_angle,
+            harmonics=duty.harmonics if scale else (),
+            scale=scale,
+            shock_factor=shocks,
+        )
+        found.append(part)
+    if history is not None and measured:
+        most = max(history.torques, key=abs)
+        name = _("the peak of the torque history")
+        path = "duty.torque_history"
+        found.append(LoadCase(name=name, torque=most, speed=duty.speed, share=0.0, path=path, shock_factor=shocks))
+    return tuple(found)
+
+
+def _of_case(duty: Duty, case: Case, path: str) -> LoadCase:
+    """Return a load case of the drive file; turns counted in the life asked for are a share of it."""
+    speed = case.speed if case.speed_range is None else 0.5 * sum(case.speed_range)
+    speed = duty.speed if speed is None else speed if (duty.speed or 0.0) >= 0.0 else -speed
+    share = case.share or 0.0
+    if case.cycles is not None and speed and duty.life:
+        share = 2.0 * pi * case.cycles / (abs(speed) * duty.life)
+    scale = duty.torque or 0.0
+    return LoadCase(
+        name=case.name,
+        torque=-case.torque if case.flow == "coast" else case.torque,
+        speed=speed,
+        share=share,
+        path=path,
+        speed_range=case.speed_range,
+        torque_at=duty.torque_at,
+        harmonics=duty.harmonics if scale else (),
+        scale=scale,
+        shock_factor=duty.shock_factor if case.shock_factor is None else case.shock_factor,
+        pose=case.pose,
+        movement=case.movement,
+    )
 
 
 def conditions(drive: Drive) -> tuple[Condition, ...]:
-    """Return every condition of a drive, as drawn before its poses, the parts of a duty cycle in each.
+    """Return every condition of a drive: as drawn, then in its poses, each load case in each of them.
 
     Parameters
     ----------
@@ -74,7 +205,8 @@ def conditions(drive: Drive) -> tuple[Condition, ...]:
     -------
     tuple of Condition
         As drawn first. The poses take their shares, and the drive as drawn what they leave; where a pose has no share,
-        that of the drive as drawn and of each such pose is not known.
+        that of the drive as drawn and of each such pose is not known. A load case bound to a pose has its own share
+        there, and the others run in all poses by theirs.
 
     Raises
     ------
@@ -83,21 +215,97 @@ def conditions(drive: Drive) -> tuple[Condition, ...]:
 
     Examples
     --------
-    >>> from cardan.drive.duty import Block, Duty
+    >>> from cardan.drive.duty import Block
     >>> parts = (Block(torque=900.0, speed=30.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
     >>> drive = replace(Drive.from_angles([0.1, 0.1]), duty=Duty(blocks=parts))
     >>> [(one.name, one.torque, one.share) for one in conditions(drive)]
     [('part 1 of the duty cycle', 900.0, 0.2), ('part 2 of the duty cycle', 300.0, 0.8)]
     """
+    return tuple(one for stand in in_poses(drive) for one in _loaded(stand.drive, stand.pose, stand.share))
+
+
+def in_poses(drive: Drive) -> tuple[Condition, ...]:
+    """Return a drive as drawn and in each of its poses, each with the whole duty.
+
+    Parameters
+    ----------
+    drive : Drive
+
+    Raises
+    ------
+    InputError
+        A pose changes what is not there, or makes no drive; the path names the pose.
+
+    Examples
+    --------
+    >>> from .pose import Pose
+    >>> turned = Pose(name="turned", share=0.25, set=(("joints[0].joint_angle_deg", 20.0),))
+    >>> [(one.name, one.share) for one in in_poses(replace(Drive.from_angles([0.1]), poses=(turned,)))]
+    [('', 0.75), ('pose turned', 0.25)]
+    """
     shares = [pose.share for pose in drive.poses]
-    known = [share for share in shares if share is not None]
-    rest = max(0.0, 1.0 - sum(known)) if len(known) == len(shares) else None
-    drawn = replace(drive, poses=())
-    found = [*_parts(Condition(drive=drawn, share=rest, moving=bool(drive.movements)))]
+    left = 1.0 - sum(share for share in shares if share is not None)
+    rest = None if None in shares else left if left > ROUNDING else 0.0
+    found = [Condition(drive=replace(drive, poses=()), share=rest, moving=bool(drive.movements))]
     for k, (pose, posed) in enumerate(zip(drive.poses, pose_drives(drive), strict=True), start=1):
-        one = Condition(drive=posed, pose=pose.name or str(k), share=pose.share, moving=bool(posed.movements))
-        found += _parts(one)
+        moving = bool(posed.movements)
+        found.append(Condition(drive=posed, pose=pose.name or str(k), share=pose.share, moving=moving))
     return tuple(found)
+
+
+def _loaded(drive: Drive, pose: str, share: float | None) -> list[Condition]:
+    """Return a drive as drawn or in a pose in each of its load cases that acts there."""
+    every = load_cases(drive.duty)
+    resting = not any(case.share for case in every)
+    found = []
+    for case in every:
+        if case.pose not in ("", pose):
+            continue
+        time = 1.0 if resting and case.path == "duty" else case.share
+        own = time if case.pose or not time else None if share is None else time * share
+        name = case.name or (_("the torque of the duty") if len(every) > 1 else "")
+        run = under(drive, case)
+        found.append(Condition(drive=run, pose=pose, case=name, share=own, moving=bool(run.movements)))
+    return found
+
+
+def under(drive: Drive, case: LoadCase) -> Drive:
+    """Return a drive with one load case as its whole duty.
+
+    Parameters
+    ----------
+    drive : Drive
+        The drive.
+    case : LoadCase
+        Its torque, speed and factor for shocks; the joint angle of every joint and the only movement, where it names
+        them.
+    """
+    duty = replace(
+        drive.duty,
+        blocks=(),
+        cases=(),
+        torque_history=None,
+        torque=case.torque,
+        speed=case.speed,
+        speed_range=case.speed_range or drive.duty.speed_range,
+        torque_at=case.torque_at,
+        harmonics=_grown(case),
+        shock_factor=case.shock_factor,
+    )
+    if case.joint_angle is not None:
+        flat = in_form(replace(drive, movements=()), "angles")
+        bent = tuple(replace(joint, joint_angle=case.joint_angle) for joint in flat.joints)
+        return replace(flat, joints=bent, duty=duty)
+    moves = tuple(one for one in drive.movements if case.movement in ("", one.name))
+    return replace(drive, duty=duty, movements=moves)
+
+
+def _grown(case: LoadCase) -> tuple[Harmonic, ...]:
+    """Return the swinging parts of a torque, which grow with its mean."""
+    if not case.harmonics or not case.scale or case.torque is None:
+        return case.harmonics
+    growth = abs(case.torque / case.scale)
+    return tuple(replace(one, torque=growth * one.torque) for one in case.harmonics)
 
 
 def gathered(how: Gathering, values: ArrayLike, shares: Sequence[float | None]) -> Array:
@@ -134,18 +342,7 @@ def gathered(how: Gathering, values: ArrayLike, shares: Sequence[float | None]) 
     if any(share is None for share in shares):
         raise refuse("poses", _("missing share; the mean over the conditions depends on it"), "missing")
     weight = np.asarray(shares, dtype=float)
+    if not np.any(weight):
+        raise refuse("duty.cases", _("no load case has a share; how long each of them lasts is not known"), "missing")
     total = np.tensordot(weight, every, axes=1)
     return np.asarray(total if how == "sum" else total / np.sum(weight))
-
-
-def _parts(whole: Condition) -> list[Condition]:
-    """Return a condition in the parts of its duty cycle; itself where it has none."""
-    duty = whole.drive.duty
-    if not duty.blocks:
-        return [whole]
-    found = []
-    for number, block in enumerate(duty.blocks, start=1):
-        steady = replace(duty, blocks=(), torque=block.torque, speed=block.speed, torque_at="output")
-        share = None if whole.share is None else whole.share * block.share
-        found.append(replace(whole, drive=replace(whole.drive, duty=steady), part=number, share=share))
-    return found

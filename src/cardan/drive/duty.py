@@ -35,6 +35,26 @@ class Block:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Case:
+    """Load case: a way in which the drive runs, by its name; one with neither share nor cycles is a peak."""
+
+    name: str = plain(doc="name of the load case")
+    torque: float = quantity("torque", doc="size of the torque at the end that `duty.torque_at` names", low=0.0)
+    speed: float | None = quantity("angular_speed", None, doc="input speed; that of the duty when not given", above=0.0)
+    speed_range: tuple[float, float] | None = quantity(
+        "angular_speed", None, doc="lowest and highest input speed [low, high], instead of one speed", low=0.0
+    )
+    share: float | None = quantity("share", None, doc="share of the whole time", low=0.0, high=1.0)
+    cycles: float | None = plain(None, doc="turns of the input in the life asked for, instead of a share", above=0.0)
+    shock_factor: float | None = plain(None, doc="factor for shocks; that of the duty when not given", low=1.0)
+    flow: str = plain(
+        "drive", doc="whether the input drives the output, or the output the input", choices=("drive", "coast")
+    )
+    pose: str = plain("", doc="pose in which it acts; in every one, by their shares, when not given")
+    movement: str = plain("", doc="movement during which it acts; all of them together when not given")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class History:
     """Measured torque over time from a CSV file, straight between its rows."""
 
@@ -103,6 +123,9 @@ class Duty:
     continuous: bool = plain(True, doc="whether the drive runs for long at a time")
     synchronous: bool = plain(False, doc="whether the output must turn evenly")
     blocks: tuple[Block, ...] = plain((), doc="duty cycle, in parts that make up the whole time")
+    cases: tuple[Case, ...] = plain(
+        (), doc="load cases; where their shares leave time, and a torque of the duty is given, that is the rest"
+    )
     torque_history: History | None = plain(
         None, doc="CSV file with the columns time_s and torque_Nm, measured at the output: a duty cycle"
     )

@@ -10,6 +10,7 @@ from typing import Any, get_args, get_origin
 
 from cardan.drive.drive import Drive
 from cardan.drive.duty import History
+from cardan.drive.fields.duty_validity import bound_problems
 from cardan.drive.fields.keys import (
     KINDS,
     NAMED,
@@ -111,6 +112,7 @@ def drive_from_tree(tree: Mapping[str, Any], *, folder: Path | Enclosed = Path("
     """
     _too_long(tree)
     drive: Drive = read_as(Drive, tree, folder=folder)
+    check(bound_problems(drive))
     return drive
 
 

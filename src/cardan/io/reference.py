@@ -11,7 +11,7 @@ from cardan.drive.crack import ShaftCrack
 from cardan.drive.cross import Cross
 from cardan.drive.described import Input, Output
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Block, Duty, Harmonic, History, Limits, Upkeep, Vehicle
+from cardan.drive.duty import Block, Case, Duty, Harmonic, History, Limits, Upkeep, Vehicle
 from cardan.drive.fields.keys import NAMED, WORD_OR_FLAG, Field, fields_of
 from cardan.drive.fields.ranges import allowed
 from cardan.drive.fields.tables import written
@@ -66,6 +66,7 @@ def sections() -> tuple[tuple[str, type], ...]:
         ("`pendulum` of a station", Pendulum),
         ("`[duty]`", Duty),
         ("`harmonics` of the duty", Harmonic),
+        ("`[[duty.cases]]`", Case),
         ("`blocks` of the duty", Block),
         ("`torque_history` of the duty", History),
         ("`vehicle` of the duty", Vehicle),

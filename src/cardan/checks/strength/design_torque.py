@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
@@ -40,7 +39,7 @@ def _judge(design: Design) -> Iterator[Verdict]:
     )
     adhesion = bool(np.all(found.by_adhesion))
     yield Verdict(
-        value=largest([case.torque for case in design.loaded if case.torque is not None]) * design.shock,
+        value=design.most(lambda case: np.asarray(case.torque))[0] * design.shock,
         limit=found.design,
         source=_("adhesion of the wheels, μ W r") if adhesion else _("torque of the engine through the gears"),
         design_variables=("duty.torque",) if design.duty.torque is not None else design.torque_design_variables,

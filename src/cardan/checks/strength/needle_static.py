@@ -52,11 +52,11 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
         return
     count, diameter, length = (design.value(path) for path in sizes)
     allowed = [book_load(count, diameter, length, np.asarray(case.speed) / (2.0 * np.pi)) for case in turning]
-    used = [case.couple[..., i] / limit for case, limit in zip(turning, allowed, strict=True)]
+    used = [case.severity * case.couple[..., i] / limit for case, limit in zip(turning, allowed, strict=True)]
     worst = int(foremost([float(np.max(one)) for one in used]))
     yield Verdict(
         title=_("load of the needles of joint {number}, the book's rule"),
-        value=turning[worst].couple[..., i] * design.shock / design.value(span),
+        value=turning[worst].severity * turning[worst].couple[..., i] * design.shock / design.value(span),
         limit=np.minimum(allowed[worst], capacity),
         source=_("Kozhevnikov & Perfil'ev (1978), eq. 266, one oscillation a turn"),
         design_variables=(span, *sizes, *design.torque_design_variables, *design.speed_design_variables),

@@ -35,7 +35,8 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     # Torque that does the damage of the whole duty at its mean speed times joint angle.
     paces = [np.asarray(one.share) * one.speed * rated_joint_angle(one.joint_angle[..., i]) for one in running]
     pace: Array = sum(paces)
-    worn: Array = sum(own * one.joint_torque[..., i] ** POWER for own, one in zip(paces, running, strict=True))
+    loads = [one.severity * one.joint_torque[..., i] for one in running]
+    worn: Array = sum(own * load**POWER for own, load in zip(paces, loads, strict=True))
     whole: Array = sum(np.asarray(one.share) for one in running)
     yield Verdict(
         value=design.shock * (worn / pace) ** (1.0 / POWER),

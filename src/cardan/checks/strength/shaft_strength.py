@@ -67,12 +67,14 @@ class ShaftStrength:
 def shaft_strength(design: Design, k: int) -> ShaftStrength:
     """Return what a shaft of one drive under torque goes through, counted from 0."""
     shock, shaft = float(design.shock), design.drive.shafts[k]
-    torque = float(design.most(lambda case: case.shaft_torque[..., k])[0])
+    torque, shocked = (
+        float(design.most(lambda case: case.shaft_torque[..., k], shocks=one)[0]) for one in (False, True)
+    )
     soft, buckles = compliance(design, k)[0], composite_buckling(design, k)
     found = list(sections(design, k))
     plain = ShaftStrength(
         number=k + 1,
-        torque=shock * torque,
+        torque=shock * shocked,
         bending=shock * float(design.most(lambda case: case.end_bending[..., k])[0]),
         weight_bending=weight_bending(design, k),
         twist=math.nan if soft is None else float(soft) * torque,
@@ -82,8 +84,9 @@ def shaft_strength(design: Design, k: int) -> ShaftStrength:
     if not found or shaft.layup is not None:
         return plain
     worst = foremost_of(range(len(found)), lambda s: 1.0 / float(torsion_modulus(found[s].outer, found[s].inner)))
-    case = foremost_of(design.loaded, lambda one: float(one.mises_moment[k]))
-    moments = shock * float(case.shaft_torque[k]), shock * float(case.end_bending[k])
+    case = foremost_of(design.loaded, lambda one: one.severity * float(one.mises_moment[k]))
+    size = shock * case.severity
+    moments = size * float(case.shaft_torque[k]), size * float(case.end_bending[k])
     stress = shaft_stress(*moments, found[worst].outer, found[worst].inner)
     plain = replace(plain, stress=stress, stretch=worst + 1)
     if design.missing(*(one.of_material(name) for one in found for name in STRENGTHS)):

@@ -268,6 +268,7 @@ def scaled(duty: Duty, factor: float) -> Duty:
         torque=None if duty.torque is None else factor * duty.torque,
         harmonics=tuple(replace(one, torque=factor * one.torque) for one in duty.harmonics),
         blocks=tuple(replace(one, torque=factor * one.torque) for one in duty.blocks),
+        cases=tuple(replace(one, torque=factor * one.torque) for one in duty.cases),
         torque_history=None
         if history is None
         else replace(history, torques=tuple(factor * one for one in history.torques)),

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
 from cardan.checks.verdict import Verdict
@@ -46,7 +47,12 @@ def _judge(design: Design) -> Iterator[Verdict]:
         if lacking:
             yield Verdict(missing=tuple(lacking))
         return
-    value, note = design.most(lambda case: sum(case.shaft_torque[..., k] * one for k, one in soft.items()))
+
+    def turned(case: Case) -> Array:
+        found: Array = sum(case.shaft_torque[..., k] * one for k, one in soft.items())
+        return found
+
+    value, note = design.most(turned, shocks=False)
     own = design.value("limits.twist")
     yield Verdict(
         value=value,

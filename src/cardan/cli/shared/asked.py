@@ -106,13 +106,13 @@ def check_torque(torque: float | None) -> None:
 def on_duty(drive: Drive, speed_rpm: float | None, torque: float | None) -> Drive:
     """Return a drive with the speed [rpm] and torque [N·m] of the command line instead of its own.
 
-    A torque there is steady, and stands in place of a duty cycle and of a measured torque too.
+    A torque there is steady, and stands in place of load cases, of a duty cycle and of a measured torque too.
     """
     duty = drive.duty
     if speed_rpm is not None:
         duty = replace(duty, speed=speed_rpm * rpm)
     if torque is not None:
-        duty = replace(duty, torque=torque, blocks=(), torque_history=None)
+        duty = replace(duty, torque=torque, blocks=(), cases=(), torque_history=None)
     return replace(drive, duty=duty)
 
 

@@ -35,12 +35,15 @@ def part_problems(drive: Described) -> Iterator[Problem]:
             yield from _spline(shaft, length.get(shaft.number), f"{path}.spline")
     for k, support in enumerate(drive.supports):
         yield from _support(support, len(drive.joints), length, f"supports[{k}]")
-    between = drive.duty.speed_range
-    if between is not None and between[0] >= between[1]:
-        text = _("its first speed, {low:.6g} rpm, is not below its second, {high:.6g} rpm")
-        yield Problem("duty.speed_range", text.format(low=between[0] / rpm, high=between[1] / rpm))
+    ranges = [("duty", drive.duty.speed_range)]
+    ranges += [(f"duty.cases[{k}]", case.speed_range) for k, case in enumerate(drive.duty.cases)]
+    for path, between in ranges:
+        if between is not None and between[0] >= between[1]:
+            text = _("its first speed, {low:.6g} rpm, is not below its second, {high:.6g} rpm")
+            yield Problem(f"{path}.speed_range", text.format(low=between[0] / rpm, high=between[1] / rpm))
     if drive.duty.torque is None:
-        for name, there in (("harmonics", drive.duty.harmonics), ("torque_at", drive.duty.torque_at != "output")):
+        at = drive.duty.torque_at != "output" and not drive.duty.cases
+        for name, there in (("harmonics", drive.duty.harmonics), ("torque_at", at)):
             if there:
                 yield Problem(f"duty.{name}", _("there is no duty torque that this could belong to"))
 

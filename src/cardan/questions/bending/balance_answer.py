@@ -11,6 +11,7 @@ from cardan.answers.quantity import Quantity, Text, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.drive.body import body_length, weight
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.parts import known_lengths
@@ -30,7 +31,7 @@ def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for the balance of its shafts: a highest speed, bodies or masses."""
     duty = drive.duty
     judged = [s for k, s in enumerate(drive.shafts) if 0 < k < len(drive.joints) or s.unbalance]
-    speeds = (duty.speed, duty.speed_range, *(block.speed for block in duty.blocks))
+    speeds = (duty.speed, duty.speed_range, *(case.speed for case in load_cases(duty)))
     bodies = any(shaft.has_body or shaft.mass is not None or shaft.unbalance for shaft in judged)
     return absent(
         (any(speeds), "duty.speed_range", "duty.speed"),

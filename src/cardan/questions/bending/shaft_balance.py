@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import BalanceGrade, BalanceNorm
 from cardan.drive.body import body_length, weight
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.fields.parts import known_lengths
@@ -172,8 +173,8 @@ def balance(
     rows = known or catalogue()
     whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     used = whole.duty
-    speeds = [abs(one) for one in (used.speed, *(block.speed for block in used.blocks)) if one]
-    speeds += [] if used.speed_range is None else [used.speed_range[1]]
+    speeds = [abs(one) for case in load_cases(used) for one in (case.speed, *(case.speed_range or ())) if one]
+    speeds += [abs(one) for one in (used.speed, *(used.speed_range or ())) if one]
     if not speeds:
         raise refuse("duty.speed", _("missing; the unbalance allowed depends on it"), "missing")
     name = grade or used.balance_grade

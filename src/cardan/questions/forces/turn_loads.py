@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
 import numpy as np
 
+from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Duty, Harmonic
+from cardan.drive.duty import Harmonic
 from cardan.drive.joints import Joint
 from cardan.drive.models.chain import Chain, given_chain, turning
 from cardan.drive.models.laws import Laws
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.curves.peaks import peak
 from cardan.questions.motion.motion import motion
-from cardan.texts import _
 
 LOOK = 120
 """Places in half a turn at which loads are looked at, before a curve is laid through the largest."""
@@ -28,40 +28,6 @@ STRAIGHT = 1e-9
 
 LONGEST = 12
 """Turns over which torques that swing out of step with the turning are followed at most."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class LoadCase:
-    """A way in which a drive runs under torque.
-
-    Attributes
-    ----------
-    name : str
-        What to call it; empty for the duty itself.
-    torque : float [N·m]
-        Mean torque, with its sign.
-    speed : float or None [rad/s]
-        Size of the input speed.
-    share : float
-        Share of the whole time; 0 for a peak, and for the duty beside its duty cycle.
-    joint_angle : float or None [rad]
-        Bend of every joint, where it is not that of the drive.
-    torque_at : str
-        ``output`` or ``input``.
-    harmonics : tuple of Harmonic
-        Swinging parts of the torque.
-    scale : float [N·m]
-        Mean torque that the harmonics belong to; zero when they do not grow with it.
-    """
-
-    name: str = ""
-    torque: float
-    speed: float | None = None
-    share: float = 1.0
-    joint_angle: float | None = None
-    torque_at: str = "output"
-    harmonics: tuple[Harmonic, ...] = ()
-    scale: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -254,49 +220,7 @@ def case_loads(drive: Drive, case: LoadCase) -> TurnLoads:
     given = given_chain(drive)
     own = given.joint_angle if case.joint_angle is None else np.full(np.shape(given.joint_angle), case.joint_angle)
     whole = at_joint_angle(given, own, drive.joints)
-    return turn_loads(whole, case.torque, torque_at=case.torque_at, harmonics=case.harmonics, scale=case.scale)
-
-
-def load_cases(duty: Duty) -> Iterator[LoadCase]:
-    """Yield every way a duty has a drive run under torque: steadily, the parts of its duty cycle, its measured peak.
-
-    Parameters
-    ----------
-    duty : Duty
-
-    Examples
-    --------
-    >>> from cardan.drive.duty import Block
-    >>> parts = (Block(torque=900.0, speed=100.0, share=0.2), Block(torque=300.0, speed=200.0, share=0.8))
-    >>> [(one.name, one.share) for one in load_cases(Duty(torque=500.0, speed=150.0, blocks=parts))]
-    [('', 0.0), ('part 1 of the duty cycle', 0.2), ('part 2 of the duty cycle', 0.8)]
-    """
-    history = duty.torque_history
-    measured = history is not None and bool(history.torques)
-    speed = None if duty.speed is None else abs(duty.speed)
-    scale = duty.torque or 0.0
-    if duty.torque is not None:
-        yield LoadCase(
-            torque=duty.torque,
-            speed=speed,
-            share=0.0 if duty.blocks or measured else 1.0,
-            torque_at=duty.torque_at,
-            harmonics=duty.harmonics,
-            scale=scale,
-        )
-    for k, block in enumerate(duty.blocks):
-        yield LoadCase(
-            name=_("part {number} of the duty cycle").format(number=k + 1),
-            torque=block.torque,
-            speed=abs(block.speed),
-            share=block.share,
-            joint_angle=block.joint_angle,
-            harmonics=duty.harmonics if scale else (),
-            scale=scale,
-        )
-    if history is not None and measured:
-        most = max(history.torques, key=abs)
-        yield LoadCase(name=_("the peak of the torque history"), torque=most, speed=speed, share=0.0)
+    return turn_loads(whole, case.torque or 0.0, torque_at=case.torque_at, harmonics=case.harmonics, scale=case.scale)
 
 
 def turns(harmonics: Sequence[Harmonic]) -> int:
