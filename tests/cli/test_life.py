@@ -109,7 +109,7 @@ def test_the_command_line_goes_before_the_file(cardan, cycle, measured, drive_fi
     [
         (("--method", "best"), "--method: best is none of"),
         (("--reliability-percent", 40), "--reliability-percent: 40"),
-        (("--speed-rpm", 900), "every block has its own speed"),
+        (("--speed-rpm", 900), "every load case has its own speed"),
         (("--torque-Nm", 100), "duty.speed_rpm: missing.*say --speed-rpm"),
     ],
 )

@@ -51,8 +51,10 @@ def largest_of(
     points: Array,
     movements: Sequence[Movement],
     joints: Sequence[Joint],
+    *,
+    mean: bool = False,
 ) -> Array:
-    """Return the largest answer over the instants of a movement, the drive standing still at each, array (..., k).
+    """Return the largest or the mean answer over the instants of a movement, as if it stood at each, array (..., k).
 
     Parameters
     ----------
@@ -65,14 +67,16 @@ def largest_of(
     movements : sequence of Movement
     joints : sequence of n Joint
         Their kinds.
+    mean : bool
+        Take the mean over the time instead of the largest.
 
     Returns
     -------
     array (..., k)
         Infinite where a joint bends 90° or more at an instant.
     """
-    outer, between = points.shape[:-2], kinematic.joints - 1
-    yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, between)).reshape(math.prod(outer), 1, between)
+    outer, count = points.shape[:-2], kinematic.joints - 1
+    yokes = np.broadcast_to(kinematic.yoke_angle, (*outer, count)).reshape(math.prod(outer), 1, count)
     phase = np.broadcast_to(kinematic.start_phase, outer).reshape(-1, 1)
     found = []
     for part, moved in _moved(points, movements):
@@ -85,7 +89,9 @@ def largest_of(
             yoke_angle=yokes[part],
             start_phase=phase[part],
         )
-        found.append(np.max(np.where(possible[..., None], ask(turning(turned, joints)), np.inf), axis=-2))
+        answers = np.where(possible[..., None], ask(turning(turned, joints)), np.inf)
+        between = 0.5 * (answers[:, 1:] + answers[:, :-1])
+        found.append(np.mean(between, axis=-2) if mean else np.max(answers, axis=-2))
     return np.concatenate(found).reshape(*outer, -1)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from cardan.answers.question import Gathering
 from cardan.catalogue.provenance import unconfirmed
 from cardan.catalogue.rows import UNSURE, sureness
 from cardan.drive.joints import Joint
@@ -41,6 +42,8 @@ class Check:
         where many drives at once must have joints with tan φ' = κ tan φ.
     application : str
         Of drives that it is made for, as of `Duty`; empty where it judges all.
+    gathers : str
+        "worst" where each pose is judged by itself; "sum" where one verdict is over all of them by their shares.
     """
 
     name: str
@@ -56,6 +59,7 @@ class Check:
     power: float = 0.0
     crosses: Literal["", "each", "all", "law"] = ""
     application: str = ""
+    gathers: Gathering = "worst"
 
     def verdicts(self, design: Design) -> Iterator[Verdict]:
         """Yield the verdicts on a design; those on joints of a kind that the check does not judge say so."""

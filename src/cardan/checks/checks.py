@@ -134,7 +134,9 @@ def check(
     unknown = [name for name in only if name not in CHECKS]
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
-    return worst_of_poses(_judged(subject, only), [(name, _judged(one, only)) for name, one in posed(subject)])
+    each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
+    poses = [(name, _judged(one, each)) for name, one in posed(subject)] if each else []
+    return worst_of_poses(_judged(subject, only), poses)
 
 
 def _judged(subject: Design, only: Sequence[str]) -> tuple[Verdict, ...]:

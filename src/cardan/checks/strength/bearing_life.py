@@ -8,9 +8,12 @@ from functools import lru_cache
 import numpy as np
 
 from cardan.answers.quantity import Quantity, say
+from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.moving import posed
 from cardan.checks.verdict import Verdict
+from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.formulas.joint_rating import POWER
@@ -69,7 +72,17 @@ def lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
         return tuple((problem.field, problem.message) for problem in error.problems)
 
 
-def _relative(design: Design, i: int) -> Array:
+def _relative(whole: Design, i: int) -> Array:
+    """Return the damage of a joint over all poses apart from a constant, array (...); their sum where shares lack."""
+    shares = [one.share for one in in_poses(whole.drive)] if whole.drive.poses else [1.0]
+    stands = [whole, *(one for _name, one in posed(whole))]
+    found: Array = sum(
+        (1.0 if share is None else share) * _damage(one, i) for share, one in zip(shares, stands, strict=True)
+    )
+    return found
+
+
+def _damage(design: Design, i: int) -> Array:
     """Return the damage of a joint in a time apart from a constant, by torque, speed, bend and sizes, array (...)."""
     capacity = design.value(f"joints[{i}].needles.capacity")
     if capacity is None:
@@ -80,11 +93,24 @@ def _relative(design: Design, i: int) -> Array:
     for case in design.running:
         turned = id(case.chain), case.torque_at
         if turned not in swung:
-            swung[turned] = swing_damage(case.joint_angle[..., i], torque_at=case.torque_at)
-        load = np.asarray(case.share) * case.speed * (np.asarray(case.torque) / strength) ** POWER
+            swung[turned] = _swung(design, case, i)
+        load = np.asarray(case.share) * case.speed * (case.severity * np.asarray(case.torque) / strength) ** POWER
         damage = damage + np.stack([np.broadcast_to(load * swing, design.shape) for swing in swung[turned]])
     found: Array = np.max(damage, axis=0)
     return found
+
+
+def _swung(design: Design, case: Case, i: int) -> tuple[Array, Array]:
+    """Return the damage of a turn in both yokes of a joint, the mean over the movements of the drive, arrays (...)."""
+    moved = None
+    if case.chain is design.chain:
+        moved = design.while_moving(
+            lambda chain: np.stack(swing_damage(chain.joint_angle[..., i], torque_at=case.torque_at), axis=-1),
+            mean=True,
+        )
+    if moved is None:
+        return swing_damage(case.joint_angle[..., i], torque_at=case.torque_at)
+    return moved[..., 0], moved[..., 1]
 
 
 CHECK = Check(
@@ -97,4 +123,5 @@ CHECK = Check(
     sense="at_least",
     power=POWER,
     crosses="each",
+    gathers="sum",
 )

@@ -59,8 +59,8 @@ def life(
 
 def _asked(drive: Drive, speed_rpm: float | None, torque: float | None, reliability: float | None) -> Drive:
     """Return a drive with what the command line says."""
-    if torque is None and speed_rpm is not None and drive.duty.blocks:
-        raise refuse("--speed-rpm", _("every block has its own speed; with --torque-Nm the duty is steady"))
+    if torque is None and speed_rpm is not None and (drive.duty.blocks or drive.duty.cases):
+        raise refuse("--speed-rpm", _("every load case has its own speed; with --torque-Nm the duty is steady"))
     asked = on_duty(drive, speed_rpm, torque)
     if reliability is None:
         return asked

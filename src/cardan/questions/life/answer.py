@@ -14,6 +14,7 @@ from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
 from cardan.catalogue import catalogue, filled
 from cardan.catalogue.provenance import rows_behind, unconfirmed
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.texts import _, mark
@@ -29,7 +30,7 @@ __all__ = ["COLUMNS", "answer", "ask", "lacking"]
 RATED = ("needles.capacity", "needles.count", "cross.span", "rating.torque")
 """Fields of a joint that its life rests on."""
 
-PARTLY = ("duty.blocks", "duty.torque_history")
+PARTLY = ("duty.cases", "duty.blocks", "duty.torque_history")
 """Duties in parts, that stand for one torque and one speed."""
 
 SHOWN = 12
@@ -42,7 +43,8 @@ CLOSE = 0.9
 def lacking(drive: Drive) -> Lacking:
     """Return what the drive file lacks for the life of its joints."""
     duty = drive.duty
-    parts = bool(duty.blocks) or duty.torque_history is not None
+    timed = [case for case in load_cases(duty) if case.share > 0.0 and case.path != "duty"]
+    parts = bool(timed) or duty.torque_history is not None
     own = joint_bearings(drive)[0]
     rated = bool(np.any(own.rated) or any(own.convention))
     cross = absent(
@@ -52,7 +54,7 @@ def lacking(drive: Drive) -> Lacking:
     return (
         *absent(
             (parts or duty.torque is not None, "duty.torque", *PARTLY),
-            (parts or duty.speed is not None, "duty.speed", *PARTLY),
+            ((parts and all(case.speed for case in timed)) or duty.speed is not None, "duty.speed", *PARTLY),
             (parts or duty.life is not None, "duty.life", *PARTLY),
         ),
         *(() if rated else cross or (("joints[0].rating.torque",),)),
@@ -169,6 +171,7 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
     yield Table(
         title=_("Parts of the duty cycle, and their share of the damage"),
         columns=(
+            *((Column(key="condition", heading=_("condition"), values=_named(result)),) if result.named else ()),
             Column(key="torque", heading=_("torque"), values=[part.torque for part in parts], dimension="torque"),
             Column(key="speed", heading=_("speed"), values=[part.speed for part in parts], dimension="angular_speed"),
             Column(key="share", heading=_("time"), values=result.share, dimension="share", decimals=1),
@@ -184,6 +187,11 @@ def _duty_cycle(result: Life) -> Iterator[Table]:
             ),
         ),
     )
+
+
+def _named(result: Life) -> list[str]:
+    """Return what the parts of the duty are called."""
+    return [part.name or _("as drawn") for part in result.parts]
 
 
 def _everything(result: Life) -> Table:
@@ -207,6 +215,7 @@ def _everything(result: Life) -> Table:
         name="parts",
         columns=(
             Column(key="part", values=np.repeat(np.arange(1, parts + 1), joints)),
+            Column(key="condition", values=np.repeat(_named(result), joints).tolist()),
             Column(key="joint", values=np.tile(np.arange(1, joints + 1), parts)),
             *(Column(key=key, values=np.ravel(values), dimension=unit) for key, (values, unit) in every.items()),
         ),
@@ -236,6 +245,7 @@ def _remarks(result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
         torques["most"] = float(max(result.cycles.range, default=0.0))
         told = {name: Quantity(value, "torque") for name, value in torques.items()}
         yield Remark(text=say(text, count=Quantity(result.cycles.total, trim=True), **told))
+    yield from _conditions(result)
     yield from _cautions(result)
     if result.uncounted:
         keys = ", ".join(spelled(one.field) for one in result.uncounted)
@@ -244,6 +254,17 @@ def _remarks(result: Life, loose: tuple[str, ...]) -> Iterator[Remark]:
     if len(result.parts) > 1:
         text = _("Every part on its own, joint by joint:")
         yield Remark(text=text, command=("cardan", "life", FILE, "--csv"), tone="next")
+
+
+def _conditions(result: Life) -> Iterator[Remark]:
+    """Yield how the life was gathered over poses and movements."""
+    if result.worst_pose:
+        text = _(
+            "Warning: no share_percent tells how long each pose lasts; this is the life in the worst of them, {pose}."
+        )
+        yield Remark(text=say(text, pose=result.worst_pose), tone="warning", code="no_share", alarm=True)
+    if result.moving:
+        yield Remark(text=_("Damage is summed over the movement; joint angles and torques are its means."))
 
 
 def _cautions(result: Life) -> Iterator[Remark]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cardan.drive.conditions import LoadCase
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Block, Duty
+from cardan.drive.duty import Duty
 from cardan.drive.models.chain import Chain
 from cardan.drive.models.train import Train
 from cardan.errors import Problem, check
@@ -49,7 +50,7 @@ class BearingLoads:
     driven: Array
 
 
-def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[Block]) -> BearingLoads:
+def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[LoadCase]) -> BearingLoads:
     """Return what the bearings of a drive go through in each part of a duty cycle.
 
     Parameters
@@ -59,7 +60,7 @@ def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[Bloc
         Its machine half.
     duty : Duty
         Harmonics of the torque, acceleration, and at which end the torque is given.
-    parts : sequence of Block (b,)
+    parts : sequence of LoadCase (b,)
         Torque, speed and bend of each part.
 
     Raises
@@ -91,7 +92,7 @@ def bearing_loads(drive: Drive, machine: Train, duty: Duty, parts: Sequence[Bloc
     )
 
 
-def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequence[Block]) -> Model:
+def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequence[LoadCase]) -> Model:
     """Return what the torques depend on, one case for each part."""
     n = len(drive.joints)
     none = np.zeros(n + 1)
@@ -107,8 +108,8 @@ def _model(drive: Drive, machine: Train, duty: Duty, chain: Chain, parts: Sequen
         drag=drag,
         inertia=none if machine.inertia is None else machine.inertia,
         resisting=none if machine.resisting_torque is None else machine.resisting_torque,
-        speed=np.asarray([part.speed for part in parts]),
-        torque=np.asarray([part.torque for part in parts]),
+        speed=np.asarray([part.speed or 0.0 for part in parts]),
+        torque=np.asarray([part.torque or 0.0 for part in parts]),
         acceleration=duty.acceleration,
         torque_at=duty.torque_at,
         harmonics=duty.harmonics,

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from cardan.drive.conditions import Condition, LoadCase, in_poses, load_cases
 from cardan.drive.drive import Drive
-from cardan.drive.duty import Block, Duty
+from cardan.drive.duty import Duty
 from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.models.train import train
 from cardan.errors import Problem, check, refuse
 from cardan.formulas.joint_rating import POWER, book_life, lasting, nominal_torque
 from cardan.maths.arrays import Array
+from cardan.questions.motion.standing import mean_times, standing
 from cardan.texts import _
 
 from .bearing_life import MILLION, RELIABILITIES, maker_life, reliability_factor
 from .bearing_loads import BearingLoads, bearing_loads
+from .duty_cycle import combined_life, equivalent_torque
 from .joint_bearings import JointBearings, Missing, joint_bearings
 from .life_cautions import cautions
 from .lives import METHODS, Life
@@ -52,7 +57,7 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     ISO 281: L = a_1 10^6 turns/D, D = (1/2π) ∮ \\|dδ/dφ\\| (f_d Q/C)^(10/3) dφ, with the swing δ and the load
     Q = K/d of the journals over the turn from the torque flow of the whole drive, friction and inertia counted. Makers
     and the book take the mean torque and the joint angle, at least 3°. Parts of a duty cycle add their damage, Book
-    (268).
+    (268), and so do poses by their shares and the instants of a movement, of which the drive turns many times in each.
 
     Examples
     --------
@@ -70,27 +75,28 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
     book 1015.0 h
     """
     refuse_kinds(drive, _("bearing life"), "life")
-    used = drive.duty if duty is None else duty
+    whole = drive if duty is None else replace(drive, duty=duty)
+    used = whole.duty
     if method is not None and method not in METHODS:
         names = ", ".join(METHODS)
         raise refuse("method", _("{value} is none of {choices}").format(value=repr(method), choices=names))
-    parts, asked, history, cycles = duty_parts(used)
+    _parts, _asked, history, cycles = duty_parts(used)
     bearings, missing = joint_bearings(drive)
     check(_nothing(bearings, missing))
-    machine = train(drive)
-    loads = bearing_loads(drive, machine, asked, parts)
-    factor = float(reliability_factor(used.reliability))
-    share = np.asarray([part.share for part in parts])
-    lives = _lives(loads, bearings, parts, used.shock_factor, factor)
     chosen = method or _first(bearings)
+    factor = float(reliability_factor(used.reliability))
+    stands = [one for one in in_poses(whole) if one.share != 0.0 or _bound(whole, one.pose)]
+    rows = [row for one in stands for row in _rows(one, bearings, factor)]
+    unknown = any(row.share is None for row in rows)
+    if unknown:
+        rows = _worst(rows, chosen)
+    share = np.asarray([row.share if row.share is not None else row.part.share for row in rows])
+    stacked: dict[str, Any] = {name: np.stack([getattr(row, name) for row in rows]) for name in ROWS}
     found = Life(
-        parts=parts,
+        parts=tuple(row.part for row in rows),
         share=share / np.sum(share),
-        joint_angle=loads.joint_angle,
-        torque=loads.torque,
-        journal_force=used.shock_factor * loads.couple / bearings.span,
+        **stacked,
         bearings=bearings,
-        **lives,
         shock_factor=used.shock_factor,
         reliability=used.reliability,
         reliability_factor=factor,
@@ -99,28 +105,119 @@ def life(drive: Drive, duty: Duty | None = None, *, method: str | None = None) -
         history=history,
         cycles=cycles,
         uncounted=missing,
-        assumed=(*bearings.assumed, *machine.assumed),
+        assumed=(*bearings.assumed, *train(drive).assumed),
+        worst_pose=(rows[0].pose or _("as drawn")) if unknown else "",
+        moving=any(one.moving for one in stands),
     )
     if bool(np.all(np.isnan(found.joints))):
         raise refuse("method", _("no joint has what {method} needs").format(method=chosen))
     return replace(found, cautions=tuple(cautions(found, beyond=used.reliability > max(RELIABILITIES))))
 
 
-def duty_parts(duty: Duty) -> tuple[tuple[Block, ...], Duty, Levels | None, Cycles | None]:
+ROWS = ("joint_angle", "torque", "journal_force", "driving", "driven", "simple", "maker", "book")
+"""Fields of a `Life` with a row for each part."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Row:
+    """What the joints go through in one part of the duty, in one pose: means over its movement, arrays (n,)."""
+
+    part: LoadCase
+    pose: str
+    share: float | None
+    joint_angle: Array
+    torque: Array
+    journal_force: Array
+    driving: Array
+    driven: Array
+    simple: Array
+    maker: Array
+    book: Array
+
+
+def _bound(drive: Drive, pose: str) -> bool:
+    """Tell whether a load case is bound to a pose."""
+    return bool(pose) and any(case.pose == pose for case in drive.duty.cases)
+
+
+def _rows(stand: Condition, bearings: JointBearings, factor: float) -> Iterator[_Row]:
+    """Yield what every part of the duty does in a pose: as drawn there, or over the movements in which it acts."""
+    drive, machine = stand.drive, train(stand.drive)
+    every, asked, _history, _cycles = duty_parts(drive.duty)
+    own = [part for part in every if part.pose == stand.pose or (not part.pose and stand.share != 0.0)]
+    for movement in dict.fromkeys(part.movement for part in own):
+        parts = tuple(part for part in own if part.movement == movement)
+        moves = tuple(one for one in drive.movements if movement in ("", one.name))
+        stood = [machine]
+        if moves and any(part.joint_angle is None for part in parts):
+            moving = replace(drive, movements=moves)
+            stood = standing(moving, machine, mean_times(moves))
+        loads = [bearing_loads(drive, one, asked, parts) for one in stood]
+        lives = [_lives(one, bearings, parts, factor) for one in loads]
+        speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
+        shocks = np.asarray([part.shock_factor for part in parts])[:, None]
+        table = {name: _mean_life([one[name] for one in lives]) for name in lives[0]}
+        joint_angles, torques = (np.stack([getattr(one, name) for one in loads]) for name in ("joint_angle", "torque"))
+        table["torque"] = torques[0]
+        if len(loads) > 1:
+            flat = np.moveaxis(torques, 0, -1), np.full(len(loads), 1.0 / len(loads))
+            table["torque"] = equivalent_torque(
+                *flat, speed=speed[..., None], joint_angle=np.moveaxis(joint_angles, 0, -1)
+            )
+        table["joint_angle"] = np.mean(joint_angles, axis=0)
+        table["journal_force"] = shocks * np.max([one.couple for one in loads], axis=0) / bearings.span
+        for k, part in enumerate(parts):
+            pose = _("pose {name}").format(name=stand.pose) if stand.pose else ""
+            at = "" if pose else part.path
+            named = replace(part, name=", ".join(word for word in (pose, part.name) if word), path=at)
+            share = part.share if part.pose else None if stand.share is None else part.share * stand.share
+            row = {name: values[k] for name, values in table.items()}
+            yield _Row(part=named, pose=stand.pose, share=share, **row)
+
+
+def _mean_life(lives: Sequence[Array]) -> Array:
+    """Return the life over equal times with these lives (b, n): their rates of damage have a mean."""
+    if len(lives) == 1:
+        return lives[0]
+    with np.errstate(divide="ignore"):
+        return lasting(1.0, np.mean([1.0 / one for one in lives], axis=0))
+
+
+def _worst(rows: Sequence[_Row], method: str) -> list[_Row]:
+    """Return the rows of the pose in which a joint fails first, where nobody says how long each pose lasts."""
+
+    def least(pose: str) -> float:
+        own = [row for row in rows if row.pose == pose]
+        share = np.asarray([row.part.share for row in own])
+        names = ("driving", "driven") if method == "iso" else (method,)
+        lives = [combined_life(np.stack([getattr(row, name) for row in own]).T, share) for name in names]
+        return float(np.nanmin(lives))
+
+    worst = min(dict.fromkeys(row.pose for row in rows), key=least)
+    return [row for row in rows if row.pose == worst]
+
+
+def duty_parts(duty: Duty) -> tuple[tuple[LoadCase, ...], Duty, Levels | None, Cycles | None]:
     """Return the parts of a duty cycle, the duty they are of, and the levels and cycles of a measured torque.
 
     Parameters
     ----------
     duty : Duty
-        Its blocks count before its measured torque, and this before its steady torque.
+        Its load cases and parts count before its measured torque, and this before its steady torque; peaks do not.
 
     Raises
     ------
     InputError
         A speed or a torque misses.
     """
+    every = load_cases(duty)
     if duty.blocks:
-        return duty.blocks, replace(duty, torque_at="output"), None, None
+        return tuple(one for one in every if one.path != "duty"), replace(duty, torque_at="output"), None, None
+    timed = tuple(one for one in every if one.share > 0.0)
+    if duty.cases and duty.torque_history is None and timed:
+        text = _("missing; how long a joint lasts depends on it")
+        check(Problem(f"{one.path}.speed", text, "missing") for one in timed if not one.speed)
+        return timed, duty, None, None
     history = duty.torque_history
     problems = []
     if not duty.speed:
@@ -134,18 +231,22 @@ def duty_parts(duty: Duty) -> tuple[tuple[Block, ...], Duty, Levels | None, Cycl
     check(problems)
     speed = duty.speed or 0.0
     if history is None:
-        return (Block(torque=duty.torque or 0.0, speed=speed, share=1.0),), duty, None, None
+        return (LoadCase(torque=duty.torque or 0.0, speed=speed, shock_factor=duty.shock_factor),), duty, None, None
     levels = time_at_level(history.times, history.torques)
     rows = zip(levels.value.tolist(), levels.share.tolist(), strict=True)
-    parts = tuple(Block(torque=torque, speed=speed, share=share) for torque, share in rows if share > 0.0)
+    shocks = duty.shock_factor
+    parts = tuple(
+        LoadCase(torque=torque, speed=speed, share=share, shock_factor=shocks) for torque, share in rows if share > 0.0
+    )
     return parts, replace(duty, torque_at="output", harmonics=()), levels, rainflow(history.torques)
 
 
 def _lives(
-    loads: BearingLoads, bearings: JointBearings, parts: tuple[Block, ...], shock: float, factor: float
+    loads: BearingLoads, bearings: JointBearings, parts: tuple[LoadCase, ...], factor: float
 ) -> dict[str, Array]:
     """Return the lives of every joint in every part by every method, arrays (b, n) [s]."""
-    speed = np.abs(np.asarray([part.speed for part in parts]))[:, None]
+    speed = np.asarray([abs(part.speed or 0.0) for part in parts])[:, None]
+    shock = np.asarray([part.shock_factor for part in parts])[:, None]
     whole = factor * MILLION * 2.0 * math.pi / speed
     strength = (bearings.span * bearings.capacity / shock) ** POWER
     mean = (np.abs(loads.torque)) ** POWER * 2.0 * loads.joint_angle / math.pi
@@ -156,7 +257,7 @@ def _lives(
                 "speed": speed[:, 0],
                 "joint_angle": loads.joint_angle[:, i],
                 "convention": convention,
-                "shock": shock,
+                "shock": shock[:, 0],
             }
             maker[:, i] = maker_life(bearings.rating[i], loads.torque[:, i], **case)
     own = np.asarray([convention == "book" for convention in bearings.convention])

@@ -54,7 +54,7 @@ def cautions(found: Life, *, beyond: bool) -> Iterator[Caution]:
     """Yield what to mind about the lives of a drive; ``beyond`` tells that the reliability is outside its table."""
     running = found.share > 0.0
     joint_angle = found.joint_angle[running]
-    speed = np.abs(np.asarray([part.speed for part in found.parts]))[running, None]
+    speed = np.asarray([abs(part.speed or 0.0) for part in found.parts])[running, None]
     book = found.of("book")
     for i in range(joint_angle.shape[1]):
         least = float(np.min(joint_angle[:, i]))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cardan.answers.quantity import Text
-from cardan.drive.duty import Block
+from cardan.drive.conditions import LoadCase
 from cardan.formulas.joint_rating import POWER
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.ties import foremost
@@ -42,18 +42,18 @@ class Caution:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Life:
-    """Life of the joints of a drive in its duty cycle.
+    """Life of the joints of a drive in its duty cycle, in all poses and while it moves.
 
     Attributes
     ----------
-    parts : tuple of Block (b,)
-        Parts of the duty cycle; one for a steady duty, one a level for a measured torque.
+    parts : tuple of LoadCase (b,)
+        Parts of the duty cycle in each pose; one for a steady duty, one a level for a measured torque.
     share : array (b,)
         Their shares of the time.
     joint_angle : array (b, n) [rad]
-        Bend of each joint in each part.
+        Bend of each joint in each part, the mean over a movement.
     torque : array (b, n) [N·m]
-        Mean torque that enters each joint, without the factor for shocks.
+        Mean torque that enters each joint, without the factor for shocks; over a movement what damages as much.
     journal_force : array (b, n) [N]
         Largest load of a journal in a turn, with the factor for shocks; nan without a span.
     bearings : JointBearings
@@ -77,11 +77,15 @@ class Life:
         What to mind.
     uncounted : tuple of Missing
         Lives left out, each with the key to add.
+    worst_pose : str
+        Where no share of the poses is known: the pose in which a joint fails first, of which alone this is the life.
+    moving : bool
+        Whether the drive moves, and damage is summed over its movements.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
 
-    parts: tuple[Block, ...]
+    parts: tuple[LoadCase, ...]
     share: Array
     joint_angle: Array
     torque: Array
@@ -101,7 +105,14 @@ class Life:
     cycles: Cycles | None = None
     cautions: tuple[Caution, ...] = ()
     uncounted: tuple[Missing, ...] = ()
+    worst_pose: str = ""
+    moving: bool = False
     assumed: tuple[str, ...] = ()
+
+    @property
+    def named(self) -> bool:
+        """Whether its parts have names: poses, load cases."""
+        return any(part.name and not part.path.startswith("duty.blocks") for part in self.parts)
 
     @property
     def iso(self) -> Array:
@@ -153,12 +164,13 @@ class Life:
     def equivalent_torque(self) -> Array:
         """Constant torque that damages each joint as much at its mean speed times bend, array (n,) [N·m]."""
         speed = np.asarray([part.speed for part in self.parts])
-        return equivalent_torque(self.torque.T, self.share, speed=speed, joint_angle=self.joint_angle.T)
+        more = np.asarray([part.shock_factor for part in self.parts]) / self.shock_factor
+        return equivalent_torque(self.torque.T * more, self.share, speed=speed, joint_angle=self.joint_angle.T)
 
     @property
     def speed_angle(self) -> Array:
         """Mean of speed times bend of each joint, array (n,) [rad²/s]."""
-        speed = np.asarray([abs(part.speed) for part in self.parts])
+        speed = np.asarray([abs(part.speed or 0.0) for part in self.parts])
         found: Array = np.sum((self.share * speed)[:, None] * self.joint_angle, axis=0)
         return found
 
