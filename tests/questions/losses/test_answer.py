@@ -91,7 +91,7 @@ def test_the_balance_is_told_as_closed_to_rounding_or_not_at_all():
 
 def test_what_the_drive_file_lacks_is_told():
     assert lacking(TRUCK) == ()
-    assert lacking(replace(TRUCK, duty=Duty())) == (("duty.torque",), ("duty.speed",))
+    assert lacking(replace(TRUCK, duty=Duty())) == (("duty.torque", "duty.cases"), ("duty.speed",))
     assert lacking(Drive.from_angles([0.3]))[-1] == (
         "joints[0].friction",
         "supports[0].friction",

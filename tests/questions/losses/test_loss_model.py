@@ -16,7 +16,7 @@ from tests.builders.rubbing import STEADY, loaded, single
 @given(plans(most=3), st.integers(0, 2**32 - 1))
 def test_means_are_those_of_many_places(plan, seed):
     drive, duty = loaded(plan, seed)
-    model = model_of(drive, duty, counted(drive, duty, None)[0])
+    model = model_of(drive, duty, counted(drive, duty)[0])
     assert model.turns == 2
     many = powers(model, (np.arange(40_000) + 0.5) * (4 * np.pi / 40_000))
     mean = mean_powers(model)
@@ -27,7 +27,7 @@ def test_means_are_those_of_many_places(plan, seed):
 
 
 def model(*harmonics):
-    return model_of(single(), replace(STEADY, harmonics=harmonics), counted(single(), STEADY, None)[0])
+    return model_of(single(), replace(STEADY, harmonics=harmonics), counted(single(), STEADY)[0])
 
 
 @pytest.mark.parametrize(("orders", "turns"), [((), 1), ((2, 4), 1), ((0.5,), 2), ((0.5, 1 / 3), 6), ((2**0.5,), 12)])

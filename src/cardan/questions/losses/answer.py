@@ -13,6 +13,7 @@ from cardan.answers.checks import closely
 from cardan.answers.quantity import Joined, Quantity, Say, listed, say
 from cardan.answers.question import Lacking, absent
 from cardan.answers.sweepable import OutputColumn, SweepQuestion
+from cardan.drive.conditions import load_cases
 from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import in_a_joint, spelled
 from cardan.errors import refuse
@@ -41,9 +42,10 @@ def lacking(drive: Drive) -> Lacking:
     joints = any(joint.friction is not None or joint.material_friction is not None for joint in drive.joints)
     supports = any(support.friction is not None for support in drive.supports)
     splines = any(shaft.spline is not None and shaft.spline.friction is not None for shaft in drive.shafts)
+    timed = [case for case in load_cases(drive.duty) if case.share > 0.0] or [*load_cases(drive.duty)[:1]]
     return absent(
-        (drive.duty.torque is not None, "duty.torque"),
-        (drive.duty.speed is not None, "duty.speed"),
+        (all(case.torque is not None for case in timed), "duty.torque", "duty.cases"),
+        (all(case.speed is not None for case in timed), "duty.speed"),
         (
             joints or supports or splines,
             *in_a_joint(drive, "friction"),
@@ -74,7 +76,7 @@ def answer(drive: Drive, result: Losses, over: LossMap | None = None) -> Answer:
         tone="failed" if locked else "plain",
         figures=lambda: _figures(drive, result, over),
         tables=_tables(drive, result, over, trace),
-        remarks=tuple(_remarks(result, over)),
+        remarks=tuple(_remarks(drive, result, over)),
         keys=tuple(_keys(result)),
         facts=_facts(drive, result),
         full=lambda: trace if over is None else _map(over),
@@ -96,6 +98,13 @@ def _sentence(drive: Drive, result: Losses) -> Say:
         "speed": Quantity(result.speed, "angular_speed"),
         "loss": power(result.heat),
     }
+    if result.each and not result.worst and result.efficiency > 0.0 and result.heat > 0.0:
+        text = _("efficiency {share} over {count} conditions by their shares; {loss} are lost, most in {part}: {most}.")
+        parts = loss_parts(result, drive)
+        places = largest([part.loss for part in parts])
+        where = Joined([parts[k].named for k in places], last=_(" and "))
+        values |= {"share": Quantity(result.efficiency, "share"), "count": len(result.each)}
+        return say(text, part=where, most=power(parts[places[0]].loss), **values)
     if math.isnan(result.efficiency) or result.efficiency <= 0.0:
         return say(_("at {torque} and {speed} no power comes through; {loss} are lost."), **values)
     values |= {
@@ -119,7 +128,37 @@ def _tables(drive: Drive, result: Losses, over: LossMap | None, trace: Table) ->
     if over is not None:
         data = Table(name=trace.name, columns=trace.columns, depth="data")
         return (*_map_tables(over), data)
-    return () if result.locked else (_parts(drive, result),)
+    return () if result.locked else (_parts(drive, result), *_each(result))
+
+
+def _each(result: Losses) -> Iterator[Table]:
+    """Yield the table of the conditions, where there are several."""
+    if not result.each:
+        return
+    yield Table(
+        name="conditions",
+        records=True,
+        title=_("Power loss in each condition"),
+        columns=(
+            Column(key="condition", heading=_("condition"), values=[one.name or _("as drawn") for one in result.each]),
+            Column(
+                key="share", heading=_("time"), values=[one.share for one in result.each], dimension="share", decimals=1
+            ),
+            Column(key="torque", heading=_("torque"), values=[one.torque for one in result.each], dimension="torque"),
+            Column(
+                key="speed", heading=_("speed"), values=[one.speed for one in result.each], dimension="angular_speed"
+            ),
+            Column(
+                key="efficiency",
+                heading=_("efficiency"),
+                values=[one.efficiency for one in result.each],
+                dimension="share",
+            ),
+            Column(
+                key="power_loss", heading=_("power loss"), values=[one.heat for one in result.each], dimension="power"
+            ),
+        ),
+    )
 
 
 def _parts(drive: Drive, result: Losses) -> Table:
@@ -179,7 +218,7 @@ def _map_tables(over: LossMap) -> Iterator[Table]:
         )
 
 
-def _remarks(result: Losses, over: LossMap | None) -> Iterator[Remark]:
+def _remarks(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Remark]:
     if result.locked:
         text = plural(
             "Failed: friction in the journals of joint {which} reaches the torque that turns it; reduce friction, "
@@ -190,6 +229,7 @@ def _remarks(result: Losses, over: LossMap | None) -> Iterator[Remark]:
         )
         yield Remark(text=say(text, which=listed(result.locked)), tone="failed", alarm=True)
         return
+    yield from _gathered(drive, result, over)
     yield from _uncounted(result.uncounted)
     text = _(
         "By the usual formulas, for the journals alone, the efficiency is {first} to first order and {small} by the "
@@ -206,6 +246,24 @@ def _remarks(result: Losses, over: LossMap | None) -> Iterator[Remark]:
     if over is None:
         command = ("cardan", "losses", FILE, "--map")
         yield Remark(text=_("The same over speed and torque:"), command=command, tone="next")
+
+
+def _gathered(drive: Drive, result: Losses, over: LossMap | None) -> Iterator[Remark]:
+    """Yield how the losses were gathered over conditions."""
+    if result.worst:
+        text = _(
+            "Warning: no share_percent tells how long each pose lasts; this is the power loss where it is largest, in "
+            "{pose}."
+        )
+        yield Remark(text=say(text, pose=result.worst), tone="warning", code="no_share")
+    if result.drawn is not None:
+        text = _("These are means over the movement; standing as drawn the efficiency is {share}, and {loss} are lost.")
+        loss = power(result.drawn.heat)
+        yield Remark(text=say(text, share=Quantity(result.drawn.efficiency, "share"), loss=loss))
+    elif drive.movements:
+        yield Remark(text=_("Every condition is a mean over its movement."))
+    if over is not None and (drive.movements or drive.poses):
+        yield Remark(text=_("The map over speed and torque is of the drive as drawn, standing still."))
 
 
 def _uncounted(parts: Sequence[Uncounted]) -> Iterator[Remark]:

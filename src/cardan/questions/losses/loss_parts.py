@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -12,7 +12,6 @@ from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.laws import refuse_kinds
 from cardan.drive.models.train import Train, train
-from cardan.drive.movement import Movement
 from cardan.errors import InputError, Problem, check
 from cardan.maths.arrays import Array
 from cardan.questions.motion.articulation import articulation
@@ -69,9 +68,7 @@ class Parts:
     slide: Array
 
 
-def counted(
-    drive: Drive, duty: Duty, movement: Movement | Sequence[Movement] | None
-) -> tuple[Parts, tuple[Uncounted, ...]]:
+def counted(drive: Drive, duty: Duty) -> tuple[Parts, tuple[Uncounted, ...]]:
     """Return what can be counted, and what cannot; refuse a drive of which nothing can."""
     refuse_kinds(drive, _("losses"), "losses")
     try:
@@ -82,7 +79,7 @@ def counted(
             [Uncounted(field=p.field, message=p.message, part="supports", missing=False) for p in error.problems],
         )
     rub, supports = _supports(drive, machine, short)
-    slide, splines = _splines(drive, movement)
+    slide, splines = _splines(drive)
     joints = list(_joints(drive))
     grip = np.zeros(len(drive.shafts))
     if machine.grip is not None:
@@ -141,7 +138,7 @@ def _supports(drive: Drive, machine: Train, short: list[Uncounted]) -> tuple[Arr
     return (np.zeros_like(rub), [*found, *short]) if short else (rub, found)
 
 
-def _splines(drive: Drive, movement: Movement | Sequence[Movement] | None) -> tuple[Array, list[Uncounted]]:
+def _splines(drive: Drive) -> tuple[Array, list[Uncounted]]:
     """Return the mean sliding speed of every shaft, zero where it is not known, and splines that are not counted."""
     slide, found = np.zeros(len(drive.shafts)), []
     splined = [shaft for shaft in drive.shafts if shaft.spline is not None]
@@ -152,11 +149,11 @@ def _splines(drive: Drive, movement: Movement | Sequence[Movement] | None) -> tu
             found.append(Uncounted(field=field, message=message, part="shafts", number=shaft.number))
     if not splined or len(found) == len(splined):
         return slide, found
-    if movement is None and not drive.movements:
+    if not drive.movements:
         message = _("missing; the splines slide only while the drive moves")
         found.append(Uncounted(field="movements", message=message, part="shafts"))
         return slide, found
-    moved = articulation(drive, movement)
+    moved = articulation(drive)
     lasts = float(moved.times[-1] - moved.times[0])
     for one in moved.splines:
         slide[one.shaft - 1] = one.slip_path / lasts if lasts else 0.0

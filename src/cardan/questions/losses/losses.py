@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from cardan.drive.conditions import conditions, gathered
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
 from cardan.drive.models.machine_held import machine_held
@@ -14,11 +16,39 @@ from cardan.drive.movement import Movement
 from cardan.errors import Problem, check
 from cardan.formulas.friction import Turning, joint_friction
 from cardan.maths.arrays import Array, ArrayLike
+from cardan.maths.ties import foremost
 from cardan.questions.motion.motion import TURN
+from cardan.questions.motion.standing import FEWEST, mean_times, standing
 from cardan.texts import _
 
-from .loss_model import Powers, mean_powers, powers
-from .loss_parts import Uncounted, counted, model_of
+from .loss_model import Model, Powers, mean_powers, powers
+from .loss_parts import Parts, Uncounted, counted, model_of
+
+FEW = 48
+"""Instants over which means are taken where supports rub: each of them takes rounds of forces."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LossesAt:
+    """What a drive turns to heat in one condition.
+
+    Attributes
+    ----------
+    name : str
+        What to call it; empty as drawn at the only torque.
+    share : float or None
+        Share of the time.
+    speed, torque : float [rad/s, N·m]
+    efficiency : float
+    heat : float [W]
+    """
+
+    name: str
+    share: float | None
+    speed: float
+    torque: float
+    efficiency: float
+    heat: float
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,6 +91,13 @@ class Losses:
         Numbers of the joints that friction holds.
     uncounted : tuple of Uncounted
         Losses left out, each with the key to add.
+    each : tuple of LossesAt
+        In every condition that has a share of the time, where there are several: all else are means by these shares,
+        but for the curves, which are of the first.
+    worst : str
+        Where no share of the poses is known: the condition with most heat, in which alone this is.
+    drawn : LossesAt, optional
+        Of a moving drive if it stood as drawn; all else are means over its movements, but for the curves.
     assumed : tuple of str
         Paths of what the drive does not say and the answer assumes.
     """
@@ -86,6 +123,9 @@ class Losses:
     residual: float
     locked: tuple[int, ...]
     uncounted: tuple[Uncounted, ...]
+    each: tuple[LossesAt, ...] = ()
+    worst: str = ""
+    drawn: LossesAt | None = None
     assumed: tuple[str, ...] = ()
 
     @property
@@ -147,9 +187,9 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     drive : Drive
         With friction of joints, spans and journals of their crosses; better with friction and bore of its supports.
     duty : Duty, optional
-        Speed and torque; those of the drive by default.
+        Speed and torque, or load cases; those of the drive by default.
     movement : Movement or sequence of Movement, optional
-        What moves, so that splines slide; all movements of the drive by default.
+        What moves; all movements of the drive by default.
 
     Returns
     -------
@@ -165,7 +205,7 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     Coulomb friction acting on itself: the cross of joint i carries T_i n and rubs with κ\\|T_i\\| in both yokes
     (κ = μ d_c/d), every support with μ_b d_b/2 times the force on it, a spline with 2 μ\\|M\\|/D against sliding.
     Inertia and resisting torques of the shafts count; crosses are taken without mass. Powers are integrated between
-    the angles at which friction turns about. The drive stands as drawn; its movements only slide the splines.
+    the angles at which friction turns about. Over movements, poses and load cases they are means by the time.
 
     Examples
     --------
@@ -178,21 +218,74 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
     >>> print(f"{found.efficiency:.6f}, {found.joints[0]:.1f} W of {found.input_power / 1000:.2f} kW")
     0.994284, 180.6 W of 31.60 kW
     """
-    chosen = drive.duty if duty is None else duty
+    whole = replace(drive, duty=drive.duty if duty is None else duty)
+    if movement is not None:
+        whole = replace(whole, movements=_several(movement))
+    every = conditions(whole)
+    timed = [one for one in every if one.share is None or one.share > 0.0] or every[:1]
+    found = [_steady(one.drive) for one in timed]
+    each = tuple(
+        LossesAt(
+            name=one.name,
+            share=one.share,
+            speed=its.speed,
+            torque=its.torque,
+            efficiency=its.efficiency,
+            heat=its.heat,
+        )
+        for one, its in zip(timed, found, strict=True)
+    )
+    if len(timed) == 1:
+        return found[0]
+    if any(one.share is None for one in timed):
+        k = int(foremost([one.heat for one in each]))
+        return replace(found[k], each=each, worst=each[k].name or _("as drawn"))
+    return _together(found, each)
+
+
+def _several(movement: Movement | Sequence[Movement]) -> tuple[Movement, ...]:
+    return (movement,) if isinstance(movement, Movement) else tuple(movement)
+
+
+def _steady(drive: Drive) -> Losses:
+    """Return what a drive turns to heat in one condition: as it stands, or the mean over its movements."""
     drive = machine_held(drive)
-    parts, uncounted = counted(drive, chosen, movement)
-    model = model_of(drive, chosen, parts)
-    locked = tuple(int(i) + 1 for i in np.flatnonzero(model.drag * np.tan(model.chain.joint_angle) >= 1.0))
+    parts, uncounted = counted(drive, drive.duty)
+    model = model_of(drive, drive.duty, parts)
+    stood = _losses(drive, drive.duty, parts, model, uncounted, [model])
+    if not drive.movements:
+        return stood
+    times = mean_times(drive.movements, fewest=FEW if model.holding is not None else FEWEST)
+    models = [model_of(drive, drive.duty, replace(parts, train=one)) for one in standing(drive, parts.train, times)]
+    drawn = LossesAt(
+        name="",
+        share=None,
+        speed=stood.speed,
+        torque=stood.torque,
+        efficiency=stood.efficiency,
+        heat=stood.heat,
+    )
+    return replace(_losses(drive, drive.duty, parts, model, uncounted, models), drawn=drawn)
+
+
+def _losses(
+    drive: Drive, duty: Duty, parts: Parts, model: Model, uncounted: tuple[Uncounted, ...], models: Sequence[Model]
+) -> Losses:
+    """Return the means over models of a drive at instants, with the curves of it as drawn."""
+    held = [model.drag * np.tan(one.chain.joint_angle) >= 1.0 for one in models]
+    locked = tuple(int(i) + 1 for i in np.flatnonzero(np.any(held, axis=0)))
     if locked:
         model = replace(model, drag=np.full_like(model.drag, np.nan), holding=None)
-    mean = mean_powers(model)
+        models = [model]
+    means = [mean_powers(one) for one in models]
+    mean = _mean(means, np.full(len(means), 1.0 / len(means)))
     angle = np.linspace(0.0, 2.0 * np.pi, TURN)
     course = powers(model, angle)
-    rule = joint_friction(model.chain.joint_angle, model.drag)
+    rules = [joint_friction(one.chain.joint_angle, one.drag) for one in models]
     return Losses(
         speed=float(model.speed),
         torque=float(model.torque),
-        torque_at=chosen.torque_at,
+        torque_at=duty.torque_at,
         input_power=float(mean.input),
         output_power=float(mean.output),
         driving_pins=mean.driving,
@@ -202,8 +295,8 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
         resisting=mean.resisting,
         storing=mean.storing,
         efficiency=float(_efficiency(mean)),
-        first_order=float(np.prod(rule.first_order)),
-        small_angle=float(np.prod(rule.small_angle)),
+        first_order=float(np.mean([np.prod(rule.first_order) for rule in rules])),
+        small_angle=float(np.mean([np.prod(rule.small_angle) for rule in rules])),
         angle=angle,
         joint_power=course.driving + course.driven,
         input_torque=course.input_torque,
@@ -213,6 +306,53 @@ def losses(drive: Drive, duty: Duty | None = None, *, movement: Movement | Seque
         uncounted=uncounted,
         assumed=parts.train.assumed,
     )
+
+
+def _mean(parts: Sequence[Powers], share: Array) -> Powers:
+    """Return the mean of powers by shares that add up to 1."""
+    if len(parts) == 1:
+        return parts[0]
+    names = Powers.__dataclass_fields__
+    return Powers(**{name: np.tensordot(share, [getattr(one, name) for one in parts], axes=1) for name in names})
+
+
+MEANS = (
+    "input_power",
+    "output_power",
+    "driving_pins",
+    "driven_pins",
+    "supports",
+    "splines",
+    "resisting",
+    "storing",
+    "first_order",
+    "small_angle",
+    "torque",
+    "speed",
+)
+"""Fields of `Losses` that have a mean over conditions."""
+
+
+def _together(found: Sequence[Losses], each: tuple[LossesAt, ...]) -> Losses:
+    """Return the means of losses over conditions by their shares; useful power over power put in of the whole."""
+    shares = [one.share for one in each]
+    means = {name: gathered("mean", [getattr(one, name) for one in found], shares) for name in MEANS}
+    flat: dict[str, Any] = {name: value if value.ndim else float(value) for name, value in means.items()}
+    ends = [_useful(one) for one in found]
+    useful, put_in = gathered("mean", ends, shares)
+    locked = tuple(sorted({joint for one in found for joint in one.locked}))
+    efficiency = float(useful / put_in) if put_in > 0.0 else float("nan")
+    residual = max(one.residual for one in found)
+    return replace(found[0], **flat, efficiency=efficiency, residual=residual, locked=locked, each=each)
+
+
+def _useful(found: Losses) -> tuple[float, float]:
+    """Return useful power and power put in [W]."""
+    larger = max(abs(found.input_power), abs(found.output_power), found.heat)
+    if not found.efficiency > 0.0:
+        return 0.0, larger
+    useful = abs(found.output_power if found.output_power >= 0.0 else found.input_power)
+    return useful, useful / found.efficiency
 
 
 def loss_map(
@@ -263,7 +403,8 @@ def loss_map(
     speeds, torques = _axes(drive, speed, torque)
     duty = replace(drive.duty, speed=float(speeds[0]), torque=drive.duty.torque or float(torques[0]))
     drive = machine_held(drive)
-    parts, uncounted = counted(drive, duty, movement)
+    moving = drive if movement is None else replace(drive, movements=_several(movement))
+    parts, uncounted = counted(moving, duty)
     model = replace(model_of(drive, duty, parts), speed=speeds[:, None], torque=torques[None, :])
     check(
         Problem(

@@ -25,12 +25,14 @@ CYCLE = 24
 """Instants in the shortest swing at least, up to `MOST`."""
 
 
-def mean_times(movements: Sequence[Movement]) -> Array:
+def mean_times(movements: Sequence[Movement], *, fewest: int = FEWEST) -> Array:
     """Return instants, array (t,) [s], whose plain mean is that over the time of some movements.
 
     Parameters
     ----------
     movements : sequence of Movement
+    fewest : int
+        How many instants at least.
 
     Notes
     -----
@@ -47,7 +49,7 @@ def mean_times(movements: Sequence[Movement]) -> Array:
     every = default_times(movements)
     first, last = float(every[0]), float(every[-1])
     swings = (last - first) / shortest_period(movements) if any(isinstance(m, Oscillation) for m in movements) else 0.0
-    count = int(np.clip(np.ceil(CYCLE * swings), FEWEST, MOST))
+    count = int(np.clip(np.ceil(CYCLE * swings), fewest, MOST))
     return first + (np.arange(count) + 0.5) * ((last - first) / count)
 
 
