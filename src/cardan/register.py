@@ -14,6 +14,20 @@ ACCURACY, TORSION, BENDING, LIFE = mark("Accuracy"), mark("Torsion"), mark("Bend
 MEASURES = mark("Measures against torsional vibration")
 STRENGTH, CHECKS, SUPPORTS, CHOICE = mark("Strength"), mark("Checks"), mark("Mobility"), mark("Selection")
 
+DRAWN = mark("The classical approximations are compared for the drive as drawn: they are as near in any position.")
+GEOMETRY = mark("Torque does not count here: this follows from geometry alone.")
+MINUTES = mark("Errors of the joints as made do not count here: they move shafts by minutes of arc; see the accuracy.")
+YOKES = mark("Yoke angles do not depend on the torque.")
+TURNS = mark("The movement does not count here: yokes are phased for the drive as drawn and for its poses.")
+RUNS = mark("The run-up is that of the drive as drawn: it passes too quickly for poses and movements to change.")
+DESIGNED = mark(
+    "This is designed for the drive as drawn at its duty; how it behaves in other conditions the other questions about "
+    "torsion tell."
+)
+ANGLES = mark("The movement does not count here: the map runs over joint angles, those that it passes among them.")
+WHIRLS = mark("Poses and movements do not count here: a shaft whirls by its own body and bearings.")
+CHOSEN = mark("Errors of the joints as made do not count here: types and sizes are chosen by loads and angles.")
+
 QUESTIONS: dict[str, Question] = {
     question.name: question
     for question in (
@@ -36,6 +50,7 @@ QUESTIONS: dict[str, Question] = {
             group=MOTION,
             help=mark("How near the series of the handbooks and the rule of practice come to the exact motion."),
             command="calc book_comparison",
+            without={"pose": DRAWN, "movement": DRAWN, "case": GEOMETRY, "error": MINUTES},
         ),
         Question(
             name="articulation",
@@ -44,6 +59,8 @@ QUESTIONS: dict[str, Question] = {
             group=MOTION,
             help=mark("What happens while the drive moves: worst positions, spline travel."),
             quick=False,
+            gathered=("movement",),
+            without={"error": MINUTES},
             examples=(
                 "cardan articulation tractor.toml",
                 "cardan articulation tractor.toml --csv > history.csv",
@@ -55,6 +72,8 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Phasing of the yokes"),
             group=PHASING,
             help=mark("Which yoke angles make the output uniform, or how uniform it can be."),
+            gathered=("pose",),
+            without={"movement": TURNS, "case": YOKES},
             examples=(
                 "cardan phasing truck.toml --fix 2=90",
                 "cardan phasing truck.toml --apply A -o better.toml",
@@ -70,6 +89,8 @@ QUESTIONS: dict[str, Question] = {
             help=mark(
                 "What errors and tolerances of the joints do to the output, and the cheapest tolerances for a target."
             ),
+            gathered=("error",),
+            without={"case": GEOMETRY},
             examples=(
                 "cardan accuracy instrument.toml --method worst",
                 "cardan accuracy instrument.toml --allocate 2arcmin -o better.toml",
@@ -82,6 +103,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Forces"),
             group=FORCES,
             help=mark("What every shaft, joint and bearing carries over a turn."),
+            gathered=("error",),
             examples=(
                 "cardan forces truck.toml",
                 "cardan forces truck.toml --torque-Nm 2000 --csv > turn.csv",
@@ -95,6 +117,9 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Power loss"),
             group=LOSSES,
             help=mark("How much of the power is lost, and where."),
+            gathers="mean",
+            gathered=("pose", "movement", "case"),
+            without={"error": MINUTES},
             examples=(
                 "cardan losses truck.toml",
                 "cardan losses truck.toml --map --csv > map.csv",
@@ -108,6 +133,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("Natural frequencies, and the speeds at which something excites them."),
             quick=False,
             command="torsion modes",
+            without={"error": MINUTES},
             examples=(
                 "cardan torsion modes truck.toml",
                 "cardan torsion modes truck.toml --plot campbell.svg",
@@ -122,6 +148,7 @@ QUESTIONS: dict[str, Question] = {
             quick=False,
             takes=("progress",),
             command="torsion response",
+            without={"error": MINUTES},
             examples=(
                 "cardan torsion response truck.toml",
                 "cardan torsion response truck.toml --speeds 500:3000:200 --csv > sweep.csv",
@@ -136,6 +163,7 @@ QUESTIONS: dict[str, Question] = {
             quick=False,
             takes=("progress",),
             command="torsion stability",
+            without={"movement": ANGLES, "error": MINUTES},
             examples=(
                 "cardan torsion stability truck.toml",
                 "cardan torsion stability truck.toml --speeds 500:3000 --joint-angles 2:25 --plot map.svg",
@@ -150,6 +178,7 @@ QUESTIONS: dict[str, Question] = {
             quick=False,
             takes=("progress",),
             command="torsion simulate",
+            without={"pose": RUNS, "movement": RUNS, "case": DESIGNED, "error": MINUTES},
             examples=(
                 "cardan torsion simulate truck.toml",
                 "cardan torsion simulate truck.toml --settled --span-s 2",
@@ -165,6 +194,7 @@ QUESTIONS: dict[str, Question] = {
             report=False,
             takes=("progress",),
             command="torsion absorber",
+            without={"pose": DESIGNED, "movement": DESIGNED, "case": DESIGNED, "error": MINUTES},
             examples=(
                 "cardan torsion absorber truck.toml --speeds 300:900",
                 "cardan torsion absorber truck.toml --kind pendulum --radius-mm 120 -o better.toml",
@@ -181,6 +211,7 @@ QUESTIONS: dict[str, Question] = {
             report=False,
             takes=("progress",),
             command="torsion optimise",
+            without={"pose": DESIGNED, "movement": DESIGNED, "case": DESIGNED, "error": MINUTES},
             examples=(
                 "cardan torsion optimise truck.toml --speeds 300:900",
                 "cardan torsion optimise truck.toml --free shafts[1].stiffness_Nm_per_rad=2e4:2e5 -o better.toml",
@@ -195,6 +226,7 @@ QUESTIONS: dict[str, Question] = {
             group=BENDING,
             help=mark("At which speeds the shafts whirl, and how far the drive stays away."),
             quick=False,
+            without={"error": MINUTES},
             examples=(
                 "cardan bending truck.toml",
                 "cardan bending truck.toml --map",
@@ -209,6 +241,7 @@ QUESTIONS: dict[str, Question] = {
             help=mark("How a shaft whirls with its unbalance and a crack: orders, orbits, run-up."),
             quick=False,
             takes=("progress",),
+            without={"pose": WHIRLS, "movement": WHIRLS, "error": MINUTES},
             examples=(
                 "cardan rotor truck.toml",
                 "cardan rotor truck.toml --shaft 3 --plot orbits.svg",
@@ -221,6 +254,8 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Balance"),
             group=BENDING,
             help=mark("What unbalance each shaft may have, and the masses that cancel what it has."),
+            gathered=("case",),
+            without={"error": MINUTES},
             examples=("cardan balance truck.toml --grade G16",),
         ),
         Question(
@@ -230,6 +265,8 @@ QUESTIONS: dict[str, Question] = {
             group=LIFE,
             help=mark("How long the joints last, steadily or in a duty cycle."),
             gathers="sum",
+            gathered=("pose", "movement", "case"),
+            without={"error": MINUTES},
             examples=(
                 "cardan life truck.toml",
                 "cardan life truck.toml --torque-Nm 900 --plot life.svg",
@@ -243,6 +280,8 @@ QUESTIONS: dict[str, Question] = {
             help=mark("How strong every part is, the torque rating of the drive, and how large a part must be."),
             takes=("known",),
             gathers="worst",
+            gathered=("pose", "movement", "case"),
+            without={"error": MINUTES},
             examples=(
                 "cardan strength truck.toml",
                 "cardan strength truck.toml --size tube:2 --plot tubes.svg",
@@ -258,6 +297,7 @@ QUESTIONS: dict[str, Question] = {
             takes=("known",),
             gathers="worst",
             quick=False,
+            gathered=("pose", "movement", "case", "error"),
             examples=(
                 "cardan check truck.toml",
                 "cardan check truck.toml --only tube_strength --json",
@@ -270,6 +310,7 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Mobility"),
             group=SUPPORTS,
             help=mark("Whether a drive or mechanism turns, its redundant constraints, and what to release."),
+            without={"case": GEOMETRY, "error": MINUTES},
             examples=(
                 "cardan mobility pump.toml",
                 "cardan mobility slider.toml --turn --plot slider.svg",
@@ -281,6 +322,8 @@ QUESTIONS: dict[str, Question] = {
             title=mark("Assembly"),
             group=SUPPORTS,
             help=mark("What misalignment loads: support forces of parts that do not fit, and what to release."),
+            gathered=("error",),
+            without={"case": GEOMETRY},
             examples=(
                 "cardan assembly pump.toml",
                 "cardan assembly pump.toml --csv > turn.csv",
@@ -295,6 +338,8 @@ QUESTIONS: dict[str, Question] = {
             takes=("known", "joint"),
             command="select",
             report=False,
+            gathered=("pose", "movement", "case"),
+            without={"error": CHOSEN},
             examples=(
                 "cardan select truck.toml",
                 "cardan select --torque-Nm 2500 --joint-angle-deg 12 --speed-rpm 900 --synchronous",

@@ -79,10 +79,6 @@ FIELDS: tuple[tuple[str, str], ...] = ()
 ANSWERED: tuple[str, ...] = (r"(forces|assembly) examples/truck-duty-cycle",)
 """Command lines, by a pattern of their start, that were refused and are answered now."""
 
-NO_LONGER: tuple[tuple[str, str], ...] = ((r"losses .*truck-duty-cycle", r"duty\.torque_Nm"),)
-"""Pattern in a whole command line, pattern of a field that it was refused for and is not now: parts of a duty cycle say
-the torque too."""
-
 AMONG: tuple[tuple[str, str], ...] = (("simulate-fault", r"orders\.size"),)
 """Pattern of a command line's start, pattern of a whole old path: its numbers stand in another order now, or among
 others, or under one name with several units."""

@@ -44,12 +44,13 @@ class Once(Question):
         key = (id(drive), language() if self.name in IN_WORDS else "")
         if key not in self.results:
             try:
-                self.results[key] = super().ask(drive, **given)
+                self.results[key] = drive, super().ask(drive, **given)
             except InputError as error:
-                self.results[key] = error
-        if isinstance(self.results[key], InputError):
-            raise self.results[key]
-        return self.results[key]
+                self.results[key] = drive, error
+        found = self.results[key][1]  # the drive is kept too: another one would get its place in memory
+        if isinstance(found, InputError):
+            raise found
+        return found
 
 
 def once(question: Question) -> Once:

@@ -15,8 +15,8 @@ what a sweep may ask of it: each a `cardan.answers.sweepable.SweepQuestion`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -34,6 +34,9 @@ Drive: TypeAlias = Any
 Gathering: TypeAlias = Literal["worst", "mean", "sum", "each"]
 """How answers are gathered over conditions: the largest, the mean by share of the time, the sum of shares of damage, or
 each by itself."""
+
+Aspect: TypeAlias = Literal["pose", "movement", "case", "error"]
+"""What makes a condition of its own: a pose, a movement, one of several load cases, a measured error of a joint."""
 
 Lacking: TypeAlias = tuple[tuple[str, ...], ...]
 """Paths of the drive file that are missing; of each inner tuple any one would do. Empty where nothing is missing."""
@@ -57,6 +60,10 @@ class Question:
         What it answers, marked for translation.
     gathers : str
         How it gathers over conditions.
+    gathered : tuple of str
+        Of what it gathers by itself; over all else that a drive has `cardan.questions.gathering` asks it.
+    without : mapping of str to str
+        What its answer does not depend on: why, in a sentence marked for translation.
     quick : bool
         Whether its answer is there at once; the others are worth a process of their own.
     report : bool
@@ -79,6 +86,8 @@ class Question:
     group: str
     help: str = ""
     gathers: Gathering = "each"
+    gathered: tuple[Aspect, ...] = ()
+    without: Mapping[Aspect, str] = field(default_factory=dict, compare=False)
     quick: bool = True
     report: bool = True
     takes: tuple[str, ...] = ()

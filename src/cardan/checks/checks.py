@@ -25,7 +25,7 @@ from .angles import (
 )
 from .check import Check
 from .design import Design, design
-from .moving import posed, worst_of_poses
+from .moving import stood, stopped, worst_of_poses
 from .practice import layout, length, lubrication, part_accuracy, runout, spline_overlap
 from .speeds import balance, critical_speed, gap_closure, half_critical, max_speed, rim_speed
 from .strength import (
@@ -135,7 +135,9 @@ def check(
     refuse_all(Problem("only", _unknown(name)) for name in unknown)
     subject = design(drive, duty, vary=vary, known=known)
     each = [name for name in only or CHECKS if CHECKS[name].gathers == "worst"]
-    poses = [(name, _judged(one, each)) for name, one in posed(subject)] if each else []
+    loads = [name for name in each if CHECKS[name].power]
+    poses = [(said, _judged(one, each)) for said, one in stood(subject)] if each else []
+    poses += [(said, _judged(one, loads)) for said, one in stopped(subject)] if loads else []
     return worst_of_poses(_judged(subject, only), poses)
 
 

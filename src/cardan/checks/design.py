@@ -25,6 +25,7 @@ from cardan.errors import InputError, refuse
 from cardan.maths.arrays import Array, ArrayLike
 from cardan.maths.kernel import frames
 from cardan.maths.ties import foremost
+from cardan.questions.accuracy.as_made import AsMade, as_made
 from cardan.questions.forces.turn_loads import TurnLoads, at_joint_angle
 from cardan.questions.motion.swing import Swing, swing
 from cardan.texts import _
@@ -120,6 +121,16 @@ class Design:
     def swing(self) -> Swing | None:
         """How uneven the drive is as seen over a turn, where a joint turns by a law of its own; else None."""
         return swing(self.drive) if unmapped(self.drive.joints) else None
+
+    @cached_property
+    def made(self) -> AsMade | None:
+        """How one drive turns with the errors of its joints as made; None without errors, or where none is told."""
+        if self.varied or not any(joint.error is not None for joint in self.drive.joints):
+            return None
+        try:
+            return as_made(self.drive)
+        except InputError:
+            return None
 
     @cached_property
     def given(self) -> Chain:

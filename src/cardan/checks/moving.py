@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.conditions import in_poses
 from cardan.drive.fields.paths import bare_path
 from cardan.maths.arrays import Array
+from cardan.questions.motion.standing import steepest, still
 from cardan.texts import _
 
 from .design import Design
@@ -64,30 +66,58 @@ def posed(design: Design) -> list[tuple[str, Design]]:
     return found
 
 
-def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[str, Sequence[Verdict]]]) -> tuple[Verdict, ...]:
+def stood(design: Design) -> list[tuple[Text, Design]]:
+    """Return the design in every pose, and which that is."""
+    return [(_("in the pose {name}").format(name=name), one) for name, one in posed(design)]
+
+
+def stopped(design: Design) -> list[tuple[Text, Design]]:
+    """Return the design as drawn and in every pose at the instants of its movements at which a joint bends most.
+
+    Where the geometry varies, there are no such instants.
+    """
+    found: list[tuple[Text, Design]] = []
+    for pose, one in (("", design), *stood(design)):
+        for time in steepest(one.drive) if one.drive.movements and not one.replaced else ():
+            here = still(one.drive, time)
+            at = say(_("at {time} of the movement"), time=Quantity(time, "time", 3, trim=True))
+            other = replace(one, drive=here, duty=here.duty, drawn=design.drawn or design)
+            found.append((Joined([pose, at]), other))
+    return found
+
+
+def stands(design: Design) -> list[tuple[float, Design]]:
+    """Return the share of the time of every pose with the design in it; each counts wholly where no share is known."""
+    if not design.drive.poses:
+        return [(1.0, design)]
+    shares = [one.share for one in in_poses(design.drive)]
+    every = [design, *(one for _name, one in posed(design))]
+    return [(1.0 if share is None else share, one) for share, one in zip(shares, every, strict=True)]
+
+
+def worst_of_poses(drawn: Sequence[Verdict], poses: Sequence[tuple[Text, Sequence[Verdict]]]) -> tuple[Verdict, ...]:
     """Return for each verdict the worst of the drive as drawn and in its poses, with a word on which pose it is.
 
     Parameters
     ----------
     drawn : sequence of Verdict
         Of the drive as drawn, or of many.
-    poses : sequence of (str, sequence of Verdict)
-        Name of each pose, and the verdicts in it.
+    poses : sequence of (Text, sequence of Verdict)
+        Which pose or instant it is, and the verdicts there.
     """
     found = []
     for one in drawn:
         worst = one
-        for name, verdicts in poses:
+        for said, verdicts in poses:
             other = next((its for its in verdicts if (its.check, its.title) == (one.check, one.title)), None)
             if other is None or not other.run:
                 continue
-            said = _("in the pose {name}").format(name=name)
             worst = _worse(worst, other, said) if worst.run else replace(other, note=joined(other.note, said))
         found.append(worst)
     return tuple(found)
 
 
-def _worse(worst: Verdict, other: Verdict, said: str) -> Verdict:
+def _worse(worst: Verdict, other: Verdict, said: Text) -> Verdict:
     """Return the worse of two verdicts, of many drives place by place; the other one with a word on its pose."""
     worse = np.asarray(other.utilisation > np.asarray(worst.utilisation) * WORSE + NOISE)
     if not np.any(worse):

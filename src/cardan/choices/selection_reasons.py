@@ -12,12 +12,10 @@ from cardan.answers.quantity import Quantity, Text, say
 from cardan.catalogue import Catalogue, catalogue, filled
 from cardan.catalogue.rows import JointSize
 from cardan.checks import design
-from cardan.drive.conditions import load_cases
+from cardan.checks.moving import stood, stopped
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
-from cardan.drive.models.chain import given_chain
 from cardan.errors import Problem, check
-from cardan.questions.forces.turn_loads import case_loads
 from cardan.texts import _
 
 from .selection import SLACK, Candidate, JointDuty
@@ -104,8 +102,7 @@ def joint_duty(
     whole = filled(drive if duty is None else replace(drive, duty=duty), rows)
     n = len(whole.joints)
     made = design(whole, known=rows)
-    cases = tuple(one for one in load_cases(whole.duty) if one.torque is not None)
-    problems = [] if cases else [Problem("duty.torque", _("missing; the choice depends on it"), "missing")]
+    problems = [] if made.loaded else [Problem("duty.torque", _("missing; the choice depends on it"), "missing")]
     if made.top_speed is None:
         problems.append(Problem("duty.speed", _("missing; the choice depends on it"), "missing"))
     if joint is not None and not 1 <= joint <= n:
@@ -114,14 +111,9 @@ def joint_duty(
         )
     check(problems)
     own = list(range(n)) if joint is None else [joint - 1]
-    base = given_chain(whole)
-    torque, joint_angle = [], []
-    for case in cases:
-        loads = case_loads(whole, case).torque
-        torque.append(np.maximum(loads[:-1], loads[1:])[own])
-        joint_angle.append(
-            np.asarray(base.joint_angle if case.joint_angle is None else np.full(n, case.joint_angle), dtype=float)[own]
-        )
+    stands = [made, *(one for _said, one in (*stood(made), *stopped(made)))]
+    torque = [case.joint_torque[own] for one in stands for case in one.loaded]
+    joint_angle = [case.joint_angle[own] for one in stands for case in one.loaded]
     outers = [one.rating.outer for k, one in enumerate(whole.joints) if k in own and one.rating is not None]
     outer = max((one for one in outers if one is not None), default=None)
     used = whole.duty

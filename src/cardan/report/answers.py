@@ -12,6 +12,7 @@ from cardan.catalogue import Catalogue
 from cardan.drive.drive import Drive
 from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
+from cardan.questions.gathering import gather, principal
 from cardan.register import QUESTIONS
 from cardan.texts import _
 
@@ -69,7 +70,8 @@ def answered(name: str, on: Subject, progress: Progress | None = None, choices: 
 def page_of(question: Question, on: Subject, progress: Progress | None, choices: Choices) -> Page:
     """Return the page of a question of the register; what it lacks or why it refuses, where it has no answer."""
     title = _(question.title)
-    missing = question.lacking(on.drive)
+    drive = principal(question, on.drive)
+    missing = question.lacking(drive)
     if missing:
         return Page(name=question.name, title=title, answer=told(missing), blocks=())
     return found_page(question, on, progress, choices) or Page(
@@ -81,8 +83,9 @@ def found_page(
     question: Question, on: Subject, progress: Progress | None = None, choices: Choices | None = None
 ) -> Page | None:
     """Return the page of a question about a drive that has what it needs; None where nothing can be told."""
+    drive = principal(question, on.drive)
     try:
-        result = question.ask(on.drive, known=on.known, progress=progress, **(choices or {}))
+        result = question.ask(drive, known=on.known, progress=progress, **(choices or {}))
     except InputError as error:
         return refused(question.name, _(question.title), error)
-    return None if result is None else page(question.answer(on.drive, result), reader())
+    return None if result is None else page(gather(question, on.drive, question.answer(drive, result)), reader())

@@ -18,11 +18,13 @@ from cardan.drive.models.laws import unmapped
 from cardan.errors import InputError
 from cardan.figures import Figure
 from cardan.figures.drive import space_figure
+from cardan.questions.gathering import gather
 from cardan.questions.motion import answer as motion
 from cardan.questions.motion import articulation_answer as articulation
 from cardan.questions.motion.articulation import Articulation
 from cardan.questions.phases import answer as yokes
 from cardan.questions.phases.phases import Phasing
+from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.version import VERSION
 
@@ -218,24 +220,24 @@ def _written(
 
 def moved(drive: Drive) -> list[Page]:
     """Return the pages of the motion: joints have their angles on the page before, shafts theirs in a table."""
-    said = motion.answer(drive, motion.ask(drive))
+    said = gather(QUESTIONS["motion"], drive, motion.answer(drive, motion.ask(drive)))
     drawn = [one for one in said.figures() if one.name != "speed_fluctuation"]
     tables = [one for one in said.tables if one.name != "joints"]
     pages = [page(replace(said, tables=tables, figures=lambda: drawn), reader())]
     seen = classical.ask(drive)
     if seen is not None and classical.differ(seen):
-        pages.append(page(classical.answer(drive, seen), reader()))
+        pages.append(page(gather(QUESTIONS["classical"], drive, classical.answer(drive, seen)), reader()))
     return pages
 
 
 def phased(drive: Drive, found: Phasing) -> Page:
     """Return the page of the yokes."""
-    return page(yokes.answer(drive, found), reader())
+    return page(gather(QUESTIONS["phasing"], drive, yokes.answer(drive, found)), reader())
 
 
 def _articulated(drive: Drive, found: Articulation) -> Page:
     """Return the page of the movement; what it warns of stands on the first page."""
-    said = articulation.answer(drive, found)
+    said = gather(QUESTIONS["articulation"], drive, articulation.answer(drive, found))
     calm = [one for one in said.remarks if one.tone not in ("failed", "warning")]
     return page(replace(said, remarks=calm), reader())
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS
 
 from .answers import found_page
@@ -18,6 +19,6 @@ def loaded(on: Subject) -> Iterator[Page]:
     """Yield the parts that the drive file asks for; none once the reader stopped the work."""
     asked = (one for one in QUESTIONS.values() if one.report and one.name not in OWN)
     for question in asked if on.complete else ():
-        page = None if question.lacking(on.drive) else found_page(question, on)
+        page = None if question.lacking(principal(question, on.drive)) else found_page(question, on)
         if page is not None:
             yield page

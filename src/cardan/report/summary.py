@@ -12,8 +12,10 @@ from cardan.answers.numbers import half_turn
 from cardan.answers.quantity import Joined, Quantity, Text, say
 from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
+from cardan.errors import InputError
 from cardan.maths.arrays import Array
 from cardan.maths.ties import foremost
+from cardan.questions.accuracy.as_made import as_made
 from cardan.questions.motion.kinds import steep
 from cardan.questions.phases.answer import CALM, UTMOST, excess
 from cardan.questions.phases.setting import YokeSetting
@@ -74,12 +76,14 @@ def uniformity(on: Subject) -> Words:
     """Return a sentence on how uniformly the drive turns."""
     share = Quantity(float(on.whole.speed_fluctuation), "share", 3)
     posed, pose = _in_poses(on)
-    text, tone = _as_specified(on, posed)
+    made = _as_made(on)
+    text, tone = _as_specified(on, posed, made)
     parts: list[Text] = [
         say(
             text,
             name=on.drive.name or _("The drive"),
             share=share,
+            made=_share(made),
             least=_share(on.best.speed_fluctuation if on.best else 0.0),
         )
     ]
@@ -101,13 +105,26 @@ def uniformity(on: Subject) -> Words:
     )
 
 
-def _as_specified(on: Subject, posed: float) -> tuple[str, Tone]:
+def _as_made(on: Subject) -> float:
+    """Return the speed fluctuation with the errors of the joints as made; 0 without errors, or where none is told."""
+    if not any(joint.error is not None for joint in on.drive.joints):
+        return 0.0
+    try:
+        found = as_made(on.drive)
+    except InputError:
+        return 0.0
+    return 0.0 if found is None else found.fluctuation
+
+
+def _as_specified(on: Subject, posed: float, made: float) -> tuple[str, Tone]:
     """Return what is said of the drive as specified, with its tone."""
     if on.even:
         if on.moving is not None:
             return _("{name} is uniform as drawn, standing still."), "good"
         if posed > UTMOST:
             return _("{name} is uniform as drawn."), "good"
+        if made > UTMOST:
+            return _("{name} is uniform as specified; the errors of its joints as made leave {made}."), "good"
         return _("{name} is uniform as specified: the output turns at exactly constant speed."), "good"
     if on.rounded:
         return _("{name} is uniform as specified but for the rounding of its figures, which leaves {share}."), "good"

@@ -10,6 +10,8 @@ from cardan.answers.reader import reader
 from cardan.checks.key_figures import key_figures
 from cardan.choices.check_answer import answer, ask, remedy_table, urgent
 from cardan.errors import InputError
+from cardan.questions.gathering import gather
+from cardan.register import QUESTIONS
 from cardan.texts import _, plural
 
 from .block import Page, Table, table, verdict_columns
@@ -48,7 +50,8 @@ def judged(on: Subject) -> Judged:
         return Judged(page=refused("check", _("Checks"), error), keys=tuple(key_figures(on.drive, ())))
     if result is None:
         return Judged(keys=tuple(key_figures(on.drive, ())))
-    said, (shown, left) = answer(on.drive, result), urgent(result)
+    said = gather(QUESTIONS["check"], on.drive, answer(on.drive, result))
+    shown, left = urgent(result)
     note = plural("One more check passed.", "{count} more checks passed.", left).format(count=left) if left else ""
     rows = [row(one, reader()) for one in shown]
     return Judged(

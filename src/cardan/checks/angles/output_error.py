@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.told import as_drawn
+from cardan.checks.told import as_drawn, joined
 from cardan.checks.verdict import Verdict
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
@@ -18,15 +20,17 @@ def _judge(design: Design) -> Iterator[Verdict]:
     if own is None:
         yield Verdict(subject=output, missing=("limits.output_error",))
         return
+    angle_error = (
+        equivalent_joint(design.chain).max_angle_error if design.swing is None else design.swing.max_angle_error[-1]
+    )
+    made = design.made
     yield Verdict(
         subject=output,
-        value=equivalent_joint(design.chain).max_angle_error
-        if design.swing is None
-        else design.swing.max_angle_error[-1],
+        value=angle_error if made is None else np.asarray(made.angle_error),
         limit=own,
         source=_("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
-        note=as_drawn(design),
+        note=joined(as_drawn(design), _("with the errors as made") if made is not None else ""),
     )
 
 

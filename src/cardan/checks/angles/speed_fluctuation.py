@@ -9,7 +9,7 @@ import numpy as np
 from cardan.checks.case import largest
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.told import as_drawn
+from cardan.checks.told import as_drawn, joined
 from cardan.checks.verdict import Verdict
 from cardan.questions.motion.equivalence import equivalent_joint
 from cardan.texts import _, mark
@@ -27,6 +27,8 @@ def _judge(design: Design) -> Iterator[Verdict]:
     drawn = (
         equivalent_joint(design.chain).speed_fluctuation if design.swing is None else design.swing.speed_fluctuation[-1]
     )
+    made = design.made
+    drawn = drawn if made is None else np.asarray(made.fluctuation)
     moved = design.while_moving(lambda chain: equivalent_joint(chain).speed_fluctuation[..., None])
     yield Verdict(
         subject=output,
@@ -36,7 +38,10 @@ def _judge(design: Design) -> Iterator[Verdict]:
         if own is None
         else _("limits of the drive file"),
         design_variables=(*design.yoke_design_variables, *design.joint_angle_design_variables),
-        note=_("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else as_drawn(design),
+        note=joined(
+            _("while the drive moves") if moved is not None and np.all(moved[..., 0] > drawn) else as_drawn(design),
+            _("with the errors as made") if made is not None else "",
+        ),
     )
 
 

@@ -11,9 +11,8 @@ from cardan.answers.quantity import Quantity, say
 from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
-from cardan.checks.moving import posed
+from cardan.checks.moving import stands
 from cardan.checks.verdict import Verdict
-from cardan.drive.conditions import in_poses
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
 from cardan.formulas.joint_rating import POWER
@@ -74,11 +73,7 @@ def lives(drive: Drive) -> Array | tuple[tuple[str, str], ...]:
 
 def _relative(whole: Design, i: int) -> Array:
     """Return the damage of a joint over all poses apart from a constant, array (...); their sum where shares lack."""
-    shares = [one.share for one in in_poses(whole.drive)] if whole.drive.poses else [1.0]
-    stands = [whole, *(one for _name, one in posed(whole))]
-    found: Array = sum(
-        (1.0 if share is None else share) * _damage(one, i) for share, one in zip(shares, stands, strict=True)
-    )
+    found: Array = sum(share * _damage(one, i) for share, one in stands(whole))
     return found
 
 

@@ -6,8 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cardan.checks.case import Case
 from cardan.checks.check import Check
 from cardan.checks.design import Design
+from cardan.checks.moving import stands
 from cardan.checks.verdict import Verdict
 from cardan.formulas.joint_rating import LEAST_JOINT_ANGLE, NOMINAL, POWER, rated_joint_angle
 from cardan.maths.arrays import Array
@@ -23,7 +25,7 @@ SOURCES = {
 
 def _judge(design: Design, i: int) -> Iterator[Verdict]:
     torque, rating = f"joints[{i}].rating.torque", design.drive.joints[i].rating
-    running = design.running
+    running = [(share, one, case) for share, one in stands(design) for case in one.running if share]
     lacking = (*design.missing(torque, "duty.life"), *design.unloaded, *design.unmoved)
     if lacking or not running or rating is None:
         yield Verdict(missing=tuple(dict.fromkeys(lacking)) or ("duty.torque",))
@@ -33,11 +35,13 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     if convention == "book":
         rated = rated / NOMINAL
     # Torque that does the damage of the whole duty at its mean speed times joint angle.
-    paces = [np.asarray(one.share) * one.speed * rated_joint_angle(one.joint_angle[..., i]) for one in running]
+    paces = [
+        share * np.asarray(case.share) * np.asarray(case.speed) * _rated(one, case, i) for share, one, case in running
+    ]
     pace: Array = sum(paces)
-    loads = [one.severity * one.joint_torque[..., i] for one in running]
+    loads = [case.severity * case.joint_torque[..., i] for _share, _one, case in running]
     worn: Array = sum(own * load**POWER for own, load in zip(paces, loads, strict=True))
-    whole: Array = sum(np.asarray(one.share) for one in running)
+    whole: Array = sum(share * np.asarray(case.share) for share, _one, case in running)
     yield Verdict(
         value=design.shock * (worn / pace) ** (1.0 / POWER),
         limit=rated * (CONVENTIONS[convention] / (pace / whole * design.value("duty.life"))) ** (1.0 / POWER),
@@ -53,6 +57,14 @@ def _judge(design: Design, i: int) -> Iterator[Verdict]:
     )
 
 
+def _rated(design: Design, case: Case, i: int) -> Array:
+    """Return the joint angle that makers count of a joint in a way of running, the mean over the movements [rad]."""
+    moved = None
+    if case.chain is design.chain:
+        moved = design.while_moving(lambda chain: rated_joint_angle(chain.joint_angle[..., [i]]), mean=True)
+    return rated_joint_angle(case.joint_angle[..., i]) if moved is None else moved[..., 0]
+
+
 CHECK = Check(
     name="rated_torque",
     doc=mark("torque of the duty against the rated torque of every joint for the life"),
@@ -62,4 +74,5 @@ CHECK = Check(
     unit="Nm",
     power=1.0,
     crosses="each",
+    gathers="sum",
 )

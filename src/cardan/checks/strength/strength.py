@@ -11,6 +11,7 @@ import numpy as np
 from cardan.catalogue import Catalogue
 from cardan.checks.case import Case
 from cardan.checks.design import Design, design
+from cardan.checks.moving import stood, stopped, worst_of_poses
 from cardan.checks.verdict import Verdict
 from cardan.drive.drive import Drive
 from cardan.drive.duty import Duty
@@ -217,7 +218,11 @@ def strength(drive: Drive, duty: Duty | None = None, *, known: Catalogue | None 
 
 def _verdicts(subject: Design) -> Iterator[Verdict]:
     """Yield the verdicts on shafts, on all of them together, on joints."""
-    every = [one for check in STRENGTH for one in check.verdicts(subject) if _asked(one)]
+    worst = [check for check in STRENGTH if check.gathers == "worst"]
+    ways = [(said, stand, worst) for said, stand in stood(subject)]
+    ways += [(said, stand, [check for check in worst if check.power]) for said, stand in stopped(subject)]
+    poses = [(said, [one for check in some for one in check.verdicts(at) if _asked(one)]) for said, at, some in ways]
+    every = worst_of_poses([one for check in STRENGTH for one in check.verdicts(subject) if _asked(one)], poses)
     limits = {(one.check, one.subject) for one in every if not one.advice}
     kept = [one for one in every if not (one.advice and (one.check, one.subject) in limits)]  # no rule beside a limit
     longer = _longer(subject)

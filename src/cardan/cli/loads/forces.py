@@ -20,6 +20,8 @@ from cardan.questions.forces import moving_answer
 from cardan.questions.forces.answer import Carried, answer
 from cardan.questions.forces.forces import forces as question
 from cardan.questions.forces.moving_forces import moving_forces
+from cardan.questions.gathering import principal
+from cardan.register import QUESTIONS
 from cardan.texts import _
 
 ALL = "all"
@@ -50,7 +52,8 @@ def forces(
     check_positions(angle, step)
     if movement and (angle or step is not None):
         raise refuse("--movement", _("is followed in time; --angle-deg and --angle-step-deg are of a standing drive"))
-    drive = on_duty(read(file), speed_rpm, torque)
+    whole = on_duty(read(file), speed_rpm, torque)
+    drive = principal(QUESTIONS["forces"], whole)
     if movement:
         moves = _chosen(drive, movement)
         with keys_of(file), watching(_("following the movement")) as progress:
@@ -60,7 +63,7 @@ def forces(
         found = question(drive)
     curves = question(drive, angle=positions(angle, step or 1.0)) if angle or step else None
     said = answer(drive, Carried(forces=found), curves)
-    return tell(said, file, drive, json=json, csv=csv, plot=plot)
+    return tell(said, file, drive, whole=whole, json=json, csv=csv, plot=plot)
 
 
 def _chosen(drive: Drive, names: Sequence[str]) -> tuple[Movement, ...]:

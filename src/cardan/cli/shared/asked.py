@@ -16,6 +16,7 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.keys import spelled
 from cardan.drive.fields.ranges import HUGE
 from cardan.errors import InputError, Problem, check, refuse
+from cardan.questions.gathering import principal
 from cardan.register import QUESTIONS
 from cardan.texts import _
 from cardan.units import rpm
@@ -172,7 +173,8 @@ def command_of(name: str) -> Callable[..., int]:
     ) -> int:
         question = QUESTIONS[name]
         check_options(speed_rpm, torque, json=json, csv=csv, plot=plot)
-        drive = on_duty(read(file), speed_rpm, torque)
+        whole = on_duty(read(file), speed_rpm, torque)
+        drive = principal(question, whole)
         needed = _("missing; the question {name} needs it").format(name=name)
         with keys_of(file):
             check(Problem(_(" or ").join(map(key_of, some)), needed, "missing") for some in question.lacking(drive))
@@ -181,6 +183,6 @@ def command_of(name: str) -> Callable[..., int]:
         if result is None:
             print_text(question.home.otherwise(drive) + "\n")
             return 0
-        return tell(question.answer(drive, result), file, drive, json=json, csv=csv, plot=plot)
+        return tell(question.answer(drive, result), file, drive, whole=whole, json=json, csv=csv, plot=plot)
 
     return command

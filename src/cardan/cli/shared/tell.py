@@ -23,6 +23,8 @@ from cardan.drive.drive import Drive
 from cardan.drive.fields.plausibility import doubts
 from cardan.figures import save
 from cardan.mechanism.mechanism import Mechanism
+from cardan.questions.gathering import gather
+from cardan.register import QUESTIONS
 from cardan.texts import _
 
 from .output import print_lines, print_text
@@ -80,6 +82,7 @@ def tell(
     file: Path | None = None,
     drive: Drive | Mechanism | None = None,
     *,
+    whole: Drive | None = None,
     name: str = "",
     json: bool = False,
     csv: bool = False,
@@ -94,7 +97,9 @@ def tell(
     file : path, optional
         The file that was asked about.
     drive : Drive or Mechanism, optional
-        What it describes.
+        What it describes; a drive that has other conditions is asked in these too.
+    whole : Drive, optional
+        The same with all its load cases, where the answer is of one of them.
     name : str
         What to call what was asked about, instead of the drive or its file.
     json, csv : bool
@@ -104,6 +109,8 @@ def tell(
     """
     who = reader()
     if isinstance(drive, Drive):
+        if answer.name in QUESTIONS:
+            answer = gather(QUESTIONS[answer.name], whole or drive, answer)
         odd = tuple(Remark(text=one.text, tone="warning", code="implausible") for one in doubts(drive))
         answer = replace(answer, remarks=(*odd, *answer.remarks))
     figures = answer.figures() if plot is not None else ()

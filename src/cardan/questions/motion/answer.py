@@ -97,6 +97,8 @@ def sentence(drive: Drive, each: Evenness) -> Say:
         text = _("one joint at a joint angle of {angle}, speed fluctuation δ = {share}.")
     if even and drive.movements:
         text = f"{text} {_('This concerns the drive as drawn, standing still.')}"
+    if even and any(joint.error is not None for joint in drive.joints):
+        text = f"{text} {_('The errors of its joints as made are not in this.')}"
     return say(
         text,
         count=plural("{n} joint", "{n} joints", len(drive.joints)).format(n=len(drive.joints)),

@@ -15,6 +15,7 @@ from cardan.drive.models.train import Train
 from cardan.drive.movement import Movement, Oscillation
 from cardan.maths.arrays import Array
 from cardan.maths.kernel import frames
+from cardan.maths.ties import foremost
 
 from .moving_points import default_times, moving_points, shortest_period
 
@@ -23,6 +24,9 @@ FEWEST, MOST = 180, 720
 
 CYCLE = 24
 """Instants in the shortest swing at least, up to `MOST`."""
+
+LIMIT = 0.5 * np.pi * (1.0 - 1e-6)
+"""Bend [rad] that no joint turns at."""
 
 
 def mean_times(movements: Sequence[Movement], *, fewest: int = FEWEST) -> Array:
@@ -129,21 +133,13 @@ def steepest(drive: Drive) -> tuple[float, ...]:
 
     Notes
     -----
-    The top of the parabola through the largest of the instants of `default_times` and its neighbours.
+    Of the instants of `default_times`, those at which the checks look; none at which nothing turns.
     """
     times = default_times(drive.movements)
     axis = np.diff(moving_points(geometry(drive).points, drive.movements, times)[0], axis=-2)
     joint_angle = np.arctan2(
         frames.norm(frames.cross(axis[:, :-1], axis[:, 1:])), frames.dot(axis[:, :-1], axis[:, 1:])
     )
-    found: list[float] = []
-    for row in joint_angle.T:
-        k, step = int(np.argmax(row)), float(times[1] - times[0])
-        time = float(times[k])
-        if 0 < k < times.size - 1:
-            before, most, after = row[k - 1 : k + 2]
-            curve = 2.0 * most - before - after
-            time += 0.5 * step * float((after - before) / curve) if curve > 0.0 else 0.0
-        if not any(abs(time - other) < step for other in found):
-            found.append(time)
-    return tuple(found)
+    possible = np.all(joint_angle < LIMIT, axis=-1)
+    found = (float(times[possible][int(foremost(row[possible]))]) for row in joint_angle.T if np.any(possible))
+    return tuple(dict.fromkeys(found))

@@ -535,6 +535,8 @@ def _keys(drive: Drive, found: Phasing) -> Iterator[KeyFigure]:
 def _uniformity(drive: Drive, found: Phasing) -> tuple[str, Tone]:
     """Return verdict and tone of the speed fluctuation."""
     share, length = float(found.as_built.speed_fluctuation), closure(drive).length
+    if share < SYNCHRONOUS and any(joint.error is not None for joint in drive.joints):
+        return _("uniform but for the errors as made"), "good"
     if share < SYNCHRONOUS:
         return _("exactly uniform"), "good"
     if is_rounding(drive, share, length):

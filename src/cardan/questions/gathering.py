@@ -1,0 +1,262 @@
+"""A question asked in every condition of a drive: which of its answers governs, and all of them side by side.
+
+What a question gathers by itself, and what it leaves out and why, stands in the register, see
+`cardan.answers.question.Question`; in all else that a drive has it is asked here, so that no question can forget it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cardan.answers.answer import Answer, Cell, Column, KeyFigure, Remark, Table, Tone
+from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.answers.question import Aspect, Question
+from cardan.drive.conditions import Condition, conditions, in_poses, load_cases
+from cardan.drive.drive import Drive
+from cardan.errors import InputError
+from cardan.maths.ties import alike
+from cardan.texts import _
+
+from .accuracy.as_made import as_made
+from .motion.standing import steepest, still
+
+WORSE: tuple[Tone, ...] = ("good", "plain", "next", "warning", "failed")
+"""Tones from the best to the worst."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Way:
+    """A condition in which a question is asked by itself: its name, its share of the time, the drive there."""
+
+    name: Text
+    share: float | None
+    drive: Drive
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """What is said in one condition."""
+
+    way: Way
+    answer: Answer
+
+
+def has(drive: Drive) -> dict[Aspect, bool]:
+    """Return what a drive has that makes conditions of their own: poses, movements, several load cases, errors.
+
+    Examples
+    --------
+    >>> has(Drive.from_angles([0.1]))["pose"]
+    False
+    """
+    return {
+        "pose": bool(drive.poses),
+        "movement": bool(drive.movements),
+        "case": len(load_cases(drive.duty)) > 1,
+        "error": any(joint.error is not None for joint in drive.joints),
+    }
+
+
+def ways(question: Question, drive: Drive) -> tuple[Way, ...]:
+    """Return the conditions in which a question is to be asked, the drive as drawn first.
+
+    Parameters
+    ----------
+    question : Question
+        Which leaves out what it gathers by itself or does not depend on.
+    drive : Drive
+
+    Notes
+    -----
+    Of a movement the instants at which a joint bends most.
+    """
+    asks = {aspect for aspect in has(drive) if aspect not in (*question.gathered, *question.without)}
+    every: Sequence[Condition] = (Condition(drive=drive, moving=bool(drive.movements)),)
+    if "case" in asks:
+        free = tuple(case if "pose" in asks else replace(case, pose="") for case in drive.duty.cases)
+        poses = drive.poses if "pose" in asks else ()
+        every = conditions(replace(drive, poses=poses, duty=replace(drive.duty, cases=free)))
+    elif "pose" in asks:
+        every = in_poses(drive)
+    found = []
+    for one in every:
+        found.append(Way(name=one.name, share=one.share, drive=one.drive))
+        if "movement" in asks and one.moving:
+            found += _moving(one)
+    return tuple(found)
+
+
+def _moving(one: Condition) -> Iterator[Way]:
+    """Yield the worst instants of a movement."""
+    for time in steepest(one.drive):
+        at = say(_("at {time} of the movement"), time=Quantity(time, "time", 3, trim=True))
+        yield Way(name=Joined([one.name, at]), share=None, drive=still(one.drive, time))
+
+
+def principal(question: Question, drive: Drive) -> Drive:
+    """Return the drive that a question is asked of: as it is, or in its heaviest load case where it lacks a torque.
+
+    Parameters
+    ----------
+    question : Question
+    drive : Drive
+    """
+    if "case" in question.gathered or not question.lacking(drive):
+        return drive
+    loaded = [one for one in conditions(replace(drive, poses=())) if one.torque is not None]
+    if not loaded:
+        return drive
+    heaviest = max(loaded, key=lambda one: abs(one.torque or 0.0)).drive
+    other = replace(drive, duty=heaviest.duty)
+    return other if len(question.lacking(other)) < len(question.lacking(drive)) else drive
+
+
+def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
+    """Return an answer with what is said in the other conditions of its drive, and what it leaves out and why.
+
+    Parameters
+    ----------
+    question : Question
+        Of the register.
+    drive : Drive
+        With all its poses, movements and load cases.
+    answer : Answer
+        Of it as drawn.
+
+    Returns
+    -------
+    Answer
+        Its key figures are those of the condition that governs, which they name; a table has those of all.
+    """
+    left = [aspect for aspect, there in has(drive).items() if there and aspect in question.without]
+    remarks = [Remark(text=_(question.without[aspect]), code=f"without_{aspect}") for aspect in left]
+    keys: list[KeyFigure] = []
+    if has(drive)["error"] and "error" not in (*question.gathered, *question.without):
+        for figure, remark in _as_made(drive):
+            keys.append(figure)
+            remarks.append(remark)
+    every = ways(question, drive)
+    if len(every) < 2:
+        if not remarks:
+            return answer
+        return replace(answer, keys=(*answer.keys, *keys), remarks=(*answer.remarks, *remarks))
+    told: list[Told] = []
+    for way in every:
+        try:
+            found = _asked(question, way.drive)
+        except InputError as error:
+            problem = error.problems[0]
+            text = _("Warning: not calculated in this condition: {condition}. {field}: {message}")
+            said = say(text, condition=_called(way.name), field=problem.field, message=problem.message)
+            remarks.append(Remark(text=said, tone="warning"))
+            continue
+        if found is not None:
+            told.append(Told(way=way, answer=found))
+    if not told:
+        return replace(answer, keys=(*answer.keys, *keys), remarks=(*answer.remarks, *remarks))
+    worst = max(told, key=lambda one: WORSE.index(one.answer.tone))
+    if WORSE.index(worst.answer.tone) > WORSE.index(answer.tone):
+        at, bad = _called(worst.way.name), worst.answer.tone
+        why = say(_("In this condition: {condition}: {answer}"), condition=at, answer=worst.answer.sentence)
+        remarks.append(Remark(text=why, tone=bad, alarm=bad == "failed"))
+        answer = replace(answer, tone=worst.answer.tone, code=max(answer.code, worst.answer.code))
+    keys = [*(_governing(key, told) for key in answer.keys), *keys]
+    if _same(told):
+        remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
+    return replace(answer, keys=keys, tables=(*answer.tables, *_tables(told)), remarks=(*answer.remarks, *remarks))
+
+
+def _as_made(drive: Drive) -> Iterator[tuple[KeyFigure, Remark]]:
+    """Yield what the errors of the joints as made add to the motion; nothing where it cannot be told."""
+    try:
+        found = as_made(drive)
+    except InputError:
+        found = None
+    if found is None:
+        return
+    share, angle_error = Quantity(found.fluctuation, "share"), Quantity(found.angle_error, "angle")
+    text = _(
+        "With the errors of its joints as made the speed fluctuation is {share}, "
+        "the angle error of the output ±{angle_error}."
+    )
+    figure = KeyFigure(
+        name="speed_fluctuation_as_made", title=_("speed fluctuation δ with the errors as made"), value=share
+    )
+    yield figure, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
+
+
+def _asked(question: Question, drive: Drive) -> Answer | None:
+    """Return what is said of a drive in one condition; None where it has no answer."""
+    if question.lacking(drive):
+        return None
+    result = question.ask(drive)
+    return None if result is None else question.answer(drive, result)
+
+
+def _called(name: Text) -> Text:
+    return name if name != "" else _("as drawn")
+
+
+def _named(told: Told, name: str) -> KeyFigure | None:
+    return next((one for one in told.answer.keys if one.name == name), None)
+
+
+def _governing(key: KeyFigure, told: Sequence[Told]) -> KeyFigure:
+    """Return a key figure of the condition in which it is worst, with the name of that."""
+    others = [(one.way, its) for one in told if (its := _named(one, key.name)) is not None]
+    if not others or not key.better:
+        return key
+    least = key.better == "more"
+    values = np.asarray([float(its.value.value) for _way, its in others])
+    used = [its.utilisation for _way, its in others]
+    if all(one is not None for one in used):
+        values, least = np.asarray(used, dtype=float), False
+    way, worst = others[int(np.argmax(alike(values, least=least)))]
+    if np.all(alike(values, least=least)):
+        return key
+    return replace(worst, place=Joined([worst.place, _called(way.name)]))
+
+
+def _same(told: Sequence[Told]) -> bool:
+    """Tell whether all conditions have the same key figures."""
+    return bool(told[0].answer.keys) and not any(_varies(told, key.name) for key in told[0].answer.keys)
+
+
+def _varies(told: Sequence[Told], name: str) -> bool:
+    values = [float(its.value.value) for one in told if (its := _named(one, name)) is not None]
+    return len(values) < len(told) or not bool(np.all(alike(values)) and np.all(alike(values, least=True)))
+
+
+def _tables(told: Sequence[Told]) -> Iterator[Table]:
+    """Yield the key figures of all conditions side by side; sentences where there are none."""
+    keys = list({key.name: key for one in told for key in one.answer.keys}.values())
+    if keys and _same(told):
+        return
+    shares = [one.way.share for one in told]
+    columns = [
+        Column(key="condition", heading=_("condition"), values=[_called(one.way.name) for one in told], left=True)
+    ]
+    if any(share is not None and 0.0 < share < 1.0 for share in shares):
+        columns.append(Column(key="share", heading=_("time"), values=shares, dimension="share", decimals=1))
+    for key in keys:
+        found = [_named(one, key.name) for one in told]
+        cells = [None if its is None else Cell(value=its.value.value, tone=its.tone) for its in found]
+        value = key.value
+        columns.append(
+            Column(
+                key=key.name,
+                heading=key.title,
+                values=cells,
+                dimension=value.dimension,
+                unit=value.unit,
+                digits=value.digits,
+                decimals=value.decimals,
+            )
+        )
+    if not keys:
+        said = [one.answer.sentence for one in told]
+        columns.append(Column(key="answer", heading=_("answer"), values=said, left=True, wrap=True))
+    yield Table(name="conditions", title=_("In each condition"), columns=columns, records=True)

@@ -1,0 +1,20 @@
+"""What the old program left out, so that its numbers are other ones now, each with the reason."""
+
+from __future__ import annotations
+
+WORST = "the largest loads and joint angles of poses and movements count, not those of the drive as drawn"
+
+NUMBERS: tuple[tuple[str, str, str], ...] = (
+    (
+        r"select examples/(pto-hitch|rolling-mill-(lower|upper)-spindle|truck-rear-axle)\.toml --torque-Nm",
+        r"(need|sizes|types)\..*",
+        WORST,
+    ),
+    (r"strength examples/pto-hitch\.toml --size joint", r"(limits|limits_as_made|tried)\..*", WORST),
+)
+"""Pattern at the start of a command line, pattern of a whole old path, why its numbers are others."""
+
+REFUSED: tuple[tuple[str, str], ...] = (
+    (r"(losses|forces) examples/truck-duty-cycle\.toml$", "parts of a duty cycle say the torque too: other keys lack"),
+)
+"""Pattern of a command line that is refused for other fields than it was, and why."""
