@@ -70,6 +70,7 @@ def test_csv_has_every_part_and_joint(cardan, cycle):
     rows = list(csv.DictReader(io.StringIO(cardan("life", cycle, "--csv").out)))
     said = cardan("life", cycle, "--json").content["parts"]
     assert [(row["part"], row["joint"]) for row in rows] == [("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")]
+    assert [row["condition"] for row in rows] == said.pop("condition")
     assert {key: [float(row[key]) for row in rows] for key in said} == said
 
 

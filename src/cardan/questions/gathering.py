@@ -11,9 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cardan.answers.answer import Answer, Cell, Column, KeyFigure, Remark, Table, Tone
+from cardan.answers.answer import Answer, Cell, Column, Depth, KeyFigure, Remark, Table, Tone
 from cardan.answers.quantity import Joined, Quantity, Text, say
+from cardan.answers.quantity import told as words
 from cardan.answers.question import Aspect, Question
+from cardan.answers.reader import reader
 from cardan.drive.conditions import Condition, conditions, in_poses, load_cases
 from cardan.drive.drive import Drive
 from cardan.errors import InputError
@@ -142,11 +144,15 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
     if len(every) < 2:
         if not remarks:
             return answer
-        return replace(answer, keys=(*answer.keys, *keys), remarks=(*answer.remarks, *remarks))
+        return replace(answer, keys=(*answer.keys, *keys), remarks=_after(answer, remarks))
     told: list[Told] = []
+    whole = not question.lacking(every[0].drive)
     for way in every:
+        if whole and question.lacking(way.drive):
+            continue
         try:
-            found = _asked(question, way.drive)
+            result = question.ask(way.drive)
+            found = None if result is None else question.answer(way.drive, result)
         except InputError as error:
             problem = error.problems[0]
             text = _("Warning: not calculated in this condition: {condition}. {field}: {message}")
@@ -156,17 +162,45 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         if found is not None:
             told.append(Told(way=way, answer=found))
     if not told:
-        return replace(answer, keys=(*answer.keys, *keys), remarks=(*answer.remarks, *remarks))
+        return replace(answer, keys=(*answer.keys, *keys), remarks=_after(answer, remarks))
     worst = max(told, key=lambda one: WORSE.index(one.answer.tone))
     if WORSE.index(worst.answer.tone) > WORSE.index(answer.tone):
         at, bad = _called(worst.way.name), worst.answer.tone
         why = say(_("In this condition: {condition}: {answer}"), condition=at, answer=worst.answer.sentence)
         remarks.append(Remark(text=why, tone=bad, alarm=bad == "failed"))
         answer = replace(answer, tone=worst.answer.tone, code=max(answer.code, worst.answer.code))
-    keys = [*(_governing(key, told) for key in answer.keys), *keys]
+    before = {key.name: key for one in (answer, *(one.answer for one in told[::-1])) for key in one.keys}
+    before |= {key.name: key for key in answer.keys}
+    keys = [*(_governing(key, told) for key in before.values()), *keys]
     if _same(told):
         remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
-    return replace(answer, keys=keys, tables=(*answer.tables, *_tables(told)), remarks=(*answer.remarks, *remarks))
+    else:
+        remarks[:0] = _worst(answer.keys, keys[: len(before)], len(told))
+    return replace(
+        answer,
+        keys=keys,
+        tables=(*answer.tables, *_tables(told)),
+        remarks=_after(answer, remarks),
+        full=answer.full or ((lambda: answer.tables[-1]) if answer.tables else None),
+    )
+
+
+def _after(answer: Answer, more: Sequence[Remark]) -> tuple[Remark, ...]:
+    """Return the remarks of an answer and more of them, what to do next at the end."""
+    own = answer.remarks
+    return (*(one for one in own if one.tone != "next"), *more, *(one for one in own if one.tone == "next"))
+
+
+def _worst(before: Sequence[KeyFigure], now: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
+    """Yield the key figures that another condition governs."""
+    said: list[Text] = [
+        say("{title} {value} ({place})", title=one.title, value=one.value, place=one.place)
+        for one in now
+        if not any(one is old for old in before)
+    ]
+    if said:
+        text = _("The worst of {count} conditions: {figures}.")
+        yield Remark(text=say(text, count=Quantity(float(count), trim=True), figures=Joined(said, between="; ")))
 
 
 def _as_made(drive: Drive) -> Iterator[tuple[KeyFigure, Remark]]:
@@ -186,14 +220,6 @@ def _as_made(drive: Drive) -> Iterator[tuple[KeyFigure, Remark]]:
         name="speed_fluctuation_as_made", title=_("speed fluctuation δ with the errors as made"), value=share
     )
     yield figure, Remark(text=say(text, share=share, angle_error=angle_error), code="as_made")
-
-
-def _asked(question: Question, drive: Drive) -> Answer | None:
-    """Return what is said of a drive in one condition; None where it has no answer."""
-    if question.lacking(drive):
-        return None
-    result = question.ask(drive)
-    return None if result is None else question.answer(drive, result)
 
 
 def _called(name: Text) -> Text:
@@ -221,8 +247,10 @@ def _governing(key: KeyFigure, told: Sequence[Told]) -> KeyFigure:
 
 
 def _same(told: Sequence[Told]) -> bool:
-    """Tell whether all conditions have the same key figures."""
-    return bool(told[0].answer.keys) and not any(_varies(told, key.name) for key in told[0].answer.keys)
+    """Tell whether all conditions have the same key figures, or without any the same answer."""
+    if not told[0].answer.keys:
+        return len({words(one.answer.sentence, reader()) for one in told}) == 1
+    return not any(_varies(told, key.name) for key in told[0].answer.keys)
 
 
 def _varies(told: Sequence[Told], name: str) -> bool:
@@ -233,7 +261,7 @@ def _varies(told: Sequence[Told], name: str) -> bool:
 def _tables(told: Sequence[Told]) -> Iterator[Table]:
     """Yield the key figures of all conditions side by side; sentences where there are none."""
     keys = list({key.name: key for one in told for key in one.answer.keys}.values())
-    if keys and _same(told):
+    if _same(told):
         return
     shares = [one.way.share for one in told]
     columns = [
@@ -259,4 +287,5 @@ def _tables(told: Sequence[Told]) -> Iterator[Table]:
     if not keys:
         said = [one.answer.sentence for one in told]
         columns.append(Column(key="answer", heading=_("answer"), values=said, left=True, wrap=True))
-    yield Table(name="conditions", title=_("In each condition"), columns=columns, records=True)
+    depth: Depth = "full" if keys else "brief"
+    yield Table(name="conditions", title=_("In each condition"), columns=columns, records=True, depth=depth)
