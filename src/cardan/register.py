@@ -14,7 +14,7 @@ ACCURACY, TORSION, BENDING, LIFE = mark("Accuracy"), mark("Torsion"), mark("Bend
 MEASURES = mark("Measures against torsional vibration")
 STRENGTH, CHECKS, SUPPORTS, CHOICE = mark("Strength"), mark("Checks"), mark("Mobility"), mark("Selection")
 
-DRAWN = mark("The classical approximations are compared for the drive as drawn: they are as near in any position.")
+DRAWN = mark("The classical approximations are judged here, for the drive as drawn, and not the drive itself.")
 GEOMETRY = mark("Torque does not count here: this follows from geometry alone.")
 MINUTES = mark("Errors of the joints as made do not count here: they move shafts by minutes of arc; see the accuracy.")
 YOKES = mark("Yoke angles do not depend on the torque.")

@@ -171,11 +171,12 @@ def gather(question: Question, drive: Drive, answer: Answer) -> Answer:
         answer = replace(answer, tone=worst.answer.tone, code=max(answer.code, worst.answer.code))
     before = {key.name: key for one in (answer, *(one.answer for one in told[::-1])) for key in one.keys}
     before |= {key.name: key for key in answer.keys}
-    keys = [*(_governing(key, told) for key in before.values()), *keys]
+    governing = [(key, _governing(key, told)) for key in before.values()]
+    keys = [*(one for _key, one in governing), *keys]
     if _same(told):
         remarks.append(Remark(text=_("The same holds in every pose, load case and movement."), code="same"))
     else:
-        remarks[:0] = _worst(answer.keys, keys[: len(before)], len(told))
+        remarks[:0] = _worst([one for key, one in governing if one is not key], len(told))
     return replace(
         answer,
         keys=keys,
@@ -191,12 +192,10 @@ def _after(answer: Answer, more: Sequence[Remark]) -> tuple[Remark, ...]:
     return (*(one for one in own if one.tone != "next"), *more, *(one for one in own if one.tone == "next"))
 
 
-def _worst(before: Sequence[KeyFigure], now: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
-    """Yield the key figures that another condition governs."""
+def _worst(keys: Sequence[KeyFigure], count: int) -> Iterator[Remark]:
+    """Yield the key figures that a condition governs."""
     said: list[Text] = [
-        say("{title} {value} ({place})", title=one.title, value=one.value, place=one.place)
-        for one in now
-        if not any(one is old for old in before)
+        say("{title} {value} ({place})", title=one.title, value=one.value, place=one.place) for one in keys
     ]
     if said:
         text = _("The worst of {count} conditions: {figures}.")

@@ -58,7 +58,7 @@ def forces(
         moves = _chosen(drive, movement)
         with keys_of(file), watching(_("following the movement")) as progress:
             moving = moving_forces(drive, None, moves, progress=progress)
-        return tell(moving_answer.answer(drive, moving), file, drive, json=json, csv=csv, plot=plot)
+        return tell(moving_answer.answer(drive, moving), file, drive, alone=True, json=json, csv=csv, plot=plot)
     with keys_of(file):
         found = question(drive)
     curves = question(drive, angle=positions(angle, step or 1.0)) if angle or step else None

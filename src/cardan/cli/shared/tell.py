@@ -83,6 +83,7 @@ def tell(
     drive: Drive | Mechanism | None = None,
     *,
     whole: Drive | None = None,
+    alone: bool = False,
     name: str = "",
     json: bool = False,
     csv: bool = False,
@@ -100,6 +101,8 @@ def tell(
         What it describes; a drive that has other conditions is asked in these too.
     whole : Drive, optional
         The same with all its load cases, where the answer is of one of them.
+    alone : bool
+        Whether a user asked for one condition, of which alone it is told.
     name : str
         What to call what was asked about, instead of the drive or its file.
     json, csv : bool
@@ -109,7 +112,7 @@ def tell(
     """
     who = reader()
     if isinstance(drive, Drive):
-        if answer.name in QUESTIONS:
+        if answer.name in QUESTIONS and not alone:
             answer = gather(QUESTIONS[answer.name], whole or drive, answer)
         odd = tuple(Remark(text=one.text, tone="warning", code="implausible") for one in doubts(drive))
         answer = replace(answer, remarks=(*odd, *answer.remarks))
