@@ -22,7 +22,7 @@ from cardan.texts import _
 from .blocks import STRETCHED, Blocks, blocks
 from .family import best_member
 from .goal import NEAREST, SYNCHRONOUS, Choice, Goal, LeastIntermediate
-from .poses import best_for_poses, stacked
+from .poses import best_for_poses, best_on_teeth, stacked
 from .setting import YokeSetting, settings
 from .spline_pitch import best_pitched, steps
 
@@ -156,6 +156,8 @@ def phases(
     pitched, refusal = _pitched(choice, start, teeth, [k for k in free if k not in teeth])
     names, chains, share = _poses(drive, poses)
     posed, complete = _posed(chains, share, start, free, rows, progress)
+    if len(posed) and teeth:
+        posed = np.concatenate((posed, best_on_teeth(stacked(chains), share, start, teeth, posed)))
     limiting = () if feasible else figure.joints[int(foremost(figure.lengths))]
 
     def evaluated(yokes: Array, labels: Sequence[str]) -> tuple[YokeSetting, ...]:
@@ -177,7 +179,7 @@ def phases(
         limiting_joint=foremost_of(limiting, lambda i: float(whole.joint_angle[i])) + 1 if limiting else None,
         limiting_joints=tuple(i + 1 for i in limiting),
         poses=names,
-        pose_settings=evaluated(posed, [_("least in the worst pose"), _("least mean of the poses")][: len(posed)]),
+        pose_settings=evaluated(posed, _pose_labels(teeth, len(posed))),
         complete=complete,
     )
 
@@ -227,6 +229,12 @@ def _pitched(choice: Choice, start: Array, teeth: Mapping[int, int], loose: Sequ
         return best_pitched(choice.chain, start, teeth, loose), ""
     except InputError as error:
         return start[None][:0], error.problems[0].message
+
+
+def _pose_labels(teeth: Mapping[int, int], count: int) -> list[str]:
+    plain = [_("least in the worst pose"), _("least mean of the poses")]
+    spline = _spline_labels(teeth, 1)[0] if teeth else ""
+    return [*plain, *(_("{spline}, {what}").format(spline=spline, what=one) for one in plain)][:count]
 
 
 def _spline_labels(teeth: Mapping[int, int], count: int) -> list[str]:

@@ -6,7 +6,8 @@ smallest speed fluctuation in the worst pose, and those with the smallest mean o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,10 @@ from cardan.questions.motion.equivalence import equivalent_joint
 
 from .family import distinct
 from .setting import turned, with_yokes
+from .spline_pitch import TIE, steps
+
+EVERY = 1 << 14
+"""Up to so many settings on teeth are looked at in every pose."""
 
 SAMPLES = 2048
 """Settings looked at before the search."""
@@ -106,6 +111,45 @@ def best_for_poses(
                 best, least = found, value
         answers.append(best)
     return answers[0], answers[1], True
+
+
+def best_on_teeth(poses: Chain, share: Array, yoke_angle: Array, teeth: Mapping[int, int], found: Array) -> Array:
+    """Return the settings that splines allow with the least worst and the least mean speed_fluctuation over the poses.
+
+    Parameters
+    ----------
+    poses : Chain (p, n)
+        The drive in its poses.
+    share : array (p,)
+        Shares of time, summing to one.
+    yoke_angle : array (n-1,) [rad]
+        Present yoke angles, from which the teeth count.
+    teeth : mapping of int to int
+        Index 0 … n-2 of a yoke angle -> teeth of the spline there.
+    found : array (2, n-1) [rad]
+        The best without teeth, whose other yoke angles are kept.
+
+    Returns
+    -------
+    array (2, n-1) [rad]
+        Of all settings where there are at most `EVERY`, else of those a tooth beside the best without teeth.
+    """
+    every = math.prod(steps(z) for z in teeth.values()) <= EVERY
+    rows = []
+    for judge, base in zip((_worst, _mean), found, strict=True):
+        places = []
+        for k, z in sorted(teeth.items()):
+            pitch = np.pi / steps(z)
+            near = round(float(base[k] - yoke_angle[k]) / pitch)
+            places.append(yoke_angle[k] + pitch * (np.arange(steps(z)) if every else near + np.arange(-1, 2)))
+        grid = np.stack([one.ravel() for one in np.meshgrid(*places, indexing="ij")], axis=-1)
+        some = np.repeat(base[None], len(grid), axis=0)
+        some[:, sorted(teeth)] = grid
+        cost = judge(speed_fluctuations(poses, some), share)
+        away = np.sum(np.abs(np.sin(some - yoke_angle)), axis=-1)
+        alike = np.flatnonzero(cost <= np.min(cost) + TIE)
+        rows.append(some[alike[int(np.argmin(np.round(away[alike], 9)))]])
+    return np.stack(rows)
 
 
 def _worst(uneven: Array, share: Array) -> Array:
